@@ -1,0 +1,44 @@
+# Options of the build. Every default works offline; tests, examples and benchmarks are only built when fxsdk is the top project.
+option(FXSDK_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(FXSDK_BUILD_EXAMPLES "Build the examples" ${PROJECT_IS_TOP_LEVEL})
+option(FXSDK_BUILD_BENCHMARKS "Build the benchmarks" ${PROJECT_IS_TOP_LEVEL})
+option(FXSDK_BUILD_TOOLS "Build the fx command and the modules only it needs (EXR, PNG, EGL, GLFW)" ${PROJECT_IS_TOP_LEVEL})
+option(FXSDK_WERROR "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})
+set(FXSDK_SANITIZE "" CACHE STRING "Sanitizers to build with, as given to -fsanitize= (address,undefined or thread)")
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_C_STANDARD 11)
+set(CMAKE_C_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_C_VISIBILITY_PRESET hidden)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
+
+find_program(FXSDK_CCACHE ccache) # repeated builds of the same text cost nothing
+if(FXSDK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_C_COMPILER_LAUNCHER "${FXSDK_CCACHE}")
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${FXSDK_CCACHE}")
+endif()
+
+# Flags of our own code. Consumers never inherit them.
+add_library(fx_flags INTERFACE)
+target_compile_options(fx_flags INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # GCC 12 sees overlaps in "literal" + std::string that are not there
+    $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
+    $<$<COMPILE_LANGUAGE:CXX>:-Woverloaded-virtual>
+    -ffp-contract=off # the same bits with and without FMA hardware; see docs/conventions.md
+    $<$<BOOL:${FXSDK_WERROR}>:-Werror>)
+if(FXSDK_SANITIZE)
+    target_compile_options(fx_flags INTERFACE -fsanitize=${FXSDK_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(fx_flags INTERFACE -fsanitize=${FXSDK_SANITIZE})
+endif()

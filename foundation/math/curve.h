@@ -1,0 +1,65 @@
+/// @file curve.h
+/// Values that change over a life, and values drawn from a range: what presets are made of.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace fx::base {
+
+constexpr size_t kCurveSamples = 64;
+
+/// One key of a curve.
+template <size_t N>
+struct CurveKey
+{
+    float t; ///< [0, 1] of life
+    std::array<float, N> value;
+};
+
+/// Piecewise linear curve over [0, 1], held as 65 equally spaced samples so that evaluation is one lerp.
+/// Sampling a key that falls between two samples costs accuracy: error <= |slope change| / (8 * 64).
+template <size_t N>
+class Curve
+{
+public:
+    Curve() { table_.fill({}); }
+    /// The same value for all t.
+    explicit Curve(const std::array<float, N>& constant) { table_.fill(constant); }
+    /// @param keys sorted by t, at least one, all finite; equal t make a jump (the later key holds from
+    /// there)
+    explicit Curve(std::span<const CurveKey<N>> keys);
+
+    /// Value at t; t outside [0, 1] (NaN included) is clamped.
+    std::array<float, N> at(float t) const
+    {
+        const float s = (t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f) * float(kCurveSamples);
+        const size_t i = s < float(kCurveSamples) ? size_t(s) : kCurveSamples - 1;
+        const float f = s - float(i);
+        std::array<float, N> value;
+        for (size_t k = 0; k < N; ++k)
+            value[k] = table_[i][k] + f * (table_[i + 1][k] - table_[i][k]);
+        return value;
+    }
+
+private:
+    std::array<std::array<float, N>, kCurveSamples + 1> table_;
+};
+
+extern template class Curve<1>;
+extern template class Curve<3>;
+
+using ScalarCurve = Curve<1>;
+using ColorCurve = Curve<3>;
+
+/// A number, or a range of which each particle draws its own.
+struct Range
+{
+    float min = 0;
+    float max = 0;
+
+    float at(float u) const { return min + (max - min) * u; } ///< u in [0, 1)
+};
+
+} // namespace fx::base

@@ -1,0 +1,157 @@
+/// @file elementary.h
+/// Elementary functions for simulation kernels: the same bits on every machine, which the C library does not
+/// promise.
+///
+/// Only +, -, *, / and conversions are used, in a fixed order; callers build with -ffp-contract=off.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace fx::base {
+
+/// 2^n for -1022 <= n <= 1023.
+inline double powerOfTwo(int n)
+{
+    return std::bit_cast<double>(uint64_t(n + 1023) << 52);
+}
+
+/// @formula natural-exponential
+/// e^x by reduction to |r| <= ln(2)/2 and the Taylor polynomial.
+///
+/// symbol   unit   meaning
+///   x       1      argument
+///   n       1      nearest integer to x / ln 2
+///   r       1      what is left of x
+/// @derivation
+///   x = n ln 2 + r, with ln 2 in two pieces so that n times the first is exact      (1)
+///   e^x = 2^n e^r                                                                    (2)
+///   e^r = sum r^k / k!, k = 0..13; the next term is below 5e-18                      (3)
+/// @source    [MUL16] section 11 for the reduction; the series is elementary
+/// @deviation Taylor instead of minimax coefficients: the degree is fixed by double precision either way
+/// @valid     x < -708 gives 0; x > 709 gives e^709; 0 gives exactly 1; NaN gives NaN
+/// @accuracy  relative error <= 1e-15
+/// @tests     tests/foundation/test_elementary.cpp
+inline double naturalExp(double x)
+{
+    if (x < -708.0)
+        return 0.0;
+    if (x > 709.0)
+        x = 709.0;
+    if (x != x)
+        return x;
+    const double n = std::floor(x * 1.4426950408889634 + 0.5);
+    const double r = (x - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10; // (1)
+    double sum = 1.0 / 6227020800.0;                                                        // (3)
+    sum = sum * r + 1.0 / 479001600.0;
+    sum = sum * r + 1.0 / 39916800.0;
+    sum = sum * r + 1.0 / 3628800.0;
+    sum = sum * r + 1.0 / 362880.0;
+    sum = sum * r + 1.0 / 40320.0;
+    sum = sum * r + 1.0 / 5040.0;
+    sum = sum * r + 1.0 / 720.0;
+    sum = sum * r + 1.0 / 120.0;
+    sum = sum * r + 1.0 / 24.0;
+    sum = sum * r + 1.0 / 6.0;
+    sum = sum * r + 0.5;
+    sum = sum * r + 1.0;
+    sum = sum * r + 1.0;
+    return sum * powerOfTwo(int(n)); // (2)
+}
+
+/// @formula cube-root
+/// x^(1/3) by Halley's iteration from a guess made of the exponent bits.
+///
+/// symbol   unit   meaning
+///   x       1      argument
+///   y       1      approximation of its cube root
+/// @derivation
+///   One third of the bit pattern is a guess within 6 % (the exponent is divided by three)   (1)
+///   y <- y (y^3 + 2 x) / (2 y^3 + x) cubes the relative error times 2/3                      (2)
+///   Three steps: 0.06 -> 2e-4 -> 3e-12 -> below rounding.
+/// @source    [MUL16] for bit-pattern guesses; Halley's iteration is textbook
+/// @deviation none
+/// @valid     odd function; |x| < 1e-300 gives 0; infinite and NaN arguments are not accepted
+/// @accuracy  relative error <= 1e-15
+/// @tests     tests/foundation/test_elementary.cpp
+inline double cubeRoot(double x)
+{
+    const double a = x < 0 ? -x : x;
+    if (!(a >= 1e-300))
+        return 0.0;
+    double y = std::bit_cast<double>(std::bit_cast<uint64_t>(a) / 3 + 0x2A9F7893782DA1CEu); // (1)
+    for (int i = 0; i < 3; ++i) {
+        const double cube = y * y * y;
+        y = y * ((cube + 2.0 * a) / (2.0 * cube + a)); // (2)
+    }
+    return x < 0 ? -y : y;
+}
+
+/// A point of the unit circle.
+struct SinCos
+{
+    double sin;
+    double cos;
+};
+
+/// @formula sine-cosine-of-turns
+/// Sine and cosine of 2 pi times the argument; counting in turns makes the reduction exact.
+///
+/// symbol   unit   meaning
+///   t       turn   angle
+///   q       1      nearest quarter turn, -2..2
+///   a       rad    what is left, |a| <= pi/4
+/// @derivation
+///   t - floor(t + 1/2) = q/4 + a/(2 pi), exact in binary arithmetic   (1)
+///   Taylor series of sine to a^15 and cosine to a^16                   (2)
+///   rotate by q quarters: exchange and change signs                    (3)
+/// @source    elementary
+/// @deviation none
+/// @valid     |t| < 2^50; multiples of 1/4 give exactly 0 and +-1
+/// @accuracy  absolute error <= 4e-16
+/// @tests     tests/foundation/test_elementary.cpp
+inline SinCos sinCosTurns(double t)
+{
+    const double part = t - std::floor(t + 0.5);
+    const double q = std::floor(4.0 * part + 0.5);
+    const double a = 6.283185307179586476925 * (part - 0.25 * q); // (1)
+    const double z = a * a;
+    double s = -1.0 / 1307674368000.0; // (2)
+    s = s * z + 1.0 / 6227020800.0;
+    s = s * z - 1.0 / 39916800.0;
+    s = s * z + 1.0 / 362880.0;
+    s = s * z - 1.0 / 5040.0;
+    s = s * z + 1.0 / 120.0;
+    s = s * z - 1.0 / 6.0;
+    s = a + a * z * s;
+    double c = 1.0 / 20922789888000.0;
+    c = c * z - 1.0 / 87178291200.0;
+    c = c * z + 1.0 / 479001600.0;
+    c = c * z - 1.0 / 3628800.0;
+    c = c * z + 1.0 / 40320.0;
+    c = c * z - 1.0 / 720.0;
+    c = c * z + 1.0 / 24.0;
+    c = c * z - 0.5;
+    c = c * z + 1.0;
+    switch (int(q) & 3) { // (3)
+    case 0:
+        return {s, c};
+    case 1:
+        return {c, -s};
+    case 2:
+        return {-s, -c};
+    default:
+        return {-c, s};
+    }
+}
+
+/// Cubic step from 0 at `edge0` to 1 at `edge1` > `edge0`, flat at both ends.
+inline float smoothStep(float edge0, float edge1, float x)
+{
+    const float t = (x - edge0) / (edge1 - edge0);
+    const float u = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
+    return u * u * (3.0f - 2.0f * u);
+}
+
+} // namespace fx::base

@@ -1,0 +1,34 @@
+/// @file geometry.h
+/// Boxes and placements. World positions are double; what hangs on them is float relative to it.
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <limits>
+
+namespace fx::base {
+
+/// Axis-aligned box [m]. Starts empty (min > max).
+struct Bounds
+{
+    glm::vec3 min{std::numeric_limits<float>::infinity()};
+    glm::vec3 max{-std::numeric_limits<float>::infinity()};
+
+    bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+    void add(const glm::vec3& center, float radius)
+    {
+        min = glm::min(min, center - radius);
+        max = glm::max(max, center + radius);
+    }
+};
+
+/// Where an instance stands: world = position + rotation * (scale * local).
+struct Placement
+{
+    glm::dvec3 position{0.0};                   ///< [m] world
+    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f}; ///< unit
+    float scale = 1.0f;                         ///< > 0; lengths, not speeds of time, are scaled
+};
+
+} // namespace fx::base

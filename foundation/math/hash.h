@@ -1,0 +1,35 @@
+/// @file hash.h
+/// 64-bit hash of state, for determinism checks and cache keys. Not for security.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace fx::base {
+
+/// Mixes one word into a running hash (the finalizer of SplitMix64 [SLF14], doi:10.1145/2660193.2660195).
+inline uint64_t hashWord(uint64_t hash, uint64_t word)
+{
+    uint64_t x = hash ^ (word + 0x9E3779B97F4A7C15u + (hash << 6) + (hash >> 2));
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+    return x ^ (x >> 31);
+}
+
+/// Mixes `size` bytes, eight at a time, and their number.
+inline uint64_t hashBytes(uint64_t hash, const void* data, size_t size)
+{
+    const char* bytes = static_cast<const char*>(data);
+    size_t left = size;
+    for (; left >= 8; left -= 8, bytes += 8) {
+        uint64_t word;
+        std::memcpy(&word, bytes, 8);
+        hash = hashWord(hash, word);
+    }
+    uint64_t tail = 0;
+    std::memcpy(&tail, bytes, left);
+    return hashWord(hashWord(hash, tail), size);
+}
+
+} // namespace fx::base

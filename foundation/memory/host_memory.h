@@ -1,0 +1,41 @@
+/// @file host_memory.h
+/// Memory from the host's allocator, in the shape of a std::pmr resource, with counters.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+
+namespace fx::base {
+
+/// The host's allocator. Null functions mean the C++ runtime's own.
+/// allocate returns null when there is no memory; release takes what allocate was given.
+struct AllocatorHooks
+{
+    void* user = nullptr;
+    void* (*allocate)(void* user, size_t size, size_t alignment) = nullptr;
+    void (*release)(void* user, void* memory, size_t size, size_t alignment) = nullptr;
+};
+
+/// Everything that lives longer than a call comes from here. Throws std::bad_alloc, which fxsdk/api turns
+/// into FX_ERROR_OUT_OF_MEMORY. Thread-safe when the hooks are.
+class HostMemory final : public std::pmr::memory_resource
+{
+public:
+    explicit HostMemory(const AllocatorHooks& hooks = {}) : hooks_(hooks) {}
+
+    uint64_t allocationCount() const { return count_.load(std::memory_order_relaxed); } ///< since creation
+    uint64_t bytesInUse() const { return bytes_.load(std::memory_order_relaxed); }      ///< [byte]
+
+private:
+    void* do_allocate(size_t size, size_t alignment) override;
+    void do_deallocate(void* memory, size_t size, size_t alignment) override;
+    bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+    AllocatorHooks hooks_;
+    std::atomic<uint64_t> count_{0};
+    std::atomic<uint64_t> bytes_{0};
+};
+
+} // namespace fx::base

@@ -1,0 +1,79 @@
+/// @file status.h
+/// The outcome of an operation that can fail: a code that programs branch on and a message for people.
+///
+/// The codes are those of the C API (fxsdk/include/fxsdk/fx_base.h), number for number; fxsdk/api asserts it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace fx::base {
+
+/// Outcome codes. 0 is success, every error is negative.
+enum class Code : int
+{
+    Ok = 0,
+    InvalidArgument = -1, ///< an argument is null, not finite, or outside its range
+    StaleId = -2,         ///< an id names nothing, something destroyed, or something of another kind
+    WrongThread = -3,     ///< called from a thread that the function's rule forbids
+    OutOfMemory = -4,     ///< the allocator returned null
+    Capacity = -5,        ///< a stated capacity is used up
+    NotFound = -6,        ///< a file or asset does not exist
+    TooLarge = -7,        ///< an input exceeds its documented size limit and was not read
+    Parse = -8,           ///< a text is not well formed
+    Schema = -9,          ///< a preset or scene is well formed but says something that is not allowed
+    Version = -10,        ///< a struct, preset or header of a version that this library cannot take
+    GlUnsupported = -11,  ///< the GL context lacks a version or function that is required
+    GlFailed = -12,       ///< GL refused a shader, a framebuffer or an allocation
+    NoGl = -13,           ///< the context was created without GL, so it cannot draw
+    ReEntrant = -14,      ///< a callback called back into the object that is calling it
+    Io = -15,             ///< the operating system refused to read or write
+    Interrupted = -16,    ///< the user stopped it
+    Internal = -99,       ///< a defect of this library
+};
+
+/// The code's identifier, such as "invalid-argument".
+const char* codeName(Code code);
+
+/// A code and, when it is not Ok, a message that names the place and the remedy.
+class [[nodiscard]] Status
+{
+public:
+    Status() = default;
+    Status(Code code, std::string message) : code_(code), message_(std::move(message)) {}
+
+    bool ok() const { return code_ == Code::Ok; }
+    explicit operator bool() const { return ok(); }
+    Code code() const { return code_; }
+    const std::string& message() const { return message_; }
+
+private:
+    Code code_ = Code::Ok;
+    std::string message_;
+};
+
+/// A value, or the status that says why there is none.
+template <class T>
+class [[nodiscard]] Result
+{
+public:
+    Result(T value) : value_(std::move(value)) {}
+    Result(Status status) : status_(std::move(status)) {}
+
+    bool ok() const { return value_.has_value(); }
+    explicit operator bool() const { return ok(); }
+    const Status& status() const { return status_; }
+    T& value() { return *value_; }
+    const T& value() const { return *value_; }
+    T& operator*() { return *value_; }
+    const T& operator*() const { return *value_; }
+    T* operator->() { return &*value_; }
+    const T* operator->() const { return &*value_; }
+
+private:
+    std::optional<T> value_;
+    Status status_;
+};
+
+} // namespace fx::base

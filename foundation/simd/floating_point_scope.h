@@ -1,0 +1,42 @@
+/// @file floating_point_scope.h
+/// The floating-point mode that simulation runs in, whatever the host has set.
+#pragma once
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace fx::base {
+
+/// While it lives: round to nearest, denormals flushed to zero, exceptions masked. Afterwards the host's mode
+/// again. Denormal operands cost ninety times as much as normal ones on current processors, and gases cool
+/// into them.
+class FloatingPointScope
+{
+public:
+#if defined(__SSE2__)
+    FloatingPointScope() : saved_(_mm_getcsr())
+    {
+        _mm_setcsr(kMaskAll | kFlushToZero | kDenormalsAreZero);
+    }
+    ~FloatingPointScope()
+    {
+        _mm_setcsr(saved_);
+    }
+#else
+    FloatingPointScope() = default;
+    ~FloatingPointScope() {} // other processors keep denormals: slower, not different in any tested result
+#endif
+    FloatingPointScope(const FloatingPointScope&) = delete;
+    FloatingPointScope& operator=(const FloatingPointScope&) = delete;
+
+private:
+#if defined(__SSE2__)
+    static constexpr unsigned kMaskAll = 0x1F80;
+    static constexpr unsigned kFlushToZero = 0x8000;
+    static constexpr unsigned kDenormalsAreZero = 0x0040;
+    unsigned saved_;
+#endif
+};
+
+} // namespace fx::base

@@ -1,0 +1,90 @@
+/// @file blob_kind.h
+/// The kind "blob": a ball of participating medium with the polynomial kernel. Vocabulary of the techniques
+/// that publish gas and of the passes that draw it; the snapshot container does not include this.
+///
+/// Extinction at distance r from the center is crossSection * W(r; radius) with
+/// W(r; R) = 105 / (32 pi R^3) (1 - (r/R)^2)^2, see shaders/formulas/kernel_optical_depth.fx.h.
+/// The medium emits as a gray body: source = (1 - albedo) * B(temperature) + emission, never without
+/// extinction.
+#pragma once
+
+#include "foundation/snapshot/snapshot_schema.h"
+
+namespace fx::base {
+
+/// Columns of the kind, in order.
+namespace blob_column {
+enum : size_t
+{
+    PositionX,
+    PositionY,
+    PositionZ,
+    VelocityX,
+    VelocityY,
+    VelocityZ,
+    Radius,
+    CrossSection,
+    Temperature,
+    AlbedoR,
+    AlbedoG,
+    AlbedoB,
+    EmissionR,
+    EmissionG,
+    EmissionB,
+    FireShare,
+    Heat,
+    Age,
+    Count
+};
+}
+
+/// Constants of a group, in order.
+namespace blob_constant {
+enum : size_t
+{
+    Layer,        ///< MediaLayer that takes what FireShare leaves
+    DetailAmount, ///< [1] strength of procedural detail, 0 shows the bare kernel
+    DetailScale,  ///< [1] noise periods across a blob's diameter
+    Anisotropy,   ///< [1] Henyey-Greenstein g of scattering, (-1, 1)
+    Shutter,      ///< [s] exposure time along which the blob is drawn out, 0 for none
+    Count
+};
+}
+
+/// Layers in which media are accounted for; order is that of the EXR layers, not of drawing.
+enum class MediaLayer : uint32_t
+{
+    Fire,
+    Smoke,
+    Dust,
+    Count
+};
+
+inline constexpr ColumnDesc kBlobColumns[blob_column::Count] = {
+    {"x", "m"},
+    {"y", "m"},
+    {"z", "m"},
+    {"vx", "m/s"},
+    {"vy", "m/s"},
+    {"vz", "m/s"},
+    {"radius", "m"},
+    {"crossSection", "m2"},
+    {"temperature", "K"},
+    {"albedoR", "1"},
+    {"albedoG", "1"},
+    {"albedoB", "1"},
+    {"emissionR", "cd/m2"},
+    {"emissionG", "cd/m2"},
+    {"emissionB", "cd/m2"},
+    {"fireShare", "1"},
+    {"heat", "K"},
+    {"age", "s"},
+};
+
+inline constexpr ColumnDesc kBlobConstants[blob_constant::Count] = {
+    {"layer", "1"}, {"detailAmount", "1"}, {"detailScale", "1"}, {"anisotropy", "1"}, {"shutter", "s"},
+};
+
+inline constexpr KindDesc kBlobKind{"blob", kBlobColumns, kBlobConstants};
+
+} // namespace fx::base

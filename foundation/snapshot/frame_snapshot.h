@@ -1,0 +1,95 @@
+/// @file frame_snapshot.h
+/// The state of a scene after one step, as rendering and hosts see it: the only place where both sides meet.
+///
+/// A snapshot is a list of groups in creation order. A group holds the elements of one kind that one solver
+/// of one instance published: typed columns, shared constants, bounds, and an id per element by which the
+/// same element is found in the snapshot before. Threads: written by one thread, then published through a
+/// SnapshotRing and never changed again; read by any.
+#pragma once
+
+#include "foundation/math/geometry.h"
+#include "foundation/snapshot/snapshot_schema.h"
+#include "foundation/time/ticks.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::base {
+
+/// What a group is, apart from its columns.
+struct GroupInfo
+{
+    KindId kind = 0;
+    uint64_t instance = 0; ///< identity of the instance within the scene
+    uint32_t solver = 0;   ///< position of the solver in its effect
+    uint32_t count = 0;    ///< elements
+    Placement placement;   ///< columns are relative to this
+    Bounds bounds;         ///< local; every element with its radius lies inside
+};
+
+/// One group: column-wise elements sorted by ascending id.
+class SnapshotGroup
+{
+public:
+    SnapshotGroup(std::pmr::memory_resource* memory) : storage_(memory), ids_(memory), constants_(memory) {}
+
+    const GroupInfo& info() const { return info_; }
+    uint32_t count() const { return info_.count; }
+    std::span<const uint64_t> ids() const { return {ids_.data(), info_.count}; }
+    /// Column `index` of the kind, F32.
+    std::span<const float> column(size_t index) const
+    {
+        return {storage_.data() + index * capacity_, info_.count};
+    }
+    std::span<const float> constants() const { return constants_; }
+
+    // ---- for the writer, before publication ----
+    GroupInfo& editInfo() { return info_; }
+    std::span<uint64_t> editIds() { return {ids_.data(), capacity_}; }
+    std::span<float> editColumn(size_t index) { return {storage_.data() + index * capacity_, capacity_}; }
+    std::span<float> editConstants() { return constants_; }
+    /// Makes room for `capacity` elements of `kind`; keeps its memory when that is enough.
+    void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity);
+
+private:
+    GroupInfo info_;
+    size_t capacity_ = 0;
+    std::pmr::vector<float> storage_;
+    std::pmr::vector<uint64_t> ids_;
+    std::pmr::vector<float> constants_;
+};
+
+/// All groups after the step that ended at `tick`.
+class FrameSnapshot
+{
+public:
+    FrameSnapshot(const SnapshotSchema* schema, std::pmr::memory_resource* memory);
+
+    const SnapshotSchema& schema() const { return *schema_; }
+    Ticks tick() const { return tick_; }
+    uint64_t sequence() const { return sequence_; } ///< 1 for the first published, then rising by 1; 0: never
+    size_t groupCount() const { return groupCount_; }
+    const SnapshotGroup& group(size_t index) const { return groups_[index]; }
+
+    /// Hash of every id, column, constant and placement, computed anew at each call.
+    uint64_t hash() const;
+
+    // ---- for the writer, before publication ----
+    void begin(Ticks tick, uint64_t sequence);
+    /// A group with room for `capacity` elements; fill it and set its info (count, bounds).
+    SnapshotGroup& addGroup(KindId kind, size_t capacity);
+
+private:
+    const SnapshotSchema* schema_;
+    std::pmr::memory_resource* memory_;
+    Ticks tick_ = 0;
+    uint64_t sequence_ = 0;
+    size_t groupCount_ = 0;
+    std::pmr::vector<SnapshotGroup>
+        groups_; ///< the first groupCount_ are valid, the rest keep memory for later
+};
+
+} // namespace fx::base

@@ -1,0 +1,58 @@
+/// @file snapshot_schema.h
+/// Which kinds of data a snapshot can carry. Techniques register their kinds; the container knows none of
+/// them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace fx::base {
+
+/// Element type of a column.
+enum class ColumnType : uint8_t
+{
+    F32,
+    U64,
+};
+
+constexpr size_t columnElementSize(ColumnType type)
+{
+    return type == ColumnType::F32 ? 4 : 8;
+}
+
+/// One attribute of the elements of a kind. Names and units are string literals.
+struct ColumnDesc
+{
+    std::string_view name;
+    std::string_view unit; ///< SI unit, "1" for none
+    ColumnType type = ColumnType::F32;
+};
+
+/// A kind of element: what each element has, and what all elements of one group share.
+struct KindDesc
+{
+    std::string_view name;
+    std::span<const ColumnDesc> columns;   ///< per element
+    std::span<const ColumnDesc> constants; ///< per group, F32 only
+};
+
+using KindId = uint32_t;
+constexpr KindId kNoKind = ~0u;
+
+/// The kinds of one context. Filled while the context is made, constant afterwards.
+class SnapshotSchema
+{
+public:
+    /// Registers `kind` and returns its id; a name that is already there keeps its id.
+    KindId add(const KindDesc& kind);
+    KindId find(std::string_view name) const; ///< kNoKind when absent
+    const KindDesc& kind(KindId id) const { return kinds_[id]; }
+    size_t size() const { return kinds_.size(); }
+
+private:
+    std::vector<KindDesc> kinds_;
+};
+
+} // namespace fx::base

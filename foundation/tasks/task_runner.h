@@ -1,0 +1,49 @@
+/// @file task_runner.h
+/// Data-parallel loops over TBB, over the host's own job system, or on the calling thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+
+namespace fx::base {
+
+/// Body of a loop: handles the indices [begin, end).
+using LoopBody = void (*)(void* argument, uint32_t begin, uint32_t end);
+
+/// Host's parallel loop. Must call `body` so that every index in [0, count) is covered exactly once by ranges
+/// of at least `minBatch` indices (the last may be shorter), and return when all calls have returned.
+struct ParallelForHook
+{
+    void* user = nullptr;
+    void (*run)(void* user, uint32_t count, uint32_t minBatch, LoopBody body, void* argument) = nullptr;
+};
+
+/// Runs loops whose iterations do not depend on each other. How the range is cut never changes results:
+/// bodies write only what belongs to their indices, and sums are taken over fixed blocks afterwards.
+class TaskRunner
+{
+public:
+    virtual ~TaskRunner() = default;
+    virtual void run(uint32_t count, uint32_t minBatch, LoopBody body, void* argument) = 0;
+
+    /// Calls f(begin, end) over [0, count). Allocates nothing itself.
+    template <class F>
+    void parallelFor(uint32_t count, uint32_t minBatch, F&& f)
+    {
+        using Function = std::remove_reference_t<F>;
+        run(
+            count, minBatch,
+            [](void* argument, uint32_t begin, uint32_t end) {
+                (*static_cast<Function*>(argument))(begin, end);
+            },
+            const_cast<std::remove_const_t<Function>*>(&f));
+    }
+};
+
+std::unique_ptr<TaskRunner> makeSerialRunner();
+/// @param threads upper limit on threads, 0 for as many as the machine has
+std::unique_ptr<TaskRunner> makeTbbRunner(uint32_t threads = 0);
+std::unique_ptr<TaskRunner> makeHostRunner(const ParallelForHook& hook);
+
+} // namespace fx::base

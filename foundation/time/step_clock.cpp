@@ -1,0 +1,31 @@
+#include "foundation/time/step_clock.h"
+
+#include "foundation/math/bits.h"
+
+#include <algorithm>
+
+namespace fx::base {
+
+StepPlan StepClock::advance(double dt)
+{
+    StepPlan plan;
+    plan.firstStep = simulated();
+    if (!isFinite(dt) || dt < 0) {
+        plan.refused = true;
+        return plan;
+    }
+    const double longest = double(maxFrameTicks_);
+    const double exact = std::min(dt * double(kTicksPerSecond), 1e18) + remainder_;
+    const double kept = std::min(exact, longest);
+    plan.droppedTicks = Ticks(std::min(exact - kept, 9e18));
+
+    const Ticks whole = Ticks(std::floor(kept + 0.5)); // dt = 1/60 is a whole number of ticks up to rounding
+    remainder_ = kept - double(whole);
+    now_ += whole;
+    const int64_t target = now_ / stepTicks_;
+    plan.steps = uint32_t(target - steps_);
+    steps_ = target;
+    return plan;
+}
+
+} // namespace fx::base

@@ -1,0 +1,148 @@
+#include "foundation/memory/arena.h"
+#include "foundation/memory/column.h"
+#include "foundation/memory/host_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+using namespace fx::base;
+
+namespace {
+
+/// A host allocator that can be told to refuse.
+struct CountingHost
+{
+    int live = 0;
+    bool refuses = false;
+
+    AllocatorHooks hooks()
+    {
+        return {this,
+                [](void* user, size_t size, size_t alignment) -> void* {
+                    CountingHost& host = *static_cast<CountingHost*>(user);
+                    if (host.refuses)
+                        return nullptr;
+                    ++host.live;
+                    return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+                },
+                [](void* user, void* memory, size_t, size_t) {
+                    --static_cast<CountingHost*>(user)->live;
+                    std::free(memory);
+                }};
+    }
+};
+
+} // namespace
+
+TEST(HostMemory, usesTheHostsAllocatorAndCounts)
+{
+    CountingHost host;
+    HostMemory memory(host.hooks());
+    void* block = memory.allocate(100, 64);
+    EXPECT_EQ(host.live, 1);
+    EXPECT_EQ(memory.allocationCount(), 1u);
+    EXPECT_EQ(memory.bytesInUse(), 100u);
+    memory.deallocate(block, 100, 64);
+    EXPECT_EQ(host.live, 0);
+    EXPECT_EQ(memory.bytesInUse(), 0u);
+    EXPECT_EQ(memory.allocationCount(), 1u); // counts allocations, not what is left
+}
+
+TEST(HostMemory, aRefusalIsBadAllocAndIsNotCounted)
+{
+    CountingHost host;
+    host.refuses = true;
+    HostMemory memory(host.hooks());
+    EXPECT_THROW((void)memory.allocate(8, 8), std::bad_alloc);
+    EXPECT_EQ(memory.allocationCount(), 0u);
+}
+
+TEST(HostMemory, withoutHooksItUsesTheRuntime)
+{
+    HostMemory memory;
+    void* block = memory.allocate(3, 64);
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(block) % 64, 0u);
+    memory.deallocate(block, 3, 64);
+}
+
+TEST(Arena, allocationsAreAlignedAndDoNotOverlap)
+{
+    HostMemory memory;
+    Arena arena(&memory, 256);
+    const std::span<float> a = arena.allocate<float>(3);
+    const std::span<float> b = arena.allocate<float>(500); // more than a block
+    const std::span<float> c = arena.allocate<float>(0);
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(a.data()) % 64, 0u);
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(b.data()) % 64, 0u);
+    EXPECT_TRUE(c.empty());
+    std::fill(b.begin(), b.end(), 2.0f);
+    std::fill(a.begin(), a.end(), 1.0f);
+    EXPECT_EQ(b.front(), 2.0f);
+    EXPECT_EQ(b.back(), 2.0f);
+}
+
+TEST(Arena, theSameFrameAgainAllocatesNothing)
+{
+    HostMemory memory;
+    Arena arena(&memory, 128);
+    const auto frame = [&] {
+        for (size_t n = 1; n < 40; ++n)
+            (void)arena.allocate<double>(n);
+        arena.reset();
+    };
+    frame();
+    frame();
+    const uint64_t before = memory.allocationCount();
+    for (int i = 0; i < 10; ++i)
+        frame();
+    EXPECT_EQ(memory.allocationCount(), before);
+}
+
+TEST(Arena, returnsEverythingWhenItEnds)
+{
+    HostMemory memory;
+    {
+        Arena arena(&memory, 128);
+        (void)arena.allocate<char>(1000);
+        (void)arena.allocate<char>(1000);
+    }
+    EXPECT_EQ(memory.bytesInUse(), 0u);
+}
+
+TEST(Column, holdsItsCapacityAlignedAndGivesItBack)
+{
+    HostMemory memory;
+    {
+        Column<float> column(&memory, 5);
+        EXPECT_EQ(column.capacity(), 5u);
+        EXPECT_EQ(reinterpret_cast<uintptr_t>(column.data()) % 64, 0u);
+        column[4] = 7.0f;
+        EXPECT_EQ(column.first(5).back(), 7.0f);
+    }
+    EXPECT_EQ(memory.bytesInUse(), 0u);
+}
+
+TEST(Column, movingLeavesOneOwner)
+{
+    HostMemory memory;
+    {
+        Column<int> a(&memory, 4);
+        a[0] = 9;
+        Column<int> b(std::move(a));
+        Column<int> c(&memory, 2);
+        c = std::move(b);
+        EXPECT_EQ(c[0], 9);
+        EXPECT_EQ(c.capacity(), 4u);
+    }
+    EXPECT_EQ(memory.bytesInUse(), 0u);
+}
+
+TEST(Column, ofNothingAllocatesNothing)
+{
+    HostMemory memory;
+    const Column<int> column(&memory, 0);
+    EXPECT_EQ(column.data(), nullptr);
+    EXPECT_EQ(memory.allocationCount(), 0u);
+}
