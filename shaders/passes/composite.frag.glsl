@@ -1,0 +1,18 @@
+// Media over what lies behind them.
+layout(binding = 0) uniform sampler2D media; // premultiplied
+#if FX_BLEND == 0
+layout(binding = 1) uniform sampler2D behind;
+#endif
+layout(location = 0) out vec4 color;
+
+void main()
+{
+    ivec2 p = ivec2(gl_FragCoord.xy);
+    vec4 m = texelFetch(media, p, 0);
+#if FX_BLEND
+    color = m; // fixed-function blending puts it over the target
+#else
+    vec4 b = texelFetch(behind, p, 0);
+    color = vec4(m.rgb + (1.0 - m.a) * b.rgb, m.a + (1.0 - m.a) * b.a);
+#endif
+}

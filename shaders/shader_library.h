@@ -1,0 +1,17 @@
+/// @file shader_library.h
+/// The GLSL sources of every program, compiled into the library as text.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace fx::shaders {
+
+/// The complete GLSL of the entry point `name` ("passes/media.frag.glsl"): the version line, `defines`
+/// ("FX_FORM=2 FX_LAYERS=1", separated by blanks or line breaks), and the file with its includes expanded
+/// once each.
+/// @return nothing when `name` or one of its includes does not exist
+std::optional<std::string> assemble(std::string_view name, std::string_view defines);
+
+} // namespace fx::shaders

@@ -1,0 +1,46 @@
+// What one fragment of a blob's rectangle sees. Needs shared/view_block.glsl and the formulas it calls.
+// FX_FORM: 0 planar card, 1 homogeneous ball, 2 quartic kernel.
+
+flat in vec4 blobCenterRadius;
+flat in vec4 blobMedium;
+
+layout(binding = 0) uniform sampler2D sceneDistance; // [m] along the ray to the opaque surface, +inf for none
+
+struct BlobRay
+{
+    float opticalDepth; // [1] without detail
+    vec3 toPoint;       // [m] from the blob's center to the point whose light stands for the whole path
+    float distance;     // [m] of that point from the ray's origin
+};
+
+BlobRay traceBlob()
+{
+    vec3 origin;
+    vec3 direction;
+    float lengthPerDepth;
+    viewRay(gl_FragCoord.xy, origin, direction, lengthPerDepth);
+    float radius = blobCenterRadius.w;
+    vec3 toCenter = blobCenterRadius.xyz - origin;
+    float tc = dot(toCenter, direction);
+    vec3 across = toCenter - tc * direction; // the perpendicular vector keeps the digits that b^2 - c^2 would lose
+    float h = length(across);
+    float t0 = rayOriginX.w * lengthPerDepth;
+    float t1 = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r;
+
+    BlobRay result;
+#if FX_FORM == 0
+    float middle = tc > t0 && tc < t1 ? 1.0 : 0.0; // a card has no thickness: it is seen whole or not at all
+    result.opticalDepth = middle * fxKernelOpticalDepth(blobMedium.x, radius, h, 0.0, -radius, radius);
+#elif FX_FORM == 1
+    result.opticalDepth = fxUniformBallOpticalDepth(blobMedium.x, radius, h, tc, t0, t1);
+#else
+    result.opticalDepth = fxKernelOpticalDepth(blobMedium.x, radius, h, tc, t0, t1);
+#endif
+    float w = sqrt(max((radius - h) * (radius + h), 0.0));
+    float front = max(t0, tc - w);
+    float back = max(min(t1, tc + w), front);
+    float depthOfView = 0.5 / (1.0 + 0.5 * result.opticalDepth); // thin: the middle; thick: near the front
+    result.distance = mix(front, back, depthOfView);
+    result.toPoint = origin + direction * result.distance - blobCenterRadius.xyz;
+    return result;
+}

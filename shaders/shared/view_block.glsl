@@ -1,0 +1,28 @@
+// The view of one frame; filled from rendering/passes/view_block.h, which asserts this layout.
+layout(std140, binding = 0) uniform ViewBlock
+{
+    vec4 rayOrigin;      // [m] relative to the eye, of the ray through the window's center; w: 1 orthographic, 0 perspective
+    vec4 rayOriginX;     // change of it for one unit of window x in [-1, 1]; w: near distance along the axis [m]
+    vec4 rayOriginY;     // w: flip of window y against clip y, 1 or -1
+    vec4 rayDirection;   // direction through the center, its component along the view axis is 1; w: time of moving detail [1]
+    vec4 rayDirectionX;  // w: width [pixel]
+    vec4 rayDirectionY;  // w: height [pixel]
+    vec4 right;          // [1] camera axes in world; w: clip x per unit of slope
+    vec4 up;             // w: clip y per unit of slope
+    vec4 forward;        // w: strength of blob detail [1]
+    vec4 clipOffset;     // xy: clip position of the view axis; zw: constants of depth linearisation
+    vec4 depthScale;     // distance along the axis = (x - n y) / (n z - w) for clip depth n
+    vec4 depthRange;     // clip depth n = x d + y for a stored depth d; z: stored depth that means nothing is there
+    vec4 sunDirection;   // [1] towards the sun; w: pixels per unit of slope vertically
+    vec4 pass;           // a pass's own four numbers
+};
+
+// Ray through the window position gl_FragCoord.xy. Its parameter is the distance along the ray [m].
+void viewRay(vec2 window, out vec3 origin, out vec3 direction, out float lengthPerDepth)
+{
+    vec2 ndc = window / vec2(rayDirectionX.w, rayDirectionY.w) * 2.0 - 1.0;
+    origin = rayOrigin.xyz + ndc.x * rayOriginX.xyz + ndc.y * rayOriginY.xyz;
+    vec3 d = rayDirection.xyz + ndc.x * rayDirectionX.xyz + ndc.y * rayDirectionY.xyz;
+    lengthPerDepth = length(d);
+    direction = d / lengthPerDepth;
+}
