@@ -1,0 +1,210 @@
+/// @file frame_graph.h
+/// The passes of one frame as declared reads and writes: what nobody reads is not executed, what lives at
+/// different times shares memory.
+///
+/// Use: begin(), import what exists outside, addPass() in any sensible order, keep() what must exist
+/// afterwards, compile(), execute(). The idea is O'Donnell's, "FrameGraph" (GDC 2017). Misuse (a stale
+/// version, reading what nobody wrote, an empty size) is remembered in status(); then nothing executes.
+/// Frames that are no larger than one before allocate nothing.
+/// Threads: one thread at a time.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "rendering/frame_graph/backend.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace fx::render {
+
+struct TextureDesc
+{
+    std::string_view name; ///< string literal
+    int width = 0;         ///< [pixel] > 0
+    int height = 0;        ///< [pixel] > 0
+    Format format = Format::RGBA32F;
+};
+
+struct BufferDesc
+{
+    std::string_view name; ///< string literal
+    size_t bytes = 0;      ///< > 0
+};
+
+/// Where a resource lives for one frame, as a plan that a backend realises.
+struct PhysicalTexture
+{
+    int width, height;
+    Format format;
+};
+
+class FrameGraph
+{
+public:
+    /// Given to a pass's setup: declares what it touches.
+    class Builder
+    {
+    public:
+        ResourceId create(const TextureDesc& desc);
+        ResourceId create(const BufferDesc& desc);
+        void read(ResourceId resource);
+        /// Declares writing. Returns the new version; the one given is no longer valid for reading by later
+        /// passes. A write also reads (blending, partial update) unless the resource was created by this
+        /// pass.
+        [[nodiscard]] ResourceId write(ResourceId resource);
+        /// The pass is executed even when nobody reads what it writes.
+        void sideEffect();
+
+    private:
+        friend class FrameGraph;
+        Builder(FrameGraph& graph, uint32_t pass) : graph_(graph), pass_(pass) {}
+        FrameGraph& graph_;
+        uint32_t pass_;
+    };
+
+    explicit FrameGraph(std::pmr::memory_resource* memory);
+
+    /// Forgets the last frame's passes and resources, keeps their memory.
+    void begin();
+
+    /// A texture or buffer that exists outside of the graph under a GL name.
+    ResourceId importTexture(const TextureDesc& desc, uint32_t name);
+    /// A framebuffer of the host as a color target that can be drawn to but not sampled.
+    ResourceId importFramebuffer(const TextureDesc& desc, uint32_t framebuffer);
+    ResourceId importBuffer(const BufferDesc& desc, uint32_t name);
+
+    /// Adds a pass. `setup(Builder&)` runs now, may capture by reference and declares what the pass touches;
+    /// it returns the function `execute(Backend&)`, which runs in execute() and captures by value, at most
+    /// kExecuteBytes of trivially copyable state, the resources it has just declared among them.
+    template <class Setup>
+    void addPass(std::string_view name, Setup&& setup)
+    {
+        const uint32_t pass = newPass(name);
+        Builder builder(*this, pass);
+        auto execute = setup(builder);
+        using Execute = decltype(execute);
+        static_assert(sizeof(Execute) <= kExecuteBytes && std::is_trivially_copyable_v<Execute>);
+        storeExecute(pass, &execute, sizeof execute,
+                     [](void* state, Backend& backend) { (*static_cast<Execute*>(state))(backend); });
+    }
+
+    /// What must be there after execute(): whatever leads to it is not culled.
+    void keep(ResourceId resource);
+
+    /// Culls passes, orders them (declaration order is kept), computes lifetimes and assigns physical
+    /// textures.
+    void compile();
+    void execute(Backend& backend);
+
+    /// The first misuse since begin(): Internal, naming pass and resource. compile() adds nothing to it.
+    const base::Status& status() const { return status_; }
+
+    // ---- results of compile(), for backends, statistics and tests ----
+    struct Resource
+    {
+        std::string_view name;
+        bool isTexture = true;
+        bool imported = false;
+        bool isFramebuffer = false;
+        int width = 0, height = 0;
+        Format format = Format::RGBA32F;
+        size_t bytes = 0;
+        uint32_t importedName = 0;
+        uint32_t physical = ~0u; ///< index of the pooled texture or buffer; ~0 when imported or never used
+    };
+    /// The resource behind any of its versions.
+    const Resource& resource(ResourceId id) const { return resources_[versions_[id.index].resource]; }
+    bool contains(ResourceId id) const
+    {
+        return id.index < versions_.size();
+    } ///< whether this frame knows it
+    std::span<const PhysicalTexture> physicalTextures() const { return physicalTextures_; }
+    std::span<const size_t> physicalBuffers() const { return physicalBuffers_; } ///< [byte]
+    std::span<const std::string_view> executedPasses() const { return executed_; }
+    uint32_t culledPasses() const { return static_cast<uint32_t>(passes_.size() - executed_.size()); }
+    /// Whether the executed pass of that index declared reading (writing) any version of the resource.
+    bool passReads(size_t executedIndex, ResourceId id) const
+    {
+        return passAccesses(executedIndex, id, false);
+    }
+    bool passWrites(size_t executedIndex, ResourceId id) const
+    {
+        return passAccesses(executedIndex, id, true);
+    }
+    std::string toGraphviz() const; ///< for people: the graph with culled passes dashed
+
+    static constexpr size_t kExecuteBytes = 512;
+
+private:
+    static constexpr uint32_t kNone = ~0u;
+
+    /// A resource between two writes.
+    struct Version
+    {
+        uint32_t resource;
+        uint32_t number;   ///< 0 before the first write of this frame
+        uint32_t writer;   ///< pass, kNone for number 0
+        uint32_t previous; ///< version that the write replaced
+        bool needed;       ///< read by an executed pass, or kept
+    };
+    struct Access
+    {
+        uint32_t version;
+        bool isWrite;
+    };
+    struct Pass
+    {
+        std::string_view name;
+        uint32_t firstAccess;
+        uint32_t lastAccess; ///< one behind
+        bool sideEffect;
+        bool alive;
+        void (*run)(void* state, Backend& backend);
+        alignas(std::max_align_t) std::byte state[kExecuteBytes];
+    };
+    /// When a resource is used, as indices of executed passes.
+    struct Lifetime
+    {
+        uint32_t latest; ///< version
+        uint32_t creator;
+        uint32_t first;
+        uint32_t last;
+        bool kept;
+    };
+
+    uint32_t newPass(std::string_view name);
+    void storeExecute(uint32_t pass, const void* state, size_t bytes, void (*run)(void*, Backend&));
+    ResourceId addResource(const Resource& resource, uint32_t creator);
+    void addAccess(uint32_t pass, uint32_t version, bool isWrite);
+    bool checkCurrent(ResourceId id, std::string_view user, const char* verb, uint32_t pass);
+    void misuse(std::string message);
+    void cull();
+    void measureLifetimes();
+    void orderByFirstUse();
+    void assignTextures();
+    void assignBuffers();
+    bool passAccesses(size_t executedIndex, ResourceId id, bool isWrite) const;
+    std::span<const Access> accesses(const Pass& pass) const;
+    std::string versionLabel(uint32_t index) const;
+
+    base::Status status_;
+    std::pmr::vector<Resource> resources_;
+    std::pmr::vector<Lifetime> lifetimes_; ///< one a resource
+    std::pmr::vector<Version> versions_;
+    std::pmr::vector<Pass> passes_;
+    std::pmr::vector<Access> accesses_;
+    std::pmr::vector<uint32_t> executedIndex_; ///< of passes_
+    std::pmr::vector<std::string_view> executed_;
+    std::pmr::vector<PhysicalTexture> physicalTextures_;
+    std::pmr::vector<size_t> physicalBuffers_;
+    std::pmr::vector<uint32_t> order_;     ///< scratch: transient resources by first use
+    std::pmr::vector<uint32_t> busyUntil_; ///< scratch: last use per physical resource
+};
+
+} // namespace fx::render

@@ -1,0 +1,94 @@
+/// @file gl_backend.h
+/// Executes a compiled FrameGraph with OpenGL 4.5. One object a view: its textures are pooled from frame to
+/// frame.
+///
+///     graph.compile();
+///     GlStateGuard guard(device);
+///     if (backend.beginFrame(graph)) { graph.execute(backend); }
+///     const base::Status status = backend.endFrame();
+///
+/// Each draw gets exactly the state that it asks for: the whole of it is set at beginFrame, then only
+/// differences. What is touched is listed by GlStateGuard. The host's clip control and multisampling are
+/// respected and left alone. A frame like the one before allocates nothing and asks GL nothing per draw.
+/// Threads: [GL thread].
+#pragma once
+
+#include "foundation/result/status.h"
+#include "rendering/frame_graph/backend.h"
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/gl/gl_device.h"
+#include "rendering/gl/gl_draw_state.h"
+#include "rendering/gl/gl_framebuffer_cache.h"
+#include "rendering/gl/gl_resource_pool.h"
+#include "rendering/gl/gl_uniform_ring.h"
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory_resource>
+#include <string_view>
+
+namespace fx::render {
+
+class GlBackend final : public Backend
+{
+public:
+    static constexpr uint32_t kTextureUnits = 8;    ///< units 0..7
+    static constexpr uint32_t kImageUnits = 4;      ///< units 0..3
+    static constexpr uint32_t kStorageBindings = 8; ///< bindings 0..7
+    static constexpr uint32_t kColorTargets = 8;    ///< what every OpenGL 4.5 offers
+
+    GlBackend(GlDevice& device, std::pmr::memory_resource* memory);
+
+    /// Realises the textures and buffers of `graph`, which is compiled and outlives endFrame(), and sets the
+    /// state that all draws share. A pending GL error of the host is discarded.
+    /// @return the graph's own status, GlFailed (context lost), OutOfMemory, InvalidArgument (size)
+    base::Status beginFrame(const FrameGraph& graph);
+    /// @return status()
+    base::Status endFrame();
+
+    /// First failure since beginFrame. After it, drawing calls do nothing.
+    const base::Status& status() const { return status_; }
+
+    /// GL name behind a resource of the current graph; 0 for a framebuffer or when it was culled. Textures
+    /// that were kept stay valid and unchanged until the next beginFrame().
+    uint32_t textureName(ResourceId texture) const;
+    uint32_t bufferName(ResourceId buffer) const;
+
+    uint32_t drawCalls() const { return drawCalls_; }      ///< draws and dispatches of the last frame
+    uint64_t pooledBytes() const { return pool_.bytes(); } ///< [byte] of textures and buffers held
+    void releasePool();                                    ///< deletes what is pooled, until the next frame
+
+    void beginPass(std::string_view name) override;
+    void endPass() override;
+    void clear(ResourceId texture, const float (&rgba)[4]) override;
+    void draw(const DrawCall& call) override;
+    void dispatch(const DispatchCall& call) override;
+    void upload(ResourceId buffer, std::span<const std::byte> bytes) override;
+    void copyTexture(ResourceId source, ResourceId destination) override;
+    int width(ResourceId texture) const override;
+    int height(ResourceId texture) const override;
+
+private:
+    bool usable() const { return graph_ && status_.ok(); }
+    void fail(base::Code code, std::initializer_list<std::string_view> parts); ///< remembers the first
+    bool inRange(uint32_t index, uint32_t count, const char* what);
+    uint32_t nameOrFail(ResourceId id, bool isTexture, const char* use);
+    bool findFramebuffer(std::span<const ResourceId> targets, ResourceId depthTarget,
+                         uint32_t& outFramebuffer);
+    bool useProgram(const ProgramDesc* program);
+    bool bindInputs(std::span<const TextureBinding> textures, std::span<const BufferBinding> buffers,
+                    std::span<const std::byte> uniforms);
+    bool writesAny(std::span<const BufferBinding> buffers) const;
+
+    GlDevice& device_;
+    const FrameGraph* graph_ = nullptr;
+    base::Status status_;
+    GlResourcePool pool_;
+    GlFramebufferCache framebuffers_;
+    GlUniformRing uniforms_;
+    GlDrawState state_;
+    size_t pass_ = 0; ///< index of the running pass among the executed ones
+    uint32_t drawCalls_ = 0;
+};
+
+} // namespace fx::render

@@ -1,0 +1,35 @@
+/// @file gl_buffer.h
+/// A buffer in immutable storage that the CPU writes with glNamedBufferSubData.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+namespace fx::render {
+
+class GlDevice;
+
+class GlBuffer
+{
+public:
+    /// @return InvalidArgument for 0 bytes, OutOfMemory
+    static base::Result<GlBuffer> create(GlDevice& device, size_t bytes, const char* label);
+
+    GlBuffer() = default;
+    ~GlBuffer();
+    GlBuffer(GlBuffer&& other) noexcept { *this = std::move(other); }
+    GlBuffer& operator=(GlBuffer&& other) noexcept;
+
+    uint32_t name() const { return name_; }
+    size_t bytes() const { return bytes_; } ///< [byte]
+
+private:
+    GlDevice* device_ = nullptr;
+    uint32_t name_ = 0;
+    size_t bytes_ = 0;
+};
+
+} // namespace fx::render

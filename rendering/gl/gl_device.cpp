@@ -1,0 +1,137 @@
+#include "rendering/gl/gl_device.h"
+
+#include "shaders/shader_library.h"
+
+#include <array>
+#include <cstdio>
+
+namespace fx::render {
+
+namespace {
+
+constexpr int kRequiredVersion = 45;
+
+std::string text(const GLubyte* string)
+{
+    return string ? reinterpret_cast<const char*>(string) : "unknown";
+}
+
+std::string versionNumber(int version)
+{
+    return std::to_string(version / 10) + "." + std::to_string(version % 10);
+}
+
+} // namespace
+
+base::Result<std::unique_ptr<GlDevice>> GlDevice::create(const GlLoader& loader,
+                                                         std::pmr::memory_resource* memory)
+{
+    std::unique_ptr<GlDevice> device(new GlDevice(memory));
+    const base::Status loaded = device->gl.load(loader);
+    if (!device->gl.GetIntegerv.isLoaded() || !device->gl.GetString.isLoaded())
+        return loaded;
+    // An old context misses functions too, but its version is the better explanation.
+    if (base::Status status = device->readLimits(); !status)
+        return status;
+    if (!loaded)
+        return loaded;
+    return device;
+}
+
+base::Status GlDevice::readLimits()
+{
+    const auto integer = [this](GLenum what) {
+        GLint value = 0;
+        gl.GetIntegerv(what, &value);
+        return value;
+    };
+    limits_.version = 10 * integer(GL_MAJOR_VERSION) + integer(GL_MINOR_VERSION);
+    limits_.renderer = text(gl.GetString(GL_RENDERER));
+    limits_.versionText = text(gl.GetString(GL_VERSION));
+    if (limits_.version == 0)
+        return {base::Code::GlUnsupported, "no OpenGL context is current on this thread"};
+    if (limits_.version < kRequiredVersion) {
+        return {base::Code::GlUnsupported, "OpenGL " + versionNumber(kRequiredVersion) +
+                                               " is required, the current context is " +
+                                               versionNumber(limits_.version) + " (" + limits_.renderer +
+                                               ", " + limits_.versionText + ")"};
+    }
+    limits_.textureSize = integer(GL_MAX_TEXTURE_SIZE);
+    limits_.uniformAlignment = integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
+    limits_.uniformBlockBytes = integer(GL_MAX_UNIFORM_BLOCK_SIZE);
+    limits_.storageAlignment = integer(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
+    limits_.debugContext = (integer(GL_CONTEXT_FLAGS) & GL_CONTEXT_FLAG_DEBUG_BIT) != 0;
+    return {};
+}
+
+base::Result<std::string> GlDevice::source(const char* name, const char* defines) const
+{
+    const std::string_view definitions = defines ? defines : "";
+    if (sourceOverride_) {
+        if (std::optional<std::string> replaced = sourceOverride_(name, definitions))
+            return std::move(*replaced);
+    }
+    if (std::optional<std::string> embedded = shaders::assemble(name, definitions))
+        return std::move(*embedded);
+    return base::Status(base::Code::NotFound,
+                        "shader '" + std::string(name) + "' or one of its includes is not embedded");
+}
+
+base::Result<GlProgram> GlDevice::build(const ProgramDesc& desc)
+{
+    const std::array<std::pair<GLenum, const char*>, 3> files{{{GL_VERTEX_SHADER, desc.vertex},
+                                                               {GL_FRAGMENT_SHADER, desc.fragment},
+                                                               {GL_COMPUTE_SHADER, desc.compute}}};
+    std::array<GlStageSource, 3> stages;
+    size_t count = 0;
+    for (const auto& [stage, file] : files) {
+        if (!file)
+            continue;
+        base::Result<std::string> text = source(file, desc.defines);
+        if (!text)
+            return text.status();
+        stages[count++] = {stage, file, std::move(*text)};
+    }
+    return GlProgram::link(*this, desc.name, std::span(stages).first(count));
+}
+
+base::Status GlDevice::compile(const ProgramDesc& desc)
+{
+    if (programs_.contains(&desc))
+        return {};
+    base::Result<GlProgram> program = build(desc);
+    if (!program)
+        return program.status();
+    programs_.insert_or_assign(&desc, std::move(*program));
+    ++programsCompiled_;
+    return {};
+}
+
+uint32_t GlDevice::program(const ProgramDesc& desc, base::Status& outStatus)
+{
+    if (const auto found = programs_.find(&desc); found != programs_.end())
+        return found->second.name();
+    ++lateCompiles_;
+    if (base::Status status = compile(desc); !status) {
+        outStatus = std::move(status);
+        return 0;
+    }
+    return programs_.find(&desc)->second.name();
+}
+
+base::Status GlDevice::takeError(std::string_view where)
+{
+    constexpr int kMostPending = 16; // a lost context may report errors for ever
+    const GLenum first = gl.GetError();
+    for (int i = 0; i < kMostPending && first != GL_NO_ERROR && gl.GetError() != GL_NO_ERROR; ++i) {
+    }
+    if (first == GL_NO_ERROR)
+        return {};
+    char number[16];
+    std::snprintf(number, sizeof number, "0x%04X", first);
+    const bool outOfMemory = first == GL_OUT_OF_MEMORY;
+    return {outOfMemory ? base::Code::OutOfMemory : base::Code::GlFailed,
+            std::string(where) + ": OpenGL error " + number + (outOfMemory ? " (out of memory)" : "")};
+}
+
+} // namespace fx::render

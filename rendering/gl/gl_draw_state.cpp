@@ -1,0 +1,104 @@
+#include "rendering/gl/gl_draw_state.h"
+
+namespace fx::render {
+
+namespace {
+
+/// Switches that could discard, move or alter fragments, none of which a pass wants.
+constexpr GLenum kOff[] = {
+    GL_CULL_FACE,           GL_DEPTH_TEST,         GL_STENCIL_TEST,   GL_DEPTH_CLAMP,
+    GL_FRAMEBUFFER_SRGB,    GL_RASTERIZER_DISCARD, GL_COLOR_LOGIC_OP, GL_DITHER,
+    GL_POLYGON_OFFSET_FILL, GL_POLYGON_SMOOTH,     GL_SAMPLE_MASK,    GL_SAMPLE_ALPHA_TO_COVERAGE,
+    GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE,    GL_SAMPLE_SHADING, GL_CLIP_DISTANCE0,
+    GL_CLIP_DISTANCE1,      GL_CLIP_DISTANCE2,     GL_CLIP_DISTANCE3, GL_CLIP_DISTANCE4,
+    GL_CLIP_DISTANCE5,      GL_CLIP_DISTANCE6,     GL_CLIP_DISTANCE7,
+};
+
+} // namespace
+
+GlDrawState::GlDrawState(GlDevice& device)
+    : device_(device),
+      vertexArray_(createVertexArray(device)), samplers_{createSampler(device, Sampling::Nearest),
+                                                         createSampler(device, Sampling::Linear),
+                                                         createSampler(device, Sampling::LinearRepeat)}
+{}
+
+void GlDrawState::reset()
+{
+    const GlFunctions& gl = device_.gl;
+    for (const GLenum what : kOff)
+        gl.Disable(what);
+    gl.Disablei(GL_SCISSOR_TEST, 0);
+    for (uint32_t i = 0; i < kTargets; ++i) {
+        gl.Disablei(GL_BLEND, i);
+        gl.BlendEquationSeparatei(i, GL_FUNC_ADD, GL_FUNC_ADD);
+        gl.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    }
+    gl.DepthMask(GL_TRUE); // without the test nothing is written
+    gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    gl.DepthRangeIndexed(0, 0.0, 1.0);
+    gl.BindVertexArray(vertexArray_.name());
+
+    program_ = framebuffer_ = kUnknown;
+    blend_ = Blend::None;
+    depthTested_ = depthReversed_ = false;
+    units_.fill({kUnknown, kUnknown});
+}
+
+void GlDrawState::useProgram(uint32_t program)
+{
+    if (program_ == program)
+        return;
+    program_ = program;
+    device_.gl.UseProgram(program);
+}
+
+void GlDrawState::bindFramebuffer(uint32_t framebuffer, int width, int height)
+{
+    if (framebuffer_ != framebuffer)
+        device_.gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    if (framebuffer_ == kUnknown || width_ != width || height_ != height)
+        device_.gl.ViewportIndexedf(0, 0.0f, 0.0f, static_cast<GLfloat>(width), static_cast<GLfloat>(height));
+    framebuffer_ = framebuffer;
+    width_ = width;
+    height_ = height;
+}
+
+void GlDrawState::setBlend(Blend blend)
+{
+    if (blend_ == blend)
+        return;
+    blend_ = blend;
+    const GLenum destination = blend == Blend::Additive ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA;
+    for (uint32_t i = 0; i < kTargets; ++i) {
+        if (blend == Blend::None) {
+            device_.gl.Disablei(GL_BLEND, i);
+            continue;
+        }
+        device_.gl.Enablei(GL_BLEND, i);
+        device_.gl.BlendFuncSeparatei(i, GL_ONE, destination, GL_ONE, destination);
+    }
+}
+
+void GlDrawState::setDepth(bool tested, bool reversed)
+{
+    if (depthTested_ != tested)
+        tested ? device_.gl.Enable(GL_DEPTH_TEST) : device_.gl.Disable(GL_DEPTH_TEST);
+    if (tested && (!depthTested_ || depthReversed_ != reversed))
+        device_.gl.DepthFunc(reversed ? GL_GREATER : GL_LESS);
+    depthTested_ = tested;
+    depthReversed_ = reversed;
+}
+
+void GlDrawState::bindTexture(uint32_t unit, uint32_t texture, Sampling sampling)
+{
+    const uint32_t sampler = samplers_[static_cast<size_t>(sampling)].name();
+    Unit& bound = units_[unit];
+    if (bound.texture != texture)
+        device_.gl.BindTextureUnit(unit, texture);
+    if (bound.sampler != sampler)
+        device_.gl.BindSampler(unit, sampler);
+    bound = {texture, sampler};
+}
+
+} // namespace fx::render

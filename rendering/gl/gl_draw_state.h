@@ -1,0 +1,55 @@
+/// @file gl_draw_state.h
+/// The only place that sets GL state for drawing: all of it once a frame, then what differs from draw to
+/// draw.
+///
+/// It remembers what it has set since reset(), so nobody else may set state until the frame ends. What it
+/// touches is listed in gl_touched_state.cpp.
+#pragma once
+
+#include "rendering/frame_graph/backend.h"
+#include "rendering/gl/gl_name.h"
+
+#include <array>
+#include <cstdint>
+
+namespace fx::render {
+
+class GlDrawState
+{
+public:
+    explicit GlDrawState(GlDevice& device);
+
+    /// Every switch that could disturb a draw is set to what draws expect, whatever the host left.
+    void reset();
+
+    void useProgram(uint32_t program);
+    void bindFramebuffer(uint32_t framebuffer, int width, int height); ///< and its whole area as viewport
+    void setBlend(Blend blend);
+    void setDepth(bool tested, bool reversed); ///< tested and written, or neither
+    void bindTexture(uint32_t unit, uint32_t texture, Sampling sampling);
+
+private:
+    static constexpr uint32_t kTargets = 8;
+    static constexpr uint32_t kUnits = 8;
+    static constexpr uint32_t kUnknown = ~0u; ///< no GL name
+
+    struct Unit
+    {
+        uint32_t texture;
+        uint32_t sampler;
+    };
+
+    GlDevice& device_;
+    GlVertexArray vertexArray_; ///< empty: shaders fetch
+    std::array<GlSampler, 3> samplers_;
+    uint32_t program_ = kUnknown;
+    uint32_t framebuffer_ = kUnknown;
+    int width_ = 0;
+    int height_ = 0;
+    Blend blend_ = Blend::None;
+    bool depthTested_ = false;
+    bool depthReversed_ = false;
+    std::array<Unit, kUnits> units_{};
+};
+
+} // namespace fx::render

@@ -1,0 +1,59 @@
+/// @file gl_framebuffer_cache.h
+/// Framebuffer objects by what is attached to them, so that a frame like the one before creates none.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "rendering/gl/gl_name.h"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace fx::render {
+
+/// Names of the attached textures; 0 for none.
+struct GlAttachments
+{
+    std::array<uint32_t, 8> colors{};
+    uint32_t colorCount = 0;
+    uint32_t depth = 0;
+
+    bool operator==(const GlAttachments&) const = default;
+};
+
+class GlFramebufferCache
+{
+public:
+    GlFramebufferCache(GlDevice& device, std::pmr::memory_resource* memory)
+        : device_(device), entries_(memory)
+    {}
+
+    /// Forgets framebuffers that many frames have not used.
+    void beginFrame();
+
+    /// `foreign`: some attachment belongs to the host, who may have deleted it and got its name again for
+    /// another texture since the last frame. Such framebuffers are attached and checked anew once a frame.
+    /// @return GlFailed with what is wrong with the attachments
+    base::Result<uint32_t> find(const GlAttachments& attachments, bool foreign);
+
+    /// To be called before a texture is deleted.
+    void forget(uint32_t texture);
+
+private:
+    struct Entry
+    {
+        GlAttachments attachments;
+        GlFramebuffer framebuffer;
+        uint64_t attachedFrame;
+        uint64_t usedFrame;
+    };
+
+    base::Status attach(const Entry& entry);
+
+    GlDevice& device_;
+    std::pmr::vector<Entry> entries_;
+    uint64_t frame_ = 0;
+};
+
+} // namespace fx::render

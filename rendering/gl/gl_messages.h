@@ -1,0 +1,37 @@
+/// @file gl_messages.h
+/// Counts what the driver reports through KHR_debug. Install it in contexts that were made with debug = true.
+#pragma once
+
+#include "rendering/gl/gl_device.h"
+
+#include <cstdint>
+#include <string>
+
+namespace fx::render {
+
+/// Listens from construction to destruction; messages arrive during the GL call that causes them.
+class GlMessages
+{
+public:
+    explicit GlMessages(GlDevice& device);
+    ~GlMessages();
+    GlMessages(const GlMessages&) = delete;
+    GlMessages& operator=(const GlMessages&) = delete;
+
+    uint32_t errors() const { return errors_; }             ///< messages of type error
+    uint32_t highSeverity() const { return highSeverity_; } ///< messages of high severity, errors included
+    uint32_t serious() const { return serious_; }           ///< either; a correct program has none
+    const std::string& first() const { return first_; }     ///< text of the first serious message
+
+private:
+    static void APIENTRY receive(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                                 const GLchar* message, const void* user);
+
+    GlDevice& device_;
+    uint32_t errors_ = 0;
+    uint32_t highSeverity_ = 0;
+    uint32_t serious_ = 0;
+    std::string first_;
+};
+
+} // namespace fx::render

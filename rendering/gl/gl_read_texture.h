@@ -1,0 +1,26 @@
+/// @file gl_read_texture.h
+/// Copies pictures from the GPU for tools and tests. Waits for the GPU; not for frames of a game.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace fx::render {
+
+class GlDevice;
+
+/// The first `channels` (1 to 4) of each texel as floats, row by row from texture coordinate 0 (GL's bottom)
+/// upwards; normalized formats give [0, 1]. GL's pixel-pack state is left as it was.
+std::vector<float> readTexture(GlDevice& device, uint32_t texture, int width, int height, int channels);
+
+/// Depth values in [0, 1] of a depth texture, in the same order.
+std::vector<float> readDepthTexture(GlDevice& device, uint32_t texture, int width, int height);
+
+/// Texels of an R32UI texture, in the same order.
+std::vector<uint32_t> readUintTexture(GlDevice& device, uint32_t texture, int width, int height);
+
+/// The first color attachment of a framebuffer (0 is the window's back buffer) as for readTexture().
+std::vector<float> readFramebuffer(GlDevice& device, uint32_t framebuffer, int width, int height,
+                                   int channels);
+
+} // namespace fx::render

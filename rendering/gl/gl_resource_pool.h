@@ -1,0 +1,50 @@
+/// @file gl_resource_pool.h
+/// The textures and buffers that a view's frame graphs live in, kept from frame to frame.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/gl/gl_buffer.h"
+#include "rendering/gl/gl_framebuffer_cache.h"
+#include "rendering/gl/gl_texture.h"
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace fx::render {
+
+class GlResourcePool
+{
+public:
+    GlResourcePool(GlDevice& device, std::pmr::memory_resource* memory);
+
+    /// Gives every physical resource of the graph an object: the one it had last frame when nothing has
+    /// changed. Textures that several frames have not used are deleted, and `framebuffers` told so.
+    base::Status realise(const FrameGraph& graph, GlFramebufferCache& framebuffers);
+    /// Deletes everything; the next realise() starts anew.
+    void release(GlFramebufferCache& framebuffers);
+
+    uint32_t texture(uint32_t physical) const { return textures_[assigned_[physical]].texture.name(); }
+    uint32_t buffer(uint32_t physical) const { return buffers_[physical].name(); }
+    uint64_t bytes() const; ///< [byte]
+
+private:
+    struct PooledTexture
+    {
+        GlTexture texture;
+        uint64_t usedFrame;
+    };
+
+    base::Status realiseTexture(const PhysicalTexture& wanted);
+    base::Status realiseBuffer(size_t index, size_t bytes);
+    void deleteUnused(GlFramebufferCache& framebuffers);
+
+    GlDevice& device_;
+    std::pmr::vector<PooledTexture> textures_;
+    std::pmr::vector<uint32_t> assigned_; ///< physical index -> index of textures_
+    std::pmr::vector<GlBuffer> buffers_;  ///< by physical index
+    uint64_t frame_ = 0;
+};
+
+} // namespace fx::render

@@ -1,0 +1,47 @@
+/// @file gl_texture.h
+/// A two-dimensional texture without mipmaps, in immutable storage.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "rendering/frame_graph/backend.h"
+
+#include <GL/glcorearb.h>
+
+#include <cstdint>
+#include <utility>
+
+namespace fx::render {
+
+class GlDevice;
+
+GLenum glInternalFormat(Format format); ///< GL_RGBA32F and so on
+
+class GlTexture
+{
+public:
+    /// `label` is a string literal shown by debuggers and error messages.
+    /// @return InvalidArgument when a side is not in [1, limits().textureSize] (no GL call is made),
+    /// OutOfMemory
+    static base::Result<GlTexture> create(GlDevice& device, int width, int height, GLenum internalFormat,
+                                          const char* label);
+
+    GlTexture() = default;
+    ~GlTexture();
+    GlTexture(GlTexture&& other) noexcept { *this = std::move(other); }
+    GlTexture& operator=(GlTexture&& other) noexcept;
+
+    uint32_t name() const { return name_; }
+    int width() const { return width_; }   ///< [pixel]
+    int height() const { return height_; } ///< [pixel]
+    GLenum internalFormat() const { return internalFormat_; }
+    uint64_t bytes() const; ///< [byte] of its texels, 0 when it holds nothing
+
+private:
+    GlDevice* device_ = nullptr;
+    uint32_t name_ = 0;
+    int width_ = 0;
+    int height_ = 0;
+    GLenum internalFormat_ = 0;
+};
+
+} // namespace fx::render

@@ -1,0 +1,32 @@
+/// @file gl_uniform_ring.h
+/// Uniform blocks of a frame's draws in one buffer that is filled round and round.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "rendering/gl/gl_buffer.h"
+
+#include <cstddef>
+#include <span>
+
+namespace fx::render {
+
+/// GL keeps what earlier draws read in order with what is written later, so reuse needs no waiting of ours.
+class GlUniformRing
+{
+public:
+    static constexpr size_t kCapacity = size_t(1) << 18; ///< [byte] a few frames' worth of blocks
+
+    explicit GlUniformRing(GlDevice& device) : device_(device) {}
+
+    /// Copies `bytes` to the next place that the context's alignment allows and binds it at uniform binding
+    /// 0.
+    /// @return TooLarge when the context's uniform blocks are smaller, OutOfMemory
+    base::Status bind(std::span<const std::byte> bytes);
+
+private:
+    GlDevice& device_;
+    GlBuffer buffer_; ///< created by the first bind()
+    size_t cursor_ = 0;
+};
+
+} // namespace fx::render

@@ -1,0 +1,83 @@
+/// @file graph_test.h
+/// Short ways to declare passes, for tests of the frame graph.
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/frame_graph/recording_backend.h"
+
+#include <gtest/gtest.h>
+
+#include <memory_resource>
+#include <string_view>
+#include <vector>
+
+namespace fx::render {
+
+/// Adds a pass whose setup and execution are given apart.
+template <class Setup, class Execute>
+void addPass(FrameGraph& graph, std::string_view name, Setup&& setup, Execute execute)
+{
+    graph.addPass(name, [&](FrameGraph::Builder& builder) {
+        setup(builder);
+        return execute;
+    });
+}
+
+class GraphTest : public ::testing::Test
+{
+protected:
+    GraphTest() { graph.begin(); }
+
+    static TextureDesc texture(std::string_view name, int size = 64, Format format = Format::RGBA16F)
+    {
+        return {name, size, size, format};
+    }
+
+    /// A pass that makes a texture.
+    ResourceId source(std::string_view name, int size = 64, Format format = Format::RGBA16F)
+    {
+        ResourceId out;
+        addPass(
+            graph, name,
+            [&](FrameGraph::Builder& builder) {
+                out = builder.write(builder.create(texture(name, size, format)));
+            },
+            [](Backend&) {});
+        return out;
+    }
+
+    /// A pass that reads `inputs` and makes a texture.
+    ResourceId filter(std::string_view name, std::vector<ResourceId> inputs, int size = 64,
+                      Format format = Format::RGBA16F)
+    {
+        ResourceId out;
+        addPass(
+            graph, name,
+            [&](FrameGraph::Builder& builder) {
+                for (const ResourceId input : inputs)
+                    builder.read(input);
+                out = builder.write(builder.create(texture(name, size, format)));
+            },
+            [](Backend&) {});
+        return out;
+    }
+
+    /// A pass that changes `target` in place.
+    ResourceId blend(std::string_view name, ResourceId target)
+    {
+        ResourceId out;
+        addPass(
+            graph, name, [&](FrameGraph::Builder& builder) { out = builder.write(target); }, [](Backend&) {});
+        return out;
+    }
+
+    std::vector<std::string_view> executed() const
+    {
+        return {graph.executedPasses().begin(), graph.executedPasses().end()};
+    }
+
+    using Names = std::vector<std::string_view>;
+    FrameGraph graph{std::pmr::get_default_resource()};
+};
+
+} // namespace fx::render

@@ -1,0 +1,57 @@
+/// @file gl_host_state.h
+/// A host with unusual OpenGL state, and a probe that reads all of it: both written without regard to the
+/// library's own table, with functions that the host loads itself.
+#pragma once
+
+#include "rendering/gl/gl_functions.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace fx::render {
+
+/// Values by the name of the state, such as "GL_BLEND[2]".
+using GlProbe = std::map<std::string, std::vector<double>>;
+
+/// States that differ, one line each.
+std::vector<std::string> differences(const GlProbe& before, const GlProbe& after);
+
+/// Objects and calls of a host that shares its context with the library.
+class GlHost
+{
+public:
+    explicit GlHost(const GlLoader& loader) : loader_(loader) {}
+
+    /// Sets every state that the probe reads to something that is neither GL's default nor what drawing
+    /// needs.
+    void makeHostile();
+    /// Reads everything.
+    GlProbe probe();
+    /// Gives everything back that makeHostile() made, so that the context can go.
+    void release();
+
+private:
+    template <class Function>
+    Function load(const char* name) const
+    {
+        return reinterpret_cast<Function>(loader_.getProcAddress(loader_.user, name));
+    }
+    void setRaster();
+    void setFragments();
+    void makeObjects();
+    void bindTextures();
+    void bindBuffers();
+
+    GlLoader loader_;
+    GLuint textures_[6] = {}; ///< 2-D, 2-D, cube, array, 2-D RGBA32F, 2-D R32F
+    GLuint samplers_[2] = {};
+    GLuint buffers_[3] = {};
+    GLuint framebuffers_[2] = {};
+    GLuint vertexArray_ = 0;
+    GLuint program_ = 0;
+    GLuint pipeline_ = 0;
+    GLuint renderbuffer_ = 0;
+};
+
+} // namespace fx::render

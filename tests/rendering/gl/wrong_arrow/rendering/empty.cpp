@@ -1,0 +1,1 @@
+// Something for a module to be made of.
