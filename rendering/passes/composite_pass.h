@@ -1,0 +1,36 @@
+/// @file composite_pass.h
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+
+namespace fx::render {
+
+inline constexpr ProgramDesc kCompositeBlendProgram{"composite (blend)", "passes/fullscreen.vert.glsl",
+                                                    "passes/composite.frag.glsl", nullptr, "FX_BLEND=1"};
+inline constexpr ProgramDesc kCompositeProgram{"composite", "passes/fullscreen.vert.glsl",
+                                               "passes/composite.frag.glsl", nullptr, "FX_BLEND=0"};
+
+/// Puts the media over the host's picture: result = media + (1 - media alpha) * picture.
+///
+/// reads   media    RGBA32F premultiplied
+///         picture  the host's opaque picture, exposed radiance
+/// writes  either the picture itself by blending, or a new RGBA32F color for the passes that follow
+/// Keeps no state.
+class CompositePass
+{
+public:
+    struct Inputs
+    {
+        ResourceId media;
+        ResourceId picture;
+        int width, height;
+        bool inPlace; ///< blend into `picture` instead of making a new color
+    };
+    struct Outputs
+    {
+        ResourceId color;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+} // namespace fx::render

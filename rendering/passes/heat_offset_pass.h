@@ -1,0 +1,48 @@
+/// @file heat_offset_pass.h
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/passes/view_block.h"
+
+namespace fx::render {
+
+inline constexpr ProgramDesc kHeatOffsetProgram{"heat offset", "passes/heat_shimmer_offset.vert.glsl",
+                                                "passes/heat_shimmer_offset.frag.glsl", nullptr, nullptr};
+
+/// [s] after which the eddies of hot gas repeat.
+inline constexpr double kHeatPeriod = 8.0;
+
+/// Position of `time` [s] in the period, [0, 1): equal at t and t + kHeatPeriod for every t that doubles can
+/// tell apart. A time that is not finite gives 0.
+float heatPhase(double time);
+
+/// Where hot gas bends light: blobs with heat draw by how many pixels they displace what lies far behind
+/// them. Formulas: heat-stream, heat-refraction, kernel-optical-depth for the share that is visible.
+///
+/// reads   blobs     buffer of BlobInstance
+///         distance  [m] along the ray to opaque geometry
+/// writes  heat      RGBA32F, added up: xy displacement [pixel]; z weight [1]; w weight * distance along the
+/// ray [m] Adds nothing, and `heat` is invalid, when no blob is hot or the settings allow no displacement.
+/// Keeps no state: the motion of the eddies follows the time.
+class HeatOffsetPass
+{
+public:
+    struct Inputs
+    {
+        ResourceId blobs;
+        ResourceId distance;
+        uint32_t count; ///< of blobs, hot and cold
+        bool anyHeat;   ///< some blob has heat > 0
+        int width, height;
+        ViewBlock view;
+        ShimmerSettings settings;
+        double time; ///< [s] scene time
+    };
+    struct Outputs
+    {
+        ResourceId heat;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+} // namespace fx::render

@@ -1,0 +1,36 @@
+/// @file overdraw_pass.h
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/passes/view_block.h"
+
+namespace fx::render {
+
+inline constexpr ProgramDesc kOverdrawProgram{"overdraw", "passes/media.vert.glsl",
+                                              "passes/overdraw.frag.glsl", nullptr, "FX_FORM=2"};
+
+/// Counts, for people who tune, how many blobs add something to each pixel.
+///
+/// reads   blobs     buffer of BlobInstance
+///         distance  [m] along the ray to opaque geometry
+/// writes  count     R32F [1] contributing fragments a pixel
+/// Present only when statistics ask for it. Keeps no state.
+class OverdrawPass
+{
+public:
+    struct Inputs
+    {
+        ResourceId blobs;
+        ResourceId distance;
+        uint32_t count;
+        int width, height;
+        ViewBlock view;
+    };
+    struct Outputs
+    {
+        ResourceId count;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+} // namespace fx::render

@@ -1,0 +1,34 @@
+/// @file scene_distance_pass.h
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/passes/view_block.h"
+
+namespace fx::render {
+
+inline constexpr ProgramDesc kSceneDistanceProgram{"scene distance", "passes/fullscreen.vert.glsl",
+                                                   "passes/scene_distance.frag.glsl", nullptr, nullptr};
+
+/// Reads the host's depth once a frame and gives every later pass the same answer to "where does this ray
+/// end".
+///
+/// reads   depth     the host's depth buffer, in its own convention
+/// writes  distance  R32F [m] along each pixel's ray to the opaque surface, +inf where there is none
+/// Without a depth buffer the distance is +inf everywhere. Keeps no state.
+class SceneDistancePass
+{
+public:
+    struct Inputs
+    {
+        ResourceId depth; ///< invalid: nothing occludes
+        int width, height;
+        ViewBlock view;
+    };
+    struct Outputs
+    {
+        ResourceId distance;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+} // namespace fx::render

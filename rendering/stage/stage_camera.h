@@ -1,0 +1,28 @@
+/// @file stage_camera.h
+/// Camera matrices for tools and tests.
+#pragma once
+
+#include "rendering/view/view_types.h"
+
+#include <glm/vec3.hpp>
+
+namespace fx::render {
+
+/// Where a camera stands and looks, in world coordinates.
+struct CameraPose
+{
+    glm::dvec3 position{0.0, 2.0, 10.0}; ///< [m]
+    glm::dvec3 target{0.0};              ///< [m] different from position
+    glm::vec3 up{0.0f, 1.0f, 0.0f}; ///< need not be perpendicular to the view, must not be parallel to it
+};
+
+/// A view whose matrices are relative to the eye, with an infinite far plane.
+/// @param fovY [rad] vertical  @param aspect width / height  @param nearDistance [m] > 0
+CameraView perspectiveView(const CameraPose& pose, float fovY, float aspect, float nearDistance,
+                           DepthConvention depth = DepthConvention::Standard);
+
+/// Parallel projection of `height` [m] from nearDistance to farDistance [m].
+CameraView orthographicView(const CameraPose& pose, float height, float aspect, float nearDistance,
+                            float farDistance);
+
+} // namespace fx::render

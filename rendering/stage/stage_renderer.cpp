@@ -1,0 +1,320 @@
+#include "rendering/stage/stage_renderer.h"
+
+#include "rendering/gl/gl_backend.h"
+#include "rendering/gl/gl_buffer.h"
+#include "rendering/gl/gl_device.h"
+#include "rendering/gl/gl_state_guard.h"
+#include "rendering/gl/gl_texture.h"
+#include "rendering/passes/view_block.h"
+#include "rendering/view/blob_shading.h"
+
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fx::render {
+
+namespace {
+
+constexpr size_t kMostLights = 8;
+constexpr int kShadowSize = 2048; // [pixel]
+
+constexpr ProgramDesc kMeshProgram{"stage mesh", "passes/stage_mesh.vert.glsl", "passes/stage_mesh.frag.glsl",
+                                   nullptr, nullptr};
+constexpr ProgramDesc kShadowProgram{"stage shadow", "passes/stage_shadow.vert.glsl",
+                                     "passes/stage_shadow.frag.glsl", nullptr, nullptr};
+constexpr ProgramDesc kBackgroundProgram{"stage background", "passes/fullscreen.vert.glsl",
+                                         "passes/stage_background.frag.glsl", nullptr, nullptr};
+
+/// Layout of StageBlock in shaders/shared/stage_block.glsl.
+struct StageBlock
+{
+    glm::mat4 clipFromWorld;
+    glm::mat4 shadowFromMesh;
+    glm::vec4 rayDirection, rayDirectionX, rayDirectionY;
+    glm::vec4 sunDirection, sunLight, skyLight;
+    glm::vec4 meshOffset, background, horizon;
+    std::array<glm::vec4, kMostLights> lightPosition;
+    std::array<glm::vec4, kMostLights> lightIntensity;
+};
+static_assert(sizeof(StageBlock) == 128 + 9 * 16 + 2 * 16 * kMostLights);
+
+struct BoundingBall
+{
+    glm::vec3 center{0.0f};
+    float radius = 1.0f;
+};
+
+BoundingBall boundingBall(std::span<const glm::vec3> points)
+{
+    base::Bounds bounds;
+    for (const glm::vec3& p : points)
+        bounds.add(p, 0.0f);
+    if (bounds.empty())
+        return {};
+    return {0.5f * (bounds.min + bounds.max), std::max(0.5f * glm::length(bounds.max - bounds.min), 1e-3f)};
+}
+
+/// Clip space of the sun around a ball.
+glm::mat4 sunClip(const BoundingBall& ball, const glm::vec3& direction)
+{
+    const glm::vec3 up =
+        std::abs(direction.y) > 0.99f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
+    const glm::mat4 view = glm::lookAt(ball.center + direction * (2.0f * ball.radius), ball.center, up);
+    const float r = ball.radius;
+    return glm::orthoRH_NO(-r, r, -r, r, r, 3.0f * r) * view;
+}
+
+} // namespace
+
+struct StageRenderer::Impl
+{
+    explicit Impl(GlDevice* d) : device(d), graph(d->memory()), backend(*d, d->memory()) {}
+
+    base::Status prepareTargets(int width, int height);
+    base::Status prepareShadow();
+    StageBlock makeBlock(const CameraView& camera, const Lighting& lighting,
+                         std::span<const EffectLight> lights, float exposure, int width, int height) const;
+    void addShadowPass(ResourceId meshBuffer, const StageBlock& block);
+    void addPicturePass(ResourceId meshBuffer, const StageBlock& block, DepthConvention depth);
+
+    GlDevice* device;
+    FrameGraph graph;
+    GlBackend backend;
+    GlTexture color, depth, picture, shadow, shadowDepth;
+    GlBuffer mesh;
+    glm::dvec3 meshOrigin{0.0};
+    uint32_t vertices = 0;
+    BoundingBall ball;
+    StageBackground background;
+    glm::vec3 shadowDirection{0.0f}; ///< of the shadow map that exists; zero: none
+    ResourceId shadowMap;            ///< in the graph being built
+};
+
+StageRenderer::StageRenderer(GlDevice* device) : impl_(std::make_unique<Impl>(device)) {}
+StageRenderer::~StageRenderer() = default;
+uint32_t StageRenderer::colorTexture() const
+{
+    return impl_->color.name();
+}
+uint32_t StageRenderer::depthTexture() const
+{
+    return impl_->depth.name();
+}
+
+base::Status StageRenderer::setMesh(const StageMesh& mesh)
+{
+    if (mesh.positions.size() != mesh.normals.size() || mesh.positions.size() != mesh.colors.size())
+        return {base::Code::InvalidArgument, "stage mesh: positions, normals and colors differ in number"};
+    std::vector<float> data;
+    data.reserve(mesh.positions.size() * 9);
+    for (size_t i = 0; i < mesh.positions.size(); ++i)
+        for (const glm::vec3* v : {&mesh.positions[i], &mesh.normals[i], &mesh.colors[i]})
+            data.insert(data.end(), {v->x, v->y, v->z});
+    GlBuffer buffer;
+    if (!data.empty()) {
+        auto created = GlBuffer::create(*impl_->device, data.size() * sizeof(float), "stage mesh");
+        if (!created)
+            return created.status();
+        buffer = std::move(*created);
+        impl_->device->gl.NamedBufferSubData(buffer.name(), 0, GLsizeiptr(buffer.bytes()), data.data());
+    }
+    impl_->mesh = std::move(buffer);
+    impl_->vertices = uint32_t(mesh.positions.size());
+    impl_->meshOrigin = mesh.origin;
+    impl_->ball = boundingBall(mesh.positions);
+    impl_->shadowDirection = glm::vec3(0.0f);
+    return {};
+}
+
+base::Status StageRenderer::setBackground(const StageBackground& background)
+{
+    GlTexture picture;
+    if (!background.image.empty()) {
+        if (background.image.size() != size_t(background.width) * size_t(background.height))
+            return {base::Code::InvalidArgument,
+                    "stage background: the image does not have width x height pixels"};
+        auto created =
+            GlTexture::create(*impl_->device, background.width, background.height, GL_RGB32F, "background");
+        if (!created)
+            return created.status();
+        picture = std::move(*created);
+        for (int row = 0; row < background.height; ++row) // GL counts rows from the bottom
+            impl_->device->gl.TextureSubImage2D(
+                picture.name(), 0, 0, background.height - 1 - row, background.width, 1, GL_RGB, GL_FLOAT,
+                background.image.data() + size_t(row) * size_t(background.width));
+    }
+    impl_->picture = std::move(picture);
+    impl_->background = background;
+    impl_->background.image.clear();
+    return {};
+}
+
+base::Status StageRenderer::Impl::prepareTargets(int width, int height)
+{
+    if (color.width() == width && color.height() == height)
+        return {};
+    auto newColor = GlTexture::create(*device, width, height, GL_RGBA32F, "stage color");
+    if (!newColor)
+        return newColor.status();
+    auto newDepth = GlTexture::create(*device, width, height, GL_DEPTH_COMPONENT32F, "stage depth");
+    if (!newDepth)
+        return newDepth.status();
+    color = std::move(*newColor);
+    depth = std::move(*newDepth);
+    return {};
+}
+
+base::Status StageRenderer::Impl::prepareShadow()
+{
+    if (shadow.name() != 0)
+        return {};
+    auto newShadow = GlTexture::create(*device, kShadowSize, kShadowSize, GL_R32F, "stage shadow");
+    if (!newShadow)
+        return newShadow.status();
+    auto newDepth =
+        GlTexture::create(*device, kShadowSize, kShadowSize, GL_DEPTH_COMPONENT32F, "stage shadow depth");
+    if (!newDepth)
+        return newDepth.status();
+    shadow = std::move(*newShadow);
+    shadowDepth = std::move(*newDepth);
+    return {};
+}
+
+StageBlock StageRenderer::Impl::makeBlock(const CameraView& camera, const Lighting& lighting,
+                                          std::span<const EffectLight> lights, float exposure, int width,
+                                          int height) const
+{
+    const ViewBlock view = makeViewBlock(camera, width, height);
+    StageBlock block{};
+    block.clipFromWorld = camera.projection * camera.view;
+    block.shadowFromMesh = sunClip(ball, lighting.sunDirection);
+    block.rayDirection = {glm::vec3(view.rayDirection), 2.0f * ball.radius / float(kShadowSize)};
+    block.rayDirectionX = view.rayDirectionX;
+    block.rayDirectionY = view.rayDirectionY;
+    block.sunDirection = {lighting.sunDirection, 1.0f / float(kShadowSize)};
+    block.sunLight = {lighting.sunIlluminance * exposure, float(std::min(lights.size(), kMostLights))};
+    block.skyLight = {lighting.skyLuminance * exposure, lighting.groundAlbedo};
+    const float kind = picture.name() == 0 ? 0.0f : (background.panorama ? 2.0f : 1.0f);
+    block.meshOffset = {glm::vec3(meshOrigin - camera.origin), kind};
+    block.background = {background.luminance * exposure, exposure};
+    block.horizon = {background.horizon * exposure, 0.0f};
+    for (size_t i = 0; i < std::min(lights.size(), kMostLights); ++i) {
+        block.lightPosition[i] = {glm::vec3(lights[i].position - camera.origin), lights[i].radius};
+        block.lightIntensity[i] = {lights[i].intensity * exposure, 0.0f};
+    }
+    return block;
+}
+
+void StageRenderer::Impl::addShadowPass(ResourceId meshBuffer, const StageBlock& block)
+{
+    const ResourceId depthTarget = graph.importTexture(
+        {"stage shadow depth", kShadowSize, kShadowSize, Format::R32F}, shadowDepth.name());
+    const float farthest = 1.0f;
+    device->gl.ClearTexImage(shadowDepth.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &farthest);
+    graph.addPass("stage shadow", [&](FrameGraph::Builder& builder) {
+        builder.read(meshBuffer);
+        shadowMap = builder.write(shadowMap);
+        const ResourceId depthVersion = builder.write(depthTarget);
+        return [meshBuffer, uniforms = &block, target = shadowMap, depthVersion,
+                count = vertices](Backend& gpu) {
+            gpu.clear(target, {1.0f, 1.0f, 1.0f, 1.0f});
+            const BufferBinding buffers[] = {{0, meshBuffer}};
+            DrawCall call;
+            call.program = &kShadowProgram;
+            call.targets = {&target, 1};
+            call.buffers = buffers;
+            call.uniforms = asUniforms(*uniforms);
+            call.vertices = count;
+            call.depthTarget = depthVersion;
+            gpu.draw(call);
+        };
+    });
+}
+
+void StageRenderer::Impl::addPicturePass(ResourceId meshBuffer, const StageBlock& block,
+                                         DepthConvention convention)
+{
+    const int width = color.width();
+    const int height = color.height();
+    ResourceId colorTarget =
+        graph.importTexture({"stage color", width, height, Format::RGBA32F}, color.name());
+    ResourceId depthTarget = graph.importTexture({"stage depth", width, height, Format::R32F}, depth.name());
+    ResourceId sky;
+    if (picture.name() != 0)
+        sky = graph.importTexture({"background", picture.width(), picture.height(), Format::RGBA32F},
+                                  picture.name());
+    const bool reversed = convention == DepthConvention::Reversed;
+    const float farthest = reversed ? 0.0f : 1.0f;
+    device->gl.ClearTexImage(depth.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &farthest);
+
+    graph.addPass("opaque scene", [&](FrameGraph::Builder& builder) {
+        if (sky.valid())
+            builder.read(sky);
+        if (vertices > 0) {
+            builder.read(meshBuffer);
+            builder.read(shadowMap);
+        }
+        colorTarget = builder.write(colorTarget);
+        depthTarget = builder.write(depthTarget);
+        return [=, uniforms = &block, shadowTexture = shadowMap, count = vertices](Backend& gpu) {
+            const TextureBinding skyBinding[] = {{0, sky, Sampling::Linear}};
+            DrawCall call;
+            call.program = &kBackgroundProgram;
+            call.targets = {&colorTarget, 1};
+            call.textures = {skyBinding, sky.valid() ? size_t(1) : size_t(0)};
+            call.uniforms = asUniforms(*uniforms);
+            gpu.draw(call);
+            if (count == 0)
+                return;
+            const TextureBinding shadowBinding[] = {{0, shadowTexture}};
+            const BufferBinding buffers[] = {{0, meshBuffer}};
+            call.program = &kMeshProgram;
+            call.textures = shadowBinding;
+            call.buffers = buffers;
+            call.vertices = count;
+            call.depthTarget = depthTarget;
+            call.reversedDepth = reversed;
+            gpu.draw(call);
+        };
+    });
+    graph.keep(colorTarget);
+    graph.keep(depthTarget);
+}
+
+base::Status StageRenderer::render(const CameraView& camera, const Lighting& lighting,
+                                   std::span<const EffectLight> lights, float exposureEv100, int width,
+                                   int height)
+{
+    Impl& s = *impl_;
+    if (base::Status status = s.prepareTargets(width, height); !status)
+        return status;
+    if (base::Status status = s.prepareShadow(); !status)
+        return status;
+    const StageBlock block =
+        s.makeBlock(camera, lighting, lights, exposureFromEv100(exposureEv100), width, height);
+
+    s.graph.begin();
+    ResourceId meshBuffer;
+    if (s.vertices > 0) {
+        meshBuffer = s.graph.importBuffer({"stage mesh", s.mesh.bytes()}, s.mesh.name());
+        s.shadowMap =
+            s.graph.importTexture({"stage shadow", kShadowSize, kShadowSize, Format::R32F}, s.shadow.name());
+        if (s.shadowDirection != lighting.sunDirection)
+            s.addShadowPass(meshBuffer, block);
+        s.shadowDirection = lighting.sunDirection;
+    }
+    s.addPicturePass(meshBuffer, block, camera.depth);
+    s.graph.compile();
+
+    GlStateGuard guard(*s.device);
+    if (s.backend.beginFrame(s.graph))
+        s.graph.execute(s.backend);
+    return s.backend.endFrame();
+}
+
+} // namespace fx::render

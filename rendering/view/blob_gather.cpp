@@ -1,0 +1,253 @@
+#include "rendering/view/blob_gather.h"
+
+#include "foundation/math/bits.h"
+#include "foundation/snapshot/blob_kind.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fx::render {
+
+namespace {
+
+namespace column = base::blob_column;
+namespace constant = base::blob_constant;
+
+constexpr float kLeastPixels =
+    1.15f; ///< [pixel] radius of the smallest blob: the pixels then sum its light within 6 %
+constexpr int kMostStreakBlobs = 10;
+
+/// Half-spaces of the view in camera axes, for balls.
+class ViewVolume
+{
+public:
+    ViewVolume(const CameraGeometry& camera) : camera_(camera) {}
+
+    bool touches(const glm::vec3& center, float radius) const
+    {
+        const glm::vec3 c(glm::dot(center, camera_.right), glm::dot(center, camera_.up),
+                          glm::dot(center, camera_.forward));
+        if (c.z + radius < camera_.nearDistance)
+            return false;
+        for (int axis = 0; axis < 2; ++axis)
+            for (const float side : {-1.0f, 1.0f}) {
+                const float slope = (side - camera_.clipOffset[axis]) / camera_.clipScale[axis];
+                const float outside = camera_.orthographic
+                                          ? side * (c[axis] - slope)
+                                          : side * (c[axis] - slope * c.z) / std::sqrt(1.0f + slope * slope);
+                if (outside > radius)
+                    return false;
+            }
+        return true;
+    }
+
+private:
+    const CameraGeometry& camera_;
+};
+
+float mix(float a, float b, float t)
+{
+    return a + (b - a) * t;
+}
+
+/// Reads one element of a group, blended with the same element of the older group.
+class ElementReader
+{
+public:
+    ElementReader(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
+                  float stepSeconds)
+        : newer_(newer), older_(older), t_(t), stepSeconds_(stepSeconds)
+    {}
+
+    /// Selects element i; elements must be selected in rising order. False: it is not yet born at this
+    /// moment.
+    bool select(size_t i)
+    {
+        i_ = i;
+        hasOld_ = false;
+        const uint64_t id = newer_.ids()[i];
+        if (older_) {
+            const auto ids = older_->ids();
+            while (j_ < ids.size() && ids[j_] < id)
+                ++j_;
+            hasOld_ = j_ < ids.size() && ids[j_] == id;
+        }
+        return hasOld_ || !older_ || newer_.column(column::Age)[i] >= (1.0f - t_) * stepSeconds_;
+    }
+
+    float value(size_t c) const
+    {
+        const float now = newer_.column(c)[i_];
+        return hasOld_ ? mix(older_->column(c)[j_], now, t_) : now;
+    }
+    glm::vec3 vector(size_t c) const { return {value(c), value(c + 1), value(c + 2)}; }
+    glm::vec3 position() const
+    {
+        const glm::vec3 p = vector(column::PositionX);
+        return hasOld_ || !older_ ? p : p - vector(column::VelocityX) * ((1.0f - t_) * stepSeconds_);
+    }
+    uint64_t id() const { return newer_.ids()[i_]; }
+
+private:
+    const base::SnapshotGroup& newer_;
+    const base::SnapshotGroup* older_;
+    float t_;
+    float stepSeconds_;
+    size_t i_ = 0;
+    size_t j_ = 0;
+    bool hasOld_ = false;
+};
+
+const base::SnapshotGroup* findSame(const base::FrameSnapshot* older, const base::GroupInfo& info,
+                                    size_t hint)
+{
+    if (!older)
+        return nullptr;
+    const auto same = [&](const base::SnapshotGroup& g) {
+        return g.info().instance == info.instance && g.info().solver == info.solver &&
+               g.info().kind == info.kind;
+    };
+    if (hint < older->groupCount() && same(older->group(hint)))
+        return &older->group(hint);
+    for (size_t g = 0; g < older->groupCount(); ++g)
+        if (same(older->group(g)))
+            return &older->group(g);
+    return nullptr;
+}
+
+/// Where a group stands at the moment of the frame, relative to the eye.
+base::Placement placementAt(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
+                            const glm::dvec3& eye)
+{
+    base::Placement p = newer.info().placement;
+    if (older) {
+        const base::Placement& o = older->info().placement;
+        p.position = o.position + (p.position - o.position) * double(t);
+        p.rotation = glm::slerp(o.rotation, p.rotation, t);
+        p.scale = mix(o.scale, p.scale, t);
+    }
+    p.position -= eye;
+    return p;
+}
+
+float seedOf(uint64_t id)
+{
+    const uint64_t x = (id ^ (id >> 29)) * 0xBF58476D1CE4E5B9u;
+    return float(x >> 40) * 0x1.0p-24f;
+}
+
+bool finite(const GatheredBlob& b, const glm::vec3& velocity)
+{
+    const float values[] = {b.center.x, b.center.y, b.center.z, b.radius,     b.crossSection, b.temperature,
+                            b.albedo.x, b.albedo.y, b.albedo.z, b.emission.x, b.emission.y,   b.emission.z,
+                            b.heat,     velocity.x, velocity.y, velocity.z};
+    return base::allFinite(values, int(std::size(values)));
+}
+
+/// Collects one group.
+class GroupGather
+{
+public:
+    GroupGather(const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& visible,
+                std::pmr::vector<GridBlob>& medium, GatherCounts& counts)
+        : camera_(camera), volume_(camera), pixelsPerSlope_(0.5f * float(height) * camera.clipScale.y),
+          visible_(visible), medium_(medium), counts_(counts)
+    {}
+
+    void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds)
+    {
+        const base::Placement place = placementAt(newer, older, t, camera_.eye);
+        const std::span<const float> constants = newer.constants();
+        ElementReader reader(newer, older, t, stepSeconds);
+        for (size_t i = 0; i < newer.count(); ++i) {
+            if (!reader.select(i))
+                continue;
+            GatheredBlob blob = read(reader, constants);
+            blob.center = glm::vec3(place.position) + place.rotation * (reader.position() * place.scale);
+            blob.radius *= place.scale;
+            blob.crossSection *= place.scale * place.scale;
+            const glm::vec3 velocity = place.rotation * (reader.vector(column::VelocityX) * place.scale);
+            if (!finite(blob, velocity)) {
+                ++counts_.nonFinite;
+                continue;
+            }
+            if (!(blob.crossSection > 0.0f && blob.radius > 0.0f))
+                continue;
+            medium_.push_back({blob.center, blob.radius, blob.crossSection});
+            add(blob, velocity * constants[constant::Shutter]);
+        }
+    }
+
+private:
+    static GatheredBlob read(const ElementReader& reader, std::span<const float> constants)
+    {
+        GatheredBlob blob;
+        blob.radius = reader.value(column::Radius);
+        blob.crossSection = reader.value(column::CrossSection);
+        blob.temperature = reader.value(column::Temperature);
+        blob.albedo = reader.vector(column::AlbedoR);
+        blob.emission = reader.vector(column::EmissionR);
+        blob.fireShare = glm::clamp(reader.value(column::FireShare), 0.0f, 1.0f);
+        blob.heat = reader.value(column::Heat);
+        blob.seed = seedOf(reader.id());
+        blob.detailAmount = constants[constant::DetailAmount];
+        blob.detailScale = constants[constant::DetailScale];
+        blob.anisotropy = constants[constant::Anisotropy];
+        blob.layer = uint32_t(constants[constant::Layer]);
+        return blob;
+    }
+
+    void add(GatheredBlob blob, const glm::vec3& streak)
+    {
+        const float depth = camera_.orthographic ? 1.0f : glm::length(blob.center);
+        const float leastRadius = kLeastPixels * depth / pixelsPerSlope_;
+        blob.radius = std::max(blob.radius, leastRadius);
+        const float length = glm::length(streak);
+        const int pieces = std::clamp(int(length / blob.radius), 0, kMostStreakBlobs - 1) + 1;
+        blob.crossSection /= float(pieces);
+        const glm::vec3 head = blob.center;
+        for (int k = 0; k < pieces; ++k) {
+            blob.center = head - streak * (float(k) / float(pieces));
+            if (volume_.touches(blob.center, blob.radius))
+                visible_.push_back(blob);
+            else
+                ++counts_.culled;
+        }
+    }
+
+    const CameraGeometry& camera_;
+    ViewVolume volume_;
+    float pixelsPerSlope_;
+    std::pmr::vector<GatheredBlob>& visible_;
+    std::pmr::vector<GridBlob>& medium_;
+    GatherCounts& counts_;
+};
+
+} // namespace
+
+GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
+                         const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
+                         std::pmr::vector<GridBlob>& outMedium)
+{
+    GatherCounts counts;
+    if (!snapshots.newer)
+        return counts;
+    const base::FrameSnapshot& newer = *snapshots.newer;
+    const base::KindId kind = newer.schema().find(base::kBlobKind.name);
+    const float t = float(glm::clamp(interpolation, 0.0, 1.0));
+    const float stepSeconds =
+        snapshots.older ? float(base::toSeconds(newer.tick() - snapshots.older->tick())) : 0.0f;
+    GroupGather gather(camera, height, outVisible, outMedium, counts);
+    for (size_t g = 0; g < newer.groupCount(); ++g) {
+        const base::SnapshotGroup& group = newer.group(g);
+        if (group.info().kind == kind)
+            gather.run(group, findSame(snapshots.older, group.info(), g), t, stepSeconds);
+    }
+    return counts;
+}
+
+} // namespace fx::render

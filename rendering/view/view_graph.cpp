@@ -1,0 +1,191 @@
+#include "rendering/view/view_graph.h"
+
+#include "rendering/passes/composite_pass.h"
+#include "rendering/passes/dazzle_pass.h"
+#include "rendering/passes/heat_offset_pass.h"
+#include "rendering/passes/heat_shimmer_pass.h"
+#include "rendering/passes/layer_resolve_pass.h"
+#include "rendering/passes/media_pass.h"
+#include "rendering/passes/overdraw_pass.h"
+#include "rendering/passes/present_pass.h"
+#include "rendering/passes/scene_distance_pass.h"
+#include "rendering/passes/tone_map_pass.h"
+
+#include <bit>
+
+namespace fx::render {
+
+namespace {
+
+/// Builds one frame; members are what the passes so far have produced.
+class ViewGraph
+{
+public:
+    ViewGraph(FrameGraph& graph, const ViewGraphInputs& in)
+        : graph_(graph), in_(in), request_(*in.request), settings_(*in.settings),
+          width_(request_.targets.width), height_(request_.targets.height),
+          view_(makeViewBlock(request_.camera, width_, height_))
+    {
+        view_.forward.w = settings_.detail ? 1.0f : 0.0f;
+        view_.sunDirection = {settings_.lighting.sunDirection, view_.sunDirection.w};
+    }
+
+    ViewGraphOutputs build()
+    {
+        importTargets();
+        const bool media = !in_.blobs.empty();
+        if (media)
+            addMedia();
+        if (!readable_)
+        { // a framebuffer alone can be drawn to but not read: media go on top, nothing else is possible
+            if (media)
+                addComposite(target_, true);
+            finish(target_);
+            return out_;
+        }
+        const bool shimmer = media && in_.anyHeat && settings_.shimmer.strength > 0.0f;
+        const bool more = shimmer || settings_.dazzle.enabled || settings_.toneMap || separateTarget_;
+        if (media)
+            addComposite(picture_, !more);
+        if (shimmer)
+            addShimmer();
+        if (settings_.dazzle.enabled)
+            addDazzle();
+        if (settings_.toneMap)
+            addToneMap();
+        if (more && out_.anyPass) {
+            target_ = PresentPass::addTo(graph_, {picture_, target_}).target;
+            finish(target_);
+        } else {
+            finish(picture_);
+        }
+        return out_;
+    }
+
+private:
+    void importTargets()
+    {
+        const HostTargets& host = request_.targets;
+        readable_ = host.color != 0;
+        separateTarget_ = host.useFramebuffer;
+        if (readable_)
+            picture_ = graph_.importTexture({"host color", width_, height_, Format::RGBA32F}, host.color);
+        target_ = separateTarget_
+                      ? graph_.importFramebuffer({"host framebuffer", width_, height_, Format::RGBA32F},
+                                                 host.framebuffer)
+                      : picture_;
+        out_.anyPass = separateTarget_ && readable_; // then the picture has at least to be carried over
+    }
+
+    void addMedia()
+    {
+        out_.anyPass = true;
+        ResourceId depth;
+        if (request_.targets.depth != 0)
+            depth =
+                graph_.importTexture({"host depth", width_, height_, Format::R32F}, request_.targets.depth);
+        distance_ = SceneDistancePass::addTo(graph_, {depth, width_, height_, view_}).distance;
+        uploadBlobs();
+        const auto drawn = MediaPass::addTo(
+            graph_, {blobs_, distance_, uint32_t(in_.blobs.size()), width_, height_, view_, settings_.form,
+                     settings_.detail && in_.anyDetail, settings_.layerOutputs});
+        media_ = drawn.media;
+        if (settings_.layerOutputs) {
+            const auto layers = LayerResolvePass::addTo(graph_, {drawn.layers, width_, height_});
+            media_ = layers.media;
+            out_.fire = layers.fire;
+            out_.smoke = layers.smoke;
+            out_.dust = layers.dust;
+            out_.media = layers.media;
+            out_.depth = layers.depth;
+            out_.opticalDepth = drawn.layers[MediaPass::OpticalDepth];
+            for (const ResourceId kept :
+                 {out_.fire, out_.smoke, out_.dust, out_.media, out_.depth, out_.opticalDepth})
+                graph_.keep(kept);
+        }
+        if (settings_.countOverdraw) {
+            out_.overdraw = OverdrawPass::addTo(graph_, {blobs_, distance_, uint32_t(in_.blobs.size()),
+                                                         width_, height_, view_})
+                                .count;
+            graph_.keep(out_.overdraw);
+        }
+    }
+
+    void uploadBlobs()
+    {
+        const size_t capacity =
+            std::bit_ceil(in_.blobs.size_bytes()); // few sizes, so that the pool can reuse them
+        graph_.addPass("blob upload", [&](FrameGraph::Builder& builder) {
+            blobs_ = builder.write(builder.create(BufferDesc{"blobs", capacity}));
+            return [buffer = blobs_, blobs = in_.blobs](Backend& backend) {
+                backend.upload(buffer, std::as_bytes(blobs));
+            };
+        });
+    }
+
+    void addComposite(ResourceId behind, bool inPlace)
+    {
+        const ResourceId color =
+            CompositePass::addTo(graph_, {media_, behind, width_, height_, inPlace}).color;
+        if (inPlace)
+            target_ = color;
+        picture_ = color;
+    }
+
+    void addShimmer()
+    {
+        const ResourceId heat =
+            HeatOffsetPass::addTo(graph_, {blobs_, distance_, uint32_t(in_.blobs.size()), in_.anyHeat, width_,
+                                           height_, view_, settings_.shimmer, request_.time})
+                .heat;
+        picture_ =
+            HeatShimmerPass::addTo(graph_, {picture_, distance_, heat, width_, height_, settings_.shimmer})
+                .color;
+    }
+
+    void addDazzle()
+    {
+        const ResourceId history =
+            graph_.importBuffer({"dazzle history", sizeof(DazzleHistory)}, in_.dazzleHistory);
+        const auto dazzled = DazzlePass::addTo(graph_, {picture_, history, width_, height_, settings_.dazzle,
+                                                        request_.deltaTime, request_.resetHistory});
+        picture_ = dazzled.color;
+        graph_.keep(dazzled.history);
+        out_.anyPass = true;
+    }
+
+    void addToneMap()
+    {
+        picture_ =
+            ToneMapPass::addTo(graph_, {picture_, width_, height_, settings_.dazzle.white, Format::RGBA32F})
+                .color;
+        out_.anyPass = true;
+    }
+
+    void finish(ResourceId result) { graph_.keep(result); }
+
+    FrameGraph& graph_;
+    const ViewGraphInputs& in_;
+    const FrameRequest& request_;
+    const ViewSettings& settings_;
+    int width_;
+    int height_;
+    ViewBlock view_;
+    bool readable_ = false;
+    bool separateTarget_ = false;
+    ResourceId picture_; ///< the frame so far
+    ResourceId target_;  ///< where the result goes
+    ResourceId distance_;
+    ResourceId blobs_;
+    ResourceId media_;
+    ViewGraphOutputs out_;
+};
+
+} // namespace
+
+ViewGraphOutputs buildViewGraph(FrameGraph& graph, const ViewGraphInputs& in)
+{
+    return ViewGraph(graph, in).build();
+}
+
+} // namespace fx::render

@@ -1,0 +1,35 @@
+/// @file view_graph.h
+/// Declares the passes of one frame of a view: which exist, in what order, and what they hand to each other.
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/passes/blob_instance.h"
+#include "rendering/view/view_types.h"
+
+#include <span>
+
+namespace fx::render {
+
+/// What a frame's passes are made from.
+struct ViewGraphInputs
+{
+    const FrameRequest* request;
+    const ViewSettings* settings;
+    std::span<const BlobInstance> blobs; ///< must stay until the graph has executed
+    bool anyHeat;
+    bool anyDetail;
+    uint32_t dazzleHistory; ///< GL buffer of sizeof(DazzleHistory); 0 when dazzle is off
+};
+
+/// Resources that exist after the frame besides the host's picture; invalid where they were not asked for.
+struct ViewGraphOutputs
+{
+    ResourceId fire, smoke, dust, media, depth, opticalDepth, overdraw;
+    bool anyPass = false; ///< false: the host's picture is already what it should be
+};
+
+/// Fills `graph`, which has begun. Passes that nothing calls for are not added: without blobs no media
+/// passes, without heat no shimmer, and so on.
+ViewGraphOutputs buildViewGraph(FrameGraph& graph, const ViewGraphInputs& in);
+
+} // namespace fx::render

@@ -1,0 +1,157 @@
+#include "rendering/view/view_renderer.h"
+
+#include "foundation/math/bits.h"
+#include "rendering/gl/gl_backend.h"
+#include "rendering/gl/gl_buffer.h"
+#include "rendering/gl/gl_device.h"
+#include "rendering/gl/gl_read_texture.h"
+#include "rendering/gl/gl_state_guard.h"
+#include "rendering/passes/dazzle_pass.h"
+#include "rendering/passes/programs.h"
+#include "rendering/passes/view_block.h"
+#include "rendering/view/frame_builder.h"
+#include "rendering/view/view_graph.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <string>
+
+namespace fx::render {
+
+struct ViewRenderer::Impl
+{
+    Impl(GlDevice* d, std::pmr::memory_resource* memory)
+        : device(d), graph(memory), backend(*d, memory), builder(memory)
+    {}
+
+    base::Status ensureHistory();
+    void countOverdraw(int width, int height, FrameStatistics& statistics);
+
+    GlDevice* device;
+    FrameGraph graph;
+    GlBackend backend;
+    FrameBuilder builder;
+    GlBuffer dazzleHistory;
+    bool historyFresh = false; ///< nothing has been adapted to yet
+    ViewGraphOutputs outputs;
+};
+
+namespace {
+
+base::Status invalid(std::string message)
+{
+    return {base::Code::InvalidArgument, std::move(message)};
+}
+
+base::Status checkRequest(const FrameRequest& request)
+{
+    const HostTargets& targets = request.targets;
+    if (targets.width <= 0 || targets.height <= 0)
+        return invalid("frame: width and height must be positive");
+    if (targets.color == 0 && !targets.useFramebuffer)
+        return invalid("frame: neither a color texture nor a framebuffer is given");
+    const CameraView& camera = request.camera;
+    if (!base::allFinite(glm::value_ptr(camera.view), 16) ||
+        !base::allFinite(glm::value_ptr(camera.projection), 16) ||
+        !base::allFinite(glm::value_ptr(camera.origin), 3))
+        return invalid("frame: view, projection or origin is not finite");
+    if (camera.projection[0][0] == 0.0f || camera.projection[1][1] == 0.0f)
+        return invalid("frame: the projection has no extent (its first or second diagonal element is 0)");
+    return {};
+}
+
+} // namespace
+
+base::Status ViewRenderer::Impl::ensureHistory()
+{
+    if (dazzleHistory.name() != 0)
+        return {};
+    auto created = GlBuffer::create(*device, sizeof(DazzleHistory), "dazzle history");
+    if (!created)
+        return created.status();
+    dazzleHistory = std::move(*created);
+    historyFresh = true;
+    return {};
+}
+
+void ViewRenderer::Impl::countOverdraw(int width, int height, FrameStatistics& statistics)
+{
+    if (!outputs.overdraw.valid())
+        return;
+    for (const float count : readTexture(*device, backend.textureName(outputs.overdraw), width, height, 1)) {
+        statistics.coveredPixels += count > 0.0f ? 1 : 0;
+        statistics.shadedFragments += uint64_t(count);
+    }
+}
+
+ViewRenderer::ViewRenderer(GlDevice* device, const base::SnapshotSchema*, std::pmr::memory_resource* memory)
+    : impl_(std::make_unique<Impl>(device, memory))
+{}
+
+ViewRenderer::~ViewRenderer() = default;
+
+base::Status ViewRenderer::warmUp()
+{
+    for (const ProgramDesc* program : allPrograms())
+        if (base::Status status = impl_->device->compile(*program); !status)
+            return status;
+    return impl_->ensureHistory();
+}
+
+base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const FrameRequest& asked)
+{
+    Impl& s = *impl_;
+    if (base::Status status = checkRequest(asked); !status)
+        return status;
+    if (base::Status status = checkSensorLaw(settings_.dazzle); !status)
+        return status;
+    const uint64_t callsBefore = s.device->callCount();
+    const uint32_t compiledBefore = s.device->programsCompiled();
+    if (base::Status status = settings_.dazzle.enabled ? s.ensureHistory() : base::Status(); !status)
+        return status;
+    FrameRequest request = asked;
+    request.resetHistory = asked.resetHistory || s.historyFresh;
+
+    s.builder.build(snapshots, request, settings_, cameraGeometry(request.camera));
+    s.graph.begin();
+    s.outputs = buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.builder.anyHeat(),
+                                         s.builder.anyDetail(), s.dazzleHistory.name()});
+    base::Status status;
+    if (s.outputs.anyPass) {
+        s.graph.compile();
+        GlStateGuard guard(*s.device, settings_.saveState);
+        if (s.backend.beginFrame(s.graph))
+            s.graph.execute(s.backend);
+        status = s.backend.endFrame();
+        if (status && settings_.dazzle.enabled)
+            s.historyFresh = false;
+    }
+
+    statistics_ = {};
+    statistics_.blobs = uint32_t(s.builder.blobs().size());
+    statistics_.blobsCulled = s.builder.counts().culled;
+    statistics_.blobsNonFinite = s.builder.counts().nonFinite;
+    statistics_.passes = s.outputs.anyPass ? uint32_t(s.graph.executedPasses().size()) : 0;
+    statistics_.glCalls = s.device->callCount() - callsBefore;
+    statistics_.drawCalls = s.outputs.anyPass ? s.backend.drawCalls() : 0;
+    statistics_.programsCompiled = s.device->programsCompiled() - compiledBefore;
+    statistics_.textureBytes = s.backend.pooledBytes();
+    if (status && settings_.countOverdraw)
+        s.countOverdraw(request.targets.width, request.targets.height, statistics_);
+    return status;
+}
+
+LayerTextures ViewRenderer::layers() const
+{
+    const Impl& s = *impl_;
+    const auto name = [&](ResourceId id) { return id.valid() ? s.backend.textureName(id) : 0; };
+    const ViewGraphOutputs& o = s.outputs;
+    return {name(o.fire), name(o.smoke), name(o.dust), name(o.depth), name(o.opticalDepth), name(o.media)};
+}
+
+std::span<const std::string_view> ViewRenderer::executedPasses() const
+{
+    return impl_->outputs.anyPass ? impl_->graph.executedPasses() : std::span<const std::string_view>();
+}
+
+} // namespace fx::render

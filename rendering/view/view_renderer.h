@@ -1,0 +1,64 @@
+/// @file view_renderer.h
+/// Draws snapshots into a host's image. One object a view: it owns the targets and the history of that view.
+///
+/// Threads: [GL thread], the thread on which the GL context is current.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/view/view_types.h"
+
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace fx::render {
+
+class GlDevice; ///< rendering/gl: function table, programs, counters of one GL context
+
+/// Textures that stay valid until the next render() of the view; 0 when not asked for.
+struct LayerTextures
+{
+    uint32_t fire =
+        0; ///< RGBA32F radiance that reaches the eye from the fire layer, premultiplied; A its visible share
+    uint32_t smoke = 0; ///< same for smoke
+    uint32_t dust = 0;  ///< same for dust
+    uint32_t depth = 0; ///< R32F [m] transmittance-weighted distance of the media; +inf where there is none
+    uint32_t opticalDepth = 0; ///< R32F [1]
+    uint32_t media = 0;        ///< RGBA32F sum of the layers
+};
+
+class ViewRenderer
+{
+public:
+    ViewRenderer(GlDevice* device, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory);
+    ~ViewRenderer();
+    ViewRenderer(const ViewRenderer&) = delete;
+    ViewRenderer& operator=(const ViewRenderer&) = delete;
+
+    ViewSettings& settings() { return settings_; }
+    const ViewSettings& settings() const { return settings_; }
+
+    /// Compiles every program that render() can need. After this no frame compiles.
+    base::Status warmUp();
+
+    /// Draws `snapshots` over the host's picture. On failure the picture is what the host left, and GL is as
+    /// it was.
+    base::Status render(const base::SnapshotPair& snapshots, const FrameRequest& request);
+
+    const FrameStatistics& statistics() const { return statistics_; }
+    LayerTextures layers() const;
+    /// Names of the passes that the last frame executed, in order.
+    std::span<const std::string_view> executedPasses() const;
+
+private:
+    struct Impl;
+    ViewSettings settings_;
+    FrameStatistics statistics_;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace fx::render

@@ -1,0 +1,124 @@
+/// @file view_types.h
+/// What a host tells the renderer about one frame of one view, in the renderer's terms.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <limits>
+
+namespace fx::render {
+
+/// How depth-buffer values relate to distance. Read from the host, never changed.
+enum class DepthConvention : uint8_t
+{
+    Standard, ///< near maps to the smaller value
+    Reversed, ///< near maps to 1, the far plane or infinity to 0
+};
+
+/// Camera of one frame. The matrices are relative to `origin`, so that floats stay exact far from the world's
+/// center.
+struct CameraView
+{
+    glm::dvec3 origin{0.0};     ///< [m] world position that the matrices are relative to
+    glm::mat4 view{1.0f};       ///< rigid; right-handed, looks along -Z
+    glm::mat4 projection{1.0f}; ///< perspective or orthographic, infinite far plane allowed
+    DepthConvention depth = DepthConvention::Standard;
+    bool zeroToOne = false; ///< clip space z in [0, w] (glClipControl GL_ZERO_TO_ONE) instead of [-w, w]
+    bool upperLeftOrigin = false; ///< glClipControl GL_UPPER_LEFT
+};
+
+/// How a blob's optical depth is computed along the ray.
+enum class BillboardForm : uint8_t
+{
+    Planar,   ///< flat card, opacity from the distance to the center only; the classical particle
+    Constant, ///< homogeneous ball of the same total extinction; [USS06]
+    Kernel,   ///< the gas's own quartic kernel, exact clipped integral
+};
+
+/// One directional light, and light from everywhere.
+struct Lighting
+{
+    glm::vec3 sunDirection{0.3f, 0.8f, 0.5f}; ///< towards the light, unit
+    glm::vec3 sunIlluminance{0.0f}; ///< [lx] perpendicular to the direction, linear Rec. 709 weighted
+    glm::vec3 skyLuminance{0.0f};   ///< [cd/m2] from all directions
+    float groundAlbedo = 0.2f;      ///< [1] of the ground's reflected light from below
+};
+
+/// Heat shimmer.
+struct ShimmerSettings
+{
+    float strength = 1.0f;   ///< [1] scales every offset; 0 leaves the picture as it is, bit for bit
+    float maxOffset = 12.0f; ///< [pixel] at a height of 720 pixels
+};
+
+/// Glare by overflow redistribution, [UBT96].
+struct DazzleSettings
+{
+    bool enabled = true;
+    float white = 8.0f; ///< [1] exposed value at which the sensor saturates, > 0
+    float a = 1.0f; ///< sensor law f(over) = over (A + B exp(-C over)), over in units of `white` per pixel
+    float b = 0.0f;
+    float c = 1.0f;         ///< >= 0
+    float riseTime = 0.05f; ///< [s] time constant when glare grows; 0 is immediate
+    float fallTime = 0.4f;  ///< [s] when it fades
+};
+
+/// Everything that stays the same from frame to frame until the host changes it.
+struct ViewSettings
+{
+    float exposureEv100 = 13.0f; ///< [EV100]
+    Lighting lighting;
+    ShimmerSettings shimmer;
+    DazzleSettings dazzle;
+    BillboardForm form = BillboardForm::Kernel;
+    bool saveState =
+        true; ///< restore every GL state that is touched; false: the published list differs afterwards
+    bool detail = true;         ///< procedural detail of blobs
+    bool toneMap = false;       ///< write display-referred values
+    bool layerOutputs = false;  ///< keep fire, smoke, dust, depth and optical depth as textures of their own
+    bool countOverdraw = false; ///< count contributing fragments (statistics, costs a pass)
+};
+
+/// GL names of the host's targets for one frame; 0 means absent.
+struct HostTargets
+{
+    uint32_t color =
+        0; ///< 2-D texture, already holding the opaque picture [cd/m2 times exposure]; read and written
+    uint32_t depth = 0; ///< 2-D depth texture of the opaque picture; 0: nothing occludes
+    uint32_t framebuffer =
+        0; ///< used instead of `color` when that is 0: its color attachment is blended into
+    bool useFramebuffer = false; ///< true: draw into `framebuffer` (0 is the window) instead of `color`
+    int width = 0;               ///< [pixel]
+    int height = 0;              ///< [pixel]
+};
+
+/// One frame.
+struct FrameRequest
+{
+    CameraView camera;
+    HostTargets targets;
+    double deltaTime = 0.0;     ///< [s] since this view's last frame, for adaptation only
+    double interpolation = 1.0; ///< [0, 1] between the older and the newer snapshot
+    double time = 0.0;          ///< [s] scene time, drives moving noise
+    bool resetHistory = false;  ///< camera cut: adaptation starts from this frame
+};
+
+/// Counters of one rendered frame; exact counts except for the times.
+struct FrameStatistics
+{
+    uint32_t blobs = 0;          ///< drawn after culling
+    uint32_t blobsCulled = 0;    ///< outside the view
+    uint32_t blobsNonFinite = 0; ///< dropped because a value was not finite
+    uint32_t passes = 0;         ///< executed
+    uint64_t glCalls = 0;
+    uint32_t drawCalls = 0;
+    uint32_t programsCompiled = 0;  ///< during this frame; 0 after warm-up
+    uint64_t textureBytes = 0;      ///< [byte] held by the view
+    uint64_t coveredPixels = 0;     ///< with countOverdraw
+    uint64_t shadedFragments = 0;   ///< with countOverdraw
+    double overflow[3] = {0, 0, 0}; ///< dazzle: mean overflow per pixel, units of white
+};
+
+} // namespace fx::render

@@ -1,0 +1,49 @@
+#include "foundation/random/philox.h"
+#include "rendering/view/depth_sort.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+using fx::render::DepthSort;
+
+TEST(DepthSort, putsTheFarthestFirstWithNegativesLast)
+{
+    DepthSort sort(std::pmr::get_default_resource());
+    const std::array<float, 5> distances{3.0f, -1.0f, 7.5f, 0.0f, -2.0f};
+    const auto order = sort.farthestFirst(distances);
+    EXPECT_EQ(std::vector<uint32_t>(order.begin(), order.end()), (std::vector<uint32_t>{2, 0, 3, 1, 4}));
+}
+
+TEST(DepthSort, keepsTheOrderOfEqualDistances)
+{
+    DepthSort sort(std::pmr::get_default_resource());
+    const std::vector<float> distances(1000, 4.25f);
+    const auto order = sort.farthestFirst(distances);
+    EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+}
+
+TEST(DepthSort, agreesWithAStableComparisonSort)
+{
+    std::vector<float> distances(5000);
+    for (size_t i = 0; i < distances.size(); ++i)
+        distances[i] =
+            std::floor(fx::base::randomUnit4(3, 0, i, fx::base::RandomPurpose::Position)[0] * 500.0f);
+    std::vector<uint32_t> expected(distances.size());
+    std::iota(expected.begin(), expected.end(), 0u);
+    std::stable_sort(expected.begin(), expected.end(),
+                     [&](uint32_t a, uint32_t b) { return distances[a] > distances[b]; });
+    DepthSort sort(std::pmr::get_default_resource());
+    const auto order = sort.farthestFirst(distances);
+    EXPECT_TRUE(std::equal(order.begin(), order.end(), expected.begin(), expected.end()));
+}
+
+TEST(DepthSort, ofNothingIsNothing)
+{
+    DepthSort sort(std::pmr::get_default_resource());
+    EXPECT_TRUE(sort.farthestFirst({}).empty());
+}

@@ -1,0 +1,157 @@
+// Gathering, interpolation and order, without GL.
+#include "foundation/snapshot/blob_kind.h"
+#include "rendering/stage/stage_camera.h"
+#include "rendering/view/blob_gather.h"
+#include "rendering/view/frame_builder.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+using namespace fx;
+namespace column = base::blob_column;
+
+namespace {
+
+struct Element
+{
+    uint64_t id;
+    float x;
+    float age = 10.0f;
+    float velocity = 0.0f;
+};
+
+class FrameBuilderTest : public testing::Test
+{
+protected:
+    FrameBuilderTest() { schema_.add(base::kBlobKind); }
+
+    base::FrameSnapshot snapshot(base::Ticks tick, const std::vector<Element>& elements, float shutter = 0.0f)
+    {
+        base::FrameSnapshot s(&schema_, std::pmr::get_default_resource());
+        s.begin(tick, 1);
+        auto& group = s.addGroup(0, elements.size());
+        group.editInfo().count = uint32_t(elements.size());
+        group.editConstants()[base::blob_constant::Shutter] = shutter;
+        for (size_t i = 0; i < elements.size(); ++i) {
+            for (size_t c = 0; c < column::Count; ++c)
+                group.editColumn(c)[i] = 0.0f;
+            group.editIds()[i] = elements[i].id;
+            group.editColumn(column::PositionX)[i] = elements[i].x;
+            group.editColumn(column::VelocityX)[i] = elements[i].velocity;
+            group.editColumn(column::Radius)[i] = 0.5f;
+            group.editColumn(column::CrossSection)[i] = 1.0f;
+            group.editColumn(column::Age)[i] = elements[i].age;
+        }
+        return s;
+    }
+
+    std::vector<float> gather(const base::FrameSnapshot* newer, const base::FrameSnapshot* older, double t)
+    {
+        base::SnapshotPair pair;
+        pair.newer = newer;
+        pair.older = older;
+        std::pmr::vector<render::GatheredBlob> blobs;
+        const auto camera =
+            render::cameraGeometry(render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f));
+        std::pmr::vector<render::GridBlob> medium;
+        counts_ = render::gatherBlobs(pair, t, camera, 720, blobs, medium);
+        mediumCount_ = medium.size();
+        std::vector<float> x;
+        for (const auto& blob : blobs)
+            x.push_back(blob.center.x);
+        return x;
+    }
+
+    base::SnapshotSchema schema_;
+    render::GatherCounts counts_;
+    size_t mediumCount_ = 0;
+};
+
+constexpr base::Ticks kStep = base::kTicksPerSecond / 60;
+
+} // namespace
+
+TEST_F(FrameBuilderTest, interpolatesTheSameElementById)
+{
+    const auto older = snapshot(0, {{3, 0.0f}, {7, 4.0f}});
+    const auto newer = snapshot(kStep, {{3, 1.0f}, {5, 9.0f}, {7, 2.0f}});
+    const auto x = gather(&newer, &older, 0.25);
+    ASSERT_EQ(x.size(), 3u);
+    EXPECT_FLOAT_EQ(x[0], 0.25f);
+    EXPECT_FLOAT_EQ(x[2], 3.5f);
+}
+
+TEST_F(FrameBuilderTest, carriesANewElementBackAlongItsVelocityAndHidesTheUnborn)
+{
+    const auto older = snapshot(0, {});
+    const auto newer = snapshot(kStep, {{1, 1.0f, 0.012f, 60.0f}, {2, 5.0f, 0.001f, 60.0f}});
+    const auto x = gather(&newer, &older, 0.5); // half a step, 8.3 ms, ago: the second was not yet born
+    ASSERT_EQ(x.size(), 1u);
+    EXPECT_NEAR(x[0], 1.0f - 60.0f * 0.5f / 60.0f, 1e-5f);
+}
+
+TEST_F(FrameBuilderTest, atTheEndsShowsTheSnapshotsThemselves)
+{
+    const auto older = snapshot(0, {{3, 0.5f}});
+    const auto newer = snapshot(kStep, {{3, 1.0f}});
+    EXPECT_FLOAT_EQ(gather(&newer, &older, 0.0)[0], 0.5f);
+    EXPECT_FLOAT_EQ(gather(&newer, &older, 1.0)[0], 1.0f);
+    EXPECT_FLOAT_EQ(gather(&newer, nullptr, 0.3)[0], 1.0f);
+}
+
+TEST_F(FrameBuilderTest, leavesOutWhatIsBesideOrBehindTheView)
+{
+    const auto newer = snapshot(0, {{1, 0.0f}, {2, 500.0f}, {3, -500.0f}});
+    EXPECT_EQ(gather(&newer, nullptr, 1.0).size(), 1u);
+    EXPECT_EQ(counts_.culled, 2u);
+    EXPECT_EQ(mediumCount_, 3u) << "but they still cast shadows";
+}
+
+TEST_F(FrameBuilderTest, aShutterDrawsAFastBlobOutAndKeepsItsMedium)
+{
+    const auto newer = snapshot(0, {{1, 0.0f, 10.0f, 120.0f}}, 1.0f / 60.0f);
+    base::SnapshotPair pair;
+    pair.newer = &newer;
+    std::pmr::vector<render::GatheredBlob> blobs;
+    const auto camera =
+        render::cameraGeometry(render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f));
+    std::pmr::vector<render::GridBlob> medium;
+    render::gatherBlobs(pair, 1.0, camera, 720, blobs, medium);
+    ASSERT_GT(blobs.size(), 2u);
+    float sum = 0.0f;
+    for (const auto& blob : blobs)
+        sum += blob.crossSection;
+    EXPECT_NEAR(sum, 1.0f, 1e-5f);
+    EXPECT_LT(blobs.back().center.x, -1.0f);
+}
+
+TEST_F(FrameBuilderTest, sortsFarthestFirstByDistanceFromTheEye)
+{
+    const auto newer = snapshot(0, {{1, 0.0f}, {2, 3.0f}, {3, -6.0f}});
+    base::SnapshotPair pair;
+    pair.newer = &newer;
+    render::FrameBuilder builder(std::pmr::get_default_resource());
+    render::FrameRequest request;
+    request.targets.height = 720;
+    request.camera = render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f);
+    builder.build(pair, request, {}, render::cameraGeometry(request.camera));
+    ASSERT_EQ(builder.blobs().size(), 3u);
+    EXPECT_FLOAT_EQ(builder.blobs()[0].centerRadius.x, -6.0f);
+    EXPECT_FLOAT_EQ(builder.blobs()[2].centerRadius.x, 0.0f);
+}
+
+TEST(CameraGeometry, findsTheEyeAndTheNearPlaneOfEveryProjection)
+{
+    const render::CameraPose pose{{1e5, 2.0, -3.0}, {1e5 + 4.0, 1.0, 5.0}};
+    for (const auto depth : {render::DepthConvention::Standard, render::DepthConvention::Reversed}) {
+        const auto g = render::cameraGeometry(render::perspectiveView(pose, 1.0f, 1.5f, 0.25f, depth));
+        EXPECT_NEAR(g.nearDistance, 0.25f, 1e-6f);
+        EXPECT_NEAR(glm::length(g.eye - pose.position), 0.0, 1e-6);
+        EXPECT_NEAR(glm::dot(glm::dvec3(g.forward), glm::normalize(pose.target - pose.position)), 1.0, 1e-6);
+    }
+    const auto g = render::cameraGeometry(render::orthographicView(pose, 10.0f, 1.0f, 0.5f, 50.0f));
+    EXPECT_TRUE(g.orthographic);
+    EXPECT_NEAR(g.nearDistance, 0.5f, 1e-4f);
+}

@@ -1,0 +1,102 @@
+// Which passes a frame has, seen through the recording backend: nothing that nothing calls for.
+#include "rendering/frame_graph/recording_backend.h"
+#include "rendering/stage/stage_camera.h"
+#include "rendering/view/view_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using namespace fx::render;
+
+namespace {
+
+class ViewGraphTest : public testing::Test
+{
+protected:
+    ViewGraphTest()
+    {
+        request_.camera = perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.5f, 0.1f);
+        request_.targets = {1, 2, 0, false, 96, 64};
+        settings_.dazzle.enabled = false;
+    }
+
+    std::vector<std::string> passes(size_t blobCount, bool heat = false)
+    {
+        blobs_.assign(blobCount, BlobInstance{});
+        graph_.begin();
+        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, heat, false, 7});
+        graph_.compile();
+        EXPECT_TRUE(graph_.status().ok()) << graph_.status().message();
+        return {graph_.executedPasses().begin(), graph_.executedPasses().end()};
+    }
+
+    FrameRequest request_;
+    ViewSettings settings_;
+    std::vector<BlobInstance> blobs_;
+    FrameGraph graph_{std::pmr::get_default_resource()};
+    ViewGraphOutputs outputs_;
+};
+
+using Names = std::vector<std::string>;
+
+} // namespace
+
+TEST_F(ViewGraphTest, anEmptySnapshotHasNoPass)
+{
+    EXPECT_TRUE(passes(0).empty());
+    EXPECT_FALSE(outputs_.anyPass);
+}
+
+TEST_F(ViewGraphTest, gasIsUploadedDrawnAndComposited)
+{
+    EXPECT_EQ(passes(3), (Names{"scene distance", "blob upload", "media", "composite"}));
+}
+
+TEST_F(ViewGraphTest, shimmerComesOnlyWithHeatAndStrength)
+{
+    const auto has = [](const Names& names, const char* what) {
+        for (const auto& name : names)
+            if (name.find(what) != std::string::npos)
+                return true;
+        return false;
+    };
+    EXPECT_FALSE(has(passes(3, false), "shimmer"));
+    EXPECT_TRUE(has(passes(3, true), "shimmer"));
+    settings_.shimmer.strength = 0.0f;
+    EXPECT_FALSE(has(passes(3, true), "shimmer"));
+}
+
+TEST_F(ViewGraphTest, layersAreResolvedOnlyWhenAskedFor)
+{
+    settings_.layerOutputs = true;
+    const auto names = passes(3);
+    EXPECT_NE(std::find(names.begin(), names.end(), "layer resolve"), names.end());
+    EXPECT_TRUE(outputs_.fire.valid());
+    settings_.layerOutputs = false;
+    passes(3);
+    EXPECT_FALSE(outputs_.fire.valid());
+}
+
+TEST_F(ViewGraphTest, toneMappingAloneStillReachesTheHost)
+{
+    settings_.toneMap = true;
+    EXPECT_EQ(passes(0), (Names{"tone map", "present"}));
+}
+
+TEST_F(ViewGraphTest, aFramebufferAloneIsDrawnOver)
+{
+    request_.targets = {0, 0, 5, true, 96, 64};
+    settings_.toneMap = true;
+    EXPECT_EQ(passes(3), (Names{"scene distance", "blob upload", "media", "composite"}));
+}
+
+TEST_F(ViewGraphTest, everyBlobIsAnInstanceOfOneDraw)
+{
+    passes(5);
+    RecordingBackend backend(graph_);
+    graph_.execute(backend);
+    EXPECT_EQ(graph_.executedPasses().size(), 4u);
+}

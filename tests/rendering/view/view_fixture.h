@@ -1,0 +1,75 @@
+/// @file view_fixture.h
+/// A headless GL context with a view, a float target that stands for the host's picture, and hand-made
+/// snapshots.
+#pragma once
+
+#include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/frame_snapshot.h"
+#include "rendering/gl/gl_device.h"
+#include "rendering/gl/gl_messages.h"
+#include "rendering/gl/gl_texture.h"
+#include "rendering/platform/gl_context.h"
+#include "rendering/stage/stage_camera.h"
+#include "rendering/view/view_renderer.h"
+
+#include <glm/vec3.hpp>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace fx::test {
+
+/// One blob of a hand-made snapshot.
+struct TestBlob
+{
+    glm::vec3 center{0.0f};
+    float radius = 1.0f;
+    float crossSection = 1.0f;
+    float emission = 0.0f; ///< exposed value of the emitted light, gray
+    float albedo = 0.0f;
+    float fireShare = 0.0f;
+    float heat = 0.0f;
+    base::MediaLayer layer = base::MediaLayer::Smoke;
+};
+
+/// RGBA of a picture, row by row from the bottom.
+struct Picture
+{
+    int width, height;
+    std::vector<float> texels;
+    const float* at(int x, int y) const { return &texels[(size_t(y) * size_t(width) + size_t(x)) * 4]; }
+};
+
+/// Largest difference of any channel of any texel.
+double maxDifference(const Picture& a, const Picture& b);
+
+class ViewTest : public testing::Test
+{
+protected:
+    static constexpr float kEv100 = 0.0f;
+
+    void SetUp() override;
+    void TearDown() override;
+
+    /// Groups by layer at `placement`; ids count up from 0.
+    base::FrameSnapshot snapshotOf(const std::vector<TestBlob>& blobs,
+                                   const glm::dvec3& placement = glm::dvec3(0.0));
+    void makeTargets(int width, int height);
+    void setPicture(const std::vector<float>& rgba); ///< the host's picture before the effects
+    void setDepth(const std::vector<float>& stored); ///< stored depth values; without, nothing occludes
+    Picture render(const base::FrameSnapshot& snapshot, const render::CameraView& camera);
+    Picture read(uint32_t texture, int channels = 4);
+
+    base::SnapshotSchema schema_;
+    std::unique_ptr<render::GlContext> context_;
+    std::unique_ptr<render::GlDevice> device_;
+    std::unique_ptr<render::GlMessages> messages_;
+    std::unique_ptr<render::ViewRenderer> view_;
+    std::optional<render::GlTexture> color_;
+    std::optional<render::GlTexture> depth_;
+    bool useDepth_ = false;
+};
+
+} // namespace fx::test
