@@ -1,0 +1,26 @@
+/// @file effect_def.h
+/// What a preset says, ready to run: the immutable definition that all its instances share.
+#pragma once
+
+#include "foundation/time/ticks.h"
+#include "simulation/solver.h"
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fx::sim {
+
+struct EffectDef
+{
+    std::string name;
+    base::Ticks duration = 0; ///< end of the effect's life; 0 for "until its solvers have finished"
+    uint32_t subSteps = 1;    ///< steps of the effect per step of the scene, 1..16
+    glm::vec3 wind{0.0f};     ///< [m/s] local
+    bool hasGround = true;    ///< particles stay above the instance's y = 0
+    std::vector<std::unique_ptr<const SolverDef>> solvers;
+};
+
+} // namespace fx::sim

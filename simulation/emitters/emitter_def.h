@@ -1,0 +1,97 @@
+/// @file emitter_def.h
+/// What a preset says about one emitter. All lengths in the instance's local space.
+#pragma once
+
+#include "foundation/math/curve.h"
+#include "foundation/snapshot/blob_kind.h"
+#include "simulation/solver.h"
+
+#include <glm/vec3.hpp>
+
+#include <string>
+#include <vector>
+
+namespace fx::sim {
+
+/// Where particles are born.
+enum class EmitterShape : uint8_t
+{
+    Point,
+    Sphere, ///< uniformly in the ball of radius size.x
+    Box,    ///< uniformly in the box of half extents size
+    Cone,   ///< on the disc of radius size.x, moving within `angle` of the axis +Y
+};
+
+/// So many births at one moment.
+struct Burst
+{
+    float time = 0; ///< [s] after the start, >= 0
+    uint32_t count = 0;
+};
+
+/// A constant birth rate over an interval of local time.
+struct Emission
+{
+    float rate = 0;            ///< [1/s] >= 0
+    float start = 0;           ///< [s]
+    float duration = 0;        ///< [s], +infinity for ever
+    std::vector<Burst> bursts; ///< in declaration order
+};
+
+/// Forces on each particle; the sum of accelerations, with drag and buoyancy relative to the moving air.
+struct EmitterForces
+{
+    float gravity = 1.0f;      ///< [1] multiple of the world's gravity
+    float drag = 0.0f;         ///< [1/s] rate at which velocity approaches the wind's, exact exponential
+    float buoyancy = 0.0f;     ///< [1] multiple of (T / T_air - 1) * g upwards
+    glm::vec3 wind{0.0f};      ///< [m/s]
+    float curlStrength = 0.0f; ///< [m/s] speed scale of the divergence-free noise that is added to the wind
+    float curlScale = 1.0f;    ///< [m] length of one noise period
+    float curlRate = 0.0f;     ///< [1/s] noise periods per second
+    float bounce = -1.0f;      ///< [1] restitution at the ground, 0..1; negative: particles pass
+    float friction = 0.0f;     ///< [1] tangential velocity lost at a bounce, 0..1
+};
+
+struct EmitterDef final : SolverDef
+{
+    std::string name;
+    base::MediaLayer layer = base::MediaLayer::Smoke;
+    uint32_t maxParticles = 1024;
+
+    EmitterShape shape = EmitterShape::Point;
+    glm::vec3 position{0.0f}; ///< [m] center of the shape
+    glm::vec3 size{0.0f};     ///< [m] see EmitterShape
+    float angle = 0.0f;       ///< [rad] half angle of the cone, 0..pi
+    Emission emission;
+
+    base::Range lifetime{1, 1}; ///< [s] > 0
+    base::Range speed{0, 0}; ///< [m/s] along the shape's direction: radially for sphere and point, +Y for box
+    base::Range radius{0.5f, 0.5f}; ///< [m] > 0
+    base::Range crossSection{
+        1, 1}; ///< [m2] >= 0, or of optical depth through the center when opticalDepth is set
+    bool opticalDepthGiven = true; ///< `crossSection` holds the optical depth along a diameter at birth size
+    base::Range temperature{293, 293}; ///< [K]
+    EmitterForces forces;
+
+    // Over life, t in [0, 1]; multiply the values drawn at birth.
+    base::ScalarCurve sizeOverLife{std::array{1.0f}};
+    base::ScalarCurve opacityOverLife{std::array{1.0f}};             ///< multiplies the cross section
+    base::ScalarCurve temperatureOverLife{std::array{1.0f}};         ///< multiplies (T - T_air)
+    base::ColorCurve albedoOverLife{std::array{0.0f, 0.0f, 0.0f}};   ///< [0, 1] single scattering albedo
+    base::ColorCurve emissionOverLife{std::array{0.0f, 0.0f, 0.0f}}; ///< [cd/m2] besides the black body
+
+    float fireShare = 0.0f;    ///< [0, 1] part of the medium accounted to the fire layer
+    float heat = 0.0f;         ///< [1] how strongly the excess temperature bends light (shimmer), 0 none
+    float detailAmount = 0.0f; ///< see blob_constant
+    float detailScale = 1.5f;
+    float anisotropy = 0.0f;
+    float shutter = 0.0f; ///< [s]
+
+    std::unique_ptr<Solver> create(const base::SnapshotSchema& schema,
+                                   std::pmr::memory_resource* memory) const override;
+    uint32_t capacity() const override { return maxParticles; }
+};
+
+constexpr float kAirTemperature = 293.15f; ///< [K] of the ambient air
+
+} // namespace fx::sim

@@ -1,0 +1,64 @@
+/// @file curl_noise.h
+/// Turbulent air: a random velocity field without sources or sinks, so that it stirs particles and never
+/// gathers them.
+///
+/// @formula curl-noise
+/// The curl of a vector potential of gradient noise, differentiated analytically.
+///
+/// symbol   unit   meaning
+///   p       1      position in units of the noise period
+///   f       1      position within its lattice cell, 0..1 on each axis
+///   s       1      fade, s(f) = 6 f^5 - 15 f^4 + 10 f^3
+///   w       1      weight of a corner: product of s or 1 - s over the axes
+///   d       1      position relative to the corner
+///   G_k     1      random gradient of potential component k at the corner, each component in [-1, 1]
+///   A_k     1      component k of the vector potential
+///   theta   turn   phase of the corner, advancing with time
+/// @derivation
+///   A_k = sum over the 8 corners of w (G_k . d)                                            (1)
+///   dA_k/dp_j = sum of (dw/dp_j) (G_k . d) + w G_kj                                        (2)
+///   u = N (dA_z/dy - dA_y/dz, dA_x/dz - dA_z/dx, dA_y/dx - dA_x/dy)                        (3)
+///   so div u = 0 wherever A is twice differentiable, which the fade makes it everywhere.
+///   In time, G_k is replaced by cos(theta) G_k + sin(theta) G_(k+1), which keeps its variance. (4)
+/// @source    [BHN07] Bridson, Houriham, Nordenstam, doi:10.1145/1276377.1276435 for the curl of a potential;
+///            [PER02] Perlin, doi:10.1145/566654.566636 for the fade
+/// @deviation derivative analytic instead of by differences; time by turning gradients instead of a fourth
+/// dimension
+/// @valid     |p| < 2^30; outside, and for NaN, the lattice coordinate is clamped
+/// @accuracy  |div u| <= 1e-3 of the rms gradient (float); rms |u| = strength within 5 %: N is fitted by
+///            CurlNoise.itsRootMeanSquareSpeedIsTheStrength
+/// @tests     tests/simulation/test_curl_noise.cpp
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace fx::sim {
+
+/// The field at one moment. Cheap to make; evaluate from any thread.
+class CurlNoise
+{
+public:
+    /// @param seed chooses the field
+    /// @param strength [m/s] root mean square speed, 0 switches off
+    /// @param scale [m] length of one period, > 0
+    /// @param turns how many periods of its change in time have passed
+    CurlNoise(uint32_t seed, float strength, float scale, double turns);
+
+    bool active() const { return strength_ > 0.0f; }
+    /// Velocity [m/s] at `position` [m].
+    glm::vec3 velocity(const glm::vec3& position) const;
+
+private:
+    static constexpr uint32_t kPhases = 16;
+
+    uint32_t seed_;
+    float strength_;
+    float perScale_;
+    std::array<float, kPhases> cosine_;
+    std::array<float, kPhases> sine_;
+};
+
+} // namespace fx::sim

@@ -1,0 +1,86 @@
+/// @file solver.h
+/// What a technique of simulation implements: an immutable definition, made from a preset, and a solver per
+/// instance.
+///
+/// Solvers work in the instance's local space. Time is the instance's own: tick 0 is its start.
+#pragma once
+
+#include "foundation/math/geometry.h"
+#include "foundation/memory/arena.h"
+#include "foundation/snapshot/frame_snapshot.h"
+#include "foundation/tasks/task_runner.h"
+#include "foundation/time/ticks.h"
+
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+
+namespace fx::sim {
+
+/// What the host may change on a running instance.
+struct InstanceParameters
+{
+    float intensity = 1.0f; ///< [1] >= 0, scales birth rates and injected energy of what is still to come
+    glm::vec3 wind{0.0f};   ///< [m/s] world, added to the effect's own wind
+    bool emitting = true;   ///< false: nothing new is born, what exists lives on
+};
+
+/// Work done, summed over a step; exact counts, not times.
+struct StepCounters
+{
+    uint64_t born = 0;
+    uint64_t dropped = 0;       ///< births refused because a capacity was full
+    uint64_t particleSteps = 0; ///< particles advanced, once per sub-step
+    uint64_t neighborPairs = 0;
+    uint64_t subSteps = 0;
+    uint64_t clamped = 0; ///< values limited to keep the state finite
+};
+
+/// What a solver gets for one step.
+struct StepContext
+{
+    base::Ticks tick;      ///< local time at which the step begins
+    base::Ticks stepTicks; ///< its length, > 0
+    uint64_t seed;         ///< of the instance
+    uint32_t solverIndex;  ///< position in the effect: part of every random key
+    glm::vec3 gravity;     ///< [m/s2] local
+    glm::vec3 wind;        ///< [m/s] local
+    float groundHeight;    ///< [m] local y of the ground plane; -infinity for none
+    const InstanceParameters* parameters;
+    base::TaskRunner* tasks;
+    base::Arena* scratch; ///< forgotten after the step
+    StepCounters* counters;
+
+    float seconds() const { return float(base::toSeconds(stepTicks)); }
+};
+
+/// The changing state of one emitter, one gas, ... of one instance.
+class Solver
+{
+public:
+    virtual ~Solver() = default;
+
+    /// Advances by one fixed step. Equal calls give equal bits for any number of threads. Allocates nothing
+    /// but scratch.
+    virtual void step(const StepContext& context) = 0;
+    /// Adds what is to be seen to `snapshot`. `base` carries instance, solver and placement to copy into each
+    /// group.
+    virtual void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const = 0;
+    /// True when nothing is alive and nothing will ever be born again from local time `tick` on.
+    virtual bool finished(base::Ticks tick) const = 0;
+    virtual uint32_t elementCount() const = 0;
+};
+
+/// Immutable recipe of a solver; shared by all instances of a preset.
+class SolverDef
+{
+public:
+    virtual ~SolverDef() = default;
+    /// Allocates all that the solver will ever need.
+    virtual std::unique_ptr<Solver> create(const base::SnapshotSchema& schema,
+                                           std::pmr::memory_resource* memory) const = 0;
+    /// Upper bound on elements alive at once.
+    virtual uint32_t capacity() const = 0;
+};
+
+} // namespace fx::sim
