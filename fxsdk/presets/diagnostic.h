@@ -1,0 +1,33 @@
+/// @file diagnostic.h
+/// What is wrong with a preset or scene, said so that its author can repair it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fx::preset {
+
+/// One finding.
+struct Diagnostic
+{
+    std::string file;     ///< name for people
+    int line = 0;         ///< from 1; 0 when the finding concerns the whole file
+    int column = 0;       ///< from 1, in bytes
+    std::string pointer;  ///< JSON pointer, "" for the whole document
+    std::string message;  ///< what was found and what is allowed, at most 1 KiB, printable UTF-8
+    bool warning = false; ///< true: the file can be used all the same
+};
+
+/// "file:line:column: /pointer: message".
+std::string toString(const Diagnostic& diagnostic);
+
+/// True when one of them is not a warning.
+bool hasErrors(const std::vector<Diagnostic>& diagnostics);
+
+/// The first errors, one a line, at most 1 KiB.
+std::string summary(const std::vector<Diagnostic>& diagnostics);
+
+/// `text` with control characters and bytes that are not UTF-8 replaced by '?', cut to `limit` bytes.
+std::string printable(const std::string& text, size_t limit);
+
+} // namespace fx::preset

@@ -1,0 +1,65 @@
+/// @file findings.h
+/// Collects what is wrong with a document while its text is out of reach; places follow at the end.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "fxsdk/presets/diagnostic.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fx::preset {
+
+constexpr size_t kUnknownOffset = ~size_t(0);
+
+/// One finding, by pointer or by place in the text.
+struct Finding
+{
+    std::string pointer;
+    std::string message;
+    base::Code code = base::Code::Schema;
+    bool atKey = false; ///< the place is that of the member's name, not of its value
+    bool warning = false;
+    size_t offset = kUnknownOffset; ///< [byte] in the text, when known
+};
+
+/// A document that is migrated has members at other pointers than its text; this tells which came from where.
+struct Renaming
+{
+    std::string now;
+    std::string before;
+};
+
+class Findings
+{
+public:
+    void error(std::string pointer, std::string message, base::Code code = base::Code::Schema);
+    void errorAtKey(std::string pointer, std::string message);
+    void errorAtOffset(std::string pointer, std::string message, base::Code code, size_t offset);
+    void warning(std::string pointer, std::string message);
+    void renamed(std::string now, std::string before)
+    {
+        renamings_.push_back({std::move(now), std::move(before)});
+    }
+
+    bool full() const { return list_.size() >= kLimit; } ///< what comes now is dropped
+    bool hasErrors() const { return firstCode_ != base::Code::Ok; }
+    base::Code firstCode() const { return firstCode_; } ///< of the first error; Ok without errors
+    size_t size() const { return list_.size(); }
+
+    /// Findings with their places in `text`, in the order of the text.
+    std::vector<Diagnostic> locate(std::string_view text, const std::string& file) const;
+
+    static constexpr size_t kLimit = 100; ///< more would help nobody
+
+private:
+    void add(Finding finding);
+
+    std::vector<Finding> list_;
+    std::vector<Renaming> renamings_;
+    base::Code firstCode_ = base::Code::Ok;
+};
+
+} // namespace fx::preset

@@ -1,0 +1,24 @@
+/// @file json_locator.h
+/// Finds places in JSON text by reading it a second time, so that the document needs no memory for places
+/// that nobody asks for.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fx::preset {
+
+struct JsonPlace
+{
+    size_t key = 0;   ///< [byte] offset of the member's name; that of the value inside arrays
+    size_t value = 0; ///< [byte] offset of the value
+};
+
+/// The places of JSON pointers in `text`, one each. What does not exist is found at its nearest ancestor. The
+/// first of several equal members counts. Text after a syntax error is not looked at.
+std::vector<JsonPlace> locateJson(std::string_view text, std::span<const std::string> pointers);
+
+} // namespace fx::preset

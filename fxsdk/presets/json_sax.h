@@ -1,0 +1,88 @@
+/// @file json_sax.h
+/// What the two readers of JSON text share: where in the text, and where in the document, an event happens.
+/// Private to the preset front end.
+#pragma once
+
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fx::preset {
+
+/// Iterator over text that leaves the position of the furthest copy behind, so that an event knows what was
+/// consumed.
+class TrackedIterator
+{
+public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    TrackedIterator(const char* at, const char** furthest) : at_(at), furthest_(furthest) {}
+    reference operator*() const { return *at_; }
+    TrackedIterator& operator++()
+    {
+        *furthest_ = ++at_;
+        return *this;
+    }
+    TrackedIterator operator++(int)
+    {
+        TrackedIterator before = *this;
+        ++*this;
+        return before;
+    }
+    bool operator==(const TrackedIterator& other) const { return at_ == other.at_; }
+    bool operator!=(const TrackedIterator& other) const { return at_ != other.at_; }
+
+private:
+    const char* at_;
+    const char** furthest_;
+};
+
+/// Follows a stream of events: the JSON pointer of the value at hand and the offset of the token at hand.
+class JsonPath
+{
+public:
+    explicit JsonPath(std::string_view text) : text_(text), furthest_(text.data()) {}
+
+    TrackedIterator begin() { return {text_.data(), &furthest_}; }
+    TrackedIterator end() { return {text_.data() + text_.size(), &furthest_}; }
+
+    /// Call first in every event. @return offset at which the event's token begins
+    size_t beginToken();
+    void key(const std::string& name);
+    /// A value begins: counts it within its array.
+    void value();
+    void enter(bool isArray);
+    void leave();
+
+    size_t depth() const { return levels_.size(); }
+    bool insideArray() const { return !levels_.empty() && levels_.back().isArray; }
+    size_t countInside() const { return levels_.empty() ? 0 : levels_.back().count; }
+    /// Pointer of the value that value() announced, or of the member that key() announced.
+    std::string pointer() const;
+
+private:
+    struct Level
+    {
+        bool isArray;
+        size_t count;        ///< values begun inside
+        size_t parentLength; ///< of the pointer one level up
+    };
+
+    std::string_view text_;
+    const char* furthest_;
+    size_t lastEnd_ = 0;
+    std::vector<Level> levels_;
+    std::string container_; ///< pointer of the innermost array or object
+    std::string key_;       ///< escaped
+};
+
+/// `name` with '~' and '/' escaped as JSON pointers want it.
+std::string escapePointer(std::string_view name);
+
+} // namespace fx::preset

@@ -1,0 +1,19 @@
+/// @file nearest_name.h
+/// Guesses what a misspelled name was meant to be.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace fx::preset {
+
+/// Number of insertions, deletions, replacements and swaps of neighbors that turn `a` into `b`, letter case
+/// ignored (restricted Damerau-Levenshtein distance). Of longer names only the first 64 bytes count.
+size_t editDistance(std::string_view a, std::string_view b);
+
+/// The closest of `known`, or nothing when all differ by more than a third of their letters.
+std::optional<std::string> nearestName(std::string_view name, std::span<const std::string> known);
+
+} // namespace fx::preset

@@ -1,0 +1,17 @@
+/// @file parameter_reference.h
+/// Documentation of every member of presets and scenes, written from the schemas so that it cannot be out of
+/// date.
+#pragma once
+
+#include <string>
+
+namespace fx::preset {
+
+/// Markdown: a table per object with member, meaning, unit, what is allowed, default and cost.
+std::string parameterReference();
+
+/// The assembled JSON Schema of presets or scenes as text, for editors.
+std::string presetSchemaText();
+std::string sceneSchemaText();
+
+} // namespace fx::preset

@@ -1,0 +1,103 @@
+#include "fxsdk/presets/preset_loader.h"
+
+#include "embedded/preset_library.h"
+#include "fxsdk/assets/read_file.h"
+#include "fxsdk/presets/json_parser.h"
+#include "fxsdk/presets/migration.h"
+#include "fxsdk/presets/schema_assembly.h"
+#include "fxsdk/presets/schema_validator.h"
+#include "fxsdk/techniques.h"
+
+namespace fx::preset {
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const std::string& displayName,
+                                                  Findings& findings)
+{
+    auto effect = std::make_shared<sim::EffectDef>();
+    const PresetValue root(&document, "", findings);
+    effect->name = displayName;
+    root.read("name", effect->name);
+    double duration = 0;
+    root.read("duration", duration);
+    effect->duration = base::toTicks(duration);
+    root.read("subSteps", effect->subSteps);
+    root.read("wind", effect->wind);
+    root.read("ground", effect->hasGround);
+    for (const Technique& technique : techniques()) {
+        if (!technique.build)
+            continue;
+        const std::string member(technique.presetMember);
+        for (size_t i = 0; i < root.size(member.c_str()); ++i)
+            technique.build(root.element(member.c_str(), i), *effect);
+    }
+    if (effect->solvers.empty() && !findings.hasErrors())
+        findings.warning("", "the preset has no emitters and no gas: there will be nothing to see");
+    return effect;
+}
+
+/// The effect, or null when `findings` has errors.
+std::shared_ptr<const sim::EffectDef> readPreset(std::string_view text, const std::string& displayName,
+                                                 Findings& findings)
+{
+    std::optional<Json> document = parseJson(text, kPresetLimits, findings);
+    if (!document || !migrate(*document, kPresetVersion, presetMigrations(), findings))
+        return nullptr;
+    const SchemaValidator validator{Json(presetSchema())};
+    validator.validate(*document, {}, findings);
+    if (findings.hasErrors())
+        return nullptr;
+    std::shared_ptr<const sim::EffectDef> effect = buildEffect(*document, displayName, findings);
+    return findings.hasErrors() ? nullptr : effect;
+}
+
+/// Reports a file that could not be read in the form of the other findings.
+base::Status unreadable(const base::Status& status, const std::string& displayName,
+                        std::vector<Diagnostic>* outDiagnostics)
+{
+    if (outDiagnostics)
+        *outDiagnostics = {Diagnostic{displayName, 0, 0, "", printable(status.message(), 1000), false}};
+    return status;
+}
+
+} // namespace
+
+std::span<const base::EmbeddedText> presetLibrary()
+{
+    return library::texts();
+}
+
+base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::string& displayName,
+                                          std::vector<Diagnostic>* outDiagnostics)
+{
+    Findings findings;
+    std::shared_ptr<const sim::EffectDef> effect = readPreset(text, displayName, findings);
+    std::vector<Diagnostic> diagnostics = findings.locate(text, displayName);
+    if (outDiagnostics)
+        *outDiagnostics = diagnostics;
+    if (!effect)
+        return base::Status(findings.firstCode(), summary(diagnostics));
+    return LoadedPreset{std::move(effect), std::move(diagnostics)};
+}
+
+base::Result<LoadedPreset> loadPresetAsset(std::string_view name, const asset::AssetResolver& resolver,
+                                           std::vector<Diagnostic>* outDiagnostics)
+{
+    const base::Result<std::string> text = resolver.read(name, kPresetBytes);
+    if (!text)
+        return unreadable(text.status(), std::string(name), outDiagnostics);
+    return loadPresetText(*text, std::string(name), outDiagnostics);
+}
+
+base::Result<LoadedPreset> loadPresetFile(const std::string& path, std::vector<Diagnostic>* outDiagnostics)
+{
+    const base::Result<std::string> text = asset::readFile(path, kPresetBytes);
+    if (!text)
+        return unreadable(text.status(), path, outDiagnostics);
+    return loadPresetText(*text, path, outDiagnostics);
+}
+
+} // namespace fx::preset

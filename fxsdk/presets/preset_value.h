@@ -1,0 +1,76 @@
+/// @file preset_value.h
+/// A validated object of a preset or scene, read member by member into definitions.
+#pragma once
+
+#include "foundation/math/curve.h"
+#include "fxsdk/presets/findings.h"
+
+#include <glm/vec3.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace fx::preset {
+
+/// One object. Each read() changes `out` when the member is there and leaves the default otherwise; types
+/// have been checked by the schema. What a schema cannot say (min <= max, keys in order) is checked here and
+/// becomes a finding.
+class PresetValue
+{
+public:
+    /// @param object null for an object without members
+    PresetValue(const nlohmann::json* object, std::string pointer, Findings& findings)
+        : object_(object), pointer_(std::move(pointer)), findings_(findings)
+    {}
+
+    bool has(const char* member) const;
+    void read(const char* member, float& out) const;
+    void read(const char* member, double& out) const;
+    void read(const char* member, uint32_t& out) const;
+    void read(const char* member, uint64_t& out) const;
+    void read(const char* member, bool& out) const;
+    void read(const char* member, std::string& out) const;
+    void read(const char* member, glm::vec3& out) const; ///< also one number for all three
+    void read(const char* member, glm::dvec3& out) const;
+    void read(const char* member, std::array<float, 4>& out) const;
+    void read(const char* member, base::Range& out) const;
+    void read(const char* member, base::ScalarCurve& out) const;
+    void read(const char* member, base::ColorCurve& out) const;
+
+    /// Reads one of the names in `choices`.
+    template <class E>
+    void read(const char* member, std::span<const std::pair<std::string_view, E>> choices, E& out) const
+    {
+        std::string name;
+        read(member, name);
+        for (const auto& [choice, value] : choices)
+            if (name == choice)
+                out = value;
+    }
+
+    /// The member as an object; an empty one when it is absent.
+    PresetValue child(const char* member) const;
+    /// Number of elements of an array member, 0 when absent.
+    size_t size(const char* member) const;
+    PresetValue element(const char* member, size_t index) const;
+
+    const std::string& pointer() const { return pointer_; }
+    void error(const char* member, std::string message) const;
+    void warning(const char* member, std::string message) const;
+
+private:
+    const nlohmann::json* find(const char* member) const;
+    template <size_t N>
+    void readCurve(const char* member, base::Curve<N>& out) const;
+
+    const nlohmann::json* object_;
+    std::string pointer_;
+    Findings& findings_;
+};
+
+} // namespace fx::preset

@@ -1,0 +1,114 @@
+#include "fxsdk/presets/schema_assembly.h"
+
+#include "embedded/preset_schemas.h"
+#include "fxsdk/techniques.h"
+
+namespace fx::preset {
+
+namespace {
+
+using Schema = nlohmann::ordered_json;
+
+Schema textNamed(std::string_view name)
+{
+    for (const base::EmbeddedText& entry : embedded::texts())
+        if (entry.name == name)
+            return Schema::parse(entry.text.begin(), entry.text.end());
+    return Schema::object();
+}
+
+/// {"type": "number"} with the bounds that stand beside the kind.
+Schema numberWithin(const Schema& bounds)
+{
+    Schema number{{"type", "number"}};
+    for (const char* key : {"minimum", "maximum"})
+        if (bounds.contains(key))
+            number[key] = bounds[key];
+    return number;
+}
+
+Schema tripleOf(const Schema& number)
+{
+    return {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}};
+}
+
+Schema objectOf(Schema properties, Schema required)
+{
+    return {{"type", "object"},
+            {"properties", std::move(properties)},
+            {"required", std::move(required)},
+            {"additionalProperties", false}};
+}
+
+/// {"keys": [[t, value], ...]}
+Schema keysOf(const Schema& value)
+{
+    const Schema time{{"type", "number"}, {"minimum", 0}, {"maximum", 1}};
+    const Schema key{
+        {"type", "array"}, {"items", Schema::array({time, value})}, {"minItems", 2}, {"maxItems", 2}};
+    const Schema keys{{"type", "array"}, {"items", key}, {"minItems", 1}, {"maxItems", 256}};
+    return objectOf({{"keys", keys}}, {"keys"});
+}
+
+/// `then` for values of type `type`, otherwise `otherwise`.
+Schema choice(const char* type, Schema then, Schema otherwise)
+{
+    return {{"if", {{"type", type}}}, {"then", std::move(then)}, {"else", std::move(otherwise)}};
+}
+
+Schema expandKind(const std::string& kind, const Schema& number)
+{
+    if (kind == "range")
+        return choice("object", objectOf({{"min", number}, {"max", number}}, {"min", "max"}), number);
+    if (kind == "curve")
+        return choice("object", keysOf(number), number);
+    if (kind == "colorCurve")
+        return choice("object", keysOf(tripleOf(number)), tripleOf(number));
+    if (kind == "extent")
+        return choice("array", tripleOf(number), number);
+    return tripleOf(number); // color, vector
+}
+
+/// Replaces the kinds in `schema` and everything below it.
+void expand(Schema& schema)
+{
+    if (!schema.is_structured())
+        return;
+    for (Schema& part : schema)
+        expand(part);
+    if (!schema.is_object() || !schema.contains("x-kind"))
+        return;
+    const Schema number = numberWithin(schema);
+    schema.erase("minimum");
+    schema.erase("maximum");
+    schema.update(expandKind(schema["x-kind"].get<std::string>(), number));
+    schema["x-number"] = number;
+}
+
+} // namespace
+
+nlohmann::ordered_json presetSchema()
+{
+    Schema schema = textNamed("effect.schema.json");
+    for (const Technique& technique : techniques()) {
+        if (technique.presetMember.empty())
+            continue;
+        Schema element = textNamed(technique.schemaFile);
+        schema["properties"][std::string(technique.presetMember)] = {{"title", element["title"]},
+                                                                     {"description", element["description"]},
+                                                                     {"type", "array"},
+                                                                     {"maxItems", 64},
+                                                                     {"items", element}};
+    }
+    expand(schema);
+    return schema;
+}
+
+nlohmann::ordered_json sceneSchema()
+{
+    Schema schema = textNamed("scene.schema.json");
+    expand(schema);
+    return schema;
+}
+
+} // namespace fx::preset

@@ -1,0 +1,42 @@
+/// @file schema_validator.h
+/// Checks documents against a JSON Schema with valijson and explains what it objects to.
+#pragma once
+
+#include "fxsdk/presets/findings.h"
+
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace fx::preset {
+
+class SchemaValidator
+{
+public:
+    /// @param schema one of schema_assembly.h
+    explicit SchemaValidator(nlohmann::json schema);
+    ~SchemaValidator();
+    SchemaValidator(const SchemaValidator&) = delete;
+    SchemaValidator& operator=(const SchemaValidator&) = delete;
+
+    /// Adds an error to `findings` for each thing in `document` that the schema forbids, until findings are
+    /// full.
+    /// @param longArrays members (pointers) whose elements are checked one by one, so that the memory for
+    /// findings
+    ///        stays small in documents with many elements; each must be an array in the schema
+    /// @param document is the same afterwards
+    void validate(nlohmann::json& document, std::span<const std::string_view> longArrays,
+                  Findings& findings) const;
+
+private:
+    struct Part;
+    void validatePart(const Part& part, const nlohmann::json& value, const std::string& pointer,
+                      Findings& findings) const;
+
+    std::unique_ptr<Part> root_;
+};
+
+} // namespace fx::preset

@@ -1,0 +1,48 @@
+/// @file camera_path.h
+/// The camera of a scene: fixed, or moved smoothly through keys.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace fx::scene_file {
+
+struct CameraKey
+{
+    double time = 0;        ///< [s]
+    glm::dvec3 position{0}; ///< [m]
+    glm::dvec3 target{0};   ///< [m]
+};
+
+/// Where the camera is at one moment.
+struct CameraPose
+{
+    glm::dvec3 position;
+    glm::dvec3 target;
+};
+
+/// Camera and its motion. Keys have rising times; before the first and after the last the camera rests.
+struct CameraPath
+{
+    glm::dvec3 position{0, 2, 12}; ///< [m] without keys
+    glm::dvec3 target{0, 2, 0};    ///< [m] without keys
+    glm::vec3 up{0, 1, 0};
+    float fovYDegrees = 50;       ///< vertical field of view, used when orthographicHeight is 0
+    float orthographicHeight = 0; ///< [m] height of the picture of an orthographic camera; 0: perspective
+    float nearPlane = 0.1f;       ///< [m] > 0
+    std::vector<CameraKey> keys;
+
+    /// Position and target at `time` [s]: cubic Hermite through the keys with Catmull-Rom tangents for uneven
+    /// times, so that velocity is continuous inside the path.
+    CameraPose at(double time) const;
+
+    /// World to eye, relative to the camera's position (rotation only): pair it with an origin at that
+    /// position.
+    glm::mat4 viewRotation(double time) const;
+    /// Infinite far plane for perspective, 10 km for orthographic; OpenGL clip space, z in [-w, w].
+    glm::mat4 projection(float aspect) const;
+};
+
+} // namespace fx::scene_file

@@ -1,0 +1,192 @@
+#include "fxsdk/scene_file/scene_file.h"
+
+#include "fxsdk/assets/read_file.h"
+#include "fxsdk/presets/json_parser.h"
+#include "fxsdk/presets/migration.h"
+#include "fxsdk/presets/schema_assembly.h"
+#include "fxsdk/presets/schema_validator.h"
+#include "fxsdk/scene_file/mesh_reader.h"
+#include "fxsdk/scene_file/scene_settings.h"
+#include "rendering/image/image.h"
+
+#include <array>
+#include <filesystem>
+#include <map>
+
+namespace fx::scene_file {
+
+namespace {
+
+using Json = nlohmann::json;
+using preset::Findings;
+using preset::PresetValue;
+
+/// What reading one scene works with.
+struct Reader
+{
+    const asset::AssetResolver& resolver;
+    Findings& findings;
+    SceneFile& scene;
+    std::map<std::string, size_t> presetIndices; ///< by name
+    std::map<std::string, std::string> failures; ///< presets that cannot be used, with the reason
+};
+
+void reportAsset(const PresetValue& value, const char* member, const base::Status& status, Findings& findings)
+{
+    findings.error(value.pointer() + "/" + member, status.message(), status.code());
+}
+
+/// Index of the preset called `name`, loaded when it is met for the first time; nothing after a failure.
+std::optional<size_t> findPreset(Reader& reader, const std::string& name, const PresetValue& instance)
+{
+    if (const auto found = reader.presetIndices.find(name); found != reader.presetIndices.end())
+        return found->second;
+    if (reader.failures.count(name) > 0)
+        return std::nullopt; // said once
+    base::Result<std::string> text = reader.resolver.read(name, preset::kPresetBytes);
+    if (!text) {
+        reader.failures[name] = text.status().message();
+        reportAsset(instance, "preset", text.status(), reader.findings);
+        return std::nullopt;
+    }
+    const base::Result<preset::LoadedPreset> loaded = preset::loadPresetText(*text, name);
+    if (!loaded) {
+        reader.failures[name] = loaded.status().message();
+        reportAsset(instance, "preset", loaded.status(), reader.findings);
+        return std::nullopt;
+    }
+    for (const preset::Diagnostic& warning : loaded->warnings)
+        instance.warning("preset", preset::toString(warning));
+    const size_t index = reader.scene.presets.size();
+    reader.scene.presets.push_back({name, std::move(*text), loaded->effect});
+    reader.presetIndices[name] = index;
+    return index;
+}
+
+void readInstances(Reader& reader, const PresetValue& root)
+{
+    for (size_t i = 0; i < root.size("instances") && !reader.findings.full(); ++i) {
+        const PresetValue value = root.element("instances", i);
+        SceneInstance instance = readInstance(value);
+        std::string name;
+        value.read("preset", name);
+        if (const std::optional<size_t> index = findPreset(reader, name, value)) {
+            instance.preset = *index;
+            reader.scene.instances.push_back(instance);
+        }
+    }
+}
+
+void readSceneMesh(Reader& reader, const PresetValue& value)
+{
+    std::string name;
+    value.read("file", name);
+    if (name.empty())
+        return;
+    std::string warning;
+    base::Result<render::StageMesh> mesh = readMesh(name, reader.resolver, warning);
+    if (!warning.empty())
+        value.warning("file", warning);
+    if (!mesh)
+        return reportAsset(value, "file", mesh.status(), reader.findings);
+    glm::vec3 position(0.0f);
+    float scale = 1.0f;
+    value.read("position", position);
+    value.read("scale", scale);
+    for (glm::vec3& vertex : mesh->positions)
+        vertex = position + scale * vertex;
+    reader.scene.mesh = std::move(*mesh);
+}
+
+base::Result<image::Image> decodeImage(const std::string& name, const std::string& bytes)
+{
+    const auto data = std::as_bytes(std::span<const char>(bytes.data(), bytes.size()));
+    return name.ends_with(".hdr") ? image::readHdr(data) : image::readPng(data);
+}
+
+void readBackground(Reader& reader, const PresetValue& value)
+{
+    render::StageBackground& background = reader.scene.background;
+    value.read("color", background.luminance);
+    background.horizon = background.luminance;
+    value.read("horizon", background.horizon);
+    value.read("panorama", background.panorama);
+    float luminance = 1000.0f;
+    value.read("luminance", luminance);
+    std::string name;
+    value.read("image", name);
+    if (name.empty())
+        return;
+    const base::Result<std::string> bytes = reader.resolver.read(name, kImageBytes);
+    if (!bytes)
+        return reportAsset(value, "image", bytes.status(), reader.findings);
+    const base::Result<image::Image> picture = decodeImage(name, *bytes);
+    if (!picture)
+        return reportAsset(value, "image", picture.status(), reader.findings);
+    background.width = picture->width;
+    background.height = picture->height;
+    background.image.reserve(size_t(picture->width) * size_t(picture->height));
+    for (int y = 0; y < picture->height; ++y)
+        for (int x = 0; x < picture->width; ++x) {
+            const float* rgb = picture->at(x, y);
+            background.image.push_back(luminance * glm::vec3(rgb[0], rgb[1], rgb[2]));
+        }
+}
+
+/// Fills `scene`; false when `findings` has errors.
+bool readScene(std::string_view text, const asset::AssetResolver& resolver, Findings& findings,
+               SceneFile& scene)
+{
+    constexpr std::array<std::string_view, 2> kLongArrays{"/instances", "/camera/keys"};
+    std::optional<Json> document = preset::parseJson(text, preset::kSceneLimits, findings);
+    if (!document || !preset::migrate(*document, preset::kSceneVersion, preset::sceneMigrations(), findings))
+        return false;
+    const preset::SchemaValidator validator{Json(preset::sceneSchema())};
+    validator.validate(*document, kLongArrays, findings);
+    if (findings.hasErrors())
+        return false;
+
+    const PresetValue root(&*document, "", findings);
+    Reader reader{resolver, findings, scene, {}, {}};
+    root.read("name", scene.name);
+    scene.camera = readCamera(root.child("camera"));
+    scene.view = readView(root);
+    readBackground(reader, root.child("background"));
+    readSceneMesh(reader, root.child("mesh"));
+    readInstances(reader, root);
+    return !findings.hasErrors();
+}
+
+} // namespace
+
+base::Result<SceneFile> loadSceneText(std::string_view text, const std::string& displayName,
+                                      const asset::AssetResolver& resolver,
+                                      std::vector<preset::Diagnostic>* outDiagnostics)
+{
+    Findings findings;
+    SceneFile scene;
+    scene.name = displayName;
+    const bool isUsable = readScene(text, resolver, findings, scene);
+    scene.warnings = findings.locate(text, displayName);
+    if (outDiagnostics)
+        *outDiagnostics = scene.warnings;
+    if (!isUsable)
+        return base::Status(findings.firstCode(), preset::summary(scene.warnings));
+    return scene;
+}
+
+base::Result<SceneFile> loadSceneFile(const std::string& path,
+                                      std::vector<preset::Diagnostic>* outDiagnostics)
+{
+    const base::Result<std::string> text = asset::readFile(path, kSceneBytes);
+    if (!text) {
+        if (outDiagnostics)
+            *outDiagnostics = {{path, 0, 0, "", preset::printable(text.status().message(), 1000), false}};
+        return text.status();
+    }
+    const std::string folder = std::filesystem::absolute(path).parent_path().string();
+    const asset::AssetResolver resolver(folder, preset::presetLibrary());
+    return loadSceneText(*text, path, resolver, outDiagnostics);
+}
+
+} // namespace fx::scene_file

@@ -1,0 +1,72 @@
+/// @file scene_file.h
+/// From a scene (`*.scene.json`) to all that a tool needs to draw it: camera, light, background, mesh,
+/// instances.
+///
+/// For tools: libfxsdk does not contain it. Threads: any; nothing is shared between calls.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "fxsdk/presets/preset_loader.h"
+#include "fxsdk/scene_file/camera_path.h"
+#include "rendering/stage/stage_renderer.h"
+#include "rendering/view/view_types.h"
+#include "simulation/solver.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fx::scene_file {
+
+/// One effect in the scene.
+struct SceneInstance
+{
+    size_t preset = 0;                          ///< index into SceneFile::presets
+    glm::dvec3 position{0.0};                   ///< [m] world
+    glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f}; ///< unit
+    float scale = 1.0f;                         ///< > 0
+    double start = 0.0;                         ///< [s] scene time, >= 0
+    uint64_t seed = 1;
+    sim::InstanceParameters parameters;
+};
+
+/// A preset that instances use. Tools that go through the C API load it again by its text.
+struct ScenePreset
+{
+    std::string name; ///< as the scene file says it
+    std::string text; ///< the JSON behind it
+    std::shared_ptr<const sim::EffectDef> effect;
+};
+
+struct SceneFile
+{
+    std::string name;
+    CameraPath camera;
+    render::ViewSettings view; ///< exposure, lighting, shimmer, dazzle, form, tone map, detail
+    render::StageBackground background;
+    render::StageMesh mesh; ///< empty when the scene has none
+    std::vector<ScenePreset> presets;
+    std::vector<SceneInstance> instances;
+    std::vector<preset::Diagnostic> warnings;
+};
+
+/// Largest scene, mesh and image that are read [byte].
+constexpr uint64_t kSceneBytes = uint64_t(64) << 20;
+constexpr uint64_t kMeshBytes = uint64_t(64) << 20;
+constexpr uint64_t kImageBytes = uint64_t(256) << 20;
+
+/// @param resolver finds the mesh, the image and the presets that the scene names
+/// @param outDiagnostics receives every finding, warnings included, whether it fails or not; may be null
+/// @return Parse, TooLarge, Version, Schema, or what an asset failed with
+base::Result<SceneFile> loadSceneText(std::string_view text, const std::string& displayName,
+                                      const asset::AssetResolver& resolver,
+                                      std::vector<preset::Diagnostic>* outDiagnostics = nullptr);
+
+/// The same for a file; assets are looked for in its folder.
+base::Result<SceneFile> loadSceneFile(const std::string& path,
+                                      std::vector<preset::Diagnostic>* outDiagnostics = nullptr);
+
+} // namespace fx::scene_file

@@ -1,0 +1,149 @@
+#include "fxsdk/scene_file/scene_settings.h"
+
+#include <glm/geometric.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace fx::scene_file {
+
+namespace {
+
+using preset::PresetValue;
+
+constexpr std::array<std::pair<std::string_view, render::BillboardForm>, 3> kForms{{
+    {"planar", render::BillboardForm::Planar},
+    {"constant", render::BillboardForm::Constant},
+    {"kernel", render::BillboardForm::Kernel},
+}};
+
+/// The picture needs a direction to look in, and an up that is not along it.
+void checkPose(const PresetValue& value, const glm::dvec3& position, const glm::dvec3& target,
+               const glm::vec3& up)
+{
+    const glm::dvec3 forward = target - position;
+    if (glm::length(up) < 1e-6f)
+        return; // said of the camera itself
+    if (glm::length(forward) < 1e-6)
+        value.error("target", "found the same place as position; allowed is any other");
+    else if (glm::length(glm::cross(glm::normalize(forward), glm::dvec3(up))) < 1e-4)
+        value.error("target", "found a direction of view along the camera's \"up\"; allowed is any other");
+}
+
+render::Lighting readLighting(const PresetValue& value)
+{
+    render::Lighting lighting;
+    value.read("sunDirection", lighting.sunDirection);
+    const float length = glm::length(lighting.sunDirection);
+    if (length < 1e-6f)
+        value.error("sunDirection", "found a direction of length 0; allowed is any other");
+    else
+        lighting.sunDirection /= length;
+    value.read("sunIlluminance", lighting.sunIlluminance);
+    value.read("skyLuminance", lighting.skyLuminance);
+    value.read("groundAlbedo", lighting.groundAlbedo);
+    return lighting;
+}
+
+render::DazzleSettings readDazzle(const PresetValue& value)
+{
+    render::DazzleSettings dazzle;
+    value.read("enabled", dazzle.enabled);
+    value.read("white", dazzle.white);
+    value.read("a", dazzle.a);
+    value.read("b", dazzle.b);
+    value.read("c", dazzle.c);
+    value.read("riseTime", dazzle.riseTime);
+    value.read("fallTime", dazzle.fallTime);
+    // f(over) = over (a + b exp(-c over)) has f' = a + b (1 - c over) exp(-c over), least at c over = 2 for b
+    // > 0 and at over = 0 for b < 0
+    const bool isMonotone = dazzle.b > 0 ? dazzle.a >= dazzle.b * std::exp(-2.0f) : dazzle.a >= -dazzle.b;
+    if (!isMonotone)
+        value.error("b", "found a law that is not monotone: more light would give less glare; allowed is "
+                         "-a <= b <= 7.389 a");
+    return dazzle;
+}
+
+/// Rotation about x, then y, then z, or as a quaternion.
+glm::quat readRotation(const PresetValue& value)
+{
+    if (value.has("quaternion") && value.has("rotationDegrees"))
+        value.error("quaternion", "found both quaternion and rotationDegrees; allowed is one of them");
+    std::array<float, 4> q{0, 0, 0, 1};
+    if (value.has("quaternion")) {
+        value.read("quaternion", q);
+        const glm::quat rotation(q[3], q[0], q[1], q[2]);
+        if (glm::length(rotation) > 1e-6f)
+            return glm::normalize(rotation);
+        value.error("quaternion", "found length 0; allowed is any other");
+    }
+    glm::vec3 degrees(0.0f);
+    value.read("rotationDegrees", degrees);
+    const glm::vec3 angles = glm::radians(degrees);
+    return glm::angleAxis(angles.z, glm::vec3(0, 0, 1)) * glm::angleAxis(angles.y, glm::vec3(0, 1, 0)) *
+           glm::angleAxis(angles.x, glm::vec3(1, 0, 0));
+}
+
+} // namespace
+
+CameraPath readCamera(const PresetValue& value)
+{
+    CameraPath camera;
+    value.read("position", camera.position);
+    value.read("target", camera.target);
+    value.read("up", camera.up);
+    value.read("fovYDegrees", camera.fovYDegrees);
+    value.read("orthographicHeight", camera.orthographicHeight);
+    value.read("near", camera.nearPlane);
+    if (value.has("fovYDegrees") && value.has("orthographicHeight"))
+        value.error("orthographicHeight",
+                    "found both fovYDegrees and orthographicHeight; allowed is one of them");
+    if (glm::length(camera.up) < 1e-6f)
+        value.error("up", "found length 0; allowed is any other");
+    else
+        camera.up = glm::normalize(camera.up);
+    for (size_t i = 0; i < value.size("keys"); ++i) {
+        const PresetValue element = value.element("keys", i);
+        CameraKey key;
+        element.read("time", key.time);
+        element.read("position", key.position);
+        element.read("target", key.target);
+        if (i > 0 && key.time <= camera.keys.back().time)
+            element.error("time", "found a time that is not later than that of the key before");
+        checkPose(element, key.position, key.target, camera.up);
+        camera.keys.push_back(key);
+    }
+    if (camera.keys.empty())
+        checkPose(value, camera.position, camera.target, camera.up);
+    return camera;
+}
+
+render::ViewSettings readView(const PresetValue& root)
+{
+    render::ViewSettings view;
+    root.read("exposureEv100", view.exposureEv100);
+    view.lighting = readLighting(root.child("lighting"));
+    const PresetValue shimmer = root.child("shimmer");
+    shimmer.read("strength", view.shimmer.strength);
+    shimmer.read("maxOffset", view.shimmer.maxOffset);
+    view.dazzle = readDazzle(root.child("dazzle"));
+    root.read("form", std::span<const std::pair<std::string_view, render::BillboardForm>>(kForms), view.form);
+    root.read("detail", view.detail);
+    root.read("toneMap", view.toneMap);
+    return view;
+}
+
+SceneInstance readInstance(const PresetValue& value)
+{
+    SceneInstance instance;
+    value.read("position", instance.position);
+    instance.rotation = readRotation(value);
+    value.read("scale", instance.scale);
+    value.read("seed", instance.seed);
+    value.read("start", instance.start);
+    value.read("intensity", instance.parameters.intensity);
+    value.read("wind", instance.parameters.wind);
+    return instance;
+}
+
+} // namespace fx::scene_file

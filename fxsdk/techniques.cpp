@@ -1,0 +1,57 @@
+#include "fxsdk/techniques.h"
+
+#include "foundation/snapshot/blob_kind.h"
+#include "fxsdk/presets/emitter_preset.h"
+#if FXSDK_WITH_SPH
+#include "fxsdk/presets/gas_preset.h"
+#endif
+
+#include <array>
+
+namespace fx::preset {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kMediaPasses{"scene distance", "media", "composite"};
+constexpr std::array<std::string_view, 2> kShimmerPasses{"heat offset", "heat shimmer"};
+constexpr std::array<std::string_view, 3> kDazzlePasses{"dazzle sum", "dazzle budget", "dazzle deal"};
+
+constexpr std::array kTechniques
+{
+    Technique{"emitters", "emitters", "emitters.schema.json", buildEmitter, &base::kBlobKind, {}},
+#if FXSDK_WITH_SPH
+        Technique{"sph gas", "gas", "gas.schema.json", buildGas, &base::kBlobKind, {}},
+#endif
+        Technique{"spherical billboards", "", "", nullptr, &base::kBlobKind, kMediaPasses},
+        Technique{"heat shimmer", "", "", nullptr, nullptr, kShimmerPasses},
+        Technique{"dazzle", "", "", nullptr, nullptr, kDazzlePasses},
+};
+
+#if !FXSDK_WITH_SPH
+constexpr std::array kMissing{MissingTechnique{"gas", "FXSDK_WITH_SPH"}};
+#endif
+
+} // namespace
+
+std::span<const Technique> techniques()
+{
+    return kTechniques;
+}
+
+std::span<const MissingTechnique> missingTechniques()
+{
+#if FXSDK_WITH_SPH
+    return {};
+#else
+    return kMissing;
+#endif
+}
+
+void registerKinds(base::SnapshotSchema& schema)
+{
+    for (const Technique& technique : techniques())
+        if (technique.kind)
+            static_cast<void>(schema.add(*technique.kind));
+}
+
+} // namespace fx::preset

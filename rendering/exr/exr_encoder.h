@@ -1,0 +1,52 @@
+/// @file exr_encoder.h
+/// Images with named channels as the bytes of an OpenEXR file (scan lines, ZIP). Write only.
+///
+/// The bytes are made in memory, so that the caller can put them in place whole or not at all.
+/// Threads: any; one call uses up to `threads` workers of OpenEXR's own pool.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fx::render {
+
+enum class ExrPrecision
+{
+    Half,  ///< 16 bits, relative error 2^-11; finite values outside its range are written as +-65504
+    Float, ///< 32 bits, exact
+};
+
+/// One channel: `values[(row * width + column) * stride + offset]`, rows from the top.
+struct ExrChannel
+{
+    std::string name; ///< "R", or "layer.R"; unique in the image, not empty, at most 255 bytes
+    std::span<const float> values;
+    size_t offset = 0; ///< [float] of the first value
+    size_t stride = 1; ///< [float] from pixel to pixel, >= 1
+    ExrPrecision precision = ExrPrecision::Half;
+};
+
+struct ExrImage
+{
+    int width = 0;  ///< [pixel] 1..16384
+    int height = 0; ///< [pixel] 1..16384
+    std::vector<ExrChannel> channels;
+    float whiteLuminance = 0.0f; ///< [cd/m2] that the value 1 stands for; 0 when that is not known
+};
+
+/// Channels R, G, B, A of an interleaved RGBA image; `layer` is put before the names ("fire" gives "fire.R").
+void addRgba(ExrImage& image, const std::string& layer, std::span<const float> rgba, ExrPrecision precision);
+
+/// A single channel of an image with one value a pixel.
+void addPlane(ExrImage& image, const std::string& name, std::span<const float> values,
+              ExrPrecision precision);
+
+/// The file. Primaries are written as Rec. 709. NaN and infinities are kept.
+/// @return InvalidArgument (size, a channel that is too short, a repeated name), OutOfMemory, Internal
+base::Result<std::string> encodeExr(const ExrImage& image, int threads = 1);
+
+} // namespace fx::render

@@ -1,0 +1,50 @@
+/// @file image.h
+/// Pictures in memory, and PNG and Radiance files of them. For tools and scenes; libfxsdk reads no images.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace fx::image {
+
+/// Rows from the top, channels interleaved.
+struct Image
+{
+    int width = 0;    ///< [pixel]
+    int height = 0;   ///< [pixel]
+    int channels = 0; ///< 3 for RGB, 4 for RGBA
+    std::vector<float> pixels;
+
+    float* at(int x, int y)
+    {
+        return pixels.data() + (size_t(y) * size_t(width) + size_t(x)) * size_t(channels);
+    }
+    const float* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
+};
+
+constexpr int kLargestSide = 16384;                 ///< [pixel]
+constexpr uint64_t kMostPixels = uint64_t(1) << 25; ///< width times height
+
+/// Linear values in [0, 1] from a PNG of 8 or 16 bits, taken as sRGB; alpha is linear already and not
+/// premultiplied. Sizes are checked against the limits, and against the number of bytes, before anything is
+/// decoded.
+/// @return TooLarge, Parse
+base::Result<Image> readPng(std::span<const std::byte> bytes);
+
+/// RGB values from a Radiance picture (RGBE, flat or run-length encoded), as they are in the file.
+/// @return TooLarge, Parse
+base::Result<Image> readHdr(std::span<const std::byte> bytes);
+
+/// 8-bit PNG of display-referred values (sRGB-encoded already): clamped to [0, 1] and rounded; NaN becomes 0.
+/// @return InvalidArgument for sizes or channels that a PNG cannot hold
+base::Result<std::vector<std::byte>> writePng(const Image& image);
+
+/// Transfer functions of sRGB (IEC 61966-2-1), both on [0, 1].
+float srgbToLinear(float encoded);
+float linearToSrgb(float linear);
+
+} // namespace fx::image

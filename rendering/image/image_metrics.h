@@ -1,0 +1,22 @@
+/// @file image_metrics.h
+/// How far two pictures are apart.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "rendering/image/image.h"
+
+namespace fx::image {
+
+/// Differences over all values of all channels; a value that is not finite counts as infinitely far from a
+/// finite one.
+struct Difference
+{
+    double max = 0;
+    double mean = 0; ///< of absolute values
+    double rms = 0;
+};
+
+/// @return InvalidArgument when sizes or channels differ
+base::Result<Difference> compare(const Image& a, const Image& b);
+
+} // namespace fx::image
