@@ -1,0 +1,55 @@
+/// @file active_list.h
+/// What is stepped, in order of creation: the only instances that an update visits.
+#pragma once
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::activation {
+
+/// Keeps three parallel arrays sorted by serial, so that results do not depend on the order of waking.
+class ActiveList
+{
+public:
+    explicit ActiveList(std::pmr::memory_resource* memory) : serials_(memory), keys_(memory), slots_(memory)
+    {}
+
+    /// Makes sure that insert() does not allocate up to a size of `count`.
+    void reserve(size_t count);
+    /// @param serial order of creation, unique; `key` and `slot` are handed back
+    void insert(uint64_t serial, uint32_t key, uint32_t slot);
+    /// The serial must be in the list.
+    void remove(uint64_t serial);
+
+    /// Removes every entry for which finished(key, slot) holds and keeps the order of the others.
+    template <class F>
+    void removeIf(F&& finished)
+    {
+        size_t kept = 0;
+        for (size_t i = 0; i < serials_.size(); ++i) {
+            if (finished(keys_[i], slots_[i]))
+                continue;
+            serials_[kept] = serials_[i];
+            keys_[kept] = keys_[i];
+            slots_[kept] = slots_[i];
+            ++kept;
+        }
+        truncate(kept);
+    }
+
+    size_t size() const { return serials_.size(); }
+    std::span<const uint32_t> keys() const { return keys_; }
+    std::span<const uint32_t> slots() const { return slots_; }
+
+private:
+    size_t positionOf(uint64_t serial) const;
+    void truncate(size_t size);
+
+    std::pmr::vector<uint64_t> serials_;
+    std::pmr::vector<uint32_t> keys_;
+    std::pmr::vector<uint32_t> slots_;
+};
+
+} // namespace fx::activation

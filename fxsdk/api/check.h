@@ -1,0 +1,68 @@
+/// @file check.h
+/// Tests of arguments that name the argument when it fails.
+#pragma once
+
+#include "foundation/math/bits.h"
+#include "foundation/result/status.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace fx::api {
+
+inline base::Status invalid(const std::string& what)
+{
+    return {base::Code::InvalidArgument, what};
+}
+
+/// Runs checks in order and keeps the first failure. Allocates only for that.
+class Checks
+{
+public:
+    void notNull(const void* pointer, const char* name)
+    {
+        if (status_.ok() && !pointer)
+            status_ = invalid(std::string(name) + " is null");
+    }
+
+    /// Not finite fails like out of range.
+    template <class T>
+    void range(T value, T least, T most, const char* name)
+    {
+        if (status_.ok() && !(value >= least && value <= most))
+            status_ = outOfRange(double(value), double(least), double(most), name);
+    }
+
+    template <class T>
+    void range3(const T* values, T least, T most, const char* name)
+    {
+        for (int i = 0; i < 3; ++i)
+            range(values[i], least, most, name);
+    }
+
+    void flag(uint32_t value, const char* name) { range(value, 0u, 1u, name); }
+
+    void that(bool condition, const char* failure)
+    {
+        if (status_.ok() && !condition)
+            status_ = invalid(failure);
+    }
+
+    const base::Status& status() const { return status_; }
+
+private:
+    static base::Status outOfRange(double value, double least, double most, const char* name);
+    base::Status status_;
+};
+
+/// Unit within 1e-3, in the order x, y, z, w. Not finite is not unit.
+bool isUnitQuaternion(const float* xyzw);
+/// The rotation of a unit quaternion with what is left of its length error removed.
+glm::quat toRotation(const float* xyzw);
+/// Orthonormal within 1e-3, right-handed, last row 0 0 0 1, column-major.
+bool isRigid(const float* matrix);
+
+} // namespace fx::api

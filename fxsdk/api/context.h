@@ -1,0 +1,73 @@
+/// @file context.h
+/// What is behind FxContext: the host's hooks and everything that scenes and views share.
+#pragma once
+
+#include "foundation/memory/host_memory.h"
+#include "foundation/snapshot/snapshot_schema.h"
+#include "foundation/tasks/task_runner.h"
+#include "fxsdk/api/call_scope.h"
+#include "fxsdk/fx_context.h"
+#include "fxsdk/fx_preset.h"
+#include "fxsdk/scene/id_table.h"
+#include "rendering/gl/gl_device.h"
+#include "simulation/effect_def.h"
+
+#include <memory>
+#include <memory_resource>
+#include <vector>
+
+namespace fx::api {
+
+/// The last byte of every id.
+enum IdType : uint8_t
+{
+    kPresetIdType = 1,
+    kInstanceIdType = 2,
+    kSnapshotIdType = 3,
+};
+
+using PresetTable = scene::IdTable<std::shared_ptr<const sim::EffectDef>>;
+
+base::AllocatorHooks toHooks(const FxAllocator& allocator);
+
+} // namespace fx::api
+
+struct FxContext
+{
+    /// Ready without GL. Throws std::bad_alloc.
+    explicit FxContext(const FxContextDef& def);
+    FxContext(const FxContext&) = delete;
+    FxContext& operator=(const FxContext&) = delete;
+
+    /// @return StaleId when the id names no preset of this context
+    fx::base::Result<std::shared_ptr<const fx::sim::EffectDef>> findPreset(FxPresetId id);
+
+    const FxContextDef def;
+    fx::base::HostMemory memory;
+    fx::base::SnapshotSchema schema; ///< constant after construction
+    std::unique_ptr<fx::base::TaskRunner> tasks;
+
+    fx::api::SharedCaller loading; ///< one preset is loaded at a time; taken before `tables`
+    fx::api::SharedCaller tables;  ///< held briefly, for the four members below
+    fx::scene::IdCodec ids{this};
+    fx::api::PresetTable presets;
+    std::pmr::vector<FxScene*> scenes;
+    std::pmr::vector<FxView*> views;
+
+    fx::api::SingleCaller gl;                     ///< GL thread
+    std::unique_ptr<fx::render::GlDevice> device; ///< null without GL
+};
+
+namespace fx::api {
+
+constexpr const char* kGlThreadRule = "call it from the context's GL thread, or adopt this one with "
+                                      "fxContext_AdoptGlThread";
+
+inline const FxLog* logOf(const FxContext* context)
+{
+    return context ? &context->def.log : nullptr;
+}
+
+void logMessage(const FxContext& context, FxLogLevel level, const char* message);
+
+} // namespace fx::api

@@ -1,0 +1,167 @@
+// The functions of fx_context.h.
+#include "fxsdk/api/check.h"
+#include "fxsdk/api/context.h"
+#include "fxsdk/api/guarded.h"
+#include "fxsdk/api/scene_object.h"
+#include "fxsdk/api/versioned_struct.h"
+#include "fxsdk/api/view_object.h"
+#include "rendering/view/view_renderer.h"
+
+#include <string>
+
+namespace {
+
+using fx::base::Code;
+using fx::base::Status;
+
+constexpr uint32_t kMostWorkers = 256;
+
+Status checkDef(const FxContextDef& def)
+{
+    if (def.headerVersion / 65536 != FX_VERSION_MAJOR)
+        return {Code::Version, "def.headerVersion is of another major version than the library"};
+    fx::api::Checks check;
+    check.that(!def.allocator.allocate == !def.allocator.release,
+               "def.allocator has one function of two; set both or none");
+    check.that(!def.assets.open == !def.assets.close, "def.assets has one function of two; set both or none");
+    check.range(def.workers, 0u, kMostWorkers, "def.workers");
+    check.range(def.flags, 0u, 0u, "def.flags");
+    return check.status();
+}
+
+Status connectGl(FxContext& context)
+{
+    const fx::render::GlLoader loader{context.def.gl.user, context.def.gl.getProcAddress};
+    auto device = fx::render::GlDevice::create(loader, &context.memory);
+    if (!device)
+        return device.status();
+    context.device = std::move(*device);
+    fx::api::logMessage(context, FX_LOG_INFO,
+                        ("OpenGL renderer: " + context.device->limits().renderer).c_str());
+    return {};
+}
+
+void destroy(FxContext* context)
+{
+    while (!context->views.empty())
+        fx::api::destroyView(context->views.back());
+    while (!context->scenes.empty())
+        fx::api::destroyScene(context->scenes.back());
+    fx::base::HostMemory memory(fx::api::toHooks(context->def.allocator));
+    context->~FxContext();
+    memory.deallocate(context, sizeof(FxContext), alignof(FxContext));
+}
+
+Status create(const FxContextDef& def, FxContext** outContext)
+{
+    fx::base::HostMemory memory(fx::api::toHooks(def.allocator));
+    void* place = memory.allocate(sizeof(FxContext), alignof(FxContext));
+    FxContext* context = nullptr;
+    try {
+        context = new (place) FxContext(def);
+        if (def.gl.getProcAddress)
+            if (Status status = connectGl(*context); !status) {
+                destroy(context);
+                return status;
+            }
+    } catch (...) {
+        if (context)
+            destroy(context);
+        else
+            memory.deallocate(place, sizeof(FxContext), alignof(FxContext));
+        throw;
+    }
+    *outContext = context;
+    return {};
+}
+
+/// Whether the context may be destroyed by this thread now.
+Status checkDestroy(FxContext& context)
+{
+    if (context.device && !context.gl.thread.isCaller())
+        return {Code::WrongThread, fx::api::kGlThreadRule};
+    const fx::api::SharedCaller::Scope loading(context.loading);
+    if (!loading.status())
+        return loading.status();
+    const fx::api::SharedCaller::Scope tables(context.tables);
+    if (!tables.status())
+        return tables.status();
+    bool isInside = context.gl.thread.isCaller() && context.gl.busy();
+    for (const FxScene* scene : context.scenes)
+        isInside = isInside || (scene->caller.thread.isCaller() && scene->caller.busy());
+    return isInside ? Status(Code::ReEntrant, "a callback must not destroy the context that is calling it")
+                    : Status();
+}
+
+} // namespace
+
+FxResult fxCreateContext(const FxContextDef* def, FxContext** outContext)
+{
+    FxContextDef known;
+    return fx::api::guarded("fxCreateContext", nullptr, [&]() -> Status {
+        if (!outContext)
+            return fx::api::invalid("outContext is null");
+        if (Status status = fx::api::readStruct(def, "def", fxDefaultContextDef(), known); !status)
+            return status;
+        if (Status status = checkDef(known); !status)
+            return status;
+        return create(known, outContext);
+    });
+}
+
+FxResult fxDestroyContext(FxContext* context)
+{
+    return fx::api::guarded("fxDestroyContext", fx::api::logOf(context), [&]() -> Status {
+        if (!context)
+            return {};
+        if (Status status = checkDestroy(*context); !status)
+            return status;
+        destroy(context);
+        return {};
+    });
+}
+
+FxResult fxContext_WarmUp(FxContext* context)
+{
+    return fx::api::guarded("fxContext_WarmUp", fx::api::logOf(context), [&]() -> Status {
+        if (!context)
+            return fx::api::invalid("context is null");
+        if (!context->device)
+            return {Code::NoGl, "the context was created without getProcAddress"};
+        const fx::api::SingleCaller::Scope scope(context->gl, fx::api::kGlThreadRule);
+        if (!scope.status())
+            return scope.status();
+        fx::render::ViewRenderer renderer(context->device.get(), &context->schema, &context->memory);
+        return renderer.warmUp(); // programs belong to the device and stay
+    });
+}
+
+FxResult fxContext_AdoptGlThread(FxContext* context)
+{
+    return fx::api::guarded("fxContext_AdoptGlThread", fx::api::logOf(context), [&]() -> Status {
+        if (!context)
+            return fx::api::invalid("context is null");
+        if (!context->device)
+            return {Code::NoGl, "the context was created without getProcAddress"};
+        context->gl.thread.adopt();
+        return {};
+    });
+}
+
+FxResult fxContext_GetMemoryStats(FxContext* context, FxMemoryStats* ioStats)
+{
+    return fx::api::guarded("fxContext_GetMemoryStats", fx::api::logOf(context), [&]() -> Status {
+        if (!context)
+            return fx::api::invalid("context is null");
+        const fx::api::SharedCaller::Scope scope(context->tables);
+        if (!scope.status())
+            return scope.status();
+        FxMemoryStats stats{};
+        stats.presets = context->presets.count();
+        stats.scenes = uint32_t(context->scenes.size());
+        stats.views = uint32_t(context->views.size());
+        stats.bytesInUse = context->memory.bytesInUse();
+        stats.allocationCount = context->memory.allocationCount();
+        return fx::api::writeStruct(stats, ioStats, "ioStats");
+    });
+}

@@ -1,0 +1,55 @@
+/// @file guarded.h
+/// The one exception boundary of the C API: a status or an exception becomes a result code and a message of
+/// the thread.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "fxsdk/fx_context.h"
+
+#include <exception>
+#include <new>
+#include <string_view>
+
+namespace fx::api {
+
+constexpr FxResult toResult(base::Code code)
+{
+    return FxResult(int(code));
+}
+
+/// Keeps "function: message" for fxGetLastErrorMessage() on this thread, cut to 2 KiB; allocates nothing.
+void rememberError(std::string_view function, std::string_view message) noexcept;
+const char* lastError() noexcept;
+
+/// Sends what rememberError() kept to the host's log, if there is one.
+void logLastError(const FxLog& log, FxResult code) noexcept;
+
+/// Runs the body of a C function. Nothing leaves it but a code.
+/// @param log  where failures are reported besides the message of the thread; may be null
+/// @param body callable that returns base::Status
+template <class F>
+FxResult guarded(const char* function, const FxLog* log, F&& body) noexcept
+{
+    FxResult result = FX_OK;
+    try {
+        const base::Status status = body();
+        if (status.ok())
+            return FX_OK;
+        result = toResult(status.code());
+        rememberError(function, status.message());
+    } catch (const std::bad_alloc&) {
+        result = FX_ERROR_OUT_OF_MEMORY;
+        rememberError(function, "the allocator returned null");
+    } catch (const std::exception& exception) {
+        result = FX_ERROR_INTERNAL;
+        rememberError(function, exception.what());
+    } catch (...) {
+        result = FX_ERROR_INTERNAL;
+        rememberError(function, "an exception of unknown type");
+    }
+    if (log)
+        logLastError(*log, result);
+    return result;
+}
+
+} // namespace fx::api

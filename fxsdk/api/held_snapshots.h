@@ -1,0 +1,66 @@
+/// @file held_snapshots.h
+/// The snapshots that hosts hold at the moment. Safe from any thread; allocates nothing.
+#pragma once
+
+#include "fxsdk/scene/scene.h"
+
+#include <array>
+#include <mutex>
+#include <optional>
+
+namespace fx::api {
+
+class HeldSnapshots
+{
+public:
+    static constexpr uint32_t kCapacity = 16;
+
+    /// @return an identity for find() and take(), 0 when kCapacity are held; `presentation` is then not kept
+    scene::LocalId add(const scene::Presentation& presentation)
+    {
+        std::lock_guard lock(mutex_);
+        for (uint32_t i = 0; i < kCapacity; ++i) {
+            Slot& slot = slots_[i];
+            if (slot.held || slot.use == scene::kIdPartMask)
+                continue;
+            slot.held = presentation;
+            return (uint64_t(++slot.use) << scene::kIdPartBits) | i;
+        }
+        return 0;
+    }
+
+    std::optional<scene::Presentation> find(scene::LocalId id)
+    {
+        std::lock_guard lock(mutex_);
+        const Slot* slot = slotOf(id);
+        return slot ? slot->held : std::nullopt;
+    }
+
+    /// Forgets the snapshot and hands it out, to be released. Nothing when the id is stale.
+    std::optional<scene::Presentation> take(scene::LocalId id)
+    {
+        std::lock_guard lock(mutex_);
+        Slot* slot = slotOf(id);
+        return slot ? std::exchange(slot->held, std::nullopt) : std::nullopt;
+    }
+
+private:
+    struct Slot
+    {
+        std::optional<scene::Presentation> held;
+        uint32_t use = 0;
+    };
+
+    Slot* slotOf(scene::LocalId id)
+    {
+        const uint32_t index = scene::indexOf(id);
+        if (index >= kCapacity || slots_[index].use != id >> scene::kIdPartBits)
+            return nullptr;
+        return &slots_[index];
+    }
+
+    std::mutex mutex_;
+    std::array<Slot, kCapacity> slots_;
+};
+
+} // namespace fx::api

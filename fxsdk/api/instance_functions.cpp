@@ -1,0 +1,159 @@
+// The functions of fx_scene.h that concern one instance.
+#include "fxsdk/api/scene_object.h"
+#include "fxsdk/api/versioned_struct.h"
+
+#include <limits>
+
+namespace {
+
+using fx::base::Code;
+using fx::base::Status;
+
+static_assert(int(FX_INSTANCE_DORMANT) == int(fx::scene::InstanceState::Dormant));
+static_assert(int(FX_INSTANCE_ACTIVE) == int(fx::scene::InstanceState::Active));
+static_assert(int(FX_INSTANCE_FINISHED) == int(fx::scene::InstanceState::Finished));
+
+constexpr double kFarthest = 1e9;       // [m]
+constexpr float kSmallestScale = 1e-3f; // [1]
+constexpr float kLargestScale = 1e3f;   // [1]
+constexpr float kStrongestWind = 1e3f;  // [m/s]
+constexpr float kHighestIntensity = 1e3f;
+
+/// Latest start: far enough from the end of int64_t that no sum of steps overflows.
+constexpr int64_t kLatestStart = std::numeric_limits<int64_t>::max() / 4;
+
+void checkParameters(fx::api::Checks& check, float intensity, const float* wind, uint32_t emitting)
+{
+    check.range(intensity, 0.0f, kHighestIntensity, "intensity");
+    check.range3(wind, -kStrongestWind, kStrongestWind, "wind");
+    check.flag(emitting, "emitting");
+}
+
+void checkPlacement(fx::api::Checks& check, const double* position, const float* rotation, float scale)
+{
+    check.range3(position, -kFarthest, kFarthest, "position");
+    check.that(fx::api::isUnitQuaternion(rotation), "rotation is not a unit quaternion (x, y, z, w)");
+    check.range(scale, kSmallestScale, kLargestScale, "scale");
+}
+
+fx::base::Placement toPlacement(const double* position, const float* rotation, float scale)
+{
+    return {{position[0], position[1], position[2]}, fx::api::toRotation(rotation), scale};
+}
+
+fx::sim::InstanceParameters toParameters(float intensity, const float* wind, uint32_t emitting)
+{
+    return {intensity, {wind[0], wind[1], wind[2]}, emitting != 0};
+}
+
+Status checkDef(const FxInstanceDef& def)
+{
+    fx::api::Checks check;
+    checkPlacement(check, def.position, def.rotation, def.scale);
+    checkParameters(check, def.intensity, def.wind, def.emitting);
+    check.range(def.startTick, int64_t(0), kLatestStart, "def.startTick");
+    check.flag(def.destroyWhenFinished, "def.destroyWhenFinished");
+    return check.status();
+}
+
+/// Looks `id` up and runs body(local identity) inside the scene.
+template <class F>
+FxResult withInstance(const char* function, FxScene* scene, FxInstanceId id, F&& body)
+{
+    return fx::api::insideScene(function, scene, [&]() -> Status {
+        const fx::scene::LocalId local = scene->ids.decode(id.bits, fx::api::kInstanceIdType);
+        if (!scene->scene.contains(local))
+            return {Code::StaleId, "instance names no instance of this scene"};
+        return body(local);
+    });
+}
+
+} // namespace
+
+FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInstanceId* outInstance)
+{
+    return fx::api::insideScene("fxScene_CreateInstance", scene, [&]() -> Status {
+        if (!outInstance)
+            return fx::api::invalid("outInstance is null");
+        FxInstanceDef known;
+        if (Status status = fx::api::readStruct(def, "def", fxDefaultInstanceDef(), known); !status)
+            return status;
+        if (Status status = checkDef(known); !status)
+            return status;
+        auto effect = scene->context->findPreset(known.preset);
+        if (!effect)
+            return effect.status();
+
+        fx::scene::InstanceSetup setup;
+        setup.effect = std::move(*effect);
+        setup.seed = known.seed;
+        setup.startTick = known.startTick;
+        setup.placement = toPlacement(known.position, known.rotation, known.scale);
+        setup.parameters = toParameters(known.intensity, known.wind, known.emitting);
+        setup.destroyWhenFinished = known.destroyWhenFinished != 0;
+        const fx::scene::LocalId id = scene->scene.add(std::move(setup));
+        if (id == 0)
+            return {Code::Capacity, "the scene has as many instances as its definition allows"};
+        outInstance->bits = scene->ids.encode(id, fx::api::kInstanceIdType);
+        return {};
+    });
+}
+
+FxResult fxScene_DestroyInstance(FxScene* scene, FxInstanceId instance)
+{
+    return withInstance("fxScene_DestroyInstance", scene, instance, [&](fx::scene::LocalId id) -> Status {
+        scene->scene.remove(id);
+        return {};
+    });
+}
+
+uint32_t fxScene_IsValid(FxScene* scene, FxInstanceId instance)
+{
+    if (!scene || !scene->caller.thread.isCaller() || scene->caller.busy())
+        return 0;
+    return scene->scene.contains(scene->ids.decode(instance.bits, fx::api::kInstanceIdType)) ? 1 : 0;
+}
+
+FxResult fxScene_GetInstanceState(FxScene* scene, FxInstanceId instance, FxInstanceState* outState,
+                                  uint32_t* outParticles)
+{
+    return withInstance("fxScene_GetInstanceState", scene, instance, [&](fx::scene::LocalId id) -> Status {
+        if (outState)
+            *outState = FxInstanceState(scene->scene.state(id));
+        if (outParticles)
+            *outParticles = scene->scene.particles(id);
+        return {};
+    });
+}
+
+FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, const double position[3],
+                              const float rotation[4], float scale)
+{
+    return withInstance("fxScene_SetTransform", scene, instance, [&](fx::scene::LocalId id) -> Status {
+        fx::api::Checks check;
+        check.notNull(position, "position");
+        check.notNull(rotation, "rotation");
+        if (!check.status())
+            return check.status();
+        checkPlacement(check, position, rotation, scale);
+        if (check.status())
+            scene->scene.setPlacement(id, toPlacement(position, rotation, scale));
+        return check.status();
+    });
+}
+
+FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance, const FxInstanceParameters* parameters)
+{
+    return withInstance("fxScene_SetParameters", scene, instance, [&](fx::scene::LocalId id) -> Status {
+        FxInstanceParameters known;
+        if (Status status =
+                fx::api::readStruct(parameters, "parameters", fxDefaultInstanceParameters(), known);
+            !status)
+            return status;
+        fx::api::Checks check;
+        checkParameters(check, known.intensity, known.wind, known.emitting);
+        if (check.status())
+            scene->scene.setParameters(id, toParameters(known.intensity, known.wind, known.emitting));
+        return check.status();
+    });
+}

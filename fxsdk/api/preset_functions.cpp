@@ -1,0 +1,175 @@
+// The functions of fx_preset.h.
+#include "fxsdk/api/check.h"
+#include "fxsdk/api/context.h"
+#include "fxsdk/api/guarded.h"
+#include "fxsdk/api/text.h"
+#include "fxsdk/api/versioned_struct.h"
+#include "fxsdk/presets/preset_loader.h"
+
+#include <string>
+#include <string_view>
+
+namespace {
+
+using fx::base::Code;
+using fx::base::Result;
+using fx::base::Status;
+using fx::preset::LoadedPreset;
+
+constexpr std::string_view kLibraryPrefix = "library:";
+
+/// The host's asset hook in the form that the resolver asks for.
+int readThroughHook(void* user, const char* name, uint64_t maxBytes,
+                    void (*deliver)(void* sink, const void* data, size_t size), void* sink)
+{
+    const FxAssetHook& hook = *static_cast<const FxAssetHook*>(user);
+    size_t size = 0;
+    const void* data = hook.open(hook.user, name, &size);
+    if (!data)
+        return 1;
+    struct Closer
+    {
+        const FxAssetHook& hook;
+        const void* data;
+        size_t size;
+        ~Closer() { hook.close(hook.user, data, size); }
+    } closer{hook, data, size};
+    if (size > maxBytes)
+        return 2;
+    deliver(sink, data, size);
+    return 0;
+}
+
+/// Loads a preset under the context's lock and enters what `load` returns into its table.
+template <class Load>
+Status loadInto(FxContext* context, FxPresetId* outPreset, Load&& load)
+{
+    const fx::api::SharedCaller::Scope loading(context->loading);
+    if (!loading.status())
+        return loading.status();
+    Result<LoadedPreset> loaded = load();
+    if (!loaded)
+        return loaded.status();
+    for (const fx::preset::Diagnostic& warning : loaded->warnings)
+        fx::api::logMessage(*context, FX_LOG_WARNING, fx::preset::toString(warning).c_str());
+
+    const fx::api::SharedCaller::Scope tables(context->tables);
+    if (!tables.status())
+        return tables.status();
+    const fx::scene::LocalId id = context->presets.add(std::move(loaded->effect));
+    if (id == 0)
+        return {Code::Capacity, "no more presets can be loaded"};
+    outPreset->bits = context->ids.encode(id, fx::api::kPresetIdType);
+    return {};
+}
+
+Status checkLoad(const FxContext* context, const void* text, const char* textName,
+                 const FxPresetId* outPreset)
+{
+    fx::api::Checks check;
+    check.notNull(context, "context");
+    check.notNull(text, textName);
+    check.notNull(outPreset, "outPreset");
+    return check.status();
+}
+
+Result<LoadedPreset> loadFile(const FxContext& context, const char* path)
+{
+    FxAssetHook hook = context.def.assets;
+    if (hook.open && fx::asset::checkAssetName(path).ok() &&
+        !std::string_view(path).starts_with(kLibraryPrefix)) {
+        const fx::asset::AssetResolver resolver("", fx::preset::presetLibrary(), {&hook, &readThroughHook});
+        Result<LoadedPreset> loaded = fx::preset::loadPresetAsset(path, resolver);
+        if (loaded.ok() || loaded.status().code() != Code::NotFound)
+            return loaded;
+    }
+    return fx::preset::loadPresetFile(path);
+}
+
+uint64_t capacityOf(const fx::sim::EffectDef& effect)
+{
+    uint64_t sum = 0;
+    for (const auto& solver : effect.solvers)
+        sum += solver->capacity();
+    return sum;
+}
+
+} // namespace
+
+FxResult fxLoadPresetFile(FxContext* context, const char* path, FxPresetId* outPreset)
+{
+    return fx::api::guarded("fxLoadPresetFile", fx::api::logOf(context), [&]() -> Status {
+        if (Status status = checkLoad(context, path, "path", outPreset); !status)
+            return status;
+        return loadInto(context, outPreset, [&] { return loadFile(*context, path); });
+    });
+}
+
+FxResult fxLoadPresetText(FxContext* context, const char* text, size_t length, const char* displayName,
+                          FxPresetId* outPreset)
+{
+    return fx::api::guarded("fxLoadPresetText", fx::api::logOf(context), [&]() -> Status {
+        if (Status status = checkLoad(context, text, "text", outPreset); !status)
+            return status;
+        if (length == 0)
+            return fx::api::invalid("length is 0");
+        if (length > fx::preset::kPresetBytes)
+            return {Code::TooLarge, "length is " + std::to_string(length) + "; a preset has at most " +
+                                        std::to_string(fx::preset::kPresetBytes) + " bytes"};
+        return loadInto(context, outPreset, [&] {
+            return fx::preset::loadPresetText({text, length}, displayName ? displayName : "preset text");
+        });
+    });
+}
+
+FxResult fxLoadPresetLibrary(FxContext* context, const char* name, FxPresetId* outPreset)
+{
+    return fx::api::guarded("fxLoadPresetLibrary", fx::api::logOf(context), [&]() -> Status {
+        if (Status status = checkLoad(context, name, "name", outPreset); !status)
+            return status;
+        std::string full(name);
+        if (!full.starts_with(kLibraryPrefix))
+            full.insert(0, kLibraryPrefix);
+        return loadInto(context, outPreset, [&] {
+            const fx::asset::AssetResolver library("", fx::preset::presetLibrary());
+            return fx::preset::loadPresetAsset(full, library);
+        });
+    });
+}
+
+FxResult fxUnloadPreset(FxContext* context, FxPresetId preset)
+{
+    return fx::api::guarded("fxUnloadPreset", fx::api::logOf(context), [&]() -> Status {
+        if (!context)
+            return fx::api::invalid("context is null");
+        Result<std::shared_ptr<const fx::sim::EffectDef>> keep = context->findPreset(preset);
+        if (!keep)
+            return keep.status();
+        const fx::api::SharedCaller::Scope tables(
+            context->tables); // `keep` makes the preset end outside the lock
+        if (!tables.status())
+            return tables.status();
+        const fx::scene::LocalId id = context->ids.decode(preset.bits, fx::api::kPresetIdType);
+        if (!context->presets.find(id))
+            return {Code::StaleId, "preset was unloaded by another thread"};
+        context->presets.remove(id);
+        return {};
+    });
+}
+
+FxResult fxGetPresetInfo(FxContext* context, FxPresetId preset, FxPresetInfo* ioInfo)
+{
+    return fx::api::guarded("fxGetPresetInfo", fx::api::logOf(context), [&]() -> Status {
+        if (!context)
+            return fx::api::invalid("context is null");
+        const Result<std::shared_ptr<const fx::sim::EffectDef>> effect = context->findPreset(preset);
+        if (!effect)
+            return effect.status();
+        FxPresetInfo info{};
+        info.solverCount = uint32_t((*effect)->solvers.size());
+        info.durationTicks = (*effect)->duration;
+        info.capacity = capacityOf(**effect);
+        fx::api::copyText((*effect)->name, info.name, sizeof info.name);
+        return fx::api::writeStruct(info, ioInfo, "ioInfo");
+    });
+}

@@ -1,0 +1,141 @@
+// The functions of fx_scene.h that concern the whole scene.
+#include "fxsdk/api/scene_object.h"
+#include "fxsdk/api/versioned_struct.h"
+
+#include <algorithm>
+
+namespace {
+
+using fx::base::Code;
+using fx::base::Status;
+
+Status checkDef(const FxSceneDef& def)
+{
+    fx::api::Checks check;
+    check.range(def.maxInstances, 1u, uint32_t(fx::scene::kIdPartMask), "def.maxInstances");
+    check.range(def.stepTicks, FX_TICKS_PER_SECOND / 1000, FX_TICKS_PER_SECOND, "def.stepTicks");
+    check.range(def.maxFrameTicks, def.stepTicks, 60 * FX_TICKS_PER_SECOND, "def.maxFrameTicks");
+    return check.status();
+}
+
+FxSceneStatistics gatherStatistics(const FxScene& object)
+{
+    const fx::scene::Scene& scene = object.scene;
+    const fx::scene::SceneCounters counters = scene.counters();
+    FxSceneStatistics statistics{};
+    statistics.instances = counters.instances;
+    statistics.instancesDormant = counters.dormant;
+    statistics.instancesActive = counters.active;
+    statistics.instancesFinished = counters.finished;
+    statistics.particles = scene.particles();
+    statistics.steps = counters.steps;
+    statistics.born = counters.work.born;
+    statistics.dropped = counters.work.dropped;
+    statistics.particleSteps = counters.work.particleSteps;
+    statistics.neighborPairs = counters.work.neighborPairs;
+    statistics.clamped = counters.work.clamped;
+    statistics.wakeFailures = counters.wakeFailures;
+    statistics.refusedUpdates = counters.refusedUpdates;
+    statistics.nowTick = scene.clock().now();
+    statistics.simulatedTick = scene.clock().simulated();
+    statistics.droppedTicks = counters.droppedTicks;
+    statistics.updateAllocations = object.updateAllocations;
+    return statistics;
+}
+
+} // namespace
+
+void fx::api::destroyScene(FxScene* scene)
+{
+    FxContext* context = scene->context;
+    std::erase(context->scenes, scene);
+    std::pmr::polymorphic_allocator<>(&context->memory).delete_object(scene);
+}
+
+FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene** outScene)
+{
+    return fx::api::guarded("fxCreateScene", fx::api::logOf(context), [&]() -> Status {
+        fx::api::Checks check;
+        check.notNull(context, "context");
+        check.notNull(outScene, "outScene");
+        if (!check.status())
+            return check.status();
+        FxSceneDef known;
+        if (Status status = fx::api::readStruct(def, "def", fxDefaultSceneDef(), known); !status)
+            return status;
+        if (Status status = checkDef(known); !status)
+            return status;
+
+        const fx::api::SharedCaller::Scope scope(context->tables);
+        if (!scope.status())
+            return scope.status();
+        const size_t count = context->scenes.size() + 1;
+        if (context->scenes.capacity() < count)
+            context->scenes.reserve(std::max(count, 2 * context->scenes.capacity()));
+        const fx::scene::SceneOptions options{known.stepTicks, known.maxFrameTicks, known.maxInstances};
+        FxScene* scene =
+            std::pmr::polymorphic_allocator<>(&context->memory).new_object<FxScene>(context, options);
+        context->scenes.push_back(scene);
+        *outScene = scene;
+        return {};
+    });
+}
+
+FxResult fxDestroyScene(FxScene* scene)
+{
+    return fx::api::guarded("fxDestroyScene", fx::api::logOf(scene), [&]() -> Status {
+        if (!scene)
+            return {};
+        {
+            const fx::api::SingleCaller::Scope scope(scene->caller, fx::api::kSceneThreadRule);
+            if (!scope.status())
+                return scope.status();
+        }
+        const fx::api::SharedCaller::Scope scope(scene->context->tables);
+        if (!scope.status())
+            return scope.status();
+        if (scene->views.load() != 0)
+            return fx::api::invalid("a view still shows the scene; destroy the view first");
+        fx::api::destroyScene(scene);
+        return {};
+    });
+}
+
+FxResult fxScene_AdoptThread(FxScene* scene)
+{
+    return fx::api::guarded("fxScene_AdoptThread", fx::api::logOf(scene), [&]() -> Status {
+        if (!scene)
+            return fx::api::invalid("scene is null");
+        if (scene->caller.thread.isCaller() && scene->caller.busy())
+            return {Code::ReEntrant, "a callback must not call the scene that is calling it"};
+        scene->caller.thread.adopt();
+        return {};
+    });
+}
+
+FxResult fxScene_Update(FxScene* scene, double dtSeconds)
+{
+    return fx::api::insideScene("fxScene_Update", scene, [&]() -> Status {
+        const uint64_t before = scene->context->memory.allocationCount();
+        const bool accepted = scene->scene.update(dtSeconds);
+        scene->updateAllocations = scene->context->memory.allocationCount() - before;
+        return accepted ? Status() : fx::api::invalid("dtSeconds is negative or not finite");
+    });
+}
+
+FxResult fxScene_GetStatistics(FxScene* scene, FxSceneStatistics* ioStatistics)
+{
+    return fx::api::insideScene("fxScene_GetStatistics", scene, [&]() -> Status {
+        return fx::api::writeStruct(gatherStatistics(*scene), ioStatistics, "ioStatistics");
+    });
+}
+
+FxResult fxScene_GetStateHash(FxScene* scene, uint64_t* outHash)
+{
+    return fx::api::insideScene("fxScene_GetStateHash", scene, [&]() -> Status {
+        if (!outHash)
+            return fx::api::invalid("outHash is null");
+        *outHash = scene->scene.stateHash();
+        return {};
+    });
+}

@@ -1,0 +1,67 @@
+/// @file versioned_struct.h
+/// Structs whose size travels with them: older and newer callers than this library.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+namespace fx::api {
+
+constexpr uint32_t kLargestStruct = 4096; ///< [byte] more can only be a wrong structSize
+
+/// Ok when `size` may be the structSize of some version of T.
+template <class T>
+base::Status checkStructSize(uint32_t size, const char* name)
+{
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (size >= 2 * sizeof(uint32_t) && size <= kLargestStruct && size % alignof(T) == 0)
+        return {};
+    return {base::Code::Version, std::string(name) + ".structSize is " + std::to_string(size) +
+                                     ", this library knows " + std::to_string(sizeof(T)) +
+                                     "; fill the struct with its default function"};
+}
+
+/// Copies what the caller knows over `defaults` into `out`. What this library does not know must be zero.
+template <class T>
+base::Status readStruct(const T* given, const char* name, const T& defaults, T& out)
+{
+    if (!given)
+        return {base::Code::InvalidArgument, std::string(name) + " is null"};
+    uint32_t size;
+    std::memcpy(&size, given, sizeof size);
+    if (base::Status status = checkStructSize<T>(size, name); !status)
+        return status;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(given);
+    for (size_t i = sizeof(T); i < size; ++i)
+        if (bytes[i] != 0)
+            return {base::Code::Version, std::string(name) + " sets members that this library does not know"};
+    out = defaults;
+    std::memcpy(&out, given, std::min<size_t>(size, sizeof(T)));
+    return {};
+}
+
+/// Gives the caller as much of `filled` as its version of T holds; what is longer is zeroed. structSize
+/// stays.
+template <class T>
+base::Status writeStruct(const T& filled, T* io, const char* name)
+{
+    if (!io)
+        return {base::Code::InvalidArgument, std::string(name) + " is null"};
+    uint32_t size;
+    std::memcpy(&size, io, sizeof size);
+    if (base::Status status = checkStructSize<T>(size, name); !status)
+        return status;
+    auto* bytes = reinterpret_cast<unsigned char*>(io);
+    const auto* source = reinterpret_cast<const unsigned char*>(&filled);
+    const size_t known = std::min<size_t>(size, sizeof(T));
+    std::memcpy(bytes + sizeof size, source + sizeof size, known - sizeof size);
+    std::memset(bytes + known, 0, size - known);
+    return {};
+}
+
+} // namespace fx::api

@@ -1,0 +1,128 @@
+// The definitions of fx_view.h, checked and in the renderer's terms.
+#include "fxsdk/api/view_object.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <cmath>
+
+namespace {
+
+static_assert(int(FX_DEPTH_REVERSED) == int(fx::render::DepthConvention::Reversed));
+static_assert(int(FX_BILLBOARD_PLANAR) == int(fx::render::BillboardForm::Planar));
+static_assert(int(FX_BILLBOARD_CONSTANT) == int(fx::render::BillboardForm::Constant));
+static_assert(int(FX_BILLBOARD_KERNEL) == int(fx::render::BillboardForm::Kernel));
+
+constexpr float kBrightest = 1e6f;  // [cd/m2] and [lx]
+constexpr double kFarthest = 1e9;   // [m]
+constexpr int32_t kWidest = 16'384; // [pixel]
+constexpr float kUnitTolerance = 1e-3f;
+
+void checkLight(fx::api::Checks& check, const FxViewSettings& given)
+{
+    check.range(given.exposureEv100, -20.0f, 40.0f, "settings.exposureEv100");
+    check.range3(given.sunIlluminance, 0.0f, kBrightest, "settings.sunIlluminance");
+    check.range3(given.skyLuminance, 0.0f, kBrightest, "settings.skyLuminance");
+    check.range(given.groundAlbedo, 0.0f, 1.0f, "settings.groundAlbedo");
+    const float length = glm::length(glm::make_vec3(given.sunDirection));
+    check.that(std::abs(length - 1.0f) <= kUnitTolerance, "settings.sunDirection is not a unit vector");
+}
+
+void checkDazzle(fx::api::Checks& check, const FxViewSettings& given)
+{
+    check.flag(given.dazzle, "settings.dazzle");
+    check.range(given.dazzleWhite, 1e-3f, 1e6f, "settings.dazzleWhite");
+    check.range(given.dazzleA, -1e6f, 1e6f, "settings.dazzleA");
+    check.range(given.dazzleB, -1e6f, 1e6f, "settings.dazzleB");
+    check.range(given.dazzleC, 0.0f, 1e6f, "settings.dazzleC");
+    check.range(given.dazzleRiseTime, 0.0f, 60.0f, "settings.dazzleRiseTime");
+    check.range(given.dazzleFallTime, 0.0f, 60.0f, "settings.dazzleFallTime");
+    const double least = given.dazzleB > 0 ? double(given.dazzleB) * std::exp(-2.0) : -double(given.dazzleB);
+    check.that(double(given.dazzleA) >= least,
+               "settings.dazzleA is too small for dazzleB: more light would give less glare");
+}
+
+void checkSwitches(fx::api::Checks& check, const FxViewSettings& given)
+{
+    check.range(given.shimmerStrength, 0.0f, 10.0f, "settings.shimmerStrength");
+    check.range(given.shimmerMaxOffset, 0.0f, 100.0f, "settings.shimmerMaxOffset");
+    check.range(given.billboardForm, 0u, uint32_t(FX_BILLBOARD_KERNEL), "settings.billboardForm");
+    check.flag(given.saveState, "settings.saveState");
+    check.flag(given.detail, "settings.detail");
+    check.flag(given.toneMap, "settings.toneMap");
+    check.flag(given.layerOutputs, "settings.layerOutputs");
+    check.flag(given.countOverdraw, "settings.countOverdraw");
+}
+
+void checkTarget(fx::api::Checks& check, const FxFrameDef& given)
+{
+    check.flag(given.resetHistory, "frame.resetHistory");
+    check.range(given.depthConvention, 0u, uint32_t(FX_DEPTH_REVERSED), "frame.depthConvention");
+    check.flag(given.zeroToOne, "frame.zeroToOne");
+    check.flag(given.upperLeftOrigin, "frame.upperLeftOrigin");
+    check.range(given.target, 0u, uint32_t(FX_TARGET_FRAMEBUFFER), "frame.target");
+    check.range(given.width, 1, kWidest, "frame.width");
+    check.range(given.height, 1, kWidest, "frame.height");
+    check.range(given.reserved, 0u, 0u, "frame.reserved");
+    check.range(given.deltaTime, 0.0, 1e6, "frame.deltaTime");
+    check.that(given.target != FX_TARGET_TEXTURE || given.colorTexture != 0, "frame.colorTexture is 0");
+}
+
+} // namespace
+
+fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::ViewSettings& outSettings)
+{
+    Checks check;
+    checkLight(check, given);
+    checkDazzle(check, given);
+    checkSwitches(check, given);
+    if (!check.status())
+        return check.status();
+
+    render::ViewSettings settings;
+    settings.exposureEv100 = given.exposureEv100;
+    settings.lighting.sunDirection = glm::normalize(glm::make_vec3(given.sunDirection));
+    settings.lighting.sunIlluminance = glm::make_vec3(given.sunIlluminance);
+    settings.lighting.skyLuminance = glm::make_vec3(given.skyLuminance);
+    settings.lighting.groundAlbedo = given.groundAlbedo;
+    settings.shimmer = {given.shimmerStrength, given.shimmerMaxOffset};
+    settings.dazzle = {given.dazzle != 0, given.dazzleWhite,    given.dazzleA,       given.dazzleB,
+                       given.dazzleC,     given.dazzleRiseTime, given.dazzleFallTime};
+    settings.form = render::BillboardForm(given.billboardForm);
+    settings.saveState = given.saveState != 0;
+    settings.detail = given.detail != 0;
+    settings.toneMap = given.toneMap != 0;
+    settings.layerOutputs = given.layerOutputs != 0;
+    settings.countOverdraw = given.countOverdraw != 0;
+    outSettings = settings;
+    return {};
+}
+
+fx::base::Status fx::api::convertFrame(const FxFrameDef& given, render::FrameRequest& outRequest)
+{
+    Checks check;
+    check.range3(given.origin, -kFarthest, kFarthest, "frame.origin");
+    check.that(isRigid(given.view), "frame.view is not a rotation and a translation, or not finite");
+    check.that(base::allFinite(given.projection, 16), "frame.projection is not finite");
+    checkTarget(check, given);
+    if (!check.status())
+        return check.status();
+
+    render::CameraView& camera = outRequest.camera;
+    camera.origin = glm::make_vec3(given.origin);
+    camera.view = glm::make_mat4(given.view);
+    camera.projection = glm::make_mat4(given.projection);
+    camera.depth = render::DepthConvention(given.depthConvention);
+    camera.zeroToOne = given.zeroToOne != 0;
+    camera.upperLeftOrigin = given.upperLeftOrigin != 0;
+    render::HostTargets& targets = outRequest.targets;
+    targets.useFramebuffer = given.target == FX_TARGET_FRAMEBUFFER;
+    targets.color = given.colorTexture;
+    targets.depth = given.depthTexture;
+    targets.framebuffer = given.framebuffer;
+    targets.width = given.width;
+    targets.height = given.height;
+    outRequest.deltaTime = given.deltaTime;
+    outRequest.resetHistory = given.resetHistory != 0;
+    return {};
+}

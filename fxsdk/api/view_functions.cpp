@@ -1,0 +1,192 @@
+// The functions of fx_view.h.
+#include "fxsdk/api/text.h"
+#include "fxsdk/api/versioned_struct.h"
+#include "fxsdk/api/view_object.h"
+#include "rendering/gl/gl_state_guard.h"
+
+#include <algorithm>
+
+namespace {
+
+using fx::base::Code;
+using fx::base::Status;
+
+/// Holds on to what a frame shows while it is drawn.
+class ShownSnapshots
+{
+public:
+    explicit ShownSnapshots(fx::scene::Scene& scene) : scene_(scene), shown_(scene.acquire()) {}
+    ~ShownSnapshots() { scene_.release(shown_.snapshots); }
+    ShownSnapshots(const ShownSnapshots&) = delete;
+    ShownSnapshots& operator=(const ShownSnapshots&) = delete;
+    const fx::scene::Presentation* operator->() const { return &shown_; }
+
+private:
+    fx::scene::Scene& scene_;
+    fx::scene::Presentation shown_;
+};
+
+Status checkCreate(const FxContext* context, const FxScene* scene, FxView** outView)
+{
+    fx::api::Checks check;
+    check.notNull(context, "context");
+    check.notNull(scene, "scene");
+    check.notNull(outView, "outView");
+    if (!check.status())
+        return check.status();
+    if (!context->device)
+        return {Code::NoGl, "the context was created without getProcAddress"};
+    return scene->context == context ? Status() : fx::api::invalid("scene belongs to another context");
+}
+
+Status readSettings(const FxViewSettings* given, fx::render::ViewSettings& outSettings)
+{
+    FxViewSettings known;
+    Status status = fx::api::readStruct(given, "settings", fxDefaultViewSettings(), known);
+    return status ? fx::api::convertSettings(known, outSettings) : status;
+}
+
+FxViewStatistics gatherStatistics(const FxView& view)
+{
+    const fx::render::FrameStatistics& frame = view.renderer.statistics();
+    FxViewStatistics statistics{};
+    statistics.blobs = frame.blobs;
+    statistics.blobsCulled = frame.blobsCulled;
+    statistics.blobsNonFinite = frame.blobsNonFinite;
+    statistics.passes = frame.passes;
+    statistics.drawCalls = frame.drawCalls;
+    statistics.programsCompiled = frame.programsCompiled;
+    statistics.glCalls = frame.glCalls;
+    statistics.textureBytes = frame.textureBytes;
+    statistics.coveredPixels = frame.coveredPixels;
+    statistics.shadedFragments = frame.shadedFragments;
+    std::copy_n(frame.overflow, 3, statistics.overflow);
+    statistics.allocations = view.allocations;
+    return statistics;
+}
+
+} // namespace
+
+void fx::api::destroyView(FxView* view)
+{
+    FxContext* context = view->context;
+    std::erase(context->views, view);
+    std::pmr::polymorphic_allocator<>(&context->memory).delete_object(view);
+}
+
+FxResult fxCreateView(FxContext* context, FxScene* scene, const FxViewSettings* settings, FxView** outView)
+{
+    return fx::api::guarded("fxCreateView", fx::api::logOf(context), [&]() -> Status {
+        if (Status status = checkCreate(context, scene, outView); !status)
+            return status;
+        const FxViewSettings defaults = fxDefaultViewSettings();
+        fx::render::ViewSettings known;
+        if (Status status = readSettings(settings ? settings : &defaults, known); !status)
+            return status;
+        const fx::api::SingleCaller::Scope gl(context->gl, fx::api::kGlThreadRule);
+        if (!gl.status())
+            return gl.status();
+        const fx::api::SharedCaller::Scope tables(context->tables);
+        if (!tables.status())
+            return tables.status();
+        const size_t count = context->views.size() + 1;
+        if (context->views.capacity() < count)
+            context->views.reserve(std::max(count, 2 * context->views.capacity()));
+        FxView* view = std::pmr::polymorphic_allocator<>(&context->memory).new_object<FxView>(scene, known);
+        context->views.push_back(view);
+        *outView = view;
+        return {};
+    });
+}
+
+FxResult fxDestroyView(FxView* view)
+{
+    return fx::api::guarded("fxDestroyView", fx::api::logOf(view), [&]() -> Status {
+        if (!view)
+            return {};
+        const fx::api::SingleCaller::Scope gl(view->context->gl, fx::api::kGlThreadRule);
+        if (!gl.status())
+            return gl.status();
+        const fx::api::SharedCaller::Scope tables(view->context->tables);
+        if (!tables.status())
+            return tables.status();
+        fx::api::destroyView(view);
+        return {};
+    });
+}
+
+FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings)
+{
+    return fx::api::insideView("fxView_SetSettings", view,
+                               [&]() -> Status { return readSettings(settings, view->renderer.settings()); });
+}
+
+FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
+{
+    return fx::api::insideView("fxView_Render", view, [&]() -> Status {
+        FxFrameDef known;
+        if (Status status = fx::api::readStruct(frame, "frame", fxDefaultFrameDef(), known); !status)
+            return status;
+        fx::render::FrameRequest request;
+        if (Status status = fx::api::convertFrame(known, request); !status)
+            return status;
+        const uint64_t before = view->context->memory.allocationCount();
+        const ShownSnapshots shown(view->scene->scene);
+        request.interpolation = shown->interpolation;
+        request.time = shown->time;
+        Status status = view->renderer.render(shown->snapshots, request);
+        view->allocations = view->context->memory.allocationCount() - before;
+        return status;
+    });
+}
+
+FxResult fxView_GetStatistics(FxView* view, FxViewStatistics* ioStatistics)
+{
+    return fx::api::insideView("fxView_GetStatistics", view, [&]() -> Status {
+        return fx::api::writeStruct(gatherStatistics(*view), ioStatistics, "ioStatistics");
+    });
+}
+
+FxResult fxView_GetLayerTextures(FxView* view, FxLayerTextures* ioTextures)
+{
+    return fx::api::insideView("fxView_GetLayerTextures", view, [&]() -> Status {
+        const fx::render::LayerTextures layers = view->renderer.layers();
+        FxLayerTextures textures{};
+        textures.fire = layers.fire;
+        textures.smoke = layers.smoke;
+        textures.dust = layers.dust;
+        textures.depth = layers.depth;
+        textures.opticalDepth = layers.opticalDepth;
+        textures.media = layers.media;
+        return fx::api::writeStruct(textures, ioTextures, "ioTextures");
+    });
+}
+
+FxResult fxView_GetPassCount(FxView* view, uint32_t* outCount)
+{
+    return fx::api::insideView("fxView_GetPassCount", view, [&]() -> Status {
+        if (!outCount)
+            return fx::api::invalid("outCount is null");
+        *outCount = uint32_t(view->renderer.executedPasses().size());
+        return {};
+    });
+}
+
+FxResult fxView_GetPassName(FxView* view, uint32_t index, char* buffer, size_t capacity)
+{
+    return fx::api::insideView("fxView_GetPassName", view, [&]() -> Status {
+        if (!buffer || capacity == 0)
+            return fx::api::invalid("buffer is null or has no room");
+        const auto passes = view->renderer.executedPasses();
+        if (index >= passes.size())
+            return fx::api::invalid("the last frame executed fewer passes than index");
+        fx::api::copyText(passes[index], buffer, capacity);
+        return {};
+    });
+}
+
+const char* fxGetTouchedGlState(uint32_t index)
+{
+    const std::span<const char* const> names = fx::render::touchedState();
+    return index < names.size() ? names[index] : nullptr;
+}

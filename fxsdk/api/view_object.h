@@ -1,0 +1,55 @@
+/// @file view_object.h
+/// What is behind FxView.
+#pragma once
+
+#include "fxsdk/api/context.h"
+#include "fxsdk/api/scene_object.h"
+#include "fxsdk/fx_view.h"
+#include "rendering/view/view_renderer.h"
+
+struct FxView
+{
+    FxView(FxScene* shown, const fx::render::ViewSettings& settings)
+        : context(shown->context), scene(shown),
+          renderer(context->device.get(), &context->schema, &context->memory)
+    {
+        renderer.settings() = settings;
+        scene->views.fetch_add(1);
+    }
+    ~FxView() { scene->views.fetch_sub(1); }
+    FxView(const FxView&) = delete;
+    FxView& operator=(const FxView&) = delete;
+
+    FxContext* context;
+    FxScene* scene;
+    fx::render::ViewRenderer renderer;
+    uint64_t allocations = 0; ///< during the last frame
+};
+
+namespace fx::api {
+
+inline const FxLog* logOf(const FxView* view)
+{
+    return view ? &view->context->def.log : nullptr;
+}
+
+/// Takes the view out of its context and frees it. Nobody may be inside it; GL thread.
+void destroyView(FxView* view);
+
+/// Checked settings and frames in the renderer's terms; the status names the member that is wrong.
+base::Status convertSettings(const FxViewSettings& given, render::ViewSettings& outSettings);
+base::Status convertFrame(const FxFrameDef& given, render::FrameRequest& outRequest);
+
+/// Runs `body` as a call inside the view, if the thread rules allow it. One at a time in a context, as in GL.
+template <class F>
+FxResult insideView(const char* function, FxView* view, F&& body) noexcept
+{
+    return guarded(function, logOf(view), [&]() -> base::Status {
+        if (!view)
+            return invalid("view is null");
+        const SingleCaller::Scope scope(view->context->gl, kGlThreadRule);
+        return scope.status() ? body() : scope.status();
+    });
+}
+
+} // namespace fx::api

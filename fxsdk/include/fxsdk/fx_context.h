@@ -1,0 +1,150 @@
+/// @file fx_context.h
+/// A context holds the host's hooks, the loaded presets and the GPU programs. Include this to start and stop
+/// fxsdk.
+///
+/// Threads: a context may be used from any thread unless a function says otherwise. What touches OpenGL
+/// belongs to the thread that created the context, until fxContext_AdoptGlThread() moves it. Contexts are
+/// independent. Ownership: the caller owns the FxContext*; destroying it destroys its presets, scenes and
+/// views.
+#ifndef FXSDK_FX_CONTEXT_H
+#define FXSDK_FX_CONTEXT_H
+
+#include "fxsdk/fx_base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The host's memory. Both functions or none; none means the C++ runtime's memory. Called from several
+/// threads at once when a preset is loaded on one thread while a scene advances on another.
+typedef struct FxAllocator
+{
+    void* user; ///< passed back unchanged
+    /// @param size [byte] > 0 @param alignment a power of two, at most 4096
+    /// @return memory, or null when there is none
+    void* (*allocate)(void* user, size_t size, size_t alignment);
+    /// @param memory not null; size and alignment are what allocate was given
+    void (*release)(void* user, void* memory, size_t size, size_t alignment);
+} FxAllocator;
+
+/// The part [begin, end) of a parallel loop. May run on any thread of the host.
+typedef void (*FxLoopBody)(void* argument, uint32_t begin, uint32_t end);
+
+/// The host's parallel loop; null means the library's own threads.
+typedef struct FxParallelFor
+{
+    void* user; ///< passed back unchanged
+    /// Must call body so that every index in [0, count) is covered exactly once, by ranges of at least
+    /// minBatch indices (the last may be shorter), and return when all of these calls have returned. How the
+    /// range is cut and on how many threads never changes a result.
+    void (*run)(void* user, uint32_t count, uint32_t minBatch, FxLoopBody body, void* argument);
+} FxParallelFor;
+
+/// How much a log message matters.
+typedef enum FxLogLevel
+{
+    FX_LOG_INFO = 0,                   ///< what was chosen, such as the name of the GL renderer
+    FX_LOG_WARNING = 1,                ///< the result may differ from what was asked for
+    FX_LOG_ERROR = 2,                  ///< a call failed; it also returned a code
+    FX_LOG_LEVEL_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never sent
+} FxLogLevel;
+
+/// Where messages go; null means nowhere. Called on the thread of the call that has something to say.
+typedef struct FxLog
+{
+    void* user; ///< passed back unchanged
+    /// @param message UTF-8, valid during the call
+    void (*write)(void* user, FxLogLevel level, FxResult code, const char* message);
+} FxLog;
+
+/// Finds OpenGL functions; null means a context without GL, which simulates and hands out snapshots only.
+typedef struct FxGlLoader
+{
+    void* user; ///< passed back unchanged
+    /// @param name such as "glCreateTextures" @return the function's address, or null when it does not exist
+    void* (*getProcAddress)(void* user, const char* name);
+} FxGlLoader;
+
+/// Finds preset files for hosts with an archive of their own; null means the file system. It is asked before
+/// the file system for every relative name without ".." that fxLoadPresetFile() is given.
+typedef struct FxAssetHook
+{
+    void* user; ///< passed back unchanged
+    /// @param name relative, '/'-separated, without ".." @param outSize [byte] receives the length
+    /// @return the bytes, or null when there is no such asset
+    const void* (*open)(void* user, const char* name, size_t* outSize);
+    /// Called once for every successful open, with what it returned.
+    void (*close)(void* user, const void* data, size_t size);
+} FxAssetHook;
+
+/// How a context starts. Fill with fxDefaultContextDef(), then change what you need.
+typedef struct FxContextDef
+{
+    uint32_t structSize; ///< set by fxDefaultContextDef(); do not touch
+    uint32_t
+        headerVersion; ///< set by fxDefaultContextDef(): FX_VERSION of the header the caller was built with
+    FxAllocator allocator;     ///< default: the C++ runtime's
+    FxParallelFor parallelFor; ///< default: the library's own threads
+    FxLog log;                 ///< default: silence
+    FxGlLoader gl;             ///< default: no GL
+    FxAssetHook assets;        ///< default: files
+    uint32_t workers; ///< most threads to use without parallelFor, 0..256, and never more than the machine
+                      ///< has; 0 (default): as many as it has
+    uint32_t flags;   ///< must be 0
+} FxContextDef;
+
+/// The definition of a context that simulates on the library's own threads, without GL.
+static inline FxContextDef fxDefaultContextDef(void)
+{
+    FxContextDef def = FX_ZEROED;
+    def.structSize = sizeof(FxContextDef);
+    def.headerVersion = FX_VERSION;
+    return def;
+}
+
+/// What a context holds. Fill structSize with sizeof before the call.
+typedef struct FxMemoryStats
+{
+    uint32_t structSize;      ///< set by the caller
+    uint32_t presets;         ///< loaded now
+    uint32_t scenes;          ///< existing now
+    uint32_t views;           ///< existing now
+    uint64_t bytesInUse;      ///< [byte] taken from the allocator and not given back
+    uint64_t allocationCount; ///< allocations since the context was created
+} FxMemoryStats;
+
+/// Creates a context. [any; with GL: on the thread where the OpenGL 4.5 context is current, which becomes the
+/// context's GL thread]
+/// @param outContext receives the context; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (header of another major number),
+///         FX_ERROR_GL_UNSUPPORTED (the message names the version or function), FX_ERROR_OUT_OF_MEMORY
+FX_API FxResult fxCreateContext(const FxContextDef* def, FxContext** outContext);
+
+/// Destroys a context with all that is in it; its pointers and ids are invalid afterwards. Null is allowed
+/// and does nothing. No other call on anything of the context may be in progress. [GL thread when it has GL,
+/// else any]
+/// @return FX_OK, FX_ERROR_WRONG_THREAD or FX_ERROR_RE_ENTRANT (nothing was destroyed)
+FX_API FxResult fxDestroyContext(FxContext* context);
+
+/// Compiles every GPU program that a view can ever need, so that no frame compiles. Repeating it costs
+/// nothing. [GL thread]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NO_GL, FX_ERROR_GL_FAILED (the message has the
+/// compiler's log),
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_OUT_OF_MEMORY. After a failure it may be called again.
+FX_API FxResult fxContext_WarmUp(FxContext* context);
+
+/// Makes the calling thread the GL thread: call it after the OpenGL context has become current there. No GL
+/// call of this context may be in progress on another thread. [any]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NO_GL
+FX_API FxResult fxContext_AdoptGlThread(FxContext* context);
+
+/// Reads the counters of the context. [any]
+/// @param ioStats structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize)
+FX_API FxResult fxContext_GetMemoryStats(FxContext* context, FxMemoryStats* ioStats);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,196 @@
+/// @file fx_scene.h
+/// A scene is a list of effect instances and a clock. Include this to place effects and advance time.
+///
+/// Threads: a scene belongs to the thread that created it [scene thread] until fxScene_AdoptThread() moves
+/// it. Views may draw the scene on the GL thread while the scene thread updates it. Different scenes are
+/// independent. Ownership: the caller owns every FxScene*; a scene owns its instances; ids never need
+/// freeing.
+///
+/// Time: a scene advances in fixed steps. fxScene_Update() adds the frame's time and takes as many whole
+/// steps as fit; what is left waits for the next call, and views interpolate. Hence any frame rate gives the
+/// same particles. An instance costs nothing but its definition until the clock reaches its start, and again
+/// after its end.
+#ifndef FXSDK_FX_SCENE_H
+#define FXSDK_FX_SCENE_H
+
+#include "fxsdk/fx_base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// How a scene starts. Fill with fxDefaultSceneDef(), then change what you need.
+typedef struct FxSceneDef
+{
+    uint32_t structSize;   ///< set by fxDefaultSceneDef(); do not touch
+    uint32_t maxInstances; ///< most instances at a time, 1..2^24 - 1; default 65,536
+    int64_t stepTicks;     ///< [tick] length of a step, 1/1000 s to 1 s; default 1/60 s
+    int64_t maxFrameTicks; ///< [tick] longest time that one update simulates, at least stepTicks and at most
+                           ///< 60 s; what exceeds it is dropped and counted; default 1/15 s
+} FxSceneDef;
+
+/// The definition of a scene that steps 60 times a second.
+static inline FxSceneDef fxDefaultSceneDef(void)
+{
+    FxSceneDef def = {sizeof(FxSceneDef), 65536, FX_TICKS_PER_SECOND / 60, FX_TICKS_PER_SECOND / 15};
+    return def;
+}
+
+/// What may be changed on a running instance. Fill with fxDefaultInstanceParameters().
+typedef struct FxInstanceParameters
+{
+    uint32_t structSize; ///< set by fxDefaultInstanceParameters(); do not touch
+    float intensity; ///< [1] 0..1000, multiplies birth rates and energies of what is still to come; default 1
+    float wind[3];   ///< [m/s] world, each within +-1000, added to the preset's own; default 0
+    uint32_t emitting; ///< 0: nothing new is born, what exists lives on; 1 (default): as the preset says
+} FxInstanceParameters;
+
+/// Parameters that leave the preset as its author made it.
+static inline FxInstanceParameters fxDefaultInstanceParameters(void)
+{
+    FxInstanceParameters parameters = {sizeof(FxInstanceParameters), 1.0f, {0.0f, 0.0f, 0.0f}, 1};
+    return parameters;
+}
+
+/// How an instance starts. Fill with fxDefaultInstanceDef(), then change what you need.
+typedef struct FxInstanceDef
+{
+    uint32_t structSize; ///< set by fxDefaultInstanceDef(); do not touch
+    float scale;         ///< [1] of all lengths, 1e-3..1e3; default 1
+    FxPresetId preset;   ///< required
+    double position[3];  ///< [m] world position of the effect's origin, each within +-1e9; default 0
+    float rotation[4];   ///< unit quaternion x, y, z, w (length within 1e-3 of 1); default identity
+    int64_t startTick;   ///< [tick] scene time of the start, >= 0; what is past means now; default 0
+    uint64_t seed;       ///< same seed and same calls give the same bits on any number of threads; default 0
+    float intensity;     ///< see FxInstanceParameters; default 1
+    float wind[3];       ///< [m/s] see FxInstanceParameters; default 0
+    uint32_t emitting;   ///< see FxInstanceParameters; default 1
+    uint32_t destroyWhenFinished; ///< 1: the id turns stale when the effect has ended; default 0
+} FxInstanceDef;
+
+/// The definition of an instance that starts at once at the world's origin; only its preset is missing.
+static inline FxInstanceDef fxDefaultInstanceDef(void)
+{
+    FxInstanceDef def = FX_ZEROED;
+    def.structSize = sizeof(FxInstanceDef);
+    def.scale = 1.0f;
+    def.rotation[3] = 1.0f;
+    def.intensity = 1.0f;
+    def.emitting = 1;
+    return def;
+}
+
+/// Where an instance is in its life.
+typedef enum FxInstanceState
+{
+    FX_INSTANCE_DORMANT = 0,  ///< waits for its start; has no particles and is never visited
+    FX_INSTANCE_ACTIVE = 1,   ///< is stepped
+    FX_INSTANCE_FINISHED = 2, ///< has ended; has no particles and is never visited
+    FX_INSTANCE_STATE_FORCE_32 =
+        0x7fffffff ///< makes the type 32 bits wide with every compiler; never returned
+} FxInstanceState;
+
+/// Counters of a scene; counts are exact. Fill structSize with sizeof before the call.
+typedef struct FxSceneStatistics
+{
+    uint32_t structSize;        ///< set by the caller
+    uint32_t instances;         ///< existing, the sum of the next three
+    uint32_t instancesDormant;  ///< waiting for their start
+    uint32_t instancesActive;   ///< being stepped
+    uint32_t instancesFinished; ///< ended and not yet destroyed
+    uint32_t particles;         ///< alive after the last step
+    uint64_t steps;             ///< steps taken since the scene was created
+    uint64_t born;              ///< particles born since then
+    uint64_t dropped;           ///< births refused because a preset's capacity was full
+    uint64_t particleSteps;     ///< particles advanced, once per sub-step
+    uint64_t neighborPairs;     ///< pairs of gas particles that interacted
+    uint64_t clamped;           ///< values limited to keep the state finite
+    uint64_t wakeFailures;      ///< instances that ended at their start because there was no memory
+    uint64_t refusedUpdates;    ///< calls of fxScene_Update refused because dt was negative or not finite
+    int64_t nowTick;            ///< [tick] scene time
+    int64_t simulatedTick;      ///< [tick] end of the last step, <= nowTick
+    int64_t
+        droppedTicks; ///< [tick] time given up since the scene was created because it exceeded maxFrameTicks
+    uint64_t updateAllocations; ///< allocations from the context's allocator during the last fxScene_Update
+} FxSceneStatistics;
+
+/// Creates an empty scene at time 0; the calling thread becomes its scene thread. [any]
+/// @param outScene receives the scene; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_OUT_OF_MEMORY
+FX_API FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene** outScene);
+
+/// Destroys a scene with its instances. Null is allowed and does nothing. [scene thread]
+/// @return FX_OK, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_INVALID_ARGUMENT (a view still shows
+/// the scene;
+///         destroy it first). Nothing is destroyed on failure.
+FX_API FxResult fxDestroyScene(FxScene* scene);
+
+/// Makes the calling thread the scene thread. No call on this scene may be in progress on another thread.
+/// [any]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxScene_AdoptThread(FxScene* scene);
+
+/// Adds an instance; it wakes when the scene clock reaches def->startTick, or with the next step when that is
+/// past. An instance that starts with the next step takes its memory here, a later one when it wakes. [scene
+/// thread]
+/// @param outInstance receives the id; untouched on failure
+/// @return FX_OK, FX_ERROR_STALE_ID (preset), FX_ERROR_INVALID_ARGUMENT (not finite or out of range),
+///         FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (maxInstances), FX_ERROR_OUT_OF_MEMORY,
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT. A failure leaves the scene as it was.
+FX_API FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInstanceId* outInstance);
+
+/// Removes an instance at once, particles included; its id is stale afterwards. [scene thread]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxScene_DestroyInstance(FxScene* scene, FxInstanceId instance);
+
+/// Asks whether an id names an instance of this scene. [scene thread]
+/// @return 1 when it does; 0 when it is stale or foreign, the scene is null, or the thread is wrong
+FX_API uint32_t fxScene_IsValid(FxScene* scene, FxInstanceId instance);
+
+/// Tells where an instance is in its life and how many particles it has. [scene thread]
+/// @param outState     may be null; untouched on failure
+/// @param outParticles may be null; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxScene_GetInstanceState(FxScene* scene, FxInstanceId instance, FxInstanceState* outState,
+                                         uint32_t* outParticles);
+
+/// Moves an instance with all its particles; seen from the next step on. [scene thread]
+/// @param position [m] world, each within +-1e9
+/// @param rotation unit quaternion x, y, z, w (length within 1e-3 of 1; it is normalized)
+/// @param scale    [1] 1e-3..1e3
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, const double position[3],
+                                     const float rotation[4], float scale);
+
+/// Changes the parameters of an instance; they hold from the next step on. [scene thread]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null or out of range), FX_ERROR_VERSION (structSize),
+/// FX_ERROR_STALE_ID,
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance,
+                                      const FxInstanceParameters* parameters);
+
+/// Adds time and takes the steps that are due, then publishes the last two of them for views and hosts.
+/// Allocates nothing once the scene is warm, except when an instance wakes. [scene thread]
+/// @param dtSeconds [s] >= 0; 0 changes nothing; more than maxFrameTicks is shortened to it and counted
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (negative or not finite: counted, nothing advances),
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (time has advanced, and what
+///         the allocator refused is missing from the picture until it gives again)
+FX_API FxResult fxScene_Update(FxScene* scene, double dtSeconds);
+
+/// Reads the counters of the scene. [scene thread]
+/// @param ioStatistics structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
+/// FX_ERROR_RE_ENTRANT
+FX_API FxResult fxScene_GetStatistics(FxScene* scene, FxSceneStatistics* ioStatistics);
+
+/// Hashes every particle of the last step, bit for bit: equal states give equal hashes on any machine and any
+/// number of threads. Reads all particles: for tests and replays, not for every frame. [scene thread]
+/// @param outHash receives the hash; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxScene_GetStateHash(FxScene* scene, uint64_t* outHash);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,107 @@
+/// @file fx_snapshot.h
+/// Snapshots hand the particles of a scene to hosts that draw or analyse them themselves, with or without GL.
+///
+/// A snapshot holds the last two steps of a scene as lists of groups; a group is what one solver of one
+/// instance published: columns of numbers, an id per element by which it is found in the other step, and a
+/// placement: world = position + rotation * (scale * local). Threads: everything here may be called from any
+/// thread, also while the scene thread updates the scene. Ownership: pointers into a snapshot stay valid
+/// until it is released. At most 16 snapshots of a scene are held at once.
+#ifndef FXSDK_FX_SNAPSHOT_H
+#define FXSDK_FX_SNAPSHOT_H
+
+#include "fxsdk/fx_base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Which of the two steps of a snapshot is meant.
+typedef enum FxSnapshotStep
+{
+    FX_SNAPSHOT_NEWER = 0,                 ///< the last step
+    FX_SNAPSHOT_OLDER = 1,                 ///< the step before it
+    FX_SNAPSHOT_STEP_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never valid
+} FxSnapshotStep;
+
+/// What a snapshot holds. Fill structSize with sizeof before the call.
+typedef struct FxSnapshotInfo
+{
+    uint32_t structSize;  ///< set by the caller
+    uint32_t groupsNewer; ///< groups of the newer step
+    uint32_t groupsOlder; ///< groups of the older step; 0 before the second step
+    uint32_t reserved;    ///< 0
+    int64_t tickNewer;    ///< [tick] end of the newer step
+    int64_t tickOlder;    ///< [tick] end of the older step
+    double interpolation; ///< [0, 1) where scene time lay between the two steps: 0 shows the older, 1 would
+                          ///< show the newer
+} FxSnapshotInfo;
+
+/// One group. Fill structSize with sizeof before the call.
+typedef struct FxSnapshotGroup
+{
+    uint32_t structSize;    ///< set by the caller
+    uint32_t count;         ///< elements
+    const char* kind;       ///< such as "blob"; constant string
+    FxInstanceId instance;  ///< whose particles these are; may have been destroyed since
+    uint32_t solver;        ///< position of the solver in its preset
+    float scale;            ///< [1] of the placement, > 0
+    double position[3];     ///< [m] world, of the placement
+    float rotation[4];      ///< unit quaternion x, y, z, w, of the placement
+    float boundsMin[3];     ///< [m] local; every element with its radius lies inside; min > max when empty
+    float boundsMax[3];     ///< [m] local
+    const uint64_t* ids;    ///< count ids, ascending
+    const float* constants; ///< constantCount values shared by all elements, see docs/conventions.md
+    uint32_t constantCount; ///< number of constants of the kind
+    uint32_t columnCount;   ///< number of columns of the kind
+} FxSnapshotGroup;
+
+/// One column of a group. Fill structSize with sizeof before the call.
+typedef struct FxSnapshotColumn
+{
+    uint32_t structSize; ///< set by the caller
+    uint32_t count;      ///< elements
+    const char* name;    ///< such as "radius"; constant string
+    const char* unit;    ///< SI unit such as "m", "1" for none; constant string
+    const float* values; ///< count values
+} FxSnapshotColumn;
+
+/// Holds on to the newest two steps of a scene. Release it soon: every held snapshot keeps its memory. [any]
+/// @param outSnapshot receives the id; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_CAPACITY (16 are held)
+FX_API FxResult fxScene_AcquireSnapshot(FxScene* scene, FxSnapshotId* outSnapshot);
+
+/// Lets go of a snapshot; its id is stale and its pointers are invalid afterwards. [any]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID
+FX_API FxResult fxScene_ReleaseSnapshot(FxScene* scene, FxSnapshotId snapshot);
+
+/// Tells what a snapshot holds. [any]
+/// @param ioInfo structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_VERSION (structSize)
+FX_API FxResult fxScene_GetSnapshotInfo(FxScene* scene, FxSnapshotId snapshot, FxSnapshotInfo* ioInfo);
+
+/// Describes one group of a snapshot. [any]
+/// @param index   0..groups of that step - 1
+/// @param ioGroup structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (step or index out of range), FX_ERROR_STALE_ID, FX_ERROR_VERSION
+FX_API FxResult fxScene_GetSnapshotGroup(FxScene* scene, FxSnapshotId snapshot, FxSnapshotStep step,
+                                         uint32_t index, FxSnapshotGroup* ioGroup);
+
+/// Describes one column of a group, by position. [any]
+/// @param column   0..columnCount - 1
+/// @param ioColumn structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (step, group or column out of range), FX_ERROR_STALE_ID,
+/// FX_ERROR_VERSION
+FX_API FxResult fxScene_GetSnapshotColumn(FxScene* scene, FxSnapshotId snapshot, FxSnapshotStep step,
+                                          uint32_t group, uint32_t column, FxSnapshotColumn* ioColumn);
+
+/// Describes one column of a group, by name. [any]
+/// @param name such as "x", "y", "z" [m], "radius" [m], "temperature" [K]
+/// @return as fxScene_GetSnapshotColumn; FX_ERROR_NOT_FOUND when the kind has no such column
+FX_API FxResult fxScene_FindSnapshotColumn(FxScene* scene, FxSnapshotId snapshot, FxSnapshotStep step,
+                                           uint32_t group, const char* name, FxSnapshotColumn* ioColumn);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

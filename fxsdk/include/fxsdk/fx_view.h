@@ -1,0 +1,229 @@
+/// @file fx_view.h
+/// A view draws a scene into an image of the host's OpenGL 4.5 context. Include this to see effects.
+///
+/// Threads: everything here is [GL thread], the thread that created the context, unless a function says
+/// otherwise. It may overlap with fxScene_Update on the scene thread. Ownership: the caller owns every
+/// FxView*; a view owns its textures and the history of its exposure and glare. The host's textures and
+/// framebuffers stay the host's.
+///
+/// GL state: with saveState = 1 no GL state differs after fxView_Render(). With 0 exactly the states that
+/// fxGetTouchedGlState() names may differ. Clip control is read from the frame's definition and never
+/// changed.
+#ifndef FXSDK_FX_VIEW_H
+#define FXSDK_FX_VIEW_H
+
+#include "fxsdk/fx_base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Values of FxFrameDef::depthConvention.
+enum
+{
+    FX_DEPTH_STANDARD = 0, ///< near maps to the smaller value
+    FX_DEPTH_REVERSED = 1  ///< near maps to 1, the far plane or infinity to 0
+};
+
+/// Values of FxFrameDef::target.
+enum
+{
+    /// Draw over colorTexture.
+    FX_TARGET_TEXTURE = 0,
+    /// Write into the first color attachment of framebuffer; 0 is the window. With a colorTexture the picture
+    /// is read from there and comes out complete. Without, the media are blended over what the framebuffer
+    /// holds: it cannot be read, so there is no heat shimmer, no glare and no tone mapping.
+    FX_TARGET_FRAMEBUFFER = 1
+};
+
+/// Values of FxViewSettings::billboardForm.
+enum
+{
+    FX_BILLBOARD_PLANAR = 0,   ///< flat card: the classical particle, cheapest, cuts visibly at walls
+    FX_BILLBOARD_CONSTANT = 1, ///< homogeneous ball
+    FX_BILLBOARD_KERNEL = 2    ///< ball with the gas's own density profile, exact
+};
+
+/// What stays the same from frame to frame. Fill with fxDefaultViewSettings(), then change what you need.
+typedef struct FxViewSettings
+{
+    uint32_t structSize;     ///< set by fxDefaultViewSettings(); do not touch
+    float exposureEv100;     ///< [EV100] -20..40; luminance is multiplied by 1 / (1.2 * 2^EV100); default 13
+    float sunDirection[3];   ///< towards the sun, unit (length within 1e-3 of 1); default 0.3, 0.8, 0.52
+                             ///< normalized
+    float sunIlluminance[3]; ///< [lx] 0..1e6 on a plane facing the sun; default 0
+    float skyLuminance[3];   ///< [cd/m2] 0..1e6 from everywhere; default 0
+    float groundAlbedo;      ///< [1] 0..1, light that the ground throws back; default 0.2
+    float
+        shimmerStrength; ///< [1] 0..10, heat shimmer; 0 leaves the picture untouched, bit for bit; default 1
+    float shimmerMaxOffset; ///< [pixel] 0..100 at a height of 720 pixels; default 12
+    uint32_t dazzle;        ///< 1 (default): glare; 0: none
+    float dazzleWhite;      ///< [1] 1e-3..1e6, exposed value at which the sensor saturates; default 8
+    float dazzleA; ///< [1] sensor law f(over) = over (A + B exp(-C over)), over: mean overflow per pixel in
+                   ///< units of dazzleWhite; A >= B exp(-2) for B > 0, A >= -B for B < 0; default 1
+    float dazzleB; ///< [1] see dazzleA; default 0
+    float dazzleC; ///< [1] >= 0, see dazzleA; default 1
+    float dazzleRiseTime;   ///< [s] 0..60, time constant of growing glare; default 0.05
+    float dazzleFallTime;   ///< [s] 0..60, time constant of fading glare; default 0.4
+    uint32_t billboardForm; ///< FX_BILLBOARD_...; default FX_BILLBOARD_KERNEL
+    uint32_t saveState;     ///< 1 (default): restore every GL state that is touched; 0: the host does
+    uint32_t detail;        ///< 1 (default): procedural detail on particles; 0: bare kernels
+    uint32_t toneMap;       ///< 1: write display-referred values; 0 (default): scene-linear
+    uint32_t layerOutputs;  ///< 1: keep fire, smoke, dust, depth and optical depth as textures; default 0
+    uint32_t countOverdraw; ///< 1: count fragments (statistics; costs a pass); default 0
+} FxViewSettings;
+
+/// Daylight exposure, no lights of its own, everything on.
+static inline FxViewSettings fxDefaultViewSettings(void)
+{
+    FxViewSettings settings = FX_ZEROED;
+    settings.structSize = sizeof(FxViewSettings);
+    settings.exposureEv100 = 13.0f;
+    settings.sunDirection[0] = 0.3f;
+    settings.sunDirection[1] = 0.8f;
+    settings.sunDirection[2] = 0.51961524f;
+    settings.groundAlbedo = 0.2f;
+    settings.shimmerStrength = 1.0f;
+    settings.shimmerMaxOffset = 12.0f;
+    settings.dazzle = 1;
+    settings.dazzleWhite = 8.0f;
+    settings.dazzleA = 1.0f;
+    settings.dazzleC = 1.0f;
+    settings.dazzleRiseTime = 0.05f;
+    settings.dazzleFallTime = 0.4f;
+    settings.billboardForm = FX_BILLBOARD_KERNEL;
+    settings.saveState = 1;
+    settings.detail = 1;
+    return settings;
+}
+
+/// One frame. Fill with fxDefaultFrameDef(), then set camera and target.
+typedef struct FxFrameDef
+{
+    uint32_t structSize;   ///< set by fxDefaultFrameDef(); do not touch
+    uint32_t resetHistory; ///< 1: camera cut, glare adapts from this frame; default 0
+    double origin[3]; ///< [m] world position that the matrices are relative to, each within +-1e9; default 0.
+                      ///< Near the camera, floats stay exact far from the world's center.
+    float view[16]; ///< world minus origin to eye; rigid (columns orthonormal within 1e-3); default identity
+    float projection[16]; ///< eye to clip; perspective or orthographic, infinite far plane allowed; default
+                          ///< identity
+    uint32_t depthConvention; ///< FX_DEPTH_...; default FX_DEPTH_STANDARD
+    uint32_t
+        zeroToOne; ///< 1: clip space depth is [0, w] (glClipControl GL_ZERO_TO_ONE); 0 (default): [-w, w]
+    uint32_t upperLeftOrigin; ///< 1: glClipControl GL_UPPER_LEFT; default 0
+    uint32_t target;          ///< FX_TARGET_...; default FX_TARGET_TEXTURE
+    uint32_t colorTexture; ///< GL name of a 2-D texture holding the opaque picture [cd/m2 times exposure]; 0
+                           ///< only with FX_TARGET_FRAMEBUFFER
+    uint32_t depthTexture; ///< GL name of a 2-D depth texture of it; 0 (default): nothing occludes
+    uint32_t framebuffer;  ///< GL name, with FX_TARGET_FRAMEBUFFER; default 0
+    int32_t width;         ///< [pixel] of the target, 1..16384
+    int32_t height;        ///< [pixel] of the target, 1..16384
+    uint32_t reserved;     ///< 0
+    double deltaTime; ///< [s] 0..1e6 since the last frame of this view, for adaptation only; default 1/60
+} FxFrameDef;
+
+/// A frame whose camera sits in the origin and whose target is missing.
+static inline FxFrameDef fxDefaultFrameDef(void)
+{
+    FxFrameDef def = FX_ZEROED;
+    def.structSize = sizeof(FxFrameDef);
+    for (int i = 0; i < 16; i += 5)
+        def.view[i] = def.projection[i] = 1.0f;
+    def.deltaTime = 1.0 / 60.0;
+    return def;
+}
+
+/// Counters of the last frame of a view; counts are exact. Fill structSize with sizeof before the call.
+typedef struct FxViewStatistics
+{
+    uint32_t structSize;       ///< set by the caller
+    uint32_t blobs;            ///< particles drawn
+    uint32_t blobsCulled;      ///< particles outside the view
+    uint32_t blobsNonFinite;   ///< particles dropped because a value was not finite
+    uint32_t passes;           ///< passes executed
+    uint32_t drawCalls;        ///< draws and dispatches
+    uint32_t programsCompiled; ///< during the frame; 0 after fxContext_WarmUp()
+    uint32_t reserved;         ///< 0
+    uint64_t glCalls;          ///< calls into GL during the frame
+    uint64_t textureBytes;     ///< [byte] of GPU memory that the view holds
+    uint64_t coveredPixels;    ///< pixels with at least one particle; with countOverdraw
+    uint64_t shadedFragments;  ///< fragments of all particles; with countOverdraw
+    double overflow[3];   ///< [1] glare: mean overflow per pixel in units of dazzleWhite, red, green, blue
+    uint64_t allocations; ///< allocations from the context's allocator during the frame
+} FxViewStatistics;
+
+/// Pictures that the last frame kept; GL names, 0 when settings.layerOutputs was 0. Fill structSize with
+/// sizeof before the call. The textures belong to the view and are valid until its next fxView_Render().
+typedef struct FxLayerTextures
+{
+    uint32_t structSize; ///< set by the caller
+    uint32_t fire;  ///< RGBA32F [cd/m2 times exposure] that reaches the eye from fire; A: its visible share
+    uint32_t smoke; ///< RGBA32F, the same of smoke
+    uint32_t dust;  ///< RGBA32F, the same of dust
+    uint32_t depth; ///< R32F [m] transmittance-weighted distance of the media; +inf where there is none
+    uint32_t opticalDepth; ///< R32F [1] through all media
+    uint32_t media;        ///< RGBA32F, the sum of the three layers
+    uint32_t reserved;     ///< 0
+} FxLayerTextures;
+
+/// Creates a view of a scene. [GL thread]
+/// @param settings null for the defaults
+/// @param outView  receives the view; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, out of range, or a scene of another context),
+/// FX_ERROR_VERSION,
+///         FX_ERROR_NO_GL, FX_ERROR_WRONG_THREAD, FX_ERROR_OUT_OF_MEMORY
+FX_API FxResult fxCreateView(FxContext* context, FxScene* scene, const FxViewSettings* settings,
+                             FxView** outView);
+
+/// Destroys a view and its textures. Null is allowed and does nothing. [GL thread]
+/// @return FX_OK, FX_ERROR_WRONG_THREAD or FX_ERROR_RE_ENTRANT (nothing was destroyed)
+FX_API FxResult fxDestroyView(FxView* view);
+
+/// Changes the settings from the next frame on. [GL thread]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member), FX_ERROR_VERSION,
+/// FX_ERROR_WRONG_THREAD,
+///         FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings);
+
+/// Draws the scene, as it is between its last two steps, over the host's picture. [GL thread]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member), FX_ERROR_VERSION,
+/// FX_ERROR_GL_FAILED,
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. On failure the picture and the
+///         GL state are what the host left.
+FX_API FxResult fxView_Render(FxView* view, const FxFrameDef* frame);
+
+/// Reads the counters of the last frame. [GL thread]
+/// @param ioStatistics structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
+/// FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetStatistics(FxView* view, FxViewStatistics* ioStatistics);
+
+/// Names the pictures that the last frame kept. [GL thread]
+/// @param ioTextures structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
+/// FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetLayerTextures(FxView* view, FxLayerTextures* ioTextures);
+
+/// Counts the passes that the last frame executed. [GL thread]
+/// @param outCount receives the number; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetPassCount(FxView* view, uint32_t* outCount);
+
+/// Names one pass that the last frame executed, in order. [GL thread]
+/// @param index    0..fxView_GetPassCount() - 1
+/// @param buffer   receives the name, zero-terminated and cut to fit; untouched on failure
+/// @param capacity [byte] of buffer, > 0
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetPassName(FxView* view, uint32_t index, char* buffer, size_t capacity);
+
+/// Names a GL state that fxView_Render() may leave changed when saveState is 0; the list is made from the
+/// table that restores them when it is 1. [any]
+/// @param index 0, 1, 2, ...
+/// @return a constant string, or null when index is past the end
+FX_API const char* fxGetTouchedGlState(uint32_t index);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

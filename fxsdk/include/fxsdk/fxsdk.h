@@ -1,0 +1,18 @@
+/// @file fxsdk.h
+/// The whole C API of fxsdk: participating media and particle effects for OpenGL hosts.
+///
+/// The first effect: create a context (fx_context.h), load a preset (fx_preset.h), create a scene and an
+/// instance in it (fx_scene.h), create a view (fx_view.h); then, each frame, update the scene and render the
+/// view. examples/00_hello/main.c does it in 25 lines. Threads, ownership, units and errors: see fx_base.h,
+/// which states them once for all headers.
+#ifndef FXSDK_FXSDK_H
+#define FXSDK_FXSDK_H
+
+#include "fxsdk/fx_base.h"
+#include "fxsdk/fx_context.h"
+#include "fxsdk/fx_preset.h"
+#include "fxsdk/fx_scene.h"
+#include "fxsdk/fx_snapshot.h"
+#include "fxsdk/fx_view.h"
+
+#endif

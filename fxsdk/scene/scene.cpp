@@ -1,0 +1,220 @@
+#include "fxsdk/scene/scene.h"
+
+#include <algorithm>
+#include <new>
+
+namespace fx::scene {
+
+Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, base::TaskRunner* tasks,
+             std::pmr::memory_resource* memory)
+    : clock_(options.stepTicks, options.maxFrameTicks), world_(schema, tasks, memory),
+      instances_(memory, options.maxInstances), dormant_(memory), active_(memory), ring_(schema, memory)
+{
+    ring_.beginWrite(0); // so that acquire() always has something to show
+    ring_.publish();
+}
+
+LocalId Scene::add(InstanceSetup setup)
+{
+    const base::Ticks now = clock_.simulated();
+    setup.startTick = std::max(setup.startTick, now);
+    const bool startsNow = setup.startTick < now + clock_.stepTicks();
+
+    active_.reserve(instances_.count() + size_t(1)); // so that waking cannot fail for lack of a list entry
+    Instance instance;
+    instance.setup = std::move(setup);
+    instance.serial = nextSerial_;
+    instance.state = InstanceState::Dormant;
+    const base::Ticks start = instance.setup.startTick;
+    const LocalId id = instances_.add(std::move(instance));
+    if (id == 0)
+        return 0;
+    try {
+        if (startsNow)
+            enterWorld(indexOf(id));
+        else
+            dormant_.add({start, nextSerial_, indexOf(id)});
+    } catch (...) {
+        instances_.remove(id);
+        throw;
+    }
+    ++nextSerial_;
+    return id;
+}
+
+void Scene::remove(LocalId id)
+{
+    Instance& instance = *instances_.find(id);
+    if (instance.state == InstanceState::Dormant)
+        dormant_.remove(indexOf(id));
+    if (instance.state == InstanceState::Active) {
+        active_.remove(instance.serial);
+        world_.remove(instance.slot);
+    }
+    if (instance.state == InstanceState::Finished)
+        --counters_.finished;
+    instances_.remove(id);
+}
+
+uint32_t Scene::particles(LocalId id)
+{
+    const Instance& instance = *instances_.find(id);
+    return instance.state == InstanceState::Active ? world_.elementCount(instance.slot) : 0;
+}
+
+void Scene::setPlacement(LocalId id, const base::Placement& placement)
+{
+    Instance& instance = *instances_.find(id);
+    instance.setup.placement = placement;
+    if (instance.state == InstanceState::Active)
+        world_.setPlacement(instance.slot, placement);
+}
+
+void Scene::setParameters(LocalId id, const sim::InstanceParameters& parameters)
+{
+    Instance& instance = *instances_.find(id);
+    instance.setup.parameters = parameters;
+    if (instance.state == InstanceState::Active)
+        world_.setParameters(instance.slot, parameters);
+}
+
+bool Scene::update(double dt)
+{
+    const base::StepPlan plan = clock_.advance(dt);
+    if (plan.refused) {
+        ++counters_.refusedUpdates;
+        return false;
+    }
+    counters_.droppedTicks += plan.droppedTicks;
+    bool memoryFailed = false; // must not stop the steps that follow: the clock has already counted them
+    for (uint32_t k = 0; k < plan.steps; ++k) {
+        const base::Ticks from = plan.firstStep + base::Ticks(k) * clock_.stepTicks();
+        try {
+            step(from);
+            if (k + 2 >= plan.steps)
+                publish(from + clock_.stepTicks(), k + 1 == plan.steps ? clock_.interpolation() : 0.0);
+        } catch (const std::bad_alloc&) {
+            memoryFailed = true;
+        }
+    }
+    if (plan.steps == 0) {
+        std::lock_guard lock(presentation_);
+        show(clock_.simulated(), clock_.interpolation());
+    }
+    if (memoryFailed)
+        throw std::bad_alloc();
+    return true;
+}
+
+void Scene::step(base::Ticks from)
+{
+    const base::Ticks to = from + clock_.stepTicks();
+    wake(to);
+    const sim::StepCounters work = world_.step(active_.slots(), from, clock_.stepTicks());
+    counters_.work.born += work.born;
+    counters_.work.dropped += work.dropped;
+    counters_.work.particleSteps += work.particleSteps;
+    counters_.work.neighborPairs += work.neighborPairs;
+    counters_.work.subSteps += work.subSteps;
+    counters_.work.clamped += work.clamped;
+    ++counters_.steps;
+    retireFinished(to);
+}
+
+void Scene::wake(base::Ticks until)
+{
+    while (!dormant_.empty() && dormant_.earliest().start < until) {
+        const uint32_t index = dormant_.earliest().key;
+        dormant_.remove(index);
+        try {
+            enterWorld(index);
+        } catch (const std::bad_alloc&) {
+            ++counters_.wakeFailures;
+            finish(index);
+        }
+    }
+}
+
+void Scene::enterWorld(uint32_t index)
+{
+    Instance& instance = instances_.at(index);
+    sim::InstanceStart start;
+    start.instance = instances_.idAt(index);
+    start.seed = instance.setup.seed;
+    start.startTick = instance.setup.startTick;
+    start.placement = instance.setup.placement;
+    start.parameters = instance.setup.parameters;
+    instance.slot = world_.add(instance.setup.effect, start);
+    instance.state = InstanceState::Active;
+    active_.insert(instance.serial, index, instance.slot);
+}
+
+void Scene::retireFinished(base::Ticks now)
+{
+    active_.removeIf([&](uint32_t index, sim::Slot slot) {
+        if (!world_.finished(slot, now))
+            return false;
+        world_.remove(slot);
+        finish(index);
+        return true;
+    });
+}
+
+void Scene::finish(uint32_t index)
+{
+    if (instances_.at(index).setup.destroyWhenFinished) {
+        instances_.remove(instances_.idAt(index));
+        return;
+    }
+    instances_.at(index).state = InstanceState::Finished;
+    ++counters_.finished;
+}
+
+void Scene::publish(base::Ticks tick, double interpolation)
+{
+    base::FrameSnapshot& snapshot = ring_.beginWrite(tick);
+    world_.publish(active_.slots(), snapshot);
+    std::lock_guard lock(presentation_);
+    ring_.publish();
+    show(tick, interpolation);
+}
+
+void Scene::show(base::Ticks newest, double interpolation)
+{
+    interpolation_ = interpolation;
+    shownTime_ =
+        std::max(base::toSeconds(newest) - (1.0 - interpolation) * base::toSeconds(clock_.stepTicks()), 0.0);
+}
+
+SceneCounters Scene::counters() const
+{
+    SceneCounters now = counters_;
+    now.instances = instances_.count();
+    now.dormant = uint32_t(dormant_.size());
+    now.active = uint32_t(active_.size());
+    return now;
+}
+
+uint32_t Scene::particles() const
+{
+    uint32_t sum = 0;
+    for (const sim::Slot slot : active_.slots())
+        sum += world_.elementCount(slot);
+    return sum;
+}
+
+uint64_t Scene::stateHash()
+{
+    const Presentation shown = acquire();
+    const uint64_t hash = shown.snapshots.newer->hash();
+    release(shown.snapshots);
+    return hash;
+}
+
+Presentation Scene::acquire()
+{
+    std::lock_guard lock(presentation_);
+    return {ring_.acquire(), interpolation_, shownTime_};
+}
+
+} // namespace fx::scene

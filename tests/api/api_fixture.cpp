@@ -1,0 +1,108 @@
+#include "tests/api/api_fixture.h"
+
+#include <new>
+
+namespace fx::test {
+
+void* HostAllocator::allocate(void* user, size_t size, size_t alignment)
+{
+    auto& self = *static_cast<HostAllocator*>(user);
+    if (self.remaining_ == 1) {
+        self.failed_ = true;
+        return nullptr;
+    }
+    if (self.remaining_ > 1)
+        --self.remaining_;
+    ++self.blocks_;
+    self.bytes_ += int64_t(size);
+    return ::operator new(size, std::align_val_t(alignment), std::nothrow);
+}
+
+void HostAllocator::release(void* user, void* memory, size_t size, size_t alignment)
+{
+    auto& self = *static_cast<HostAllocator*>(user);
+    --self.blocks_;
+    self.bytes_ -= int64_t(size);
+    ::operator delete(memory, size, std::align_val_t(alignment));
+}
+
+std::string fountainPreset()
+{
+    return R"({"version": 1, "name": "fountain", "emitters": [{
+        "maxParticles": 128, "shape": "sphere", "size": 0.5, "emission": {"rate": 60}, "lifetime": 1,
+        "speed": {"min": 1, "max": 3}, "radius": 0.25}]})";
+}
+
+std::string burstPreset(int count, double seconds)
+{
+    return R"({"version": 1, "name": "burst", "ground": false, "emitters": [{
+        "maxParticles": )" +
+           std::to_string(count) +
+           R"(, "shape": "sphere", "size": 1, "emission": {"bursts": [{"time": 0, "count": )" +
+           std::to_string(count) + R"(}]}, "lifetime": )" + std::to_string(seconds) +
+           R"(, "radius": 0.5, "forces": {"drag": 0.5, "buoyancy": 0.2, "curlStrength": 1, "curlScale": 2}}]})";
+}
+
+FxPresetId loadText(FxContext* context, const std::string& text)
+{
+    FxPresetId preset{};
+    EXPECT_EQ(fxLoadPresetText(context, text.c_str(), text.size(), "test preset", &preset), FX_OK)
+        << fxGetLastErrorMessage();
+    return preset;
+}
+
+ApiTest::ApiTest()
+{
+    FxContextDef contextDef = fxDefaultContextDef();
+    contextDef.workers = 1;
+    EXPECT_EQ(fxCreateContext(&contextDef, &context_), FX_OK) << fxGetLastErrorMessage();
+    const FxSceneDef sceneDef = fxDefaultSceneDef();
+    EXPECT_EQ(fxCreateScene(context_, &sceneDef, &scene_), FX_OK) << fxGetLastErrorMessage();
+    fountain_ = loadText(context_, fountainPreset());
+}
+
+ApiTest::~ApiTest()
+{
+    EXPECT_EQ(fxDestroyContext(context_), FX_OK);
+}
+
+FxInstanceDef ApiTest::instanceDef() const
+{
+    FxInstanceDef def = fxDefaultInstanceDef();
+    def.preset = fountain_;
+    def.seed = 7;
+    return def;
+}
+
+FxInstanceId ApiTest::addFountain()
+{
+    const FxInstanceDef def = instanceDef();
+    FxInstanceId id{};
+    EXPECT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK) << fxGetLastErrorMessage();
+    return id;
+}
+
+FxSceneStatistics ApiTest::statistics() const
+{
+    FxSceneStatistics statistics{};
+    statistics.structSize = sizeof statistics;
+    EXPECT_EQ(fxScene_GetStatistics(scene_, &statistics), FX_OK) << fxGetLastErrorMessage();
+    return statistics;
+}
+
+uint64_t ApiTest::hash() const
+{
+    uint64_t hash = 0;
+    EXPECT_EQ(fxScene_GetStateHash(scene_, &hash), FX_OK) << fxGetLastErrorMessage();
+    return hash;
+}
+
+uint64_t ApiTest::bytesInUse() const
+{
+    FxMemoryStats stats{};
+    stats.structSize = sizeof stats;
+    EXPECT_EQ(fxContext_GetMemoryStats(context_, &stats), FX_OK);
+    return stats.bytesInUse;
+}
+
+} // namespace fx::test

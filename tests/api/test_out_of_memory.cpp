@@ -1,0 +1,139 @@
+#include "tests/api/api_fixture.h"
+
+using fx::test::burstPreset;
+using fx::test::fountainPreset;
+using fx::test::HostAllocator;
+using fx::test::kFrame;
+using fx::test::loadText;
+
+namespace {
+
+constexpr uint64_t kMostAllocations = 10'000;
+
+FxContextDef contextDefOf(HostAllocator& memory)
+{
+    FxContextDef def = fxDefaultContextDef();
+    def.allocator = memory.hooks();
+    def.workers = 1;
+    return def;
+}
+
+/// Calls `action` with the first, the second, ... allocation failing until none fails any more.
+/// @param action returns its result; after FX_ERROR_OUT_OF_MEMORY everything must be as before
+/// @return how many allocations there were to fail
+template <class F>
+uint64_t sweep(HostAllocator& memory, F&& action)
+{
+    for (uint64_t n = 1; n < kMostAllocations; ++n) {
+        const int64_t before = memory.blocks();
+        memory.failFrom(n);
+        const FxResult result = action();
+        memory.failFrom(0);
+        if (result == FX_OK)
+            return n - 1;
+        EXPECT_EQ(result, FX_ERROR_OUT_OF_MEMORY) << "allocation " << n << ": " << fxGetLastErrorMessage();
+        EXPECT_LE(memory.blocks(), before + 4) << "allocation " << n; // tables may have grown, nothing else
+    }
+    ADD_FAILURE() << "it never succeeded";
+    return 0;
+}
+
+} // namespace
+
+TEST(OutOfMemory, creatingAContextFailsCleanlyAtEveryAllocation)
+{
+    HostAllocator memory;
+    const FxContextDef def = contextDefOf(memory);
+    FxContext* context = nullptr;
+    EXPECT_GT(sweep(memory,
+                    [&] {
+                        const FxResult result = fxCreateContext(&def, &context);
+                        if (result != FX_OK) {
+                            EXPECT_EQ(context, nullptr);
+                            EXPECT_EQ(memory.blocks(), 0);
+                        }
+                        return result;
+                    }),
+              0u);
+    EXPECT_EQ(fxDestroyContext(context), FX_OK);
+    EXPECT_EQ(memory.blocks(), 0);
+}
+
+TEST(OutOfMemory, presetsScenesAndInstancesFailCleanlyAtEveryAllocationAndTheNextCallWorks)
+{
+    HostAllocator memory;
+    const FxContextDef def = contextDefOf(memory);
+    FxContext* context = nullptr;
+    ASSERT_EQ(fxCreateContext(&def, &context), FX_OK);
+
+    const std::string text = burstPreset(200, 1.0);
+    FxPresetId preset{};
+    EXPECT_GT(
+        sweep(memory, [&] { return fxLoadPresetText(context, text.data(), text.size(), nullptr, &preset); }),
+        0u);
+
+    const FxSceneDef sceneDef = fxDefaultSceneDef();
+    FxScene* scene = nullptr;
+    EXPECT_GT(sweep(memory, [&] { return fxCreateScene(context, &sceneDef, &scene); }), 0u);
+
+    FxInstanceDef instanceDef = fxDefaultInstanceDef();
+    instanceDef.preset = preset;
+    FxSceneStatistics statistics{};
+    statistics.structSize = sizeof statistics;
+    FxInstanceId id{};
+    for (const int64_t start : {int64_t(0), FX_TICKS_PER_SECOND}) {
+        instanceDef.startTick = start;
+        ASSERT_EQ(fxScene_GetStatistics(scene, &statistics), FX_OK);
+        const uint32_t before = statistics.instances;
+        EXPECT_GT(sweep(memory,
+                        [&] {
+                            const FxResult result = fxScene_CreateInstance(scene, &instanceDef, &id);
+                            EXPECT_EQ(fxScene_GetStatistics(scene, &statistics), FX_OK);
+                            EXPECT_EQ(statistics.instances, before + (result == FX_OK ? 1 : 0));
+                            return result;
+                        }),
+                  0u);
+        EXPECT_EQ(fxScene_IsValid(scene, id), 1u);
+    }
+    for (int frame = 0; frame < 90; ++frame)
+        EXPECT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+    EXPECT_EQ(fxDestroyContext(context), FX_OK);
+    EXPECT_EQ(memory.blocks(), 0);
+}
+
+TEST(OutOfMemory, anUpdateWithoutMemoryStillTakesItsStepsAndRecovers)
+{
+    HostAllocator memory;
+    const FxContextDef def = contextDefOf(memory);
+    FxContext* context = nullptr;
+    ASSERT_EQ(fxCreateContext(&def, &context), FX_OK);
+    const FxSceneDef sceneDef = fxDefaultSceneDef();
+    FxScene* scene = nullptr;
+    ASSERT_EQ(fxCreateScene(context, &sceneDef, &scene), FX_OK);
+    FxInstanceDef instanceDef = fxDefaultInstanceDef();
+    instanceDef.preset = loadText(context, fountainPreset());
+    FxInstanceId awake{}, late{};
+    ASSERT_EQ(fxScene_CreateInstance(scene, &instanceDef, &awake), FX_OK);
+    instanceDef.startTick = FX_TICKS_PER_SECOND / 60 * 2;
+    ASSERT_EQ(fxScene_CreateInstance(scene, &instanceDef, &late), FX_OK);
+
+    memory.failFrom(1);
+    EXPECT_EQ(fxScene_Update(scene, 4 * kFrame), FX_ERROR_OUT_OF_MEMORY); // no room for the first snapshots
+    EXPECT_TRUE(memory.hasFailed());
+    memory.failFrom(0);
+    FxSceneStatistics statistics{};
+    statistics.structSize = sizeof statistics;
+    ASSERT_EQ(fxScene_GetStatistics(scene, &statistics), FX_OK);
+    EXPECT_EQ(statistics.simulatedTick, FX_TICKS_PER_SECOND / 15);
+    EXPECT_EQ(statistics.wakeFailures, 1u);
+    FxInstanceState state{};
+    ASSERT_EQ(fxScene_GetInstanceState(scene, late, &state, nullptr), FX_OK);
+    EXPECT_EQ(state, FX_INSTANCE_FINISHED);
+
+    EXPECT_EQ(fxScene_Update(scene, kFrame), FX_OK) << fxGetLastErrorMessage();
+    uint32_t particles = 0;
+    ASSERT_EQ(fxScene_GetInstanceState(scene, awake, &state, &particles), FX_OK);
+    EXPECT_GT(particles, 0u);
+    EXPECT_EQ(fxDestroyContext(context), FX_OK);
+    EXPECT_EQ(memory.blocks(), 0);
+}

@@ -1,0 +1,42 @@
+/// @file view_fixture.h
+/// A host with OpenGL: a headless context, a picture of 64 x 64 pixels, a burning scene and a view of it.
+#pragma once
+
+#include "rendering/gl/gl_messages.h"
+#include "rendering/gl/gl_read_texture.h"
+#include "rendering/gl/gl_texture.h"
+#include "rendering/platform/gl_context.h"
+#include "tests/api/api_fixture.h"
+
+#include <memory>
+#include <vector>
+
+namespace fx::test {
+
+class ViewApiTest : public ::testing::Test
+{
+protected:
+    static constexpr int kSize = 64;            ///< [pixel]
+    static constexpr float kBackground = 0.25f; ///< exposed value of the host's picture
+
+    ViewApiTest();
+    ~ViewApiTest() override; ///< fails the test when the driver complained
+
+    FxFrameDef frame() const;
+    void fillPicture();           ///< with kBackground
+    std::vector<float> picture(); ///< RGBA, row by row
+    FxViewStatistics statistics() const;
+    void update(int frames);
+
+    std::unique_ptr<render::GlContext> gl_;
+    std::unique_ptr<render::GlDevice> host_; ///< the host's own function table
+    std::unique_ptr<render::GlMessages> messages_;
+    render::GlTexture color_;
+    render::GlTexture depth_; ///< holds the far plane
+    HostAllocator memory_;
+    FxContext* context_ = nullptr;
+    FxScene* scene_ = nullptr;
+    FxView* view_ = nullptr;
+};
+
+} // namespace fx::test
