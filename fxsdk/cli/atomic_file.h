@@ -1,0 +1,43 @@
+/// @file atomic_file.h
+/// Files that are either complete or not there: written under a temporary name in the same folder, flushed to
+/// the disk, then renamed.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace fx::cli {
+
+/// A temporary name beside `target` that no other process uses; keeps the suffix, since programs go by it.
+std::filesystem::path temporaryNameFor(const std::filesystem::path& target);
+
+/// Opens, takes any number of writes, and puts the file in place with commit(). Without commit() nothing
+/// remains. A target that exists and is not a regular file (a pipe, /dev/null) is written directly.
+class AtomicFile
+{
+public:
+    explicit AtomicFile(std::filesystem::path target);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    /// @return Io naming the file and the system's reason
+    base::Status open();
+    base::Status write(std::string_view bytes);
+    base::Status commit();
+
+private:
+    base::Status failed(const char* what) const;
+
+    std::filesystem::path target_;
+    std::filesystem::path temporary_; ///< empty when the target is written directly
+    int descriptor_ = -1;
+};
+
+/// open, write, commit.
+base::Status writeFileAtomically(const std::filesystem::path& target, std::string_view bytes);
+
+} // namespace fx::cli

@@ -1,0 +1,16 @@
+/// @file commands.h
+/// The subcommands of fx. Each adds its options and a callback that does the work and stores its exit code.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace fx::cli {
+
+void addRenderCommand(CLI::App& app, int& outExitCode);
+void addValidateCommand(CLI::App& app, int& outExitCode);
+void addDoctorCommand(CLI::App& app, int& outExitCode);
+void addParametersCommand(CLI::App& app, int& outExitCode);
+
+} // namespace fx::cli

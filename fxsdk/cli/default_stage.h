@@ -1,0 +1,23 @@
+/// @file default_stage.h
+/// A stage for a preset that comes without a scene: plain ground, afternoon light, a camera that sees the
+/// effect.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "foundation/time/ticks.h"
+#include "fxsdk/cli/effect_scene.h"
+#include "fxsdk/scene_file/scene_file.h"
+
+#include <string>
+
+namespace fx::cli {
+
+/// A scene with one instance of the preset in the origin.
+/// @param input a file *.fx.json, or library:NAME
+base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input);
+
+/// Puts the camera where it sees most of the media between the start and `until`; simulates to find out.
+/// Does nothing when there are none.
+base::Status frameEffect(scene_file::SceneFile& scene, base::Ticks until, const EffectSceneOptions& options);
+
+} // namespace fx::cli

@@ -1,0 +1,179 @@
+#include "fxsdk/cli/effect_scene.h"
+
+#include "foundation/snapshot/blob_kind.h"
+#include "fxsdk/cli/api_status.h"
+#include "fxsdk/cli/interrupt.h"
+
+#include <algorithm>
+#include <memory_resource>
+#include <vector>
+
+namespace fx::cli {
+namespace {
+
+FxInstanceDef definitionOf(const scene_file::SceneInstance& instance, FxPresetId preset)
+{
+    FxInstanceDef def = fxDefaultInstanceDef();
+    def.preset = preset;
+    def.scale = instance.scale;
+    for (int i = 0; i < 3; ++i) {
+        def.position[i] = instance.position[i];
+        def.wind[i] = instance.parameters.wind[i];
+    }
+    def.rotation[0] = instance.rotation.x;
+    def.rotation[1] = instance.rotation.y;
+    def.rotation[2] = instance.rotation.z;
+    def.rotation[3] = instance.rotation.w;
+    def.startTick = base::toTicks(instance.start);
+    def.seed = instance.seed;
+    def.intensity = instance.parameters.intensity;
+    def.emitting = instance.parameters.emitting ? 1 : 0;
+    return def;
+}
+
+/// Copies one group of blobs that the C API hands out.
+base::Status copyGroup(FxScene* scene, FxSnapshotId id, uint32_t index, const FxSnapshotGroup& source,
+                       base::SnapshotGroup& target)
+{
+    base::GroupInfo& info = target.editInfo();
+    info.count = source.count;
+    info.instance = source.instance.bits;
+    info.solver = source.solver;
+    info.placement.position = {source.position[0], source.position[1], source.position[2]};
+    info.placement.rotation =
+        glm::quat(source.rotation[3], source.rotation[0], source.rotation[1], source.rotation[2]);
+    info.placement.scale = source.scale;
+    std::copy_n(source.ids, source.count, target.editIds().begin());
+    std::copy_n(source.constants, source.constantCount, target.editConstants().begin());
+    for (uint32_t c = 0; c < source.columnCount; ++c) {
+        FxSnapshotColumn column = {};
+        column.structSize = sizeof column;
+        const FxResult result = fxScene_GetSnapshotColumn(scene, id, FX_SNAPSHOT_NEWER, index, c, &column);
+        if (result != FX_OK)
+            return toStatus(result);
+        std::copy_n(column.values, column.count, target.editColumn(c).begin());
+    }
+    return {};
+}
+
+base::Status copyGroups(FxScene* scene, FxSnapshotId id, base::KindId blobs, base::FrameSnapshot& target)
+{
+    FxSnapshotInfo info = {};
+    info.structSize = sizeof info;
+    if (FxResult result = fxScene_GetSnapshotInfo(scene, id, &info); result != FX_OK)
+        return toStatus(result);
+    target.begin(info.tickNewer, 1);
+    for (uint32_t i = 0; i < info.groupsNewer; ++i) {
+        FxSnapshotGroup group = {};
+        group.structSize = sizeof group;
+        if (FxResult result = fxScene_GetSnapshotGroup(scene, id, FX_SNAPSHOT_NEWER, i, &group);
+            result != FX_OK)
+            return toStatus(result);
+        if (group.kind != base::kBlobKind.name)
+            continue;
+        if (base::Status status = copyGroup(scene, id, i, group, target.addGroup(blobs, group.count));
+            !status)
+            return status;
+    }
+    return {};
+}
+
+} // namespace
+
+EffectScene::EffectScene()
+{
+    schema_.add(base::kBlobKind);
+    copy_ = std::make_unique<base::FrameSnapshot>(&schema_, std::pmr::get_default_resource());
+}
+
+EffectScene::~EffectScene()
+{
+    fxDestroyScene(scene_);
+    fxDestroyContext(context_);
+}
+
+base::Result<std::unique_ptr<EffectScene>> EffectScene::create(const scene_file::SceneFile& file,
+                                                               const EffectSceneOptions& options)
+{
+    std::unique_ptr<EffectScene> scene(new EffectScene);
+    if (base::Status status = scene->start(file, options); !status)
+        return status;
+    return scene;
+}
+
+base::Status EffectScene::start(const scene_file::SceneFile& file, const EffectSceneOptions& options)
+{
+    FxContextDef contextDef = fxDefaultContextDef();
+    contextDef.gl = options.gl;
+    if (base::Status status = toStatus(fxCreateContext(&contextDef, &context_)); !status)
+        return status;
+    FxSceneDef sceneDef = fxDefaultSceneDef();
+    sceneDef.stepTicks = base::kTicksPerSecond / options.stepsPerSecond;
+    step_ = sceneDef.stepTicks;
+    if (base::Status status = toStatus(fxCreateScene(context_, &sceneDef, &scene_)); !status)
+        return status;
+    return addInstances(file, options);
+}
+
+base::Status EffectScene::addInstances(const scene_file::SceneFile& file, const EffectSceneOptions& options)
+{
+    std::vector<FxPresetId> presets;
+    for (const scene_file::ScenePreset& preset : file.presets) {
+        FxPresetId id = {};
+        const FxResult result =
+            fxLoadPresetText(context_, preset.text.data(), preset.text.size(), preset.name.c_str(), &id);
+        if (result != FX_OK)
+            return toStatus(result);
+        presets.push_back(id);
+    }
+    uint64_t index = 0;
+    for (const scene_file::SceneInstance& instance : file.instances) {
+        FxInstanceDef def = definitionOf(instance, presets[instance.preset]);
+        if (options.seed)
+            def.seed = *options.seed + index;
+        ++index;
+        FxInstanceId id = {};
+        if (base::Status status = toStatus(fxScene_CreateInstance(scene_, &def, &id)); !status)
+            return status;
+    }
+    return {};
+}
+
+base::Status EffectScene::showMoment(base::Ticks tick)
+{
+    const base::Ticks end = tick + step_;
+    while (now_ < end) {
+        if (interruptRequested())
+            return interruptedStatus();
+        const base::Ticks part = std::min(step_, end - now_);
+        if (base::Status status = toStatus(fxScene_Update(scene_, base::toSeconds(part))); !status)
+            return status;
+        now_ += part;
+    }
+    return {};
+}
+
+base::Result<const base::FrameSnapshot*> EffectScene::snapshot()
+{
+    FxSnapshotId id = {};
+    if (base::Status status = toStatus(fxScene_AcquireSnapshot(scene_, &id)); !status)
+        return status;
+    const base::Status copied = copyGroups(scene_, id, schema_.find(base::kBlobKind.name), *copy_);
+    const base::Status released = toStatus(fxScene_ReleaseSnapshot(scene_, id));
+    if (!copied)
+        return copied;
+    if (!released)
+        return released;
+    return static_cast<const base::FrameSnapshot*>(copy_.get());
+}
+
+base::Result<FxSceneStatistics> EffectScene::statistics() const
+{
+    FxSceneStatistics statistics = {};
+    statistics.structSize = sizeof statistics;
+    if (base::Status status = toStatus(fxScene_GetStatistics(scene_, &statistics)); !status)
+        return status;
+    return statistics;
+}
+
+} // namespace fx::cli

@@ -1,0 +1,59 @@
+/// @file effect_scene.h
+/// The effects of a scene file, running behind the C API as they would in any host.
+///
+/// Threads: the thread that made it.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "foundation/snapshot/frame_snapshot.h"
+#include "foundation/time/ticks.h"
+#include "fxsdk/fxsdk.h"
+#include "fxsdk/scene_file/scene_file.h"
+
+#include <memory>
+#include <optional>
+
+namespace fx::cli {
+
+struct EffectSceneOptions
+{
+    FxGlLoader gl{nullptr, nullptr}; ///< none: simulation only
+    int stepsPerSecond = 60;
+    std::optional<uint64_t> seed; ///< instance k gets seed + k instead of the file's
+};
+
+class EffectScene
+{
+public:
+    static base::Result<std::unique_ptr<EffectScene>> create(const scene_file::SceneFile& file,
+                                                             const EffectSceneOptions& options);
+    ~EffectScene();
+    EffectScene(const EffectScene&) = delete;
+    EffectScene& operator=(const EffectScene&) = delete;
+
+    /// Steps until a view shows exactly the moment `tick`, which must not lie before the last one. A view
+    /// shows a state between the last two steps, so the clock runs one step ahead of what is shown.
+    /// @return Interrupted when the user asked to stop
+    base::Status showMoment(base::Ticks tick);
+
+    /// Copies the last step into a snapshot as renderers know it. Valid until the next call.
+    base::Result<const base::FrameSnapshot*> snapshot();
+
+    base::Result<FxSceneStatistics> statistics() const;
+    FxContext* context() const { return context_; }
+    FxScene* scene() const { return scene_; }
+
+private:
+    EffectScene();
+    base::Status start(const scene_file::SceneFile& file, const EffectSceneOptions& options);
+    base::Status addInstances(const scene_file::SceneFile& file, const EffectSceneOptions& options);
+
+    FxContext* context_ = nullptr;
+    FxScene* scene_ = nullptr;
+    base::Ticks step_ = 0;
+    base::Ticks now_ = 0;
+    base::SnapshotSchema schema_;
+    std::unique_ptr<base::FrameSnapshot> copy_;
+};
+
+} // namespace fx::cli

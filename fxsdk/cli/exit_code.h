@@ -1,0 +1,25 @@
+/// @file exit_code.h
+/// What the fx command returns to the shell.
+#pragma once
+
+#include "foundation/result/status.h"
+
+namespace fx::cli {
+
+enum ExitCode : int
+{
+    kSuccess = 0,
+    kFailed = 1,        ///< the work could not be done, or a checked file has errors
+    kUsage = 2,         ///< the command line makes no sense
+    kInterrupted = 130, ///< the user stopped it (128 + SIGINT)
+};
+
+/// 0 for success, 130 when interrupted, otherwise 1.
+inline int exitCodeOf(const base::Status& status)
+{
+    if (status.ok())
+        return kSuccess;
+    return status.code() == base::Code::Interrupted ? kInterrupted : kFailed;
+}
+
+} // namespace fx::cli

@@ -1,0 +1,184 @@
+#include "fxsdk/cli/frame_renderer.h"
+
+#include "fxsdk/cli/api_status.h"
+#include "fxsdk/cli/view_settings.h"
+#include "rendering/gl/gl_read_texture.h"
+#include "rendering/lights/effect_lights.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <memory_resource>
+
+namespace fx::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr size_t kMaxLights = 8;
+
+double millisecondsSince(Clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+render::CameraView cameraAt(const scene_file::CameraPath& path, double time, float aspect)
+{
+    render::CameraView camera;
+    camera.origin = path.at(time).position;
+    camera.view = path.viewRotation(time);
+    camera.projection = path.projection(aspect);
+    return camera;
+}
+
+} // namespace
+
+base::Result<std::unique_ptr<FrameRenderer>> FrameRenderer::create(const scene_file::SceneFile& file,
+                                                                   const FrameRendererOptions& options)
+{
+    std::unique_ptr<FrameRenderer> renderer(new FrameRenderer(file));
+    if (base::Status status = renderer->start(options); !status)
+        return status;
+    return renderer;
+}
+
+FrameRenderer::~FrameRenderer()
+{
+    fxDestroyView(view_);
+    effects_.reset();
+    stage_.reset();
+}
+
+base::Status FrameRenderer::start(const FrameRendererOptions& options)
+{
+    options_ = options;
+    auto glContext = render::createEglContext({});
+    if (!glContext.ok())
+        return glContext.status();
+    glContext_ = std::move(*glContext);
+    const render::GlLoader loader = glContext_->loader();
+    auto device = render::GlDevice::create(loader, std::pmr::get_default_resource());
+    if (!device.ok())
+        return device.status();
+    device_ = std::move(*device);
+
+    options_.scene.gl = {loader.user, loader.getProcAddress};
+    auto effects = EffectScene::create(file_, options_.scene);
+    if (!effects.ok())
+        return effects.status();
+    effects_ = std::move(*effects);
+    if (base::Status status = toStatus(fxContext_WarmUp(effects_->context())); !status)
+        return status;
+
+    stage_ = std::make_unique<render::StageRenderer>(device_.get());
+    if (base::Status status = stage_->setMesh(file_.mesh); !status)
+        return status;
+    if (base::Status status = stage_->setBackground(file_.background); !status)
+        return status;
+    const FxViewSettings settings = toApi(options_.settings);
+    return toStatus(fxCreateView(effects_->context(), effects_->scene(), &settings, &view_));
+}
+
+base::Status FrameRenderer::render(base::Ticks tick)
+{
+    Clock::time_point start = Clock::now();
+    if (base::Status status = effects_->showMoment(tick); !status)
+        return status;
+    counters_.millisecondsSimulate = millisecondsSince(start);
+
+    start = Clock::now();
+    const float aspect = float(options_.width) / float(options_.height);
+    const render::CameraView camera = cameraAt(file_.camera, base::toSeconds(tick), aspect);
+    if (base::Status status = drawStage(camera); !status)
+        return status;
+    if (options_.settings.layerOutputs)
+        background_ = readPicture(stage_->colorTexture(), 4);
+    if (base::Status status = drawEffects(camera, tick); !status)
+        return status;
+    device_->gl.Finish();
+    counters_.millisecondsRender = millisecondsSince(start);
+    lastTick_ = tick;
+    return count();
+}
+
+base::Status FrameRenderer::drawStage(const render::CameraView& camera)
+{
+    const auto snapshot = effects_->snapshot();
+    if (!snapshot.ok())
+        return snapshot.status();
+    std::array<render::EffectLight, kMaxLights> lights;
+    const size_t count = render::effectLights(**snapshot, lights);
+    return stage_->render(camera, options_.settings.lighting, std::span(lights).first(count),
+                          options_.settings.exposureEv100, options_.width, options_.height);
+}
+
+base::Status FrameRenderer::drawEffects(const render::CameraView& camera, base::Ticks tick)
+{
+    FxFrameDef frame = fxDefaultFrameDef();
+    frame.resetHistory = lastTick_ < 0 ? 1 : 0;
+    for (int i = 0; i < 3; ++i)
+        frame.origin[i] = camera.origin[i];
+    std::copy_n(glm::value_ptr(camera.view), 16, frame.view);
+    std::copy_n(glm::value_ptr(camera.projection), 16, frame.projection);
+    frame.colorTexture = stage_->colorTexture();
+    frame.depthTexture = stage_->depthTexture();
+    frame.width = options_.width;
+    frame.height = options_.height;
+    frame.deltaTime = lastTick_ < 0 ? 0.0 : base::toSeconds(tick - lastTick_);
+    return toStatus(fxView_Render(view_, &frame));
+}
+
+base::Status FrameRenderer::count()
+{
+    const auto scene = effects_->statistics();
+    if (!scene.ok())
+        return scene.status();
+    counters_.scene = *scene;
+    counters_.view = {};
+    counters_.view.structSize = sizeof counters_.view;
+    if (base::Status status = toStatus(fxView_GetStatistics(view_, &counters_.view)); !status)
+        return status;
+    uint32_t passes = 0;
+    if (base::Status status = toStatus(fxView_GetPassCount(view_, &passes)); !status)
+        return status;
+    counters_.passes.clear();
+    for (uint32_t i = 0; i < passes; ++i) {
+        char name[64];
+        if (base::Status status = toStatus(fxView_GetPassName(view_, i, name, sizeof name)); !status)
+            return status;
+        counters_.passes.emplace_back(name);
+    }
+    return {};
+}
+
+Picture FrameRenderer::readPicture(uint32_t texture, int channels, float whenAbsent)
+{
+    if (texture == 0) { // no medium was drawn
+        const size_t count = size_t(options_.width) * size_t(options_.height) * size_t(channels);
+        return {options_.width, options_.height, channels, std::vector<float>(count, whenAbsent)};
+    }
+    return fromBottomUp(options_.width, options_.height, channels,
+                        render::readTexture(*device_, texture, options_.width, options_.height, channels));
+}
+
+base::Result<FrameLayers> FrameRenderer::read()
+{
+    FrameLayers layers;
+    layers.color = readPicture(stage_->colorTexture(), 4);
+    if (!options_.settings.layerOutputs)
+        return layers;
+    FxLayerTextures textures = {};
+    textures.structSize = sizeof textures;
+    if (base::Status status = toStatus(fxView_GetLayerTextures(view_, &textures)); !status)
+        return status;
+    layers.background = background_;
+    layers.media = {readPicture(textures.fire, 4), readPicture(textures.smoke, 4),
+                    readPicture(textures.dust, 4)};
+    layers.depth = readPicture(textures.depth, 1, std::numeric_limits<float>::infinity());
+    layers.opticalDepth = readPicture(textures.opticalDepth, 1);
+    return layers;
+}
+
+} // namespace fx::cli

@@ -1,0 +1,38 @@
+/// @file progress.h
+/// A progress bar with the time left, on standard error and only when that is a terminal.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace fx::cli {
+
+/// The bar's text: "frame 12/60 [#####     ] 20 % 8 s left". A pure function, so that it can be tested.
+/// @param done parts finished, 0..total
+/// @param elapsedSeconds since the start; the time left assumes that parts take equally long
+std::string progressText(const std::string& what, uint64_t done, uint64_t total, double elapsedSeconds);
+
+class Progress
+{
+public:
+    /// @param enabled false keeps silent even on a terminal
+    Progress(std::string what, uint64_t total, bool enabled);
+    ~Progress(); ///< clears the line
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// Redraws at most ten times a second.
+    void update(uint64_t done);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::string what_;
+    uint64_t total_;
+    bool enabled_;
+    bool drawn_ = false;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point lastDrawn_;
+};
+
+} // namespace fx::cli

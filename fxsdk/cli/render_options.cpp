@@ -1,0 +1,154 @@
+#include "fxsdk/cli/render_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace fx::cli {
+namespace {
+
+constexpr int kMaxSize = 16384;     // [pixel]
+constexpr double kMaxTime = 3600.0; // [s]
+constexpr int64_t kMaxFrames = 1'000'000;
+
+base::Status usage(const std::string& message)
+{
+    return {base::Code::InvalidArgument, message};
+}
+
+/// Two whole numbers around `separator`, nothing else.
+std::optional<std::pair<long, long>> parsePair(const std::string& text, char separator)
+{
+    const char* const begin = text.c_str();
+    char* end = nullptr;
+    const long first = std::strtol(begin, &end, 10);
+    if (end == begin || *end != separator)
+        return std::nullopt;
+    const char* const rest = end + 1;
+    const long second = std::strtol(rest, &end, 10);
+    if (end == rest || *end != '\0')
+        return std::nullopt;
+    return std::make_pair(first, second);
+}
+
+base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
+{
+    if (plan.output.isStill()) {
+        if (!arguments.frames.empty())
+            return usage("--frames needs a sequence (-o name.%04d.png) or a video (-o name.mp4)");
+        plan.frames.push_back({0, base::toTicks(arguments.time)});
+        return {};
+    }
+    std::pair<long, long> range{0, std::lround(2.0 * arguments.framesPerSecond) - 1};
+    if (!arguments.frames.empty()) {
+        const auto parsed = parsePair(arguments.frames, ':');
+        if (!parsed || parsed->first < 0 || parsed->second < parsed->first)
+            return usage("--frames " + arguments.frames + ": expected FIRST:LAST with 0 <= FIRST <= LAST");
+        range = *parsed;
+    }
+    if (range.second - range.first >= kMaxFrames ||
+        double(range.second) / arguments.framesPerSecond > kMaxTime)
+        return usage("--frames " + arguments.frames + ": at most a million frames within the first hour");
+    for (long number = range.first; number <= range.second; ++number)
+        plan.frames.push_back({number, base::toTicks(double(number) / arguments.framesPerSecond)});
+    return {};
+}
+
+} // namespace
+
+void addRenderOptions(CLI::App& command, RenderArguments& arguments)
+{
+    command
+        .add_option("FILE", arguments.input,
+                    "A scene (*.scene.json), a preset (*.fx.json) or library:NAME; a preset "
+                    "stands on a plain ground")
+        ->required();
+    command
+        .add_option("-o,--output", arguments.output,
+                    "NAME.png, NAME.exr, a sequence (NAME.%04d.png, NAME.%04d.exr) or "
+                    "NAME.mp4 (needs ffmpeg)")
+        ->required();
+    command.add_option("--size", arguments.size, "Picture size in pixels, WIDTHxHEIGHT")
+        ->capture_default_str();
+    command.add_option("--time", arguments.time, "Scene time of a still [s]")
+        ->check(CLI::Range(0.0, kMaxTime))
+        ->capture_default_str();
+    command.add_option("--frames", arguments.frames,
+                       "Frames of a sequence or video, FIRST:LAST, both included "
+                       "(default: 2 seconds)");
+    command.add_option("--fps", arguments.framesPerSecond, "Frames a second; frame N shows the time N / fps")
+        ->check(CLI::Range(0.1, 1000.0))
+        ->capture_default_str();
+    command
+        .add_option("--quality", arguments.quality,
+                    "low: homogeneous balls, no detail, no shimmer; medium: with "
+                    "shimmer; high: the gas's own kernel and detail; reference: as "
+                    "high, simulated at 120 steps a second")
+        ->check(CLI::IsMember({"low", "medium", "high", "reference"}))
+        ->capture_default_str();
+    command.add_option("--form", arguments.form, "Billboard form instead of the one that the quality says")
+        ->check(CLI::IsMember({"planar", "constant", "kernel"}));
+    command.add_option("--seed", arguments.seed, "Instance k gets the seed N + k instead of the file's");
+    command.add_option("--exposure", arguments.exposureEv100, "Exposure [EV100] instead of the scene's")
+        ->check(CLI::Range(-20.0, 40.0));
+    command.add_flag("--no-dazzle", arguments.noDazzle, "Without glare (EXR never has it)");
+    command.add_flag("--no-shimmer", arguments.noShimmer, "Without heat shimmer (EXR never has it)");
+    command.add_option("--renderer", arguments.renderer, "gl is the only one")
+        ->check(CLI::IsMember({"gl"}))
+        ->capture_default_str();
+    command.add_option("--stats", arguments.statistics, "Write one JSON object a frame to this file");
+    command.add_flag("--overdraw", arguments.overdraw,
+                     "Count shaded fragments and covered pixels in the statistics");
+    command.add_flag("--json", arguments.json, "Print one JSON object a frame");
+}
+
+base::Result<RenderPlan> planRender(const RenderArguments& arguments)
+{
+    RenderPlan plan;
+    auto output = parseOutputTarget(arguments.output);
+    if (!output.ok())
+        return output.status();
+    plan.output = *output;
+    const auto size = parsePair(arguments.size, 'x');
+    if (!size || size->first < 1 || size->second < 1 || size->first > kMaxSize || size->second > kMaxSize)
+        return usage("--size " + arguments.size + ": expected WIDTHxHEIGHT, each from 1 to 16384");
+    plan.width = int(size->first);
+    plan.height = int(size->second);
+    // CLI11's ranges let NaN through.
+    if (!std::isfinite(arguments.time) || !std::isfinite(arguments.framesPerSecond) ||
+        !std::isfinite(arguments.exposureEv100.value_or(0.0f)))
+        return usage("--time, --fps and --exposure must be numbers");
+    plan.framesPerSecond = arguments.framesPerSecond;
+    plan.stepsPerSecond = arguments.quality == "reference" ? 120 : 60;
+    if (base::Status status = planFrames(arguments, plan); !status)
+        return status;
+    return plan;
+}
+
+void applyArguments(const RenderArguments& arguments, OutputKind kind, render::ViewSettings& settings)
+{
+    const bool coarse = arguments.quality == "low" || arguments.quality == "medium";
+    if (coarse) {
+        settings.form = render::BillboardForm::Constant;
+        settings.detail = false;
+    }
+    if (arguments.form == "planar")
+        settings.form = render::BillboardForm::Planar;
+    else if (arguments.form == "constant")
+        settings.form = render::BillboardForm::Constant;
+    else if (arguments.form == "kernel")
+        settings.form = render::BillboardForm::Kernel;
+
+    const bool linear = kind == OutputKind::Exr;
+    if (linear || arguments.noShimmer || arguments.quality == "low")
+        settings.shimmer.strength = 0.0f;
+    if (linear || arguments.noDazzle)
+        settings.dazzle.enabled = false;
+    settings.toneMap = !linear;
+    settings.layerOutputs = linear;
+    settings.countOverdraw = arguments.overdraw;
+    settings.exposureEv100 = arguments.exposureEv100.value_or(settings.exposureEv100);
+}
+
+} // namespace fx::cli

@@ -1,0 +1,68 @@
+/// @file render_options.h
+/// The arguments of fx render.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "foundation/time/ticks.h"
+#include "fxsdk/cli/output_target.h"
+#include "rendering/view/view_types.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace fx::cli {
+
+/// As written on the command line.
+struct RenderArguments
+{
+    std::string input;
+    std::string output;
+    std::string size = "1280x720";
+    std::string frames; ///< "A:B", empty for the default
+    std::string quality = "high";
+    std::string form; ///< empty: what quality says
+    std::string renderer = "gl";
+    std::string statistics; ///< file, empty for none
+    double time = 0.5;      ///< [s]
+    double framesPerSecond = 30.0;
+    std::optional<uint64_t> seed;
+    std::optional<float> exposureEv100;
+    bool noDazzle = false;
+    bool noShimmer = false;
+    bool overdraw = false;
+    bool json = false;
+};
+
+/// Checked and understood.
+struct RenderPlan
+{
+    struct Frame
+    {
+        int64_t number = 0; ///< in file names
+        base::Ticks tick = 0;
+    };
+
+    OutputTarget output;
+    int width = 0;  ///< [pixel]
+    int height = 0; ///< [pixel]
+    std::vector<Frame> frames;
+    double framesPerSecond = 30.0;
+    int stepsPerSecond = 60; ///< of the simulation
+};
+
+void addRenderOptions(CLI::App& command, RenderArguments& arguments);
+
+/// Understands what CLI11 cannot check. @return InvalidArgument, which is a usage error
+base::Result<RenderPlan> planRender(const RenderArguments& arguments);
+
+/// What the arguments change in the settings of a scene. EXR files hold the scene-linear picture that their
+/// layers add up to: no tone map, no dazzle, no shimmer.
+void applyArguments(const RenderArguments& arguments, OutputKind kind, render::ViewSettings& settings);
+
+} // namespace fx::cli

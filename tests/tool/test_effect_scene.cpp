@@ -1,0 +1,140 @@
+#include "foundation/snapshot/blob_kind.h"
+#include "fxsdk/cli/default_stage.h"
+#include "fxsdk/cli/effect_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace fx::cli {
+namespace {
+
+scene_file::SceneFile explosion()
+{
+    auto scene = sceneOfPreset("library:explosion");
+    EXPECT_TRUE(scene.ok()) << scene.status().message();
+    return std::move(*scene);
+}
+
+std::unique_ptr<EffectScene> effectsOf(const scene_file::SceneFile& file,
+                                       const EffectSceneOptions& options = {})
+{
+    auto effects = EffectScene::create(file, options);
+    EXPECT_TRUE(effects.ok()) << effects.status().message();
+    return std::move(*effects);
+}
+
+/// [s] scene time between the two steps that a view shows.
+double shownTime(FxScene* scene)
+{
+    FxSnapshotId id = {};
+    EXPECT_EQ(fxScene_AcquireSnapshot(scene, &id), FX_OK);
+    FxSnapshotInfo info = {};
+    info.structSize = sizeof info;
+    EXPECT_EQ(fxScene_GetSnapshotInfo(scene, id, &info), FX_OK);
+    EXPECT_EQ(fxScene_ReleaseSnapshot(scene, id), FX_OK);
+    const double older = base::toSeconds(info.tickOlder);
+    return older + info.interpolation * (base::toSeconds(info.tickNewer) - older);
+}
+
+uint64_t hashOf(EffectScene& effects)
+{
+    uint64_t hash = 0;
+    EXPECT_EQ(fxScene_GetStateHash(effects.scene(), &hash), FX_OK);
+    return hash;
+}
+
+TEST(EffectScene, aViewShowsExactlyTheMomentAskedForOnAndBetweenSteps)
+{
+    const scene_file::SceneFile file = explosion();
+    const auto effects = effectsOf(file);
+    for (const double time : {0.05, 0.1, 0.123, 0.5}) {
+        ASSERT_TRUE(effects->showMoment(base::toTicks(time)).ok());
+        EXPECT_NEAR(shownTime(effects->scene()), time, 1e-8);
+    }
+}
+
+TEST(EffectScene, theWayToAMomentDoesNotMatter)
+{
+    const scene_file::SceneFile file = explosion();
+    const auto direct = effectsOf(file);
+    const auto stepwise = effectsOf(file);
+    ASSERT_TRUE(direct->showMoment(base::toTicks(0.4)).ok());
+    for (int frame = 0; frame <= 12; ++frame)
+        ASSERT_TRUE(stepwise->showMoment(base::toTicks(frame / 30.0)).ok());
+    EXPECT_EQ(hashOf(*direct), hashOf(*stepwise));
+}
+
+TEST(EffectScene, anotherSeedIsAnotherRun)
+{
+    const scene_file::SceneFile file = explosion();
+    const auto one = effectsOf(file, {.seed = 1});
+    const auto two = effectsOf(file, {.seed = 2});
+    const auto again = effectsOf(file, {.seed = 1});
+    for (EffectScene* effects : {one.get(), two.get(), again.get()})
+        ASSERT_TRUE(effects->showMoment(base::toTicks(0.2)).ok());
+    EXPECT_NE(hashOf(*one), hashOf(*two));
+    EXPECT_EQ(hashOf(*one), hashOf(*again));
+}
+
+TEST(EffectScene, theCopiedSnapshotHoldsEveryParticleInItsPlace)
+{
+    scene_file::SceneFile file = explosion();
+    file.instances[0].position = {1000.0, 0.0, -2000.0};
+    const auto effects = effectsOf(file);
+    ASSERT_TRUE(effects->showMoment(base::toTicks(0.3)).ok());
+    const auto snapshot = effects->snapshot();
+    ASSERT_TRUE(snapshot.ok());
+    uint32_t count = 0;
+    for (size_t g = 0; g < (*snapshot)->groupCount(); ++g) {
+        const base::SnapshotGroup& group = (*snapshot)->group(g);
+        count += group.count();
+        EXPECT_EQ(group.info().placement.position, glm::dvec3(1000.0, 0.0, -2000.0));
+        for (const float radius : group.column(base::blob_column::Radius))
+            EXPECT_GT(radius, 0.0f);
+    }
+    EXPECT_GT(count, 0u);
+    EXPECT_EQ(count, effects->statistics()->particles);
+}
+
+TEST(DefaultStage, theCameraSeesMostOfTheMedium)
+{
+    scene_file::SceneFile file = explosion();
+    ASSERT_TRUE(frameEffect(file, base::toTicks(1.0), {}).ok());
+    const auto effects = effectsOf(file);
+    ASSERT_TRUE(effects->showMoment(base::toTicks(0.6)).ok());
+    const auto snapshot = effects->snapshot();
+    ASSERT_TRUE(snapshot.ok());
+
+    const glm::dvec3 axis = glm::normalize(file.camera.target - file.camera.position);
+    const double halfAngle = double(file.camera.fovYDegrees) * std::numbers::pi / 360.0;
+    double seen = 0.0;
+    double total = 0.0;
+    for (size_t g = 0; g < (*snapshot)->groupCount(); ++g) {
+        const base::SnapshotGroup& group = (*snapshot)->group(g);
+        for (size_t i = 0; i < group.count(); ++i) {
+            namespace column = base::blob_column;
+            const glm::dvec3 position(group.column(column::PositionX)[i], group.column(column::PositionY)[i],
+                                      group.column(column::PositionZ)[i]);
+            const double weight = double(group.column(column::CrossSection)[i]);
+            total += weight;
+            if (glm::dot(glm::normalize(position - file.camera.position), axis) > std::cos(halfAngle))
+                seen += weight;
+        }
+    }
+    EXPECT_GT(seen, 0.9 * total);
+    EXPECT_GT(file.camera.position.y, 0.0); // above the ground
+}
+
+TEST(DefaultStage, aMissingPresetIsNamed)
+{
+    for (const char* name : {"library:nothing", "/nowhere/nothing.fx.json"}) {
+        const auto scene = sceneOfPreset(name);
+        ASSERT_FALSE(scene.ok());
+        EXPECT_NE(scene.status().message().find("nothing"), std::string::npos);
+    }
+}
+
+} // namespace
+} // namespace fx::cli

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""The fx program: exit codes, messages, machine-readable output, full disks."""
+import json
+import unittest
+
+from fx_program import LIBRARY, FxTest, fx
+
+
+class FxCommand(FxTest):
+    def test_help_describes_every_subcommand_and_succeeds(self):
+        listed = fx("--help")
+        self.assertEqual(listed.code, 0)
+        for name in ("render", "validate", "doctor", "parameters"):
+            self.assertIn(name, listed.out)
+            self.assertEqual(fx(name, "--help").code, 0)
+        for option in ("--size", "--time", "--frames", "--fps", "--quality", "--seed", "--stats", "--renderer", "--json"):
+            self.assertIn(option, fx("render", "--help").out)
+
+    def test_a_command_line_that_makes_no_sense_is_exit_code_2(self):
+        preset = LIBRARY / "sparks.fx.json"
+        out = self.folder / "a.png"
+        for arguments in ([], ["paint"], ["render"], ["render", preset], ["validate"], ["doctor", "--unknown"],
+                          ["render", preset, "-o", out, "--size", "0x10"], ["render", preset, "-o", out, "--size", "10"],
+                          ["render", preset, "-o", out, "--size", "99999x10"], ["render", preset, "-o", "a.jpg"],
+                          ["render", preset, "-o", out, "--frames", "0:3"], ["render", preset, "-o", out, "--time", "-1"],
+                          ["render", preset, "-o", out, "--time", "nan"], ["render", preset, "-o", out, "--quality", "best"],
+                          ["render", preset, "-o", self.folder / "a.%d.png", "--frames", "5:3"],
+                          ["render", preset, "-o", self.folder / "a.%d.png", "--frames", "0:99999999"],
+                          ["render", preset, "-o", out, "--renderer", "vulkan"]):
+            outcome = fx(*arguments)
+            self.assertEqual(outcome.code, 2, arguments)
+            self.assertTrue(outcome.err.strip(), arguments)
+        self.assertEqual(self.names(), [])
+
+    def test_what_cannot_be_done_is_exit_code_1_and_names_the_file(self):
+        for name in ("missing.scene.json", "missing.fx.json", "library:missing"):
+            outcome = fx("render", name, "-o", self.folder / "a.png")
+            self.assertEqual(outcome.code, 1)
+            self.assertIn("missing", outcome.err)
+        outcome = fx("render", "library:sparks", "-o", self.folder / "missing" / "a.png")
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("there is no folder", outcome.err)
+        self.assertEqual(self.names(), [])
+
+    def test_doctor_reports_the_machine_as_text_and_as_one_object(self):
+        text = fx("doctor")
+        self.assertIn("OpenGL 4.5", text.out)
+        report = json.loads(fx("doctor", "--json").out)
+        self.assertGreaterEqual(report["machine"]["cores"], 1)
+        self.assertTrue(report["version"])
+        for check in report["checks"]:
+            self.assertTrue(check["ok"] or check["remedy"], check)
+        required = [check["ok"] for check in report["checks"] if check["required"]]
+        self.assertEqual(text.code, 0 if all(required) else 1)
+
+    def test_doctor_says_what_to_install_when_ffmpeg_is_missing(self):
+        outcome = fx("doctor", env={"PATH": str(self.folder)})
+        self.assertIn("apt-get install ffmpeg", outcome.out)
+
+    def test_the_parameter_reference_names_units_and_defaults(self):
+        outcome = fx("parameters")
+        self.assertEqual(outcome.code, 0)
+        for word in ("unit", "default", "K", "radius"):
+            self.assertIn(word, outcome.out)
+
+    def test_a_full_disk_behind_standard_output_is_a_failure(self):
+        for arguments in (["doctor"], ["parameters"], ["validate", LIBRARY / "sparks.fx.json"]):
+            with open("/dev/full", "wb") as full:
+                outcome = fx(*arguments, stdout=full)
+            self.assertEqual(outcome.code, 1, arguments)
+            self.assertIn("standard output", outcome.err)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""fx render: files that are complete or not there, frame numbers, statistics, repeatability, Ctrl-C."""
+import json
+import os
+import pty
+import shutil
+import signal
+import struct
+import subprocess
+import time
+import unittest
+
+from fx_program import FX, FxTest, fx
+
+SMALL = ("--size", "48x32")
+STATISTICS = {"time", "instances_active", "instances_dormant", "particles", "blobs", "passes", "programs_compiled", "gl_calls",
+              "bytes_textures", "ms_simulate", "ms_render", "allocations", "nonfinite"}
+
+
+def png_size(path):
+    """Width and height; raises unless the file begins and ends as a PNG does."""
+    data = path.read_bytes()
+    if data[:8] != b"\x89PNG\r\n\x1a\n" or data[-8:-4] != b"IEND":
+        raise ValueError(f"{path} is not a whole PNG")
+    return struct.unpack(">II", data[16:24])
+
+
+class FxRender(FxTest):
+    def render(self, output, *arguments, scene="library:sparks"):
+        outcome = fx("render", scene, "-o", self.folder / output, *SMALL, *arguments)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        return outcome
+
+    def interrupt(self, output, ready):
+        """Starts a long job, waits until `ready()`, sends Ctrl-C; returns the exit code."""
+        process = subprocess.Popen([FX, "render", "library:explosion", "-o", self.folder / output, "--size", "320x240",
+                                    "--frames", "0:5000"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        for _ in range(1200):
+            if ready() or process.poll() is not None:
+                break
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        return process.wait(60)
+
+    def test_a_still_is_one_png_of_the_size_asked_for(self):
+        self.render("a.png")
+        self.assertEqual(self.names(), ["a.png"])
+        self.assertEqual(png_size(self.folder / "a.png"), (48, 32))
+
+    def test_frames_are_numbered_as_asked_first_and_last_included(self):
+        self.render("a.%03d.png", "--frames", "3:5")
+        self.assertEqual(self.names(), ["a.003.png", "a.004.png", "a.005.png"])
+
+    def test_the_same_command_gives_the_same_picture_and_another_seed_another_one(self):
+        self.render("a.png", "--seed", "5")
+        self.render("b.png", "--seed", "5")
+        self.render("c.png", "--seed", "6")
+        a, b, c = ((self.folder / name).read_bytes() for name in ("a.png", "b.png", "c.png"))
+        self.assertEqual(a, b)
+        self.assertNotEqual(a, c)
+
+    def test_a_frame_of_a_sequence_shows_what_the_still_of_its_time_shows(self):
+        self.render("a.%d.png", "--frames", "0:12", "--no-dazzle", scene="library:explosion")
+        self.render("still.png", "--time", "0.4", "--no-dazzle", scene="library:explosion")
+        still, frame = ((self.folder / name).read_bytes() for name in ("still.png", "a.12.png"))
+        self.assertEqual(still, frame)
+
+    def test_statistics_have_every_promised_field_once_a_frame(self):
+        self.render("a.%d.png", "--frames", "0:2", "--overdraw", "--stats", self.folder / "stats.json")
+        lines = [json.loads(line) for line in (self.folder / "stats.json").read_text().strip().split("\n")]
+        self.assertEqual([round(line["time"] * 30) for line in lines], [0, 1, 2])
+        for line in lines:
+            self.assertLessEqual(STATISTICS, set(line))
+            self.assertEqual(line["nonfinite"], 0)
+            self.assertEqual(line["programs_compiled"], 0)
+        self.assertGreater(lines[-1]["blobs"], 0)
+        self.assertGreaterEqual(lines[-1]["shaded_fragments"], lines[-1]["covered_pixels"])
+
+    def test_json_is_one_object_a_frame_that_names_file_machine_and_seed(self):
+        outcome = self.render("a.%d.png", "--frames", "1:2", "--json", "--seed", "9")
+        lines = [json.loads(line) for line in outcome.out.strip().split("\n")]
+        self.assertEqual([line["file"] for line in lines], [str(self.folder / f"a.{n}.png") for n in (1, 2)])
+        for line in lines:
+            self.assertEqual(line["seed"], 9)
+            self.assertTrue(line["machine"]["gl_renderer"])
+            self.assertTrue(line["version"])
+        self.assertEqual(outcome.err, "")
+
+    def test_interrupting_a_sequence_leaves_whole_files_only(self):
+        code = self.interrupt("a.%04d.png", lambda: len(self.names()) >= 3)
+        self.assertEqual(code, 130)
+        self.assertGreaterEqual(len(self.names()), 3)
+        for name in self.names():
+            self.assertRegex(name, r"^a\.\d{4}\.png$")
+            self.assertEqual(png_size(self.folder / name), (320, 240))
+
+    def test_interrupting_a_video_leaves_nothing(self):
+        if shutil.which("ffmpeg") is None:
+            self.skipTest("ffmpeg is not installed")
+        self.assertEqual(self.interrupt("a.mp4", lambda: len(self.names()) >= 1), 130)
+        self.assertEqual(self.names(), [])
+
+    def test_a_video_without_ffmpeg_is_refused_with_the_remedy(self):
+        empty = self.folder / "empty"
+        empty.mkdir()
+        outcome = fx("render", "library:sparks", "-o", self.folder / "a.mp4", *SMALL, env={"PATH": str(empty)})
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("apt-get install ffmpeg", outcome.err)
+        self.assertEqual(self.names(), ["empty"])
+
+    def test_a_full_disk_is_a_failure_wherever_it_shows(self):
+        os.symlink("/dev/full", self.folder / "a.png")
+        outcome = fx("render", "library:sparks", "-o", self.folder / "a.png", *SMALL)
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("a.png", outcome.err)
+        outcome = fx("render", "library:sparks", "-o", self.folder / "b.png", *SMALL, "--stats", "/dev/full")
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("/dev/full", outcome.err)
+
+    def test_progress_goes_to_terminals_only(self):
+        self.assertEqual(self.render("a.png").err, "")
+        reader, terminal = pty.openpty()
+        subprocess.run([FX, "render", "library:sparks", "-o", self.folder / "b.png", *SMALL], stdout=subprocess.DEVNULL,
+                       stderr=terminal, check=True)
+        os.close(terminal)
+        self.assertIn(b"frame 0/1", os.read(reader, 4096))
+        os.close(reader)
+
+
+if __name__ == "__main__":
+    unittest.main()

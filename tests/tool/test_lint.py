@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""scripts/lint: each rule refuses a file that breaks it. Runs on a copy of the script in an empty repository."""
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "lint"
+
+
+class Lint(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = pathlib.Path(self.folder.name)
+        (self.root / "scripts").mkdir()
+        shutil.copy(SCRIPT, self.root / "scripts/lint")
+        shutil.copy(SCRIPT.parents[1] / ".clang-format", self.root)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def lint(self, check, files):
+        for name, text in files.items():
+            path = self.root / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        return subprocess.run([sys.executable, self.root / "scripts/lint", check], capture_output=True, text=True)
+
+    def refused(self, check, files, expected):
+        result = self.lint(check, files)
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertIn(expected, result.stdout)
+
+    def accepted(self, check, files):
+        result = self.lint(check, files)
+        self.assertEqual(result.returncode, 0, result.stdout)
+
+    def test_unfinished_marks_and_disabled_code_are_refused(self):
+        self.refused("words", {"a.cpp": "// " + "TO" + "DO: later\n"}, "a.cpp:1: unfinished mark")
+        self.refused("words", {"a.cpp": "int x;\n#if" + " 0\n#endif\n"}, "a.cpp:2: disabled code")
+        self.accepted("words", {"a.cpp": "// autodoc\n#if 01\n#endif\n"})
+
+    def test_paths_from_outside_are_refused(self):
+        self.refused("words", {"docs/a.md": "see .." + "/shared/notes.md\n"}, "docs/a.md:1")
+
+    def test_the_simulation_may_not_depend_on_the_library_it_is_built_with(self):
+        for line in ("std::mt19937 g;", "int x = std::rand();", "std::sort(a, b);", "std::unordered_map<int, int> m;"):
+            self.refused("simulation", {"simulation/a.cpp": line + "\n"}, "simulation/a.cpp:1")
+            self.accepted("simulation", {"simulation/a.cpp": "std::stable_sort(a, b);\n", "rendering/a.cpp": line + "\n"})
+
+    def test_includes_follow_the_layers(self):
+        self.refused("arrows", {"simulation/a.h": '#include "rendering/view/view_types.h"\n'},
+                     "simulation/ must not include rendering/")
+        self.refused("arrows", {"simulation/a.h": "", "foundation/b.h": '#include "simulation/world.h"\n'}, "foundation/b.h:1")
+        self.accepted("arrows", {"foundation/b.h": "", "fxsdk/a.h": '#include "rendering/view/view_types.h"\n'})
+
+    def test_a_file_that_is_too_long_is_refused(self):
+        self.refused("sizes", {"a.cpp": "\n" * 501}, "a.cpp:501")
+        self.accepted("sizes", {"a.cpp": "\n" * 500})
+
+    def test_links_must_lead_somewhere(self):
+        self.refused("links", {"docs/a.md": "[b](b.md)\n"}, "docs/a.md:1: the link to b.md leads nowhere")
+        self.refused("links", {"docs/b.md": "# Title\n", "docs/a.md": "[b](b.md#other)\n"}, "no heading for #other")
+        self.accepted("links", {"docs/a.md": "[b](b.md#title) [c](https://example.org/x) `[d](e.md)`\n"})
+
+    def test_code_that_clang_format_would_change_is_refused(self):
+        if shutil.which("clang-format-14") is None:
+            self.skipTest("clang-format-14 is not installed")
+        self.refused("format", {"a.cpp": "int  x;\n"}, "a.cpp:1")
+        self.accepted("format", {"a.cpp": "int x;\n"})
+
+
+if __name__ == "__main__":
+    unittest.main()
