@@ -65,6 +65,8 @@ public:
     virtual void step(const StepContext& context) = 0;
     /// Adds what is to be seen to `snapshot`. `base` carries instance, solver and placement to copy into each
     /// group.
+    /// A solver that holds nothing still adds its group: the memory is then there before the first element
+    /// is.
     virtual void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const = 0;
     /// True when nothing is alive and nothing will ever be born again from local time `tick` on.
     virtual bool finished(base::Ticks tick) const = 0;

@@ -21,7 +21,7 @@ void HostMemory::do_deallocate(void* memory, size_t size, size_t alignment)
     if (hooks_.release)
         hooks_.release(hooks_.user, memory, size, alignment);
     else
-        ::operator delete(memory, size, std::align_val_t(alignment));
+        ::operator delete(memory, std::align_val_t(alignment));
 }
 
 } // namespace fx::base

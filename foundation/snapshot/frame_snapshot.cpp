@@ -2,6 +2,9 @@
 
 #include "foundation/math/hash.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace fx::base {
 
 void SnapshotGroup::prepare(const SnapshotSchema& schema, KindId kind, size_t capacity)
@@ -30,10 +33,19 @@ void FrameSnapshot::begin(Ticks tick, uint64_t sequence)
 
 SnapshotGroup& FrameSnapshot::addGroup(KindId kind, size_t capacity)
 {
-    if (groupCount_ == groups_.size())
+    const size_t columns = schema_->kind(kind).columns.size();
+    size_t best = groups_.size();
+    for (size_t i = groupCount_; i < groups_.size(); ++i) { // the smallest spare that is large enough
+        const size_t room = groups_[i].room(columns);
+        if (room >= capacity && (best == groups_.size() || room < groups_[best].room(columns)))
+            best = i;
+    }
+    if (best == groups_.size())
         groups_.emplace_back(memory_);
-    SnapshotGroup& group = groups_[groupCount_++];
+    std::swap(groups_[groupCount_], groups_[best]);
+    SnapshotGroup& group = groups_[groupCount_];
     group.prepare(*schema_, kind, capacity);
+    ++groupCount_;
     return group;
 }
 

@@ -11,6 +11,7 @@
 #include "foundation/snapshot/snapshot_schema.h"
 #include "foundation/time/ticks.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -51,6 +52,11 @@ public:
     std::span<uint64_t> editIds() { return {ids_.data(), capacity_}; }
     std::span<float> editColumn(size_t index) { return {storage_.data() + index * capacity_, capacity_}; }
     std::span<float> editConstants() { return constants_; }
+    /// Elements of a kind with that many columns for which there is memory already.
+    size_t room(size_t columns) const
+    {
+        return std::min(ids_.size(), columns > 0 ? storage_.size() / columns : ids_.size());
+    }
     /// Makes room for `capacity` elements of `kind`; keeps its memory when that is enough.
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity);
 
@@ -79,7 +85,8 @@ public:
 
     // ---- for the writer, before publication ----
     void begin(Ticks tick, uint64_t sequence);
-    /// A group with room for `capacity` elements; fill it and set its info (count, bounds).
+    /// A group with room for `capacity` elements; fill it and set its info (count, bounds). The memory of a
+    /// group of an earlier snapshot is reused when one is large enough, whatever its position was.
     SnapshotGroup& addGroup(KindId kind, size_t capacity);
 
 private:

@@ -58,7 +58,8 @@ struct DazzleSettings
 {
     bool enabled = true;
     float white = 8.0f; ///< [1] exposed value at which the sensor saturates, > 0
-    float a = 1.0f; ///< sensor law f(over) = over (A + B exp(-C over)), over in units of `white` per pixel
+    float a = 0.01f; ///< sensor law f(over) = over (A + B exp(-C over)), over in units of `white` per pixel;
+                     ///< a clean lens spreads about a hundredth, 1 spreads all that is too bright
     float b = 0.0f;
     float c = 1.0f;         ///< >= 0
     float riseTime = 0.05f; ///< [s] time constant when glare grows; 0 is immediate

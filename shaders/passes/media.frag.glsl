@@ -10,6 +10,7 @@
 flat in vec4 blobSun;
 flat in vec4 blobSky;
 flat in vec4 blobEmission;
+flat in mat3 blobDetailAxes;
 
 #if FX_LAYERS
 layout(location = 0) out vec4 fireLight;
@@ -42,16 +43,18 @@ void main()
 #if FX_DETAIL
     float amount = blobMedium.z * forward.w;
     if (amount > 0.0) {
-        vec3 p = relative * blobSun.w + blobMedium.w * vec3(61.3, 37.7, 83.1);
+        vec3 p = blobDetailAxes * relative + blobMedium.w * vec3(61.3, 37.7, 83.1);
         float n = fxDetailNoise(p.x, p.y, p.z);
         opticalDepth *= max(1.0 + amount * (2.2 * n - 0.25), 0.0);
         emitted *= exp2(blobEmission.w * amount * 0.3 * n);
     }
 #endif
     float alpha = 1.0 - exp(-opticalDepth);
-    float shadow = ownShadow(ray.toPoint);
-    vec3 scattered = blobSun.rgb * (0.7 * exp(-shadow) + 0.3 * exp(-0.25 * shadow)) // second term: light that has turned
-                     + blobSky.rgb * (0.75 + 0.25 * relative.y);
+    vec3 scattered = blobSky.rgb * (0.75 + 0.25 * relative.y);
+    if (blobSun.r + blobSun.g + blobSun.b > 0.0) {
+        float shadow = ownShadow(ray.toPoint);
+        scattered += blobSun.rgb * (0.7 * exp(-shadow) + 0.3 * exp(-0.25 * shadow)); // second term: light that has turned
+    }
 
 #if FX_LAYERS
     float layer = floor(blobSky.w * 0.5);

@@ -8,6 +8,16 @@ flat out vec4 blobMedium;
 flat out vec4 blobSun;
 flat out vec4 blobSky;
 flat out vec4 blobEmission;
+flat out mat3 blobDetailAxes; // noise periods along each axis, turned by the seed so that no two blobs share a lattice
+
+mat3 detailAxes(float seed, float periods)
+{
+    float a = 6.2831853 * fract(seed * 7.31);
+    float b = 6.2831853 * fract(seed * 23.17);
+    mat3 aroundY = mat3(cos(a), 0.0, -sin(a), 0.0, 1.0, 0.0, sin(a), 0.0, cos(a));
+    mat3 aroundX = mat3(1.0, 0.0, 0.0, 0.0, cos(b), sin(b), 0.0, -sin(b), cos(b));
+    return periods * (aroundX * aroundY);
+}
 
 void main()
 {
@@ -17,5 +27,6 @@ void main()
     blobSun = blob.sun;
     blobSky = blob.sky;
     blobEmission = blob.emission;
+    blobDetailAxes = detailAxes(blob.medium.w, blob.sun.w);
     gl_Position = blobQuadCorner(blob.centerRadius.xyz, blob.centerRadius.w, gl_VertexID);
 }

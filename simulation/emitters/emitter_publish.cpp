@@ -59,7 +59,7 @@ void writeLooks(const EmitterDef& def, const EmitterStore& store, const float* l
 
 void EmitterSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
 {
-    if (store_.count == 0 || kind_ == base::kNoKind)
+    if (kind_ == base::kNoKind)
         return;
     BlobWriter writer(snapshot, base, kind_, store_.count, uint32_t(store_.capacity()));
     writeConstants(def_, writer);

@@ -48,7 +48,7 @@ void writeLooks(const GasDef& def, const GasStore& gas, BlobWriter& writer)
 
 void GasSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
 {
-    if (gas_.count == 0 || kind_ == base::kNoKind)
+    if (kind_ == base::kNoKind)
         return;
     BlobWriter writer(snapshot, base, kind_, gas_.count, uint32_t(gas_.columns[0].capacity()));
     writeConstants(def_, writer);

@@ -58,6 +58,33 @@ TEST(WakeQueue, afterRemovalsFromAnywhereTheOthersStillComeInOrder)
     }
 }
 
+TEST(WakeQueue, fiveHundredSleepersStayInOrderWhicheverHalfLeaves)
+{
+    uint64_t random = 1;
+    const auto next = [&random] {
+        return (random = random * 6364136223846793005u + 1442695040888963407u) >> 33;
+    };
+    for (int round = 0; round < 50; ++round) {
+        WakeQueue queue(std::pmr::get_default_resource());
+        std::vector<Sleeper> waiting;
+        for (uint32_t key = 0; key < 500; ++key) {
+            waiting.push_back({int64_t(next() % 1000), key, key});
+            queue.add(waiting.back());
+        }
+        for (int i = 0; i < 250; ++i) {
+            const size_t leaves = next() % waiting.size();
+            queue.remove(waiting[leaves].key);
+            waiting.erase(waiting.begin() + std::ptrdiff_t(leaves));
+        }
+        std::stable_sort(waiting.begin(), waiting.end(),
+                         [](const Sleeper& a, const Sleeper& b) { return a.start < b.start; });
+        const std::vector<uint32_t> keys = drain(queue);
+        ASSERT_EQ(keys.size(), waiting.size());
+        for (size_t i = 0; i < keys.size(); ++i)
+            ASSERT_EQ(keys[i], waiting[i].key) << "round " << round;
+    }
+}
+
 TEST(ActiveList, theOrderIsThatOfCreationWhateverTheOrderOfWaking)
 {
     ActiveList list(std::pmr::get_default_resource());

@@ -33,3 +33,21 @@ TEST_F(AllocationApi, aWarmSceneUpdatesWithoutAnyAllocation)
     EXPECT_EQ(newCalls() - before, 0u);
     EXPECT_GT(statistics().particles, 400u);
 }
+
+TEST_F(AllocationApi, anExplosionAllocatesNothingFromItsFifthFrameToItsEnd)
+{
+    FxPresetId preset{};
+    ASSERT_EQ(fxLoadPresetLibrary(context_, "library:explosion", &preset), FX_OK);
+    FxInstanceDef def = instanceDef();
+    def.preset = preset;
+    FxInstanceId id{};
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK);
+    for (int frame = 0; frame < 5; ++frame) // each snapshot of the ring is filled once
+        ASSERT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
+    const uint64_t before = newCalls();
+    for (int frame = 0; frame < 300; ++frame) {
+        ASSERT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
+        ASSERT_EQ(statistics().updateAllocations, 0u) << "frame " << frame;
+    }
+    EXPECT_EQ(newCalls() - before, 0u);
+}

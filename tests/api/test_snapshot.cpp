@@ -57,6 +57,19 @@ TEST_F(SnapshotApi, itHoldsTheLastTwoStepsAndTheMomentBetween)
     EXPECT_NEAR(info.interpolation, 0.25, 1e-6);
 }
 
+TEST_F(SnapshotApi, alsoAfterAFrameOfManyStepsTheTwoAreNeighbors)
+{
+    ASSERT_EQ(fxScene_Update(scene_, 4 * kFrame), FX_OK);
+    FxSnapshotId later{};
+    ASSERT_EQ(fxScene_AcquireSnapshot(scene_, &later), FX_OK);
+    FxSnapshotInfo info{};
+    info.structSize = sizeof info;
+    ASSERT_EQ(fxScene_GetSnapshotInfo(scene_, later, &info), FX_OK);
+    EXPECT_EQ(info.tickNewer, 34 * (FX_TICKS_PER_SECOND / 60));
+    EXPECT_EQ(info.tickOlder, 33 * (FX_TICKS_PER_SECOND / 60));
+    EXPECT_EQ(fxScene_ReleaseSnapshot(scene_, later), FX_OK);
+}
+
 TEST_F(SnapshotApi, aGroupSaysWhoseParticlesItHasAndItsBoundsHoldThem)
 {
     const FxSnapshotGroup found = group();

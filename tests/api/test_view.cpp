@@ -153,7 +153,11 @@ TEST_F(ViewApi, aFramebufferIsDrawnLikeATextureWithoutShimmerAndGlare)
 TEST_F(ViewApi, whatIsShownLiesBetweenTheLastTwoSteps)
 {
     update(60);
-    ASSERT_EQ(fxView_Render(view_, nullptr), FX_ERROR_INVALID_ARGUMENT);
+    FxViewSettings settings = fxDefaultViewSettings();
+    settings.dazzle = 0; // nothing but the particles' places changes with time
+    settings.shimmerStrength = 0;
+    settings.detail = 0;
+    ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK);
     const FxFrameDef def = frame();
     std::vector<std::vector<float>> pictures;
     for (int quarter = 0; quarter < 2; ++quarter) {

@@ -67,6 +67,11 @@ TEST_F(ViewArguments, aFrameOutOfRangeIsRefusedByNameAndThePictureStays)
     refuse("view", [](FxFrameDef& f) { f.view[5] = kNan; });
     refuse("view", [](FxFrameDef& f) { f.view[0] = 2.0f; });
     refuse("view", [](FxFrameDef& f) { f.view[0] = -1.0f; }); // a mirror
+    refuse("view", [](FxFrameDef& f) { // sheared, although every column fits the other two
+        f.view[4] = 0.6f;
+        f.view[5] = 0.8f;
+        f.view[10] = 0.8f;
+    });
     refuse("view", [](FxFrameDef& f) { f.view[15] = 0.0f; });
     refuse("projection", [](FxFrameDef& f) { f.projection[3] = kInf; });
     refuse("projection", [](FxFrameDef& f) { std::memset(f.projection, 0, sizeof f.projection); });

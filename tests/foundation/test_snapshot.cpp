@@ -78,3 +78,20 @@ TEST_F(SnapshotTest, writingTheSameShapeAgainAllocatesNothing)
         write(snapshot, i, uint32_t(i % 8), 1.0f);
     EXPECT_EQ(memory_.allocationCount(), before);
 }
+
+TEST(FrameSnapshot, reusesTheMemoryOfGroupsWhateverTheirOrderWas)
+{
+    fx::base::HostMemory memory;
+    fx::base::SnapshotSchema schema;
+    const auto kind = schema.add(fx::base::kBlobKind);
+    fx::base::FrameSnapshot snapshot(&schema, &memory);
+    snapshot.begin(0, 1);
+    for (const size_t capacity : {10, 400, 50})
+        snapshot.addGroup(kind, capacity);
+    const uint64_t before = memory.allocationCount();
+    snapshot.begin(1, 2); // the first solver has ended: the others move up
+    for (const size_t capacity : {400, 50})
+        snapshot.addGroup(kind, capacity);
+    EXPECT_EQ(memory.allocationCount(), before);
+    EXPECT_EQ(snapshot.groupCount(), 2u);
+}

@@ -107,7 +107,7 @@ TEST(EmitterSolver, particlesDieAtTheEndOfTheirLife)
     stage.step();
     EXPECT_EQ(stage.world().elementCount(slot), 0u);
     EXPECT_TRUE(stage.world().finished(slot, stage.now()));
-    EXPECT_EQ(stage.look().groupCount(), 0u);
+    EXPECT_EQ(stage.look().group(0).count(), 0u);
 }
 
 TEST(EmitterSolver, impossibleLifetimesAreCountedAndNeverSeen)

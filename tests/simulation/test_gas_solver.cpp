@@ -311,7 +311,7 @@ TEST(GasSolver, smokeDissolvesToNothingWithoutASuddenEnd)
     double last = 0;
     for (int i = 0; i < 1200 && !stage.world().finished(slot, stage.now()); ++i) {
         stage.step();
-        if (stage.look().groupCount() == 0)
+        if (stage.look().group(0).count() == 0)
             break;
         last = 0;
         for (const float sigma : stage.look().group(0).column(blob::CrossSection))

@@ -60,7 +60,8 @@ typedef struct FxViewSettings
     uint32_t dazzle;        ///< 1 (default): glare; 0: none
     float dazzleWhite;      ///< [1] 1e-3..1e6, exposed value at which the sensor saturates; default 8
     float dazzleA; ///< [1] sensor law f(over) = over (A + B exp(-C over)), over: mean overflow per pixel in
-                   ///< units of dazzleWhite; A >= B exp(-2) for B > 0, A >= -B for B < 0; default 1
+                   ///< units of dazzleWhite; A >= B exp(-2) and A >= -B; 1 spreads all of it; default 0.01, a
+                   ///< clean lens
     float dazzleB; ///< [1] see dazzleA; default 0
     float dazzleC; ///< [1] >= 0, see dazzleA; default 1
     float dazzleRiseTime;   ///< [s] 0..60, time constant of growing glare; default 0.05
@@ -87,7 +88,7 @@ static inline FxViewSettings fxDefaultViewSettings(void)
     settings.shimmerMaxOffset = 12.0f;
     settings.dazzle = 1;
     settings.dazzleWhite = 8.0f;
-    settings.dazzleA = 1.0f;
+    settings.dazzleA = 0.01f;
     settings.dazzleC = 1.0f;
     settings.dazzleRiseTime = 0.05f;
     settings.dazzleFallTime = 0.4f;
