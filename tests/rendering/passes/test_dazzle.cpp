@@ -83,7 +83,7 @@ TEST_F(DazzleOnGpu, equalsTheReferenceBitForBit)
 {
     for (const auto& size : kSizes)
         for (const float white : {1.0f, 1.7f, 8.0f})
-            expectEqualToReference(randomPicture(size[0], size[1], 7), {.white = white});
+            expectEqualToReference(randomPicture(size[0], size[1], 7), {.white = white, .a = 1.0f});
 }
 
 TEST_F(DazzleOnGpu, keepsEveryQuantumOfLight)
@@ -92,7 +92,7 @@ TEST_F(DazzleOnGpu, keepsEveryQuantumOfLight)
         for (const float white : {1.0f, 1.7f, 4.0f}) {
             const Picture picture = randomPicture(size[0], size[1], 3);
             DazzleHistory history{};
-            const auto out = frame(picture, {.white = white}, history);
+            const auto out = frame(picture, {.white = white, .a = 1.0f}, history);
             for (size_t channel = 0; channel < 3; ++channel) {
                 const int64_t room = int64_t(size[0]) * size[1] * int64_t(dazzleScale(white).whiteQuanta);
                 EXPECT_EQ(quanta(out, channel, white), std::min(room, quanta(picture.texels, channel, white)))
@@ -107,7 +107,7 @@ TEST_F(DazzleOnGpu, addsToDarkPixelsAndExceedsWhiteNowhere)
 {
     const Picture picture = randomPicture(120, 80, 5);
     DazzleHistory history{};
-    const auto out = frame(picture, {.white = 2.0f}, history);
+    const auto out = frame(picture, {.white = 2.0f, .a = 1.0f}, history);
     for (size_t i = 0; i < out.size(); i += 4) {
         ASSERT_LE(out[i], 2.0f);
         ASSERT_GE(out[i], std::min(picture.texels[i], 2.0f) - 0x1p-23f); // a part of a quantum may be dropped
@@ -118,9 +118,9 @@ TEST_F(DazzleOnGpu, allZeroAllSaturatedAndAllWhiteAreDefined)
 {
     for (const float v : {0.0f, 1.0f, 65504.0f, 1e30f}) {
         const Picture picture(40, 24, {v, v, v, 0.5f});
-        expectEqualToReference(picture, {.white = 1.0f});
+        expectEqualToReference(picture, {.white = 1.0f, .a = 1.0f});
         DazzleHistory history{};
-        const auto out = frame(picture, {.white = 1.0f}, history);
+        const auto out = frame(picture, {.white = 1.0f, .a = 1.0f}, history);
         for (size_t i = 0; i < out.size(); i += 4)
             ASSERT_EQ(out[i], std::min(v, 1.0f));
     }
@@ -131,9 +131,9 @@ TEST_F(DazzleOnGpu, sumsBeyond64BitsAreExact)
     // 2^54 quanta in each of 230,119 pixels: 72 bits a channel, more than 16K of 65504
     Picture picture(641, 359, {3e38f, 65504.0f, 0.0f, 1.0f});
     picture.at(640, 358)[1] = 0.75f;
-    expectEqualToReference(picture, {.white = 1.0f});
+    expectEqualToReference(picture, {.white = 1.0f, .a = 1.0f});
     DazzleHistory history{};
-    frame(picture, {.white = 1.0f}, history);
+    frame(picture, {.white = 1.0f, .a = 1.0f}, history);
     EXPECT_NEAR(history.frameMean[0], 0x1p30 - 1.0, 1e-6);
     EXPECT_EQ(history.replaced, 641u * 359u);
 }
@@ -142,7 +142,7 @@ TEST_F(DazzleOnGpu, nothingAboveWhiteLeavesEveryBit)
 {
     const Picture picture = randomPicture(129, 65, 11);
     DazzleHistory history{};
-    const auto out = frame(picture, {.white = 512.0f}, history);
+    const auto out = frame(picture, {.white = 512.0f, .a = 1.0f}, history);
     EXPECT_EQ(test::differentBits(out, picture.texels), 0u);
     EXPECT_EQ(history.adapted[0], 0.0);
 }
@@ -155,7 +155,7 @@ TEST_F(DazzleOnGpu, brokenValuesAreReplacedCountedAndHarmOnlyThemselves)
     picture.at(7, 4)[1] = -2.0f;
     picture.at(9, 29)[2] = -kInf;
     DazzleHistory history{};
-    auto out = frame(picture, {.white = 1.0f}, history);
+    auto out = frame(picture, {.white = 1.0f, .a = 1.0f}, history);
     EXPECT_EQ(history.replaced, 4u);
     Picture want = picture;
     want.at(3, 4)[0] = want.at(20, 17)[0] = want.at(7, 4)[1] = want.at(9, 29)[2] = 0.0f;
@@ -163,12 +163,12 @@ TEST_F(DazzleOnGpu, brokenValuesAreReplacedCountedAndHarmOnlyThemselves)
 
     picture.at(49, 0)[2] = kInf;
     picture.at(48, 0)[2] = 3e38f;
-    expectEqualToReference(picture, {.white = 1.0f});
+    expectEqualToReference(picture, {.white = 1.0f, .a = 1.0f});
 }
 
 TEST_F(DazzleOnGpu, adaptsLikeTheReferenceFromFrameToFrame)
 {
-    const DazzleSettings settings{.white = 1.0f};
+    const DazzleSettings settings{.white = 1.0f, .a = 1.0f};
     DazzleHistory onGpu{};
     DazzleHistory onCpu{};
     const double steps[] = {0.0, 0.016, 0.016, kNan, 0.5, -1.0, 0.2};

@@ -22,6 +22,7 @@ DazzleSettings immediate(float white)
 {
     DazzleSettings settings;
     settings.white = white;
+    settings.a = 1.0f; // all of the overflow, so that sums can be compared
     settings.riseTime = 0.0f;
     settings.fallTime = 0.0f;
     return settings;
