@@ -37,7 +37,7 @@ constexpr std::string_view kPreset = R"({
 
 struct Options
 {
-    int frames = 120;
+    int frames = 60; // one second: the fireball stays in the picture
     int width = 480;
     int height = 300;
     uint32_t form = FX_BILLBOARD_KERNEL;
@@ -128,7 +128,7 @@ public:
         settings_.billboardForm = options.form;
         settings_.detail = options.detail ? 1 : 0;
         check(fxCreateView(context_, scene_, &settings_, &view_), "view");
-        for (int i = 0; i < 30; ++i) // half a second: the fireball has grown
+        for (int i = 0; i < 15; ++i) // a quarter of a second: the fireball has grown
             check(fxScene_Update(scene_, 1.0 / 60.0), "update");
     }
     ~PaperCase()
@@ -144,7 +144,7 @@ public:
         device_.gl.ClearTexImage(color, 0, GL_RGBA, GL_FLOAT, clear);
         device_.gl.Finish();
         const auto t0 = Clock::now();
-        check(fxScene_Update(scene_, 1.0 / 240.0), "update"); // slow motion keeps the gas in the picture
+        check(fxScene_Update(scene_, 1.0 / 60.0), "update");
         const auto t1 = Clock::now();
         render(color);
         const auto t2 = Clock::now();
@@ -179,7 +179,7 @@ public:
 private:
     void render(uint32_t color)
     {
-        const auto camera = fx::render::perspectiveView({{0.0, 0.4, 15.6}, {0.0, 0.4, 0.0}}, 0.75f,
+        const auto camera = fx::render::perspectiveView({{0.0, 0.4, 14.6}, {0.0, 0.4, 0.0}}, 0.75f,
                                                         float(options_.width) / float(options_.height), 0.1f);
         FxFrameDef frame = fxDefaultFrameDef();
         std::copy_n(glm::value_ptr(camera.origin), 3, frame.origin);

@@ -11,8 +11,6 @@ namespace fx::sim {
 
 namespace {
 
-const glm::vec3 kGravity(0.0f, -9.80665f, 0.0f); // [m/s2] world
-
 /// Rotates a world vector into an instance's local space.
 glm::vec3 toLocal(const base::Placement& placement, const glm::vec3& world)
 {
@@ -22,22 +20,24 @@ glm::vec3 toLocal(const base::Placement& placement, const glm::vec3& world)
 /// What the steps of one instance share. An instance is scaled with everything its preset says, gravity
 /// included, so that it keeps its look; the host's wind is that of the world outside, so it shrinks as the
 /// instance grows.
-StepContext makeContext(const InstanceStart& start, const EffectDef& effect)
+StepContext makeContext(const Environment& environment, const InstanceStart& start, const EffectDef& effect)
 {
     StepContext context{};
     context.seed = start.seed;
-    context.gravity = toLocal(start.placement, kGravity);
+    context.gravity = toLocal(start.placement, environment.gravity);
     context.wind = effect.wind +
                    toLocal(start.placement, start.parameters.wind) / std::max(start.placement.scale, 1e-6f);
-    context.groundHeight = effect.hasGround ? 0.0f : -std::numeric_limits<float>::infinity();
+    const bool hasGround = environment.hasGround && effect.hasGround;
+    context.groundHeight = hasGround ? 0.0f : -std::numeric_limits<float>::infinity();
     context.parameters = &start.parameters;
     return context;
 }
 
 } // namespace
 
-World::World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory)
-    : schema_(schema), tasks_(tasks), memory_(memory), scratch_(memory)
+World::World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory,
+             const Environment& environment)
+    : environment_(environment), schema_(schema), tasks_(tasks), memory_(memory), scratch_(memory)
 {}
 
 Slot World::add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start)
@@ -110,7 +110,7 @@ StepCounters World::step(std::span<const Slot> active, base::Ticks tick, base::T
     const base::FloatingPointScope floatingPoint;
     for (const Slot slot : active) {
         const Instance& instance = instances_[slot];
-        StepContext context = makeContext(instance.start, *instance.effect);
+        StepContext context = makeContext(environment_, instance.start, *instance.effect);
         context.tasks = tasks_;
         context.scratch = &scratch_;
         context.counters = &counters;

@@ -26,13 +26,21 @@ struct InstanceStart
     InstanceParameters parameters;
 };
 
+/// What all instances of a world share.
+struct Environment
+{
+    glm::vec3 gravity{0.0f, -9.80665f, 0.0f}; ///< [m/s2] world
+    bool hasGround = true;                    ///< false: no effect has a ground, whatever its preset says
+};
+
 /// Index of an instance inside the world; valid until removed.
 using Slot = uint32_t;
 
 class World
 {
 public:
-    World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory);
+    World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory,
+          const Environment& environment = {});
 
     /// Creates all solvers of `effect`. Strong guarantee: on an exception nothing has changed.
     Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start);
@@ -61,6 +69,7 @@ private:
         bool used = false;
     };
 
+    Environment environment_;
     const base::SnapshotSchema* schema_;
     base::TaskRunner* tasks_;
     std::pmr::memory_resource* memory_;

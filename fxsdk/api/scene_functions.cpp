@@ -15,6 +15,8 @@ Status checkDef(const FxSceneDef& def)
     check.range(def.maxInstances, 1u, uint32_t(fx::scene::kIdPartMask), "def.maxInstances");
     check.range(def.stepTicks, FX_TICKS_PER_SECOND / 1000, FX_TICKS_PER_SECOND, "def.stepTicks");
     check.range(def.maxFrameTicks, def.stepTicks, 60 * FX_TICKS_PER_SECOND, "def.maxFrameTicks");
+    check.range3(def.gravity, -1000.0f, 1000.0f, "def.gravity");
+    check.flag(def.hasGround, "def.hasGround");
     return check.status();
 }
 
@@ -72,7 +74,11 @@ FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene** outS
         const size_t count = context->scenes.size() + 1;
         if (context->scenes.capacity() < count)
             context->scenes.reserve(std::max(count, 2 * context->scenes.capacity()));
-        const fx::scene::SceneOptions options{known.stepTicks, known.maxFrameTicks, known.maxInstances};
+        const fx::scene::SceneOptions options{
+            known.stepTicks,
+            known.maxFrameTicks,
+            known.maxInstances,
+            {{known.gravity[0], known.gravity[1], known.gravity[2]}, known.hasGround != 0}};
         FxScene* scene =
             std::pmr::polymorphic_allocator<>(&context->memory).new_object<FxScene>(context, options);
         context->scenes.push_back(scene);

@@ -7,7 +7,7 @@ namespace fx::scene {
 
 Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, base::TaskRunner* tasks,
              std::pmr::memory_resource* memory)
-    : clock_(options.stepTicks, options.maxFrameTicks), world_(schema, tasks, memory),
+    : clock_(options.stepTicks, options.maxFrameTicks), world_(schema, tasks, memory, options.environment),
       instances_(memory, options.maxInstances), dormant_(memory), active_(memory), ring_(schema, memory)
 {
     ring_.beginWrite(0); // so that acquire() always has something to show

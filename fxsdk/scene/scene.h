@@ -23,6 +23,7 @@ struct SceneOptions
     base::Ticks stepTicks = base::kTicksPerSecond / 60;
     base::Ticks maxFrameTicks = base::kTicksPerSecond / 15;
     uint32_t maxInstances = 65'536;
+    sim::Environment environment;
 };
 
 /// Where an instance is in its life. Dormant and finished ones have no slot in the world and are never

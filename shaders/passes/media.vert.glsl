@@ -24,6 +24,8 @@ void main()
     BlobInstance blob = blobs[gl_InstanceID];
     blobCenterRadius = blob.centerRadius;
     blobMedium = blob.medium;
+    if (rayOrigin.w < 0.5) // one sample of the detail stands for a whole path: from inside it would darken all at once
+        blobMedium.z *= smoothstep(0.3, 1.3, length(blob.centerRadius.xyz) / blob.centerRadius.w);
     blobSun = blob.sun;
     blobSky = blob.sky;
     blobEmission = blob.emission;

@@ -33,6 +33,8 @@ TEST_F(SceneApi, aDefinitionOutOfRangeIsRefused)
               FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(create([](FxSceneDef& def) { def.maxFrameTicks = def.stepTicks - 1; }),
               FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(create([](FxSceneDef& def) { def.gravity[1] = NAN; }), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(create([](FxSceneDef& def) { def.hasGround = 2; }), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(create([](FxSceneDef& def) { def.maxInstances = 0; }), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(create([](FxSceneDef& def) { def.maxInstances = 1u << 24; }), FX_ERROR_INVALID_ARGUMENT);
     const FxSceneDef def = fxDefaultSceneDef();

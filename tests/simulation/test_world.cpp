@@ -213,3 +213,16 @@ TEST(World, placementDoesNotChangeTheLocalState)
     };
     EXPECT_EQ(heights({0, 0, 0}), heights({1e7, -1e6, 3}));
 }
+
+TEST(World, hasTheGravityAndTheGroundOfItsEnvironment)
+{
+    Recording recording;
+    base::SnapshotSchema schema;
+    base::HostMemory memory;
+    const auto tasks = base::makeSerialRunner();
+    sim::World world(&schema, tasks.get(), &memory, {{0.0f, -1.62f, 0.0f}, false});
+    const sim::Slot slot = world.add(recordingEffect(recording), {});
+    world.step({&slot, 1}, 0, kStep);
+    EXPECT_EQ(recording.steps.at(0).gravity, glm::vec3(0.0f, -1.62f, 0.0f));
+    EXPECT_EQ(recording.steps.at(0).groundHeight, -std::numeric_limits<float>::infinity());
+}

@@ -27,12 +27,15 @@ typedef struct FxSceneDef
     int64_t stepTicks;     ///< [tick] length of a step, 1/1000 s to 1 s; default 1/60 s
     int64_t maxFrameTicks; ///< [tick] longest time that one update simulates, at least stepTicks and at most
                            ///< 60 s; what exceeds it is dropped and counted; default 1/15 s
+    float gravity[3];      ///< [m/s2] world, each within +-1000; default 0, -9.80665, 0
+    uint32_t hasGround; ///< 1 (default): presets with a ground have it at their origin's height; 0: none has
 } FxSceneDef;
 
 /// The definition of a scene that steps 60 times a second.
 static inline FxSceneDef fxDefaultSceneDef(void)
 {
-    FxSceneDef def = {sizeof(FxSceneDef), 65536, FX_TICKS_PER_SECOND / 60, FX_TICKS_PER_SECOND / 15};
+    FxSceneDef def = {sizeof(FxSceneDef),      65536, FX_TICKS_PER_SECOND / 60, FX_TICKS_PER_SECOND / 15,
+                      {0.0f, -9.80665f, 0.0f}, 1};
     return def;
 }
 
