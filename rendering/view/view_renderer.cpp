@@ -14,6 +14,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <string>
 
 namespace fx::render {
@@ -25,7 +26,7 @@ struct ViewRenderer::Impl
     {}
 
     base::Status ensureHistory();
-    void countOverdraw(int width, int height, FrameStatistics& statistics);
+    void readBack(int width, int height, FrameStatistics& statistics); ///< waits for the GPU
 
     GlDevice* device;
     FrameGraph graph;
@@ -74,13 +75,19 @@ base::Status ViewRenderer::Impl::ensureHistory()
     return {};
 }
 
-void ViewRenderer::Impl::countOverdraw(int width, int height, FrameStatistics& statistics)
+void ViewRenderer::Impl::readBack(int width, int height, FrameStatistics& statistics)
 {
-    if (!outputs.overdraw.valid())
-        return;
-    for (const float count : readTexture(*device, backend.textureName(outputs.overdraw), width, height, 1)) {
-        statistics.coveredPixels += count > 0.0f ? 1 : 0;
-        statistics.shadedFragments += uint64_t(count);
+    if (outputs.overdraw.valid()) {
+        for (const float count :
+             readTexture(*device, backend.textureName(outputs.overdraw), width, height, 1)) {
+            statistics.coveredPixels += count > 0.0f ? 1 : 0;
+            statistics.shadedFragments += uint64_t(count);
+        }
+    }
+    if (dazzleHistory.name() != 0 && !historyFresh) {
+        DazzleHistory history;
+        device->gl.GetNamedBufferSubData(dazzleHistory.name(), 0, sizeof history, &history);
+        std::copy_n(history.frameMean, 3, statistics.overflow);
     }
 }
 
@@ -137,7 +144,7 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     statistics_.programsCompiled = s.device->programsCompiled() - compiledBefore;
     statistics_.textureBytes = s.backend.pooledBytes();
     if (status && settings_.countOverdraw)
-        s.countOverdraw(request.targets.width, request.targets.height, statistics_);
+        s.readBack(request.targets.width, request.targets.height, statistics_);
     return status;
 }
 

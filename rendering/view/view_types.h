@@ -74,12 +74,12 @@ struct ViewSettings
     ShimmerSettings shimmer;
     DazzleSettings dazzle;
     BillboardForm form = BillboardForm::Kernel;
-    bool saveState =
-        true; ///< restore every GL state that is touched; false: the published list differs afterwards
-    bool detail = true;         ///< procedural detail of blobs
-    bool toneMap = false;       ///< write display-referred values
-    bool layerOutputs = false;  ///< keep fire, smoke, dust, depth and optical depth as textures of their own
-    bool countOverdraw = false; ///< count contributing fragments (statistics, costs a pass)
+    bool saveState = true;     ///< restore every GL state that is touched; false: the host does
+    bool detail = true;        ///< procedural detail of blobs
+    bool toneMap = false;      ///< write display-referred values
+    bool layerOutputs = false; ///< keep fire, smoke, dust, depth and optical depth as textures of their own
+    bool countOverdraw =
+        false; ///< count contributing fragments and read statistics back: costs a pass and waits for the GPU
 };
 
 /// GL names of the host's targets for one frame; 0 means absent.
@@ -115,11 +115,12 @@ struct FrameStatistics
     uint32_t passes = 0;         ///< executed
     uint64_t glCalls = 0;
     uint32_t drawCalls = 0;
-    uint32_t programsCompiled = 0;  ///< during this frame; 0 after warm-up
-    uint64_t textureBytes = 0;      ///< [byte] held by the view
-    uint64_t coveredPixels = 0;     ///< with countOverdraw
-    uint64_t shadedFragments = 0;   ///< with countOverdraw
-    double overflow[3] = {0, 0, 0}; ///< dazzle: mean overflow per pixel, units of white
+    uint32_t programsCompiled = 0; ///< during this frame; 0 after warm-up
+    uint64_t textureBytes = 0;     ///< [byte] held by the view
+    uint64_t coveredPixels = 0;    ///< with countOverdraw
+    uint64_t shadedFragments = 0;  ///< with countOverdraw
+    double overflow[3] = {0, 0,
+                          0}; ///< with countOverdraw and dazzle: mean overflow per pixel, units of white
 };
 
 } // namespace fx::render

@@ -71,7 +71,8 @@ typedef struct FxViewSettings
     uint32_t detail;        ///< 1 (default): procedural detail on particles; 0: bare kernels
     uint32_t toneMap;       ///< 1: write display-referred values; 0 (default): scene-linear
     uint32_t layerOutputs;  ///< 1: keep fire, smoke, dust, depth and optical depth as textures; default 0
-    uint32_t countOverdraw; ///< 1: count fragments (statistics; costs a pass); default 0
+    uint32_t
+        countOverdraw; ///< 1: count fragments and read statistics back: costs a pass and a wait; default 0
 } FxViewSettings;
 
 /// Daylight exposure, no lights of its own, everything on.
@@ -149,7 +150,8 @@ typedef struct FxViewStatistics
     uint64_t textureBytes;     ///< [byte] of GPU memory that the view holds
     uint64_t coveredPixels;    ///< pixels with at least one particle; with countOverdraw
     uint64_t shadedFragments;  ///< fragments of all particles; with countOverdraw
-    double overflow[3];   ///< [1] glare: mean overflow per pixel in units of dazzleWhite, red, green, blue
+    double overflow[3];   ///< [1] glare: mean overflow per pixel in units of dazzleWhite, red, green, blue;
+                          ///< with countOverdraw
     uint64_t allocations; ///< allocations from the context's allocator during the frame
 } FxViewStatistics;
 
