@@ -85,6 +85,8 @@ bool World::finished(Slot slot, base::Ticks sceneTick) const
         return false;
     if (instance.effect->duration > 0 && local >= instance.effect->duration)
         return true;
+    if (!instance.start.parameters.emitting && elementCount(slot) == 0)
+        return true;
     return std::all_of(instance.solvers.begin(), instance.solvers.end(),
                        [local](const std::unique_ptr<Solver>& solver) { return solver->finished(local); });
 }

@@ -48,6 +48,8 @@ public:
 
     void setPlacement(Slot slot, const base::Placement& placement);
     void setParameters(Slot slot, const InstanceParameters& parameters);
+    /// True at the end of the effect's duration, when all solvers have finished, and when an instance that no
+    /// longer emits is empty.
     bool finished(Slot slot, base::Ticks sceneTick) const;
     uint32_t elementCount(Slot slot) const;
     const EffectDef& effect(Slot slot) const;

@@ -29,6 +29,7 @@ struct Options
     bool isHeadless = false;
     long frames = 90;
     std::string output;
+    bool isUnderstood = true;
 };
 
 Options parse(int argumentCount, char** arguments)
@@ -42,7 +43,10 @@ Options parse(int argumentCount, char** arguments)
             options.frames = std::strtol(arguments[++i], nullptr, 10);
         else if (std::strcmp(arguments[i], "--output") == 0 && hasValue)
             options.output = arguments[++i];
+        else
+            options.isUnderstood = false;
     }
+    options.isUnderstood = options.isUnderstood && options.frames > 0;
     return options;
 }
 
@@ -136,6 +140,10 @@ HelloWindow* helloOpen(int argumentCount, char** arguments)
 {
     auto window = std::make_unique<HelloWindow>();
     window->options = parse(argumentCount, arguments);
+    if (!window->options.isUnderstood) {
+        helloFail("usage: 00_hello [--headless] [--frames N] [--output FILE.png]");
+        return nullptr;
+    }
     if (const Status status = open(*window); !status) {
         helloFail(status.message().c_str());
         return nullptr;
@@ -186,6 +194,7 @@ int helloClose(HelloWindow* window)
 
 int helloFail(const char* message)
 {
-    std::fprintf(stderr, "00_hello: %s\n", message);
+    if (*message) // otherwise the reason has been printed already
+        std::fprintf(stderr, "00_hello: %s\n", message);
     return EXIT_FAILURE;
 }

@@ -4,6 +4,7 @@
 
 #include "fxsdk/scene/scene.h"
 
+#include <algorithm>
 #include <array>
 #include <mutex>
 #include <optional>
@@ -34,6 +35,13 @@ public:
         std::lock_guard lock(mutex_);
         const Slot* slot = slotOf(id);
         return slot ? slot->held : std::nullopt;
+    }
+
+    bool any()
+    {
+        std::lock_guard lock(mutex_);
+        return std::any_of(slots_.begin(), slots_.end(),
+                           [](const Slot& slot) { return slot.held.has_value(); });
     }
 
     /// Forgets the snapshot and hands it out, to be released. Nothing when the id is stale.

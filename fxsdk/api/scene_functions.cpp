@@ -102,6 +102,8 @@ FxResult fxDestroyScene(FxScene* scene)
             return scope.status();
         if (scene->views.load() != 0)
             return fx::api::invalid("a view still shows the scene; destroy the view first");
+        if (scene->held.any())
+            return fx::api::invalid("a snapshot of the scene is still held; release it first");
         fx::api::destroyScene(scene);
         return {};
     });

@@ -109,8 +109,8 @@ base::Status FfmpegPipe::start(const std::filesystem::path& target, int width, i
     target_ = target;
     temporary_ = temporaryNameFor(target);
     const int error =
-        spawn(program.string(), argumentsFor(temporary_.string(), width, height, framesPerSecond), ends[0],
-              process_);
+        spawn(program.string(), argumentsFor("file:" + temporary_.string(), width, height, framesPerSecond),
+              ends[0], process_);
     close(ends[0]);
     input_ = ends[1];
     if (error == 0)

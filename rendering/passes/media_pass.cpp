@@ -23,7 +23,9 @@ TextureDesc targetDesc(const MediaPass::Inputs& in, size_t target)
 {
     constexpr std::string_view kNames[MediaPass::LayerTargets] = {
         "fire light", "smoke light", "dust light", "coverage", "depth moment", "optical depth"};
-    return {in.layers ? kNames[target] : "media", in.width, in.height, Format::RGBA32F};
+    const bool scalar = in.layers && (target == MediaPass::DepthMoment || target == MediaPass::OpticalDepth);
+    return {in.layers ? kNames[target] : "media", in.width, in.height,
+            scalar ? Format::R32F : Format::RGBA32F};
 }
 
 } // namespace

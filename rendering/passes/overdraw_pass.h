@@ -9,7 +9,7 @@ namespace fx::render {
 inline constexpr ProgramDesc kOverdrawProgram{"overdraw", "passes/media.vert.glsl",
                                               "passes/overdraw.frag.glsl", nullptr, "FX_FORM=2"};
 
-/// Counts, for people who tune, how many blobs add something to each pixel.
+/// Counts, for people who tune, how many blobs of the kernel form add something to each pixel.
 ///
 /// reads   blobs     buffer of BlobInstance
 ///         distance  [m] along the ray to opaque geometry

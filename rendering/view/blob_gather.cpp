@@ -36,9 +36,10 @@ public:
         for (int axis = 0; axis < 2; ++axis)
             for (const float side : {-1.0f, 1.0f}) {
                 const float slope = (side - camera_.clipOffset[axis]) / camera_.clipScale[axis];
-                const float outside = camera_.orthographic
-                                          ? side * (c[axis] - slope)
-                                          : side * (c[axis] - slope * c.z) / std::sqrt(1.0f + slope * slope);
+                const float outward = camera_.clipScale[axis] < 0.0f ? -side : side; // mirrored
+                const float outside = camera_.orthographic ? outward * (c[axis] - slope)
+                                                           : outward * (c[axis] - slope * c.z) /
+                                                                 std::sqrt(1.0f + slope * slope);
                 if (outside > radius)
                     return false;
             }
@@ -154,8 +155,9 @@ class GroupGather
 public:
     GroupGather(const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& visible,
                 std::pmr::vector<GridBlob>& medium, GatherCounts& counts)
-        : camera_(camera), volume_(camera), pixelsPerSlope_(0.5f * float(height) * camera.clipScale.y),
-          visible_(visible), medium_(medium), counts_(counts)
+        : camera_(camera), volume_(camera),
+          pixelsPerSlope_(0.5f * float(height) * std::abs(camera.clipScale.y)), visible_(visible),
+          medium_(medium), counts_(counts)
     {}
 
     void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds)
@@ -231,7 +233,7 @@ private:
 
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
-                         std::pmr::vector<GridBlob>& outMedium)
+                         std::pmr::vector<GridBlob>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances)
 {
     GatherCounts counts;
     if (!snapshots.newer)
@@ -244,8 +246,13 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
     GroupGather gather(camera, height, outVisible, outMedium, counts);
     for (size_t g = 0; g < newer.groupCount(); ++g) {
         const base::SnapshotGroup& group = newer.group(g);
-        if (group.info().kind == kind)
-            gather.run(group, findSame(snapshots.older, group.info(), g), t, stepSeconds);
+        if (group.info().kind != kind)
+            continue;
+        if (outInstances.empty() || outInstances.back().instance != group.info().instance)
+            outInstances.push_back({group.info().instance, outVisible.size(), 0, outMedium.size(), 0});
+        gather.run(group, findSame(snapshots.older, group.info(), g), t, stepSeconds);
+        outInstances.back().visibleEnd = outVisible.size();
+        outInstances.back().mediumEnd = outMedium.size();
     }
     return counts;
 }

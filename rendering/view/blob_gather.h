@@ -33,6 +33,14 @@ struct GatheredBlob
     uint32_t layer;     ///< MediaLayer
 };
 
+/// Blobs of one instance, as ranges of the two lists that gatherBlobs() fills.
+struct InstanceBlobs
+{
+    uint64_t instance;
+    size_t visibleBegin, visibleEnd;
+    size_t mediumBegin, mediumEnd;
+};
+
 /// What a gather left out.
 struct GatherCounts
 {
@@ -43,12 +51,15 @@ struct GatherCounts
 /// Appends to `outVisible` every blob that can be seen, in the order of groups and ids, and to `outMedium`
 /// every blob whether seen or not: what is beside the picture still casts its shadow into it.
 ///
+/// `outInstances` gets the ranges of each instance in both.
+///
 /// Elements are matched by id between the two snapshots and interpolated; one that is only in the newer is
 /// carried back along its velocity, and left out if it was not yet born. Blobs smaller than a pixel are
 /// widened to it with their cross section kept, so that they neither vanish nor flicker; a shutter draws a
 /// moving blob out into several.
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
-                         std::pmr::vector<GridBlob>& outMedium);
+                         std::pmr::vector<GridBlob>& outMedium,
+                         std::pmr::vector<InstanceBlobs>& outInstances);
 
 } // namespace fx::render

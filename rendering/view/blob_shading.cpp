@@ -35,8 +35,9 @@ glm::vec3 sunRadiance(const GatheredBlob& blob, const ShadingContext& context)
         (1.0f - kTurnedShare) * henyeyGreenstein(cosine, blob.anisotropy) + kTurnedShare * kIsotropic;
     const float visible = context.shadow->transmittance(blob.center, light.sunDirection,
                                                         std::numeric_limits<float>::infinity());
+    const glm::vec3 illuminance = context.sun->at(blob.center).illuminance;
     const glm::vec3 again = kAgain * blob.albedo / (1.0f - kAgain * blob.albedo);
-    return light.sunIlluminance * (phase * visible + again * (kIsotropic * std::sqrt(visible)));
+    return illuminance * (phase * visible + again * (kIsotropic * std::sqrt(visible)));
 }
 
 /// Radiance scattered from the sky above, the ground below and the fires around, per albedo.
@@ -75,7 +76,10 @@ BlobInstance shadeBlob(const GatheredBlob& blob, const ShadingContext& context)
     instance.medium = {blob.crossSection, blob.heat, blob.detailAmount, blob.seed};
     instance.sun = {sun, blob.detailScale};
     instance.sky = {sky, float(blob.layer) * 2.0f + blob.fireShare};
-    instance.emission = {emitted, formula::fxBlackBodyContrast(blob.temperature)};
+    const glm::vec3 share = (1.0f - blob.albedo) * thermal * context.exposure;
+    const float total = emitted.x + emitted.y + emitted.z;
+    const float thermalShare = total > 0.0f ? (share.x + share.y + share.z) / total : 0.0f;
+    instance.emission = {emitted, thermalShare * formula::fxBlackBodyContrast(blob.temperature)};
     return instance;
 }
 

@@ -16,7 +16,8 @@ namespace fx::render {
 struct ShadingContext
 {
     const Lighting* lighting;
-    const MediaShadow* shadow;
+    const Light* sun;
+    const MediaShadow* shadow; ///< of the blob's own effect
     std::span<const BallLight> fires;
     float exposure; ///< [m2/cd] exposed value per luminance
     bool orthographic;

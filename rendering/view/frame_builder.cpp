@@ -9,12 +9,12 @@
 namespace fx::render {
 
 namespace {
-constexpr size_t kMostFires = 4; ///< that light the smoke; more of them are too dim to tell
+constexpr size_t kMostFires = 4; ///< the brightest ones, which light the smoke of all effects
 }
 
 FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
-    : gathered_(memory), gridBlobs_(memory), shaded_(memory), sorted_(memory), distances_(memory),
-      fires_(memory), grid_(memory), depthSort_(memory)
+    : gathered_(memory), gridBlobs_(memory), instances_(memory), shaded_(memory), sorted_(memory),
+      distances_(memory), fires_(memory), grid_(memory), depthSort_(memory)
 {}
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,
@@ -22,8 +22,9 @@ void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest
 {
     gathered_.clear();
     gridBlobs_.clear();
-    counts_ =
-        gatherBlobs(snapshots, request.interpolation, camera, request.targets.height, gathered_, gridBlobs_);
+    instances_.clear();
+    counts_ = gatherBlobs(snapshots, request.interpolation, camera, request.targets.height, gathered_,
+                          gridBlobs_, instances_);
     shade(snapshots, settings, camera);
     sort(camera);
 }
@@ -31,8 +32,6 @@ void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest
 void FrameBuilder::shade(const base::SnapshotPair& snapshots, const ViewSettings& settings,
                          const CameraGeometry& camera)
 {
-    grid_.build(gridBlobs_);
-
     std::array<EffectLight, kMostFires> lights;
     const size_t lightCount = snapshots.newer ? effectLights(*snapshots.newer, lights) : 0;
     fires_.clear();
@@ -40,16 +39,25 @@ void FrameBuilder::shade(const base::SnapshotPair& snapshots, const ViewSettings
         fires_.emplace_back(glm::vec3(lights[i].position - camera.eye), lights[i].intensity,
                             lights[i].radius);
 
+    const DirectionalLight sun(settings.lighting.sunDirection, settings.lighting.sunIlluminance);
     const ShadingContext context{
-        &settings.lighting,  &grid_,        fires_, exposureFromEv100(settings.exposureEv100),
+        &settings.lighting,  &sun,          &grid_, fires_, exposureFromEv100(settings.exposureEv100),
         camera.orthographic, camera.forward};
     anyHeat_ = false;
     anyDetail_ = false;
     shaded_.clear();
-    for (const GatheredBlob& blob : gathered_) {
-        shaded_.push_back(shadeBlob(blob, context));
-        anyHeat_ = anyHeat_ || blob.heat > 0.0f;
-        anyDetail_ = anyDetail_ || blob.detailAmount > 0.0f;
+    for (const InstanceBlobs& instance : instances_)
+    { // each effect shadows itself: its grid fits it, wherever others are
+        if (instance.visibleBegin == instance.visibleEnd)
+            continue;
+        grid_.build(
+            std::span(gridBlobs_).subspan(instance.mediumBegin, instance.mediumEnd - instance.mediumBegin));
+        for (size_t i = instance.visibleBegin; i < instance.visibleEnd; ++i) {
+            const GatheredBlob& blob = gathered_[i];
+            shaded_.push_back(shadeBlob(blob, context));
+            anyHeat_ = anyHeat_ || blob.heat > 0.0f;
+            anyDetail_ = anyDetail_ || blob.detailAmount > 0.0f;
+        }
     }
 }
 

@@ -37,6 +37,7 @@ private:
 
     std::pmr::vector<GatheredBlob> gathered_;
     std::pmr::vector<GridBlob> gridBlobs_;
+    std::pmr::vector<InstanceBlobs> instances_;
     std::pmr::vector<BlobInstance> shaded_;
     std::pmr::vector<BlobInstance> sorted_;
     std::pmr::vector<float> distances_;

@@ -151,6 +151,7 @@ private:
                                                         request_.deltaTime, request_.resetHistory});
         picture_ = dazzled.color;
         graph_.keep(dazzled.history);
+        out_.dazzled = true;
         out_.anyPass = true;
     }
 

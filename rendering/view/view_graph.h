@@ -25,6 +25,7 @@ struct ViewGraphInputs
 struct ViewGraphOutputs
 {
     ResourceId fire, smoke, dust, media, depth, opticalDepth, overdraw;
+    bool dazzled = false; ///< the glare ran, so its history is that of this frame
     bool anyPass = false; ///< false: the host's picture is already what it should be
 };
 

@@ -130,9 +130,10 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         if (s.backend.beginFrame(s.graph))
             s.graph.execute(s.backend);
         status = s.backend.endFrame();
-        if (status && settings_.dazzle.enabled)
-            s.historyFresh = false;
     }
+    if (!status)
+        s.outputs = {};                              // nothing of this frame can be handed out
+    s.historyFresh = !(status && s.outputs.dazzled); // glare that has paused begins anew
 
     statistics_ = {};
     statistics_.blobs = uint32_t(s.builder.blobs().size());

@@ -27,7 +27,8 @@ private:
 /// A program called ffmpeg that does what `script` says; `$out` is its last argument.
 void installFake(const TemporaryFolder& folder, const std::string& script)
 {
-    test::writeText(folder / "ffmpeg", "#!/bin/sh\nfor out in \"$@\"; do :; done\n" + script);
+    test::writeText(folder / "ffmpeg",
+                    "#!/bin/sh\nfor out in \"$@\"; do :; done\nout=${out#file:}\n" + script);
     std::filesystem::permissions(folder / "ffmpeg", std::filesystem::perms::owner_all);
 }
 

@@ -28,7 +28,8 @@ typedef struct FxSceneDef
     int64_t maxFrameTicks; ///< [tick] longest time that one update simulates, at least stepTicks and at most
                            ///< 60 s; what exceeds it is dropped and counted; default 1/15 s
     float gravity[3];      ///< [m/s2] world, each within +-1000; default 0, -9.80665, 0
-    uint32_t hasGround; ///< 1 (default): presets with a ground have it at their origin's height; 0: none has
+    uint32_t hasGround;    ///< 1 (default): presets with a ground have it in their plane y = 0, turned with
+                           ///< them; 0: none
 } FxSceneDef;
 
 /// The definition of a scene that steps 60 times a second.
@@ -124,8 +125,8 @@ FX_API FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene
 
 /// Destroys a scene with its instances. Null is allowed and does nothing. [scene thread]
 /// @return FX_OK, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_INVALID_ARGUMENT (a view still shows
-/// the scene;
-///         destroy it first). Nothing is destroyed on failure.
+///         the scene or a snapshot of it is held: destroy or release that first). Nothing is destroyed on
+///         failure.
 FX_API FxResult fxDestroyScene(FxScene* scene);
 
 /// Makes the calling thread the scene thread. No call on this scene may be in progress on another thread.
@@ -142,7 +143,8 @@ FX_API FxResult fxScene_AdoptThread(FxScene* scene);
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT. A failure leaves the scene as it was.
 FX_API FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInstanceId* outInstance);
 
-/// Removes an instance at once, particles included; its id is stale afterwards. [scene thread]
+/// Removes an instance with its particles; its id is stale at once, and the next step no longer shows it.
+/// [scene thread]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_DestroyInstance(FxScene* scene, FxInstanceId instance);
 

@@ -100,6 +100,7 @@ static inline FxViewSettings fxDefaultViewSettings(void)
 }
 
 /// One frame. Fill with fxDefaultFrameDef(), then set camera and target.
+/// The picture fills the target from its lower left corner (0, 0); the host's depth range is 0 to 1.
 typedef struct FxFrameDef
 {
     uint32_t structSize;   ///< set by fxDefaultFrameDef(); do not touch

@@ -56,7 +56,8 @@ protected:
         const auto camera =
             render::cameraGeometry(render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f));
         std::pmr::vector<render::GridBlob> medium;
-        counts_ = render::gatherBlobs(pair, t, camera, 720, blobs, medium);
+        std::pmr::vector<render::InstanceBlobs> instances;
+        counts_ = render::gatherBlobs(pair, t, camera, 720, blobs, medium, instances);
         mediumCount_ = medium.size();
         std::vector<float> x;
         for (const auto& blob : blobs)
@@ -118,7 +119,8 @@ TEST_F(FrameBuilderTest, aShutterDrawsAFastBlobOutAndKeepsItsMedium)
     const auto camera =
         render::cameraGeometry(render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f));
     std::pmr::vector<render::GridBlob> medium;
-    render::gatherBlobs(pair, 1.0, camera, 720, blobs, medium);
+    std::pmr::vector<render::InstanceBlobs> instances;
+    render::gatherBlobs(pair, 1.0, camera, 720, blobs, medium, instances);
     ASSERT_GT(blobs.size(), 2u);
     float sum = 0.0f;
     for (const auto& blob : blobs)
@@ -154,4 +156,19 @@ TEST(CameraGeometry, findsTheEyeAndTheNearPlaneOfEveryProjection)
     const auto g = render::cameraGeometry(render::orthographicView(pose, 10.0f, 1.0f, 0.5f, 50.0f));
     EXPECT_TRUE(g.orthographic);
     EXPECT_NEAR(g.nearDistance, 0.5f, 1e-4f);
+}
+
+TEST_F(FrameBuilderTest, aMirroredProjectionSeesTheSameBlobs)
+{
+    const auto newer = snapshot(0, {{1, 0.0f}, {2, 3.0f}, {3, 500.0f}});
+    base::SnapshotPair pair;
+    pair.newer = &newer;
+    auto view = render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f);
+    view.projection[1][1] *= -1.0f;
+    std::pmr::vector<render::GatheredBlob> blobs;
+    std::pmr::vector<render::GridBlob> medium;
+    std::pmr::vector<render::InstanceBlobs> instances;
+    render::gatherBlobs(pair, 1.0, render::cameraGeometry(view), 720, blobs, medium, instances);
+    ASSERT_EQ(blobs.size(), 2u);
+    EXPECT_FLOAT_EQ(blobs[0].radius, 0.5f);
 }
