@@ -89,7 +89,9 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments)
         ->capture_default_str();
     command.add_option("--form", arguments.form, "Billboard form instead of the one that the quality says")
         ->check(CLI::IsMember({"planar", "constant", "kernel"}));
-    command.add_option("--seed", arguments.seed, "Instance k gets the seed N + k instead of the file's");
+    command.add_option("--seed", arguments.seed, "Instance k gets the seed N + k instead of the file's")
+        ->check(CLI::Validator(
+            [](std::string& text) { return text.starts_with('-') ? "must not be negative" : ""; }, "UINT"));
     command.add_option("--exposure", arguments.exposureEv100, "Exposure [EV100] instead of the scene's")
         ->check(CLI::Range(-20.0, 40.0));
     command.add_flag("--no-dazzle", arguments.noDazzle, "Without glare (EXR never has it)");

@@ -23,7 +23,7 @@ class FxCommand(FxTest):
                           ["render", preset, "-o", out, "--size", "0x10"], ["render", preset, "-o", out, "--size", "10"],
                           ["render", preset, "-o", out, "--size", "99999x10"], ["render", preset, "-o", "a.jpg"],
                           ["render", preset, "-o", out, "--frames", "0:3"], ["render", preset, "-o", out, "--time", "-1"],
-                          ["render", preset, "-o", out, "--time", "nan"], ["render", preset, "-o", out, "--quality", "best"],
+                          ["render", preset, "-o", out, "--time", "nan"], ["render", preset, "-o", out, "--seed", "-1"], ["render", preset, "-o", out, "--quality", "best"],
                           ["render", preset, "-o", self.folder / "a.%d.png", "--frames", "5:3"],
                           ["render", preset, "-o", self.folder / "a.%d.png", "--frames", "0:99999999"],
                           ["render", preset, "-o", out, "--renderer", "vulkan"]):
