@@ -2,6 +2,7 @@
 #include "formulas/kernel_optical_depth.fx.h"
 #include "formulas/detail_noise.fx.h"
 #include "shared/view_block.glsl"
+#include "shared/blob_chord.glsl"
 #include "shared/blob_ray.glsl"
 
 // Light of one blob along one ray, premultiplied: opacity from the travelled optical depth, color from emission, sun

@@ -1,6 +1,7 @@
 #include "formulas/sphere_path.fx.h"
 #include "formulas/kernel_optical_depth.fx.h"
 #include "shared/view_block.glsl"
+#include "shared/blob_chord.glsl"
 #include "shared/blob_ray.glsl"
 
 // Counts the fragments that add something to each pixel.

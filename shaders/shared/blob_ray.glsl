@@ -1,10 +1,9 @@
-// What one fragment of a blob's rectangle sees. Needs shared/view_block.glsl and the formulas it calls.
+// What one fragment of a blob's rectangle sees. Needs shared/view_block.glsl, shared/blob_chord.glsl and the
+// formulas it calls.
 // FX_FORM: 0 planar card, 1 homogeneous ball, 2 quartic kernel.
 
 flat in vec4 blobCenterRadius;
 flat in vec4 blobMedium;
-
-layout(binding = 0) uniform sampler2D sceneDistance; // [m] along the ray to the opaque surface, +inf for none
 
 struct BlobRay
 {
@@ -15,17 +14,12 @@ struct BlobRay
 
 BlobRay traceBlob()
 {
-    vec3 origin;
-    vec3 direction;
-    float lengthPerDepth;
-    viewRay(gl_FragCoord.xy, origin, direction, lengthPerDepth);
+    BlobChord chord = chordOf(blobCenterRadius.xyz);
     float radius = blobCenterRadius.w;
-    vec3 toCenter = blobCenterRadius.xyz - origin;
-    float tc = dot(toCenter, direction);
-    vec3 across = toCenter - tc * direction; // the perpendicular vector keeps the digits that b^2 - c^2 would lose
-    float h = length(across);
-    float t0 = rayOriginX.w * lengthPerDepth;
-    float t1 = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r;
+    float h = chord.h;
+    float tc = chord.tc;
+    float t0 = chord.t0;
+    float t1 = chord.t1;
 
     BlobRay result;
 #if FX_FORM == 0
@@ -41,6 +35,6 @@ BlobRay traceBlob()
     float back = max(min(t1, tc + w), front);
     float depthOfView = 0.5 / (1.0 + 0.5 * result.opticalDepth); // thin: the middle; thick: near the front
     result.distance = mix(front, back, depthOfView);
-    result.toPoint = origin + direction * result.distance - blobCenterRadius.xyz;
+    result.toPoint = chord.origin + chord.direction * result.distance - blobCenterRadius.xyz;
     return result;
 }

@@ -121,3 +121,25 @@ TEST(BallLight, isFiniteAtItsCenterAndFallsWithTheSquareFarAway)
     EXPECT_NEAR(light.at({0, 100, 0}).illuminance.x / 0.01f, 1.0f, 1e-3f);
     EXPECT_NEAR(light.at({0, 100, 0}).direction.y, -1.0f, 1e-6f);
 }
+
+TEST(BallLight, ofAnyRadiusIsAtItsSurfaceHalfAsBrightAsAtItsCenter)
+{
+    const BallLight light({0, 0, 0}, {100, 100, 100}, 2.0f);
+    EXPECT_FLOAT_EQ(light.at({0, 0, 0}).illuminance.x, 25.0f);
+    EXPECT_FLOAT_EQ(light.at({0, 2, 0}).illuminance.x, 12.5f);
+}
+
+TEST(EffectLights, thickGasShowsOnlyItsFace)
+{
+    // One ball of optical depth t sends B s (1 - exp(-t)) / t, seen through the mean depth of its group, s
+    // over its face.
+    const auto schema = blobSchema();
+    const float s = 20.0f;
+    const auto snapshot = glowingLine(schema, 1, s, 1500.0f);
+    std::array<EffectLight, 1> lights;
+    ASSERT_EQ(effectLights(snapshot, lights), 1u);
+    const auto escape = [](float t) { return (1.0f - std::exp(-t)) / t; };
+    const float pi = std::numbers::pi_v<float>;
+    const float expected = s * blackBodyLuminance(1500.0f).x * escape(3.5f * s / pi) * escape(s / pi);
+    EXPECT_NEAR(lights[0].intensity.x / expected, 1.0f, 0.01f);
+}
