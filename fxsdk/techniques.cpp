@@ -2,6 +2,7 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "fxsdk/presets/emitter_preset.h"
+#include "fxsdk/presets/fragments_preset.h"
 #if FXSDK_WITH_SPH
 #include "fxsdk/presets/gas_preset.h"
 #endif
@@ -19,6 +20,7 @@ constexpr std::array<std::string_view, 3> kDazzlePasses{"dazzle sum", "dazzle bu
 constexpr std::array kTechniques
 {
     Technique{"emitters", "emitters", "emitters.schema.json", buildEmitter, &base::kBlobKind, {}},
+        Technique{"fragments", "fragments", "fragments.schema.json", buildFragments, &base::kBlobKind, {}},
 #if FXSDK_WITH_SPH
         Technique{"sph gas", "gas", "gas.schema.json", buildGas, &base::kBlobKind, {}},
 #endif

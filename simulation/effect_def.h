@@ -16,6 +16,7 @@ namespace fx::sim {
 struct EffectDef
 {
     std::string name;
+    uint64_t fingerprint = 0; ///< of all that the preset says: equal for equal presets; 0 when there was none
     base::Ticks duration = 0; ///< end of the effect's life; 0 for "until its solvers have finished"
     uint32_t subSteps = 1;    ///< steps of the effect per step of the scene, 1..16
     glm::vec3 wind{0.0f};     ///< [m/s] local

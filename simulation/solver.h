@@ -10,6 +10,9 @@
 #include "foundation/snapshot/frame_snapshot.h"
 #include "foundation/tasks/task_runner.h"
 #include "foundation/time/ticks.h"
+#include "simulation/quality.h"
+#include "simulation/state/state_reader.h"
+#include "simulation/state/state_writer.h"
 
 #include <cstdint>
 #include <memory>
@@ -34,19 +37,32 @@ struct StepCounters
     uint64_t neighborPairs = 0;
     uint64_t subSteps = 0;
     uint64_t clamped = 0; ///< values limited to keep the state finite
+    base::Ticks debt = 0; ///< time that a solver's budget of sub-steps did not cover: it is not simulated
+
+    StepCounters& operator+=(const StepCounters& more)
+    {
+        born += more.born;
+        dropped += more.dropped;
+        particleSteps += more.particleSteps;
+        neighborPairs += more.neighborPairs;
+        subSteps += more.subSteps;
+        clamped += more.clamped;
+        debt += more.debt;
+        return *this;
+    }
 };
 
 /// What a solver gets for one step.
 struct StepContext
 {
-    base::Ticks tick;      ///< local time at which the step begins
-    base::Ticks stepTicks; ///< its length, > 0
-    uint64_t seed;         ///< of the instance
-    uint32_t solverIndex;  ///< position in the effect: part of every random key
-    glm::vec3 gravity;     ///< [m/s2] local
-    glm::vec3 wind;        ///< [m/s] local
-    float groundHeight;    ///< [m] local y of the ground plane; -infinity for none
-    const InstanceParameters* parameters;
+    base::Ticks tick;                     ///< local time at which the step begins
+    base::Ticks stepTicks;                ///< its length, > 0
+    uint64_t seed;                        ///< of the instance
+    uint32_t solverIndex;                 ///< position in the effect: part of every random key
+    glm::vec3 gravity;                    ///< [m/s2] local
+    glm::vec3 wind;                       ///< [m/s] local
+    float groundHeight;                   ///< [m] local y of the ground plane; -infinity for none
+    const InstanceParameters* parameters; ///< intensity and emission; its wind is part of `wind` already
     base::TaskRunner* tasks;
     base::Arena* scratch; ///< forgotten after the step
     StepCounters* counters;
@@ -71,6 +87,13 @@ public:
     /// True when nothing is alive and nothing will ever be born again from local time `tick` on.
     virtual bool finished(base::Ticks tick) const = 0;
     virtual uint32_t elementCount() const = 0;
+
+    /// Writes everything that later steps and publications depend on, and nothing else: equal states write
+    /// equal bytes.
+    virtual void save(StateWriter& writer) const = 0;
+    /// Takes the state of a solver of the same definition and quality; from there on it gives the same bits.
+    /// Checks whatever could harm it. After a failure, kept by the reader, the solver may only be destroyed.
+    virtual void restore(StateReader& reader) = 0;
 };
 
 /// Immutable recipe of a solver; shared by all instances of a preset.
@@ -78,10 +101,10 @@ class SolverDef
 {
 public:
     virtual ~SolverDef() = default;
-    /// Allocates all that the solver will ever need.
-    virtual std::unique_ptr<Solver> create(const base::SnapshotSchema& schema,
+    /// Allocates all that the solver will ever need at this quality.
+    virtual std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                            std::pmr::memory_resource* memory) const = 0;
-    /// Upper bound on elements alive at once.
+    /// Upper bound on elements alive at once, at medium quality.
     virtual uint32_t capacity() const = 0;
 };
 

@@ -17,91 +17,110 @@ glm::vec3 toLocal(const base::Placement& placement, const glm::vec3& world)
     return glm::conjugate(placement.rotation) * world;
 }
 
-/// What the steps of one instance share. An instance is scaled with everything its preset says, gravity
-/// included, so that it keeps its look; the host's wind is that of the world outside, so it shrinks as the
-/// instance grows.
-StepContext makeContext(const Environment& environment, const InstanceStart& start, const EffectDef& effect)
-{
-    StepContext context{};
-    context.seed = start.seed;
-    context.gravity = toLocal(start.placement, environment.gravity);
-    context.wind = effect.wind +
-                   toLocal(start.placement, start.parameters.wind) / std::max(start.placement.scale, 1e-6f);
-    const bool hasGround = environment.hasGround && effect.hasGround;
-    context.groundHeight = hasGround ? 0.0f : -std::numeric_limits<float>::infinity();
-    context.parameters = &start.parameters;
-    return context;
-}
-
 } // namespace
 
 World::World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory,
-             const Environment& environment)
-    : environment_(environment), schema_(schema), tasks_(tasks), memory_(memory), scratch_(memory)
+             const Environment& environment, bool share)
+    : environment_(environment), schema_(schema), tasks_(tasks), memory_(memory), share_(share),
+      scratch_(memory), runs_(schema, memory, share)
 {}
 
 Slot World::add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start)
 {
-    Instance instance;
-    instance.solvers.reserve(effect->solvers.size());
-    for (const std::unique_ptr<const SolverDef>& def : effect->solvers)
-        instance.solvers.push_back(def->create(*schema_, memory_));
-    instance.effect = std::move(effect);
-    instance.start = start;
-    instance.used = true;
+    const RunIndex run = runs_.enter(effect, conditionsOf(*effect, start));
+    try {
+        return takeSlot(start, run);
+    } catch (...) {
+        runs_.leave(run);
+        throw;
+    }
+}
 
+Slot World::takeSlot(const InstanceStart& start, RunIndex run)
+{
     if (!free_.empty()) {
         const Slot slot = free_.back();
-        instances_[slot] = std::move(instance);
         free_.pop_back();
+        instances_[slot] = {start, run};
         return slot;
     }
     free_.reserve(instances_.size() + 1); // remove() must not fail
-    instances_.push_back(std::move(instance));
+    instances_.push_back({start, run});
     return Slot(instances_.size() - 1);
 }
 
 void World::remove(Slot slot)
 {
+    runs_.leave(instances_[slot].run);
     instances_[slot] = Instance{};
     free_.push_back(slot);
 }
 
 void World::setPlacement(Slot slot, const base::Placement& placement)
 {
-    instances_[slot].start.placement = placement;
+    InstanceStart start = instances_[slot].start;
+    start.placement = placement;
+    change(slot, start);
 }
 
 void World::setParameters(Slot slot, const InstanceParameters& parameters)
 {
-    instances_[slot].start.parameters = parameters;
+    InstanceStart start = instances_[slot].start;
+    start.parameters = parameters;
+    change(slot, start);
+}
+
+void World::change(Slot slot, const InstanceStart& start)
+{
+    Instance& instance = instances_[slot];
+    const EffectDef& effect = *runs_.at(instance.run).effect;
+    instance.run = runs_.change(instance.run, conditionsOf(effect, start));
+    instance.start = start;
+}
+
+/// What an instance is stepped with. It is scaled with everything its preset says, gravity included, so that
+/// it keeps its look; the host's wind is that of the world outside, so it shrinks as the instance grows.
+RunConditions World::conditionsOf(const EffectDef& effect, const InstanceStart& start) const
+{
+    RunConditions conditions;
+    conditions.seed = start.seed;
+    conditions.startTick = start.startTick;
+    conditions.quality = qualityOf(start.quality);
+    conditions.gravity = toLocal(start.placement, environment_.gravity);
+    conditions.wind = effect.wind + toLocal(start.placement, start.parameters.wind) /
+                                        std::max(start.placement.scale, 1e-6f);
+    const bool hasGround = environment_.hasGround && effect.hasGround;
+    conditions.groundHeight = hasGround ? 0.0f : -std::numeric_limits<float>::infinity();
+    conditions.parameters = {start.parameters.intensity, glm::vec3(0.0f), start.parameters.emitting};
+    return conditions;
 }
 
 bool World::finished(Slot slot, base::Ticks sceneTick) const
 {
-    const Instance& instance = instances_[slot];
-    const base::Ticks local = sceneTick - instance.start.startTick;
+    const Run& run = runs_.at(instances_[slot].run);
+    const base::Ticks local = sceneTick - run.conditions.startTick;
     if (local < 0)
         return false;
-    if (instance.effect->duration > 0 && local >= instance.effect->duration)
+    if (run.effect->duration > 0 && local >= run.effect->duration)
         return true;
-    if (!instance.start.parameters.emitting && elementCount(slot) == 0)
+    if (!run.conditions.parameters.emitting && elementCount(slot) == 0)
         return true;
-    return std::all_of(instance.solvers.begin(), instance.solvers.end(),
+    return std::all_of(run.solvers.begin(), run.solvers.end(),
                        [local](const std::unique_ptr<Solver>& solver) { return solver->finished(local); });
 }
 
 uint32_t World::elementCount(Slot slot) const
 {
     uint32_t count = 0;
-    for (const std::unique_ptr<Solver>& solver : instances_[slot].solvers)
-        count += solver->elementCount();
+    if (const RunIndex run = instances_[slot].run; run != kNoRun)
+        for (const std::unique_ptr<Solver>& solver : runs_.at(run).solvers)
+            count += solver->elementCount();
     return count;
 }
 
 const EffectDef& World::effect(Slot slot) const
 {
-    return *instances_[slot].effect;
+    return *runs_.at(instances_[slot].run).effect;
 }
 
 StepCounters World::step(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks)
@@ -110,26 +129,75 @@ StepCounters World::step(std::span<const Slot> active, base::Ticks tick, base::T
     if (stepTicks <= 0)
         return counters;
     const base::FloatingPointScope floatingPoint;
+    ++stepNumber_;
+    divideRuns(active);
     for (const Slot slot : active) {
-        const Instance& instance = instances_[slot];
-        StepContext context = makeContext(environment_, instance.start, *instance.effect);
-        context.tasks = tasks_;
-        context.scratch = &scratch_;
-        context.counters = &counters;
-        const base::Ticks parts = std::clamp<base::Ticks>(instance.effect->subSteps, 1, 16);
-        for (base::Ticks part = 0; part < parts; ++part) {
-            const base::Ticks from = tick + stepTicks * part / parts - instance.start.startTick;
-            const base::Ticks to = tick + stepTicks * (part + 1) / parts - instance.start.startTick;
-            context.tick = std::max<base::Ticks>(from, 0);
-            context.stepTicks = to - context.tick;
-            for (uint32_t i = 0; i < instance.solvers.size() && context.stepTicks > 0; ++i) {
-                context.solverIndex = i;
-                instance.solvers[i]->step(context);
-                scratch_.reset();
-            }
-        }
+        const RunIndex index = instances_[slot].run;
+        Run& run = runs_.at(index);
+        if (run.steppedIn == stepNumber_)
+            continue;
+        run.steppedIn = stepNumber_;
+        stepRun(index, tick, stepTicks, counters);
     }
     return counters;
+}
+
+/// A run of which only some users are stepped is divided into those and the others.
+void World::divideRuns(std::span<const Slot> active)
+{
+    for (const Slot slot : active) {
+        Run& run = runs_.at(instances_[slot].run);
+        run.visits = run.visitedIn == stepNumber_ ? run.visits + 1 : 1;
+        run.visitedIn = stepNumber_;
+    }
+    for (const Slot slot : active) {
+        const RunIndex index = instances_[slot].run;
+        if (const Run& run = runs_.at(index); run.dividedIn != stepNumber_ && run.visits == run.users)
+            continue;
+        RunIndex division;
+        if (runs_.at(index).dividedIn != stepNumber_) {
+            division = runs_.copy(index);
+            runs_.at(index).dividedIn = stepNumber_;
+            runs_.at(index).division = division;
+            runs_.at(division).visitedIn = stepNumber_;
+            runs_.at(division).visits = 1;
+        } else {
+            division = runs_.at(index).division;
+            ++runs_.at(division).users;
+            ++runs_.at(division).visits;
+        }
+        instances_[slot].run = division;
+        runs_.leave(index);
+    }
+}
+
+void World::stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters)
+{
+    const Run& run = runs_.at(index);
+    StepContext context{};
+    context.seed = run.conditions.seed;
+    context.gravity = run.conditions.gravity;
+    context.wind = run.conditions.wind;
+    context.groundHeight = run.conditions.groundHeight;
+    context.parameters = &run.conditions.parameters;
+    context.tasks = tasks_;
+    context.scratch = &scratch_;
+    context.counters = &counters;
+    const base::Ticks parts = std::clamp<base::Ticks>(run.effect->subSteps, 1, 16);
+    for (base::Ticks part = 0; part < parts; ++part) {
+        const base::Ticks from = tick + stepTicks * part / parts - run.conditions.startTick;
+        const base::Ticks to = tick + stepTicks * (part + 1) / parts - run.conditions.startTick;
+        context.tick = std::max<base::Ticks>(from, 0);
+        context.stepTicks = to - context.tick;
+        if (context.stepTicks <= 0)
+            continue;
+        runs_.touch(index);
+        for (uint32_t i = 0; i < run.solvers.size(); ++i) {
+            context.solverIndex = i;
+            run.solvers[i]->step(context);
+            scratch_.reset();
+        }
+    }
 }
 
 void World::publish(std::span<const Slot> active, base::FrameSnapshot& snapshot) const
@@ -137,12 +205,13 @@ void World::publish(std::span<const Slot> active, base::FrameSnapshot& snapshot)
     const base::FloatingPointScope floatingPoint;
     for (const Slot slot : active) {
         const Instance& instance = instances_[slot];
+        const Run& run = runs_.at(instance.run);
         base::GroupInfo info;
         info.instance = instance.start.instance;
         info.placement = instance.start.placement;
-        for (uint32_t i = 0; i < instance.solvers.size(); ++i) {
+        for (uint32_t i = 0; i < run.solvers.size(); ++i) {
             info.solver = i;
-            instance.solvers[i]->publish(info, snapshot);
+            run.solvers[i]->publish(info, snapshot);
         }
     }
 }

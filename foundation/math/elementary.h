@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace fx::base {
 
@@ -58,6 +59,58 @@ inline double naturalExp(double x)
     sum = sum * r + 1.0;
     sum = sum * r + 1.0;
     return sum * powerOfTwo(int(n)); // (2)
+}
+
+/// @formula natural-logarithm
+/// ln x from the exponent and the series of the inverse hyperbolic tangent.
+///
+/// symbol   unit   meaning
+///   x       1      argument, > 0
+///   e       1      exponent
+///   m       1      mantissa, sqrt(1/2) <= m < sqrt(2)
+///   s       1      (m - 1) / (m + 1), |s| <= 0.172
+/// @derivation
+///   x = 2^e m, ln x = e ln 2 + ln m, with ln 2 in two pieces so that e times the first is exact   (1)
+///   ln m = 2 artanh s = 2 s (1 + s^2/3 + s^4/5 + ...); the term of s^22 is below 1e-18              (2)
+/// @source    [MUL16] section 11 for the reduction; the series is elementary
+/// @deviation none
+/// @valid     0 and denormal numbers give -infinity; negative numbers and NaN give NaN; 1 gives exactly 0
+/// @accuracy  relative error <= 5e-16
+/// @tests     tests/foundation/test_elementary.cpp
+inline double naturalLog(double x)
+{
+    if (!(x >= 2.2250738585072014e-308))
+        return x >= 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+    if (x > 1.7976931348623157e308)
+        return x;
+    const uint64_t bits = std::bit_cast<uint64_t>(x);
+    int e = int(bits >> 52) - 1023;
+    double m = std::bit_cast<double>((bits & 0x000FFFFFFFFFFFFFu) | 0x3FF0000000000000u);
+    if (m > 1.4142135623730951) {
+        m = 0.5 * m;
+        ++e;
+    }
+    const double s = (m - 1.0) / (m + 1.0);
+    const double z = s * s;
+    double sum = 1.0 / 21.0; // (2)
+    sum = sum * z + 1.0 / 19.0;
+    sum = sum * z + 1.0 / 17.0;
+    sum = sum * z + 1.0 / 15.0;
+    sum = sum * z + 1.0 / 13.0;
+    sum = sum * z + 1.0 / 11.0;
+    sum = sum * z + 1.0 / 9.0;
+    sum = sum * z + 1.0 / 7.0;
+    sum = sum * z + 1.0 / 5.0;
+    sum = sum * z + 1.0 / 3.0;
+    const double logM = 2.0 * s + 2.0 * s * z * sum;
+    return e * 6.93147180369123816490e-01 + (e * 1.90821492927058770002e-10 + logM); // (1)
+}
+
+/// x^y = e^(y ln x) for x >= 0: relative error <= 1e-15 (2 + |y ln x|), the same bits on every machine. 0 to
+/// a positive power is 0, anything to the power 0 is exactly 1; results are bounded by e^709.
+inline double power(double x, double y)
+{
+    return y == 0.0 ? 1.0 : naturalExp(y * naturalLog(x));
 }
 
 /// @formula cube-root

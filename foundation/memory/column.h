@@ -1,5 +1,5 @@
 /// @file column.h
-/// One attribute of many particles: a contiguous, 64-byte aligned array of fixed capacity.
+/// One attribute of many particles: a contiguous array of fixed capacity, aligned to 64 bytes or more.
 #pragma once
 
 #include <cstddef>
@@ -18,18 +18,19 @@ template <class T>
 class Column
 {
     static_assert(std::is_trivially_copyable_v<T>);
+    static constexpr size_t kAlignment = alignof(T) > 64 ? alignof(T) : 64;
 
 public:
     Column() = default;
     Column(std::pmr::memory_resource* memory, size_t capacity) : memory_(memory), capacity_(capacity)
     {
         if (capacity_ > 0)
-            data_ = static_cast<T*>(memory_->allocate(capacity_ * sizeof(T), 64));
+            data_ = static_cast<T*>(memory_->allocate(capacity_ * sizeof(T), kAlignment));
     }
     ~Column()
     {
         if (data_)
-            memory_->deallocate(data_, capacity_ * sizeof(T), 64);
+            memory_->deallocate(data_, capacity_ * sizeof(T), kAlignment);
     }
     Column(Column&& other) noexcept
         : memory_(std::exchange(other.memory_, nullptr)), data_(std::exchange(other.data_, nullptr)),

@@ -41,6 +41,12 @@ void SnapshotRing::publish()
     ++sequence_;
 }
 
+void SnapshotRing::forgetOlder()
+{
+    std::lock_guard lock(mutex_);
+    previous_ = nullptr;
+}
+
 SnapshotPair SnapshotRing::acquire()
 {
     std::lock_guard lock(mutex_);

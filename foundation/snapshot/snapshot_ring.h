@@ -29,6 +29,8 @@ public:
     FrameSnapshot& beginWrite(Ticks tick);
     /// Makes what was written the newest. It must not be changed after this.
     void publish();
+    /// The newest has no predecessor any more: time did not lead from that one to it.
+    void forgetOlder();
 
     SnapshotPair acquire();
     void release(const SnapshotPair& pair);

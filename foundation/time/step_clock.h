@@ -17,6 +17,14 @@ struct StepPlan
     Ticks droppedTicks = 0; ///< time that was given up because dt exceeded the clamp
 };
 
+/// Everything a clock knows beside its rules.
+struct ClockState
+{
+    Ticks now = 0;
+    int64_t steps = 0;
+    double remainder = 0; ///< [tick]
+};
+
 /// Accumulator clock: step k covers [k, k + 1) * stepTicks whatever the frame rate, so any sequence of dt
 /// with the same sum takes the same steps.
 class StepClock
@@ -32,6 +40,14 @@ public:
     Ticks now() const { return now_; }                      ///< continuous time
     Ticks simulated() const { return steps_ * stepTicks_; } ///< end of the last step taken
     Ticks stepTicks() const { return stepTicks_; }
+    ClockState state() const { return {now_, steps_, remainder_}; }
+    /// @param state of a clock with the same step
+    void restore(const ClockState& state)
+    {
+        now_ = state.now;
+        steps_ = state.steps;
+        remainder_ = state.remainder;
+    }
     /// Where now() lies between the last two steps, in [0, 1): 0 shows the older, 1 would show the newer.
     double interpolation() const { return double(now_ - simulated()) / double(stepTicks_); }
 

@@ -37,6 +37,18 @@ fx::base::Result<std::shared_ptr<const fx::sim::EffectDef>> FxContext::findPrese
     return *effect;
 }
 
+std::shared_ptr<const fx::sim::EffectDef> FxContext::findPreset(uint64_t fingerprint)
+{
+    const fx::api::SharedCaller::Scope scope(tables);
+    std::shared_ptr<const fx::sim::EffectDef> found;
+    if (scope.status().ok())
+        presets.forEach([&](uint32_t, const std::shared_ptr<const fx::sim::EffectDef>& effect) {
+            if (!found && effect->fingerprint == fingerprint)
+                found = effect;
+        });
+    return found;
+}
+
 namespace fx::api {
 
 base::AllocatorHooks toHooks(const FxAllocator& allocator)

@@ -42,6 +42,9 @@ struct FxContext
     /// @return StaleId when the id names no preset of this context
     fx::base::Result<std::shared_ptr<const fx::sim::EffectDef>> findPreset(FxPresetId id);
 
+    /// @return null when no loaded preset has this fingerprint
+    std::shared_ptr<const fx::sim::EffectDef> findPreset(uint64_t fingerprint);
+
     const FxContextDef def;
     fx::base::HostMemory memory;
     fx::base::SnapshotSchema schema; ///< constant after construction

@@ -3,6 +3,7 @@
 #include "fxsdk/api/versioned_struct.h"
 
 #include <limits>
+#include <string>
 
 namespace {
 
@@ -11,6 +12,7 @@ using fx::base::Status;
 
 static_assert(int(FX_INSTANCE_DORMANT) == int(fx::scene::InstanceState::Dormant));
 static_assert(int(FX_INSTANCE_ACTIVE) == int(fx::scene::InstanceState::Active));
+static_assert(int(FX_QUALITY_REFERENCE) - int(FX_QUALITY_LOW) == int(fx::sim::QualityLevel::Reference));
 static_assert(int(FX_INSTANCE_FINISHED) == int(fx::scene::InstanceState::Finished));
 
 constexpr double kFarthest = 1e9;       // [m]
@@ -53,6 +55,8 @@ Status checkDef(const FxInstanceDef& def)
     checkParameters(check, def.intensity, def.wind, def.emitting);
     check.range(def.startTick, int64_t(0), kLatestStart, "def.startTick");
     check.flag(def.destroyWhenFinished, "def.destroyWhenFinished");
+    fx::api::checkQuality(check, def.quality, "def.quality");
+    check.range(def.reserved, 0u, 0u, "def.reserved");
     return check.status();
 }
 
@@ -91,6 +95,7 @@ FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInst
         setup.placement = toPlacement(known.position, known.rotation, known.scale);
         setup.parameters = toParameters(known.intensity, known.wind, known.emitting);
         setup.destroyWhenFinished = known.destroyWhenFinished != 0;
+        setup.quality = fx::api::toQuality(known.quality, scene->quality);
         const fx::scene::LocalId id = scene->scene.add(std::move(setup));
         if (id == 0)
             return {Code::Capacity, "the scene has as many instances as its definition allows"};
@@ -112,6 +117,24 @@ uint32_t fxScene_IsValid(FxScene* scene, FxInstanceId instance)
     if (!scene || !scene->caller.thread.isCaller() || scene->caller.busy())
         return 0;
     return scene->scene.contains(scene->ids.decode(instance.bits, fx::api::kInstanceIdType)) ? 1 : 0;
+}
+
+FxResult fxScene_GetInstances(FxScene* scene, FxInstanceId* outInstances, uint32_t capacity,
+                              uint32_t* outCount)
+{
+    return fx::api::insideScene("fxScene_GetInstances", scene, [&]() -> Status {
+        if (!outCount)
+            return fx::api::invalid("outCount is null");
+        const uint32_t count = scene->scene.counters().instances;
+        if (outInstances && capacity < count)
+            return {Code::Capacity, "the scene has " + std::to_string(count) + " instances"};
+        if (outInstances)
+            scene->scene.forEach([&, next = outInstances](fx::scene::LocalId id) mutable {
+                (next++)->bits = scene->ids.encode(id, fx::api::kInstanceIdType);
+            });
+        *outCount = count;
+        return {};
+    });
 }
 
 FxResult fxScene_GetInstanceState(FxScene* scene, FxInstanceId instance, FxInstanceState* outState,

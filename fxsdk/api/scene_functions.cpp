@@ -17,6 +17,8 @@ Status checkDef(const FxSceneDef& def)
     check.range(def.maxFrameTicks, def.stepTicks, 60 * FX_TICKS_PER_SECOND, "def.maxFrameTicks");
     check.range3(def.gravity, -1000.0f, 1000.0f, "def.gravity");
     check.flag(def.hasGround, "def.hasGround");
+    check.flag(def.shareInstances, "def.shareInstances");
+    fx::api::checkQuality(check, def.quality, "def.quality");
     return check.status();
 }
 
@@ -42,6 +44,9 @@ FxSceneStatistics gatherStatistics(const FxScene& object)
     statistics.simulatedTick = scene.clock().simulated();
     statistics.droppedTicks = counters.droppedTicks;
     statistics.updateAllocations = object.updateAllocations;
+    statistics.debtTicks = counters.work.debt;
+    statistics.subSteps = counters.work.subSteps;
+    statistics.simulations = counters.simulations;
     return statistics;
 }
 
@@ -78,9 +83,11 @@ FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene** outS
             known.stepTicks,
             known.maxFrameTicks,
             known.maxInstances,
-            {{known.gravity[0], known.gravity[1], known.gravity[2]}, known.hasGround != 0}};
+            {{known.gravity[0], known.gravity[1], known.gravity[2]}, known.hasGround != 0},
+            known.shareInstances != 0};
         FxScene* scene =
             std::pmr::polymorphic_allocator<>(&context->memory).new_object<FxScene>(context, options);
+        scene->quality = fx::api::toQuality(known.quality, fx::sim::QualityLevel::Medium);
         context->scenes.push_back(scene);
         *outScene = scene;
         return {};
@@ -135,15 +142,5 @@ FxResult fxScene_GetStatistics(FxScene* scene, FxSceneStatistics* ioStatistics)
 {
     return fx::api::insideScene("fxScene_GetStatistics", scene, [&]() -> Status {
         return fx::api::writeStruct(gatherStatistics(*scene), ioStatistics, "ioStatistics");
-    });
-}
-
-FxResult fxScene_GetStateHash(FxScene* scene, uint64_t* outHash)
-{
-    return fx::api::insideScene("fxScene_GetStateHash", scene, [&]() -> Status {
-        if (!outHash)
-            return fx::api::invalid("outHash is null");
-        *outHash = scene->scene.stateHash();
-        return {};
     });
 }

@@ -21,7 +21,8 @@ struct FxScene
     fx::api::SingleCaller caller; ///< scene thread
     fx::scene::IdCodec ids{this};
     fx::scene::Scene scene;
-    uint64_t updateAllocations = 0; ///< during the last update
+    fx::sim::QualityLevel quality = fx::sim::QualityLevel::Medium; ///< of instances that do not choose
+    uint64_t updateAllocations = 0;                                ///< during the last update
     fx::api::HeldSnapshots held;
     std::atomic<uint32_t> views{0}; ///< that show this scene
 };
@@ -35,6 +36,17 @@ constexpr const char* kSceneThreadRule =
 inline const FxLog* logOf(const FxScene* scene)
 {
     return scene ? &scene->context->def.log : nullptr;
+}
+
+inline void checkQuality(Checks& check, uint32_t quality, const char* name)
+{
+    check.range(quality, uint32_t(FX_QUALITY_DEFAULT), uint32_t(FX_QUALITY_REFERENCE), name);
+}
+
+/// @param preferred what FX_QUALITY_DEFAULT means
+inline sim::QualityLevel toQuality(uint32_t quality, sim::QualityLevel preferred)
+{
+    return quality == FX_QUALITY_DEFAULT ? preferred : sim::QualityLevel(quality - FX_QUALITY_LOW);
 }
 
 /// Takes the scene out of its context and frees it. Nobody may be inside it.

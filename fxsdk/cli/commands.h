@@ -12,5 +12,7 @@ void addRenderCommand(CLI::App& app, int& outExitCode);
 void addValidateCommand(CLI::App& app, int& outExitCode);
 void addDoctorCommand(CLI::App& app, int& outExitCode);
 void addParametersCommand(CLI::App& app, int& outExitCode);
+void addVerifyCommand(CLI::App& app, int& outExitCode);
+void addAccuracyCommand(CLI::App& app, int& outExitCode);
 
 } // namespace fx::cli

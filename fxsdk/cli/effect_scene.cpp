@@ -109,6 +109,7 @@ base::Status EffectScene::start(const scene_file::SceneFile& file, const EffectS
         return status;
     FxSceneDef sceneDef = fxDefaultSceneDef();
     sceneDef.stepTicks = base::kTicksPerSecond / options.stepsPerSecond;
+    sceneDef.quality = options.quality;
     step_ = sceneDef.stepTicks;
     if (base::Status status = toStatus(fxCreateScene(context_, &sceneDef, &scene_)); !status)
         return status;

@@ -19,7 +19,8 @@ struct EffectSceneOptions
 {
     FxGlLoader gl{nullptr, nullptr}; ///< none: simulation only
     int stepsPerSecond = 60;
-    std::optional<uint64_t> seed; ///< instance k gets seed + k instead of the file's
+    uint32_t quality = FX_QUALITY_DEFAULT; ///< FxQuality of what is simulated
+    std::optional<uint64_t> seed;          ///< instance k gets seed + k instead of the file's
 };
 
 class EffectScene

@@ -26,6 +26,8 @@ int run(int argumentCount, char** arguments)
     fx::cli::addValidateCommand(app, exitCode);
     fx::cli::addDoctorCommand(app, exitCode);
     fx::cli::addParametersCommand(app, exitCode);
+    fx::cli::addVerifyCommand(app, exitCode);
+    fx::cli::addAccuracyCommand(app, exitCode);
     try {
         app.parse(argumentCount, arguments);
     } catch (const CLI::ParseError& error) {

@@ -39,6 +39,7 @@ base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, 
     EffectSceneOptions options;
     options.seed = arguments.seed;
     options.stepsPerSecond = plan.stepsPerSecond;
+    options.quality = plan.simulationQuality;
     if (base::Status status = frameEffect(*scene, plan.frames.back().tick, options); !status)
         return status;
     return scene;
@@ -57,6 +58,7 @@ public:
         FrameRendererOptions options{plan_.width, plan_.height, scene_.view, {}};
         applyArguments(arguments_, plan_.output.kind, options.settings);
         options.scene.stepsPerSecond = plan_.stepsPerSecond;
+        options.scene.quality = plan_.simulationQuality;
         options.scene.seed = arguments_.seed;
 
         auto output = FrameOutput::create(plan_, options.settings.exposureEv100);

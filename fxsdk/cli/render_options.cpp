@@ -123,6 +123,8 @@ base::Result<RenderPlan> planRender(const RenderArguments& arguments)
         return usage("--time, --fps and --exposure must be numbers");
     plan.framesPerSecond = arguments.framesPerSecond;
     plan.stepsPerSecond = arguments.quality == "reference" ? 120 : 60;
+    if (arguments.quality == "reference" || arguments.quality == "low")
+        plan.simulationQuality = arguments.quality == "low" ? FX_QUALITY_LOW : FX_QUALITY_REFERENCE;
     if (base::Status status = planFrames(arguments, plan); !status)
         return status;
     return plan;

@@ -5,6 +5,7 @@
 #include "foundation/result/status.h"
 #include "foundation/time/ticks.h"
 #include "fxsdk/cli/output_target.h"
+#include "fxsdk/fxsdk.h"
 #include "rendering/view/view_types.h"
 
 #include <cstdint>
@@ -54,6 +55,7 @@ struct RenderPlan
     std::vector<Frame> frames;
     double framesPerSecond = 30.0;
     int stepsPerSecond = 60; ///< of the simulation
+    uint32_t simulationQuality = FX_QUALITY_DEFAULT;
 };
 
 void addRenderOptions(CLI::App& command, RenderArguments& arguments);

@@ -1,28 +1,44 @@
 #include "fxsdk/presets/gas_preset.h"
 
+#include "simulation/combustion/charge_plan.h"
 #include "simulation/sph/gas_def.h"
 
 namespace fx::preset {
 
 namespace {
 
+void readCharge(const PresetValue& element, sim::GasDef& gas)
+{
+    std::string material(gas.material->name);
+    element.read("material", material);
+    if (const sim::Material* const found = sim::findMaterial(material))
+        gas.material = found;
+    element.read("energy", gas.energy);
+    if (element.has("tntEquivalent")) {
+        if (element.has("energy"))
+            element.error("tntEquivalent", "found beside \"energy\"; allowed is one of the two");
+        double kilograms = 0;
+        element.read("tntEquivalent", kilograms);
+        gas.energy = sim::energyOfTnt(kilograms);
+    }
+    element.read("pressureRatio", gas.pressureRatio);
+}
+
 void readStart(const PresetValue& element, sim::GasDef& gas)
 {
     element.read("particles", gas.particles);
     element.read("position", gas.position);
     element.read("start", gas.start);
-    element.read("radius", gas.radius);
-    element.read("temperature", gas.temperature);
-    element.read("pressureRatio", gas.pressureRatio);
     element.read("soundSpeed", gas.soundSpeed);
     element.read("jitter", gas.jitter);
-    element.read("initialSpeed", gas.initialSpeed);
+    element.read("lumpiness", gas.lumpiness);
+    element.read("throwSpeed", gas.throwSpeed);
     element.read("initialBias", gas.initialBias);
 }
 
 void readDynamics(const PresetValue& element, sim::GasDef& gas)
 {
-    element.read("cooling", gas.cooling);
+    element.read("entrainment", gas.entrainment);
     element.read("radiation", gas.radiation);
     element.read("drag", gas.drag);
     element.read("braking", gas.braking);
@@ -35,9 +51,8 @@ void readDynamics(const PresetValue& element, sim::GasDef& gas)
 
 void readOptics(const PresetValue& element, sim::GasDef& gas)
 {
-    element.read("sootYield", gas.sootYield);
-    element.read("opticalDepth", gas.opticalDepth);
-    element.read("albedoOverSoot", gas.albedoOverSoot);
+    element.read("opacity", gas.opacity);
+    element.read("smokeTint", gas.smokeTint);
     element.read("sootTemperature", gas.sootTemperature);
     element.read("growth", gas.growth);
     element.read("heat", gas.heat);
@@ -53,6 +68,7 @@ void buildGas(const PresetValue& element, sim::EffectDef& effect)
 {
     auto gas = std::make_unique<sim::GasDef>();
     element.read("name", gas->name);
+    readCharge(element, *gas);
     readStart(element, *gas);
     readDynamics(element, *gas);
     readOptics(element, *gas);

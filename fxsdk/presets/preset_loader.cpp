@@ -1,6 +1,7 @@
 #include "fxsdk/presets/preset_loader.h"
 
 #include "embedded/preset_library.h"
+#include "foundation/math/hash.h"
 #include "fxsdk/assets/read_file.h"
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
@@ -14,12 +15,20 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// The same for documents that say the same in another order or with other blanks.
+uint64_t fingerprintOf(const Json& document)
+{
+    const std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return base::hashBytes(0, text.data(), text.size());
+}
+
 std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const std::string& displayName,
                                                   Findings& findings)
 {
     auto effect = std::make_shared<sim::EffectDef>();
     const PresetValue root(&document, "", findings);
     effect->name = displayName;
+    effect->fingerprint = fingerprintOf(document);
     root.read("name", effect->name);
     double duration = 0;
     root.read("duration", duration);

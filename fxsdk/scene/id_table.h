@@ -3,6 +3,7 @@
 #pragma once
 
 #include "foundation/math/hash.h"
+#include "simulation/state/state_reader.h"
 
 #include <chrono>
 #include <cstdint>
@@ -89,6 +90,56 @@ public:
 
     uint32_t count() const { return count_; }
 
+    /// Calls f(index, value) for all values by ascending index.
+    template <class F>
+    void forEach(F&& f) const
+    {
+        for (uint32_t index = 0; index < slots_.size(); ++index)
+            if (slots_[index].used)
+                f(index, slots_[index].value);
+    }
+
+    /// Writes which identities are in use and in which order indices will be given out again, and calls
+    /// saveValue(value) for each value.
+    template <class F>
+    void save(sim::StateWriter& writer, F&& saveValue) const
+    {
+        writer.value(uint32_t(slots_.size()));
+        for (const Slot& slot : slots_) {
+            writer.value(slot.use);
+            writer.flag(slot.used);
+            if (slot.used)
+                saveValue(slot.value);
+        }
+        for (uint32_t index = firstFree_; index != kNone; index = slots_[index].nextFree)
+            writer.value(index);
+        writer.value(kNone);
+    }
+
+    /// Fills an empty table with identities, values from restoreValue().
+    template <class F>
+    void restore(sim::StateReader& reader, F&& restoreValue)
+    {
+        const uint32_t size = reader.value<uint32_t>();
+        reader.require(size <= kIdPartMask && size <= reader.left(), "the table of instances is too large");
+        if (!reader.ok())
+            return;
+        slots_.resize(size);
+        for (Slot& slot : slots_) {
+            slot.use = reader.value<uint32_t>(0, lastUse_, "an identity of the state is out of range");
+            slot.used = reader.flag();
+            reader.require(!slot.used || slot.use > 0, "an identity of the state was never given out");
+            if (!slot.used)
+                continue;
+            if (++count_ > capacity_)
+                reader.fail({base::Code::Capacity, "the state has more instances than the scene allows"});
+            if (!reader.ok())
+                return;
+            slot.value = restoreValue();
+        }
+        restoreFreeList(reader);
+    }
+
 private:
     static constexpr uint32_t kNone = ~0u;
     struct Slot
@@ -98,6 +149,26 @@ private:
         uint32_t nextFree = kNone;
         bool used = false;
     };
+
+    void restoreFreeList(sim::StateReader& reader)
+    {
+        while (reader.ok()) {
+            const uint32_t index = reader.value<uint32_t>();
+            if (index == kNone)
+                return;
+            reader.require(index < slots_.size() && !slots_[index].used && slots_[index].use < lastUse_,
+                           "an identity is not free");
+            reader.require(!reader.ok() || (slots_[index].nextFree == kNone && index != lastFree_),
+                           "an identity is free twice");
+            if (!reader.ok())
+                return;
+            if (firstFree_ == kNone)
+                firstFree_ = index;
+            else
+                slots_[lastFree_].nextFree = index;
+            lastFree_ = index;
+        }
+    }
 
     std::pmr::vector<Slot> slots_;
     uint32_t capacity_;

@@ -5,9 +5,15 @@
 
 namespace fx::scene {
 
+namespace {
+constexpr base::Ticks kMostDropped = INT64_MAX; ///< no sum goes beyond it
+}
+
 Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, base::TaskRunner* tasks,
              std::pmr::memory_resource* memory)
-    : clock_(options.stepTicks, options.maxFrameTicks), world_(schema, tasks, memory, options.environment),
+    : options_(options), schema_(schema), tasks_(tasks), memory_(memory),
+      clock_(options.stepTicks, options.maxFrameTicks),
+      world_(schema, tasks, memory, options.environment, options.shareInstances),
       instances_(memory, options.maxInstances), dormant_(memory), active_(memory), ring_(schema, memory)
 {
     ring_.beginWrite(0); // so that acquire() always has something to show
@@ -65,17 +71,17 @@ uint32_t Scene::particles(LocalId id)
 void Scene::setPlacement(LocalId id, const base::Placement& placement)
 {
     Instance& instance = *instances_.find(id);
-    instance.setup.placement = placement;
     if (instance.state == InstanceState::Active)
-        world_.setPlacement(instance.slot, placement);
+        world_.setPlacement(instance.slot, placement); // may throw
+    instance.setup.placement = placement;
 }
 
 void Scene::setParameters(LocalId id, const sim::InstanceParameters& parameters)
 {
     Instance& instance = *instances_.find(id);
-    instance.setup.parameters = parameters;
     if (instance.state == InstanceState::Active)
-        world_.setParameters(instance.slot, parameters);
+        world_.setParameters(instance.slot, parameters); // may throw
+    instance.setup.parameters = parameters;
 }
 
 bool Scene::update(double dt)
@@ -85,7 +91,8 @@ bool Scene::update(double dt)
         ++counters_.refusedUpdates;
         return false;
     }
-    counters_.droppedTicks += plan.droppedTicks;
+    counters_.droppedTicks =
+        std::min(counters_.droppedTicks, kMostDropped - plan.droppedTicks) + plan.droppedTicks;
     bool memoryFailed = false; // must not stop the steps that follow: the clock has already counted them
     for (uint32_t k = 0; k < plan.steps; ++k) {
         const base::Ticks from = plan.firstStep + base::Ticks(k) * clock_.stepTicks();
@@ -110,13 +117,7 @@ void Scene::step(base::Ticks from)
 {
     const base::Ticks to = from + clock_.stepTicks();
     wake(to);
-    const sim::StepCounters work = world_.step(active_.slots(), from, clock_.stepTicks());
-    counters_.work.born += work.born;
-    counters_.work.dropped += work.dropped;
-    counters_.work.particleSteps += work.particleSteps;
-    counters_.work.neighborPairs += work.neighborPairs;
-    counters_.work.subSteps += work.subSteps;
-    counters_.work.clamped += work.clamped;
+    counters_.work += world_.step(active_.slots(), from, clock_.stepTicks());
     ++counters_.steps;
     retireFinished(to);
 }
@@ -138,15 +139,22 @@ void Scene::wake(base::Ticks until)
 void Scene::enterWorld(uint32_t index)
 {
     Instance& instance = instances_.at(index);
-    sim::InstanceStart start;
-    start.instance = instances_.idAt(index);
-    start.seed = instance.setup.seed;
-    start.startTick = instance.setup.startTick;
-    start.placement = instance.setup.placement;
-    start.parameters = instance.setup.parameters;
-    instance.slot = world_.add(instance.setup.effect, start);
+    instance.slot = world_.add(instance.setup.effect, startOf(instances_, index));
     instance.state = InstanceState::Active;
     active_.insert(instance.serial, index, instance.slot);
+}
+
+sim::InstanceStart Scene::startOf(const IdTable<Instance>& instances, uint32_t index)
+{
+    const InstanceSetup& setup = instances.at(index).setup;
+    sim::InstanceStart start;
+    start.instance = instances.idAt(index);
+    start.seed = setup.seed;
+    start.startTick = setup.startTick;
+    start.placement = setup.placement;
+    start.parameters = setup.parameters;
+    start.quality = setup.quality;
+    return start;
 }
 
 void Scene::retireFinished(base::Ticks now)
@@ -192,6 +200,7 @@ SceneCounters Scene::counters() const
     now.instances = instances_.count();
     now.dormant = uint32_t(dormant_.size());
     now.active = uint32_t(active_.size());
+    now.simulations = world_.simulations();
     return now;
 }
 

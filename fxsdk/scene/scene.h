@@ -12,6 +12,7 @@
 #include "simulation/world.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <memory_resource>
 #include <mutex>
@@ -24,6 +25,7 @@ struct SceneOptions
     base::Ticks maxFrameTicks = base::kTicksPerSecond / 15;
     uint32_t maxInstances = 65'536;
     sim::Environment environment;
+    bool shareInstances = true; ///< false: identical instances are simulated one by one
 };
 
 /// Where an instance is in its life. Dormant and finished ones have no slot in the world and are never
@@ -44,15 +46,17 @@ struct InstanceSetup
     base::Placement placement;
     sim::InstanceParameters parameters;
     bool destroyWhenFinished = false;
+    sim::QualityLevel quality = sim::QualityLevel::Medium;
 };
 
 /// Exact counts since the scene was created, unless they say "now".
 struct SceneCounters
 {
-    uint32_t instances = 0; ///< now; the sum of the next three
-    uint32_t dormant = 0;   ///< now
-    uint32_t active = 0;    ///< now
-    uint32_t finished = 0;  ///< now
+    uint32_t instances = 0;   ///< now; the sum of the next three
+    uint32_t dormant = 0;     ///< now
+    uint32_t active = 0;      ///< now
+    uint32_t finished = 0;    ///< now
+    uint32_t simulations = 0; ///< now; at most `active`: identical instances share one
     uint64_t steps = 0;
     uint64_t wakeFailures = 0;
     uint64_t refusedUpdates = 0;
@@ -94,7 +98,25 @@ public:
     SceneCounters counters() const;
     uint32_t particles() const; ///< of all active instances
     const base::StepClock& clock() const { return clock_; }
-    uint64_t stateHash(); ///< of the last step
+    uint64_t stateHash(); ///< of what is to be seen of the last step
+
+    /// Hash of everything that decides what later steps give; apart from the part of a step that has not been
+    /// taken yet, so that it does not depend on the frame rate.
+    uint64_t simulationHash() const;
+    /// Writes all that restore() needs.
+    void save(sim::StateWriter& writer) const;
+    /// Finds the effect of a fingerprint among those that no instance has any more; null when there is none.
+    using FindEffect = std::function<std::shared_ptr<const sim::EffectDef>(uint64_t fingerprint)>;
+    /// Takes the state of a scene with the same step, gravity and ground, identities included, and publishes
+    /// it. Strong guarantee.
+    /// @return Parse, NotFound (an effect), InvalidArgument (another step, gravity or ground), Capacity
+    base::Status restore(std::span<const std::byte> bytes, const FindEffect& findEffect);
+    /// Calls f(id) for each instance by ascending index.
+    template <class F>
+    void forEach(F&& f) const
+    {
+        instances_.forEach([&](uint32_t index, const Instance&) { f(instances_.idAt(index)); });
+    }
 
     Presentation acquire();
     void release(const base::SnapshotPair& snapshots) { ring_.release(snapshots); }
@@ -107,6 +129,7 @@ private:
         sim::Slot slot = 0;  ///< in the world, while active
         InstanceState state = InstanceState::Finished;
     };
+    struct Restored; ///< a state on its way into the scene
 
     void wake(base::Ticks until);
     void enterWorld(uint32_t index);
@@ -115,7 +138,23 @@ private:
     void finish(uint32_t index);
     void publish(base::Ticks tick, double interpolation);
     void show(base::Ticks newest, double interpolation); ///< with presentation_ held
+    static sim::InstanceStart startOf(const IdTable<Instance>& instances, uint32_t index);
 
+    using Effects = std::vector<std::shared_ptr<const sim::EffectDef>>;
+    Effects effects() const; ///< each once, in the order of first use
+    void saveRules(sim::StateWriter& writer) const;
+    void saveInstances(sim::StateWriter& writer) const;
+    void checkRules(sim::StateReader& reader) const;
+    Effects restoreEffects(sim::StateReader& reader, const FindEffect& findEffect) const;
+    base::ClockState restoreClock(sim::StateReader& reader) const;
+    void restoreInstances(sim::StateReader& reader, const Effects& effects, Restored& state) const;
+    void restoreWorld(sim::StateReader& reader, Restored& state) const;
+    void take(Restored& state);
+
+    const SceneOptions options_;
+    const base::SnapshotSchema* schema_;
+    base::TaskRunner* tasks_;
+    std::pmr::memory_resource* memory_;
     base::StepClock clock_;
     sim::World world_;
     IdTable<Instance> instances_;

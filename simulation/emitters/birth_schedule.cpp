@@ -6,7 +6,7 @@ namespace fx::sim {
 
 namespace {
 
-constexpr base::Ticks kForever = INT64_MAX / 4;
+constexpr uint64_t kMostBirths = uint64_t(1) << 62;
 constexpr WideInt kParticle = WideInt(base::kTicksPerSecond) << 32; // D
 
 /// Ticks of a time that may be anything a float can be: NaN and negative become 0, too long becomes kForever.
@@ -101,6 +101,21 @@ BirthCount BirthSchedule::advance(const BirthWindow& window, std::span<Birth> ou
     giveRateUntil(end);
     progress_ += perTick * (end - begin) - WideInt(given) * kParticle;
     return writer.count;
+}
+
+void BirthSchedule::save(StateWriter& writer) const
+{
+    const WideInt waiting = -progress_; // 0 <= -R < D < 2^62
+    writer.value(uint64_t(nextBurst_));
+    writer.value(uint64_t(waiting));
+    writer.value(nextIndex_);
+}
+
+void BirthSchedule::restore(StateReader& reader)
+{
+    nextBurst_ = size_t(reader.value<uint64_t>(0, bursts_.size(), "an emitter has fewer bursts"));
+    progress_ = -WideInt(reader.value<uint64_t>(0, uint64_t(kParticle) - 1, "a birth is overdue"));
+    nextIndex_ = reader.value<uint64_t>(0, kMostBirths, "an emitter's births are out of range");
 }
 
 bool BirthSchedule::exhausted(base::Ticks tick) const

@@ -26,6 +26,7 @@
 #pragma once
 
 #include "simulation/emitters/emitter_def.h"
+#include "simulation/state/state_reader.h"
 
 #include <cstdint>
 #include <memory_resource>
@@ -35,6 +36,8 @@
 namespace fx::sim {
 
 __extension__ typedef __int128 WideInt; ///< holds rate times time exactly
+
+constexpr base::Ticks kForever = INT64_MAX / 4; ///< later than anything happens
 
 /// One particle that is to be born.
 struct Birth
@@ -73,6 +76,10 @@ public:
     BirthCount advance(const BirthWindow& window, std::span<Birth> out);
     /// True when nothing can be born from `tick` on.
     bool exhausted(base::Ticks tick) const;
+
+    /// What has been born so far; rate and bursts are the definition's.
+    void save(StateWriter& writer) const;
+    void restore(StateReader& reader);
 
 private:
     struct ScheduledBurst

@@ -87,7 +87,7 @@ struct EmitterDef final : SolverDef
     float anisotropy = 0.0f;
     float shutter = 0.0f; ///< [s]
 
-    std::unique_ptr<Solver> create(const base::SnapshotSchema& schema,
+    std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return maxParticles; }
 };

@@ -9,7 +9,7 @@ namespace {
 constexpr uint32_t kMinBatch = 512; // particles; fewer cost less than handing them to another thread
 }
 
-std::unique_ptr<Solver> EmitterDef::create(const base::SnapshotSchema& schema,
+std::unique_ptr<Solver> EmitterDef::create(const base::SnapshotSchema& schema, const Quality&,
                                            std::pmr::memory_resource* memory) const
 {
     return std::make_unique<EmitterSolver>(*this, schema.find(base::kBlobKind.name), memory);
@@ -73,6 +73,22 @@ void EmitterSolver::move(const EmitterStep& step, const EmitterScratch& scratch,
 bool EmitterSolver::finished(base::Ticks tick) const
 {
     return store_.count == 0 && schedule_.exhausted(tick);
+}
+
+void EmitterSolver::save(StateWriter& writer) const
+{
+    writer.value(now_);
+    writer.flag(started_);
+    schedule_.save(writer);
+    store_.save(writer);
+}
+
+void EmitterSolver::restore(StateReader& reader)
+{
+    now_ = reader.value<base::Ticks>(0, kForever, "an emitter's clock is out of range");
+    started_ = reader.flag();
+    schedule_.restore(reader);
+    store_.restore(reader, now_);
 }
 
 } // namespace fx::sim

@@ -22,6 +22,8 @@ public:
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
     bool finished(base::Ticks tick) const override;
     uint32_t elementCount() const override { return store_.count; }
+    void save(StateWriter& writer) const override;
+    void restore(StateReader& reader) override;
 
 private:
     void giveBirth(const EmitterStep& step, std::span<Birth> births);

@@ -4,6 +4,7 @@
 
 #include "foundation/memory/column.h"
 #include "foundation/time/ticks.h"
+#include "simulation/state/state_reader.h"
 
 #include <glm/vec3.hpp>
 
@@ -43,6 +44,10 @@ struct EmitterStore
     /// Removes the rows of [first, count) whose death is not after `tick`; the others keep their order.
     /// @param kept room for count - first row numbers
     void removeDead(uint32_t first, base::Ticks tick, std::span<uint32_t> kept);
+
+    void save(StateWriter& writer) const;
+    /// @param now [tick] local time of the state: what is alive was born before it and dies after it
+    void restore(StateReader& reader, base::Ticks now);
 
     uint32_t count = 0;
     base::Column<uint64_t> index;   ///< running number within the emitter

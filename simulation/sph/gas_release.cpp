@@ -3,84 +3,95 @@
 #include "foundation/math/elementary.h"
 #include "foundation/random/philox.h"
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/sph/gas_density.h"
-#include "simulation/sph/gas_forces.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace fx::sim {
 
 namespace {
 
-namespace column = gas_column;
-
-constexpr float kSmallestSpacing = 1e-3f;        ///< [m] so that neither masses nor smoothing lengths vanish
 constexpr double kBallVolume = 4.18879020478639; ///< of radius 1
-
-float spacingOf(const GasDef& def)
-{
-    const float even = def.radius * float(base::cubeRoot(kBallVolume / double(std::max(def.particles, 1u))));
-    return std::max(even, kSmallestSpacing);
-}
+constexpr uint32_t kJets = 6;
+constexpr uint32_t kJetKey = 0x4A455453; ///< keeps the jets' random numbers apart from the particles'
 
 double fraction(double x)
 {
     return x - std::floor(x);
 }
 
-/// Particle i of the evenly filled unit ball.
-glm::vec3 placeInBall(uint32_t i)
+glm::dvec3 onSphere(double u, double v)
 {
-    constexpr double kPhi = 1.22074408460575947536;
-    const double u1 = fraction(0.5 + i / kPhi); // (2)
-    const double u2 = fraction(0.5 + i / (kPhi * kPhi));
-    const double u3 = fraction(0.5 + i / (kPhi * kPhi * kPhi));
-    const double r = base::cubeRoot(u1); // (3)
-    const double cosine = 1.0 - 2.0 * u2;
+    const double cosine = 1.0 - 2.0 * u;
     const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
-    const base::SinCos azimuth = base::sinCosTurns(u3);
-    return {float(r * sine * azimuth.cos), float(r * cosine), float(r * sine * azimuth.sin)};
+    const base::SinCos azimuth = base::sinCosTurns(v);
+    return {sine * azimuth.cos, cosine, sine * azimuth.sin};
 }
+
+/// Directions into which the charge is thrown harder, or less.
+struct Jets
+{
+    Jets(const StepContext& context)
+    {
+        for (uint32_t k = 0; k < kJets; ++k) {
+            const std::array<float, 4> u =
+                base::randomUnit4(context.seed, context.solverIndex ^ kJetKey, k, base::RandomPurpose::Gas);
+            direction[k] = onSphere(double(u[0]), double(u[1]));
+            strength[k] = 2.0 * double(u[2]) - 1.0;
+        }
+    }
+    double at(const glm::dvec3& d) const
+    {
+        double sum = 0;
+        for (uint32_t k = 0; k < kJets; ++k) {
+            const double c = std::max(glm::dot(d, direction[k]), 0.0);
+            sum += strength[k] * (c * c) * (c * c); // (3)
+        }
+        return sum;
+    }
+    std::array<glm::dvec3, kJets> direction;
+    std::array<double, kJets> strength;
+};
 
 } // namespace
 
-float releaseSmoothing(const GasDef& def)
+double spacingOf(const ChargePlan& plan, uint32_t particles)
 {
-    return kNeighborhood * spacingOf(def);
+    return plan.radius * base::cubeRoot(kBallVolume / double(particles));
 }
 
-void releaseGas(const GasDef& def, const StepContext& context, GasStore& gas)
+base::Status releaseGas(const GasDef& def, const ChargePlan& plan, const StepContext& context,
+                        std::span<GasParticle> scratch, GasDynamics<float>& gas, GasParcels& parcels)
 {
-    const float intensity = std::max(context.parameters->intensity, 0.0f);
-    const float pressure = std::max(1.0f + (def.pressureRatio - 1.0f) * intensity, 0.05f);
-    const float density = pressure * kAirDensity * kAirTemperature / def.temperature; // (1)
-    const float spacing = spacingOf(def);
-    gas.count = uint32_t(gas.columns[0].capacity());
-    gas.mass = density * spacing * spacing * spacing;
-
-    for (uint32_t i = 0; i < gas.count; ++i) {
+    constexpr double kPhi = 1.22074408460575947536;
+    const Jets jets(context);
+    const double spacing = spacingOf(plan, uint32_t(scratch.size()));
+    const double lumps = double(def.lumpiness);
+    for (uint32_t i = 0; i < scratch.size(); ++i) {
         const std::array<float, 4> u =
             base::randomUnit4(context.seed, context.solverIndex, i, base::RandomPurpose::Gas);
-        const glm::vec3 inBall = placeInBall(i);
-        const glm::vec3 shift(u[0] - 0.5f, u[1] - 0.5f, u[2] - 0.5f);
-        const glm::vec3 position =
-            def.position + def.radius * inBall + 2.0f * def.jitter * spacing * shift; // (4)
-        const glm::vec3 velocity = def.initialBias + def.initialSpeed * inBall;
-        gas.at(column::X)[i] = position.x;
-        gas.at(column::Y)[i] = position.y;
-        gas.at(column::Z)[i] = position.z;
-        gas.at(column::VelocityX)[i] = velocity.x;
-        gas.at(column::VelocityY)[i] = velocity.y;
-        gas.at(column::VelocityZ)[i] = velocity.z;
-        gas.at(column::Smoothing)[i] = releaseSmoothing(def);
-        gas.at(column::Temperature)[i] = def.temperature;
-        gas.at(column::Mixing)[i] = 1.0f;
-        gas.at(column::Exposure)[i] = 0.0f;
-        gas.at(column::Vigor)[i] = 0.6f + 0.8f * u[3];
-        gas.at(column::Soot)[i] = 0.0f;
-        gas.at(column::Presence)[i] = 1.0f;
+        const double r = base::cubeRoot(fraction(0.5 + i / kPhi));
+        const glm::dvec3 d =
+            onSphere(fraction(0.5 + i / (kPhi * kPhi)), fraction(0.5 + i / (kPhi * kPhi * kPhi)));
+        const glm::dvec3 shift = glm::dvec3(u[0], u[1], u[2]) - 0.5;
+        const double uneven = lumps * jets.at(d);
+
+        GasParticle& particle = scratch[i];
+        particle.position = glm::dvec3(def.position) + plan.radius * r * (1.0 + 0.25 * uneven) * d +
+                            2.0 * double(def.jitter) * spacing * shift; // (4)
+        particle.position.y = std::max(particle.position.y, double(context.groundHeight) + 0.25 * spacing);
+        particle.velocity = glm::dvec3(def.initialBias) +
+                            double(def.throwSpeed) * plan.rimSpeed * r * std::max(1.0 + uneven, 0.0) * d;
+        particle.mass = plan.mass / double(scratch.size());
+        particle.energy = plan.pressure / ((plan.gamma - 1.0) * plan.density);
+        parcels.fire[i] = startParcel(*def.material, particle.mass);
+        parcels.vigor[i] = 0.8f + 0.4f * u[3];
+        parcels.presence[i] = 1.0f;
     }
+    return gas.add(scratch);
 }
 
 } // namespace fx::sim

@@ -1,13 +1,12 @@
 #include "simulation/sph/gas_solver.h"
 
+#include "foundation/math/elementary.h"
 #include "foundation/snapshot/blob_kind.h"
-#include "simulation/emitters/emitter_def.h"
 #include "simulation/parallel.h"
-#include "simulation/sph/gas_density.h"
-#include "simulation/sph/gas_forces.h"
-#include "simulation/sph/gas_optics.h"
+#include "simulation/sph/gas_exchange.h"
 #include "simulation/sph/gas_release.h"
-#include "simulation/sph/wendland.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,34 +15,70 @@ namespace fx::sim {
 
 namespace {
 
-namespace column = gas_column;
-namespace sorted = gas_sorted;
+constexpr uint32_t kMinBatch = 128;        ///< particles
+constexpr float kGroundClearance = 0.15f;  ///< [1] of the support between the ground and a center
+constexpr float kGroundRestitution = 0.1f; ///< [1]
+constexpr double kLargestGrowth = 4.0;     ///< [1] largest support over that of an even fireball
 
-constexpr uint32_t kMinBatch = 64; ///< particles; each has some sixty neighbors
-constexpr float kCourant = 0.5f;   ///< [1] part of a smoothing length that sound may cross in a sub-step
+constexpr double kMostSlices = 64.0; ///< exchanges with the air in a step
 
-/// State columns that the loops over neighbors need, and where they go.
-constexpr size_t kGathered[][2] = {
-    {column::X, sorted::X},
-    {column::Y, sorted::Y},
-    {column::Z, sorted::Z},
-    {column::VelocityX, sorted::VelocityX},
-    {column::VelocityY, sorted::VelocityY},
-    {column::VelocityZ, sorted::VelocityZ},
-    {column::Smoothing, sorted::Smoothing},
-};
+void count(const AdvanceReport& report, StepCounters& counters)
+{
+    counters.subSteps += report.subSteps;
+    counters.particleSteps += report.particleSteps;
+    counters.neighborPairs += report.pairs / 2;
+    counters.clamped += report.clamped;
+    counters.debt += base::toTicks(report.debt);
+}
+
+uint32_t particlesOf(const GasDef& def, const Quality& quality)
+{
+    const double wanted = std::ceil(double(def.particles) * double(quality.particles));
+    return uint32_t(std::clamp(wanted, 1.0, 1e6));
+}
+
+/// Support of particles with so many neighbors that fill a ball of `radius` evenly.
+double evenSupport(double radius, uint32_t particles, double neighbors)
+{
+    return radius * base::cubeRoot(neighbors / double(particles));
+}
+
+GasDynamicsDef dynamicsOf(const GasDef& def, const ChargePlan& plan, const Quality& quality)
+{
+    const uint32_t count = particlesOf(def, quality);
+    GasDynamicsDef dynamics;
+    dynamics.capacity = count;
+    dynamics.neighbors = double(quality.neighbors);
+    dynamics.state.gamma = plan.gamma;
+    dynamics.viscosity.alphaMax = std::max(double(def.viscosity), dynamics.viscosity.alphaMin);
+    dynamics.viscosity.conductivity = 0.0; // mixing is entrainment's
+    dynamics.courant = 0.4;
+    dynamics.maxSubSteps = kMostGasSubSteps;
+    dynamics.smallestSupport =
+        std::max(double(quality.radiusFloor), 0.02) * evenSupport(plan.radius, count, dynamics.neighbors);
+    dynamics.largestSupport =
+        kLargestGrowth *
+        evenSupport(0.5 * std::max(plan.fireballDiameter, 2.0 * plan.radius), count, dynamics.neighbors);
+    dynamics.ambientPressure = AmbientAir{}.pressure;
+    dynamics.tension = 0.0;
+    return dynamics;
+}
 
 } // namespace
 
-std::unique_ptr<Solver> GasDef::create(const base::SnapshotSchema& schema,
+std::unique_ptr<Solver> GasDef::create(const base::SnapshotSchema& schema, const Quality& quality,
                                        std::pmr::memory_resource* memory) const
 {
-    return std::make_unique<GasSolver>(*this, schema.find(base::kBlobKind.name), memory);
+    return std::make_unique<GasSolver>(*this, quality, schema.find(base::kBlobKind.name), memory);
 }
 
-GasSolver::GasSolver(const GasDef& def, base::KindId kind, std::pmr::memory_resource* memory)
-    : def_(def), kind_(kind), gas_(memory, std::max(def.particles, 1u)),
-      grid_(memory, std::max(def.particles, 1u)),
+GasSolver::GasSolver(const GasDef& def, const Quality& quality, base::KindId kind,
+                     std::pmr::memory_resource* memory)
+    : def_(def), quality_(quality), kind_(kind),
+      plan_(planCharge(*def.material, def.energy, double(def.pressureRatio))),
+      thermodynamics_{plan_.gamma, def.material->gasConstant, AmbientAir{}},
+      particles_(particlesOf(def, quality)), gas_(dynamicsOf(def, plan_, quality), memory),
+      parcels_(memory, particles_), scratch_(memory, particles_),
       released_(def.start > 0.0f ? base::toTicks(std::min(double(def.start), 1e9)) : 0)
 {}
 
@@ -52,125 +87,100 @@ void GasSolver::step(const StepContext& context)
     now_ = context.tick + context.stepTicks;
     if (done_ || now_ <= released_ || (!begun_ && !release(context)))
         return;
-
-    const GasMotion motion(def_, context, gas_);
-    parallelRows(*context.tasks, gas_.count, kMinBatch,
-                 [&](uint32_t begin, uint32_t end) { sampleAir(motion, gas_, begin, end); });
     const double seconds = base::toSeconds(now_ - std::max(context.tick, released_));
-    double left = seconds;
-    for (uint32_t n = 0; n < kMostGasSubSteps && left > 0.0; ++n)
-        left -= subStep(motion, left);
-    if (left > 0.0)
-        ++context.counters->clamped;
-
-    parallelRows(*context.tasks, gas_.count, kMinBatch, [&](uint32_t begin, uint32_t end) {
-        coolGas(def_, gas_, float(seconds - left), begin, end);
-    });
+    for (double left = seconds; left > 0.0;) {
+        const double slice = exchange(context, left, seconds / kMostSlices);
+        const base::Result<AdvanceReport> report = gas_.advance(slice, *context.tasks);
+        if (report.ok())
+            count(*report, *context.counters);
+        settle(context, float(slice));
+        left = slice < left ? left - slice : 0.0;
+    }
     retireWhenDissolved();
 }
 
-/// Lets the gas go, or never, when the host wants nothing new.
 bool GasSolver::release(const StepContext& context)
 {
+    if (!context.parameters->emitting) {
+        done_ = true;
+        return false;
+    }
     begun_ = true;
-    done_ = !context.parameters->emitting || !(context.parameters->intensity > 0.0f);
+    const double intensity = std::clamp(double(context.parameters->intensity), 0.0, 1e3);
+    const ChargePlan plan = planCharge(*def_.material, def_.energy * intensity, double(def_.pressureRatio));
+    done_ = !(plan.mass > 0.0) ||
+            !releaseGas(def_, plan, context, scratch_.first(particles_), gas_, parcels_).ok();
     if (done_)
         return false;
-    releaseGas(def_, context, gas_);
-    context.counters->born += gas_.count;
+    hottest_ = float(plan.temperature);
+    gas_.initialize(*context.tasks);
+    settle(context, 0.0f);
+    context.counters->born += particles_;
     return true;
 }
 
-/// Advances by as much of `left` [s] as is stable and returns it.
-double GasSolver::subStep(const GasMotion& motion, double left)
+/// Exchanges with the air for the time in which the gas moves a third of the cloud's size, at least
+/// `shortest`, at most `longest` seconds; returns it.
+double GasSolver::exchange(const StepContext& context, double longest, double shortest)
 {
-    base::TaskRunner& tasks = *motion.step.tasks;
-    sortParticles();
-    parallelRows(tasks, gas_.count, kMinBatch, [&](uint32_t begin, uint32_t end) {
-        sumDensity(grid_, gas_, begin, end);
-        for (uint32_t i = begin; i < end; ++i)
-            gas_.sortedAt(sorted::Push)[i] =
-                pressurePush(gas_.sortedAt(sorted::Density)[i], gas_.sortedAt(sorted::Equilibrium)[i],
-                             gas_.sortedAt(sorted::Sound)[i]);
+    const GasView<float> view = gas_.view();
+    const GasAir air(def_, context, measureThermal(view, context.gravity, context.wind));
+    const FlowSpeeds speeds = speedsOf(context, air.thermal());
+    const double crossing = double(air.thermal().radius) / (3.0 * (speeds.flow + speeds.reducedSound));
+    const double slice = std::min(std::max(crossing, shortest), longest);
+
+    const GasExchange exchange{def_, context, air, thermodynamics_, hottest_};
+    parallelRows(*context.tasks, view.count, kMinBatch, [&](uint32_t begin, uint32_t end) {
+        exchangeWithAir(exchange, view, parcels_, float(slice), begin, end);
     });
-    parallelRows(tasks, gas_.count, kMinBatch,
-                 [&](uint32_t begin, uint32_t end) { sumForces(grid_, gas_, def_.viscosity, begin, end); });
+    gas_.edited();
+    const double reduction = speeds.reducedSound / speeds.sound;
+    gas_.setPressureScale(reduction * reduction);
+    return slice;
+}
 
-    const double parts = std::ceil(left / double(stableSeconds()));
-    const double seconds = parts > 1.0 ? left / parts : left;
-    parallelRows(tasks, gas_.count, kMinBatch, [&](uint32_t begin, uint32_t end) {
-        moveGas(motion, grid_, gas_, float(seconds), begin, end);
-        adaptParticles(begin, end);
+/// Sound need not be faster than lets pressure follow the flow, and carry the gas's weight, at the quality's
+/// Mach number.
+GasSolver::FlowSpeeds GasSolver::speedsOf(const StepContext& context, const ThermalFlow& thermal) const
+{
+    const GasTotals totals = gas_.totals();
+    const double flow = std::sqrt(2.0 * totals.kinetic / std::max(totals.mass, 1e-30));
+    const double sound = std::sqrt(plan_.gamma * kAirGasConstant * double(hottest_));
+    double limit = def_.soundSpeed > 0.0f ? double(def_.soundSpeed) : sound;
+    if (quality_.flowMach > 0.0f) {
+        const double weight = 2.0 * std::sqrt(double(glm::length(context.gravity) * thermal.radius));
+        limit = std::min(limit, std::max(flow / double(quality_.flowMach), weight));
+    }
+    return {flow, sound, std::clamp(limit, 1e-3 * sound, sound)};
+}
+
+void GasSolver::settle(const StepContext& context, float seconds)
+{
+    const GasView<float> view = gas_.view();
+    parallelRows(*context.tasks, view.count, kMinBatch, [&](uint32_t begin, uint32_t end) {
+        for (uint32_t i = begin; i < end; ++i) {
+            FireParcel& parcel = parcels_.fire[view.id[i]];
+            parcel.temperature =
+                std::max(thermodynamics_.potentialTemperature(double(view.entropy[i]), parcel.mixing),
+                         thermodynamics_.air.temperature);
+            const float floor = context.groundHeight + kGroundClearance * view.support[i];
+            if (view.y[i] < floor) {
+                view.y[i] = floor;
+                view.vy[i] = view.vy[i] < 0.0f ? -kGroundRestitution * view.vy[i] : view.vy[i];
+            }
+            parcels_.presence[view.id[i]] *=
+                float(base::naturalExp(-double(def_.dissipation) * parcel.burnt * double(seconds)));
+        }
     });
-    countWork(*motion.step.counters);
-    return seconds;
-}
-
-void GasSolver::sortParticles()
-{
-    const float* const smoothing = gas_.at(column::Smoothing);
-    const float largest = *std::max_element(smoothing, smoothing + gas_.count);
-    grid_.build({gas_.columns[column::X].first(gas_.count), gas_.columns[column::Y].first(gas_.count),
-                 gas_.columns[column::Z].first(gas_.count)},
-                kWendlandSupport * largest);
-
-    const std::span<const uint32_t> order = grid_.order();
-    for (const auto& [from, to] : kGathered)
-        for (uint32_t place = 0; place < gas_.count; ++place)
-            gas_.sortedAt(to)[place] = gas_.at(from)[order[place]];
-    for (uint32_t place = 0; place < gas_.count; ++place) {
-        const float temperature = gas_.at(column::Temperature)[order[place]];
-        const float mixing = gas_.at(column::Mixing)[order[place]];
-        gas_.kernels[place] = Wendland(gas_.sortedAt(sorted::Smoothing)[place]);
-        gas_.sortedAt(sorted::Sound)[place] = def_.soundSpeed * std::sqrt(temperature / def_.temperature);
-        gas_.sortedAt(sorted::Equilibrium)[place] = kAirDensity * kAirTemperature / (temperature * mixing);
-    }
-}
-
-/// The longest sub-step during which neither sound nor an approaching neighbor crosses too much of a
-/// particle.
-float GasSolver::stableSeconds() const
-{
-    float shortest = 1.0f;
-    for (uint32_t i = 0; i < gas_.count; ++i) {
-        const float sound = gas_.sortedAt(sorted::Sound)[i];
-        const float signal =
-            sound + 0.6f * def_.viscosity * (sound + 2.0f * gas_.sortedAt(sorted::Approach)[i]);
-        shortest =
-            std::min(shortest, kCourant * gas_.sortedAt(sorted::Smoothing)[i] / std::max(signal, 1e-3f));
-    }
-    return shortest;
-}
-
-void GasSolver::adaptParticles(uint32_t begin, uint32_t end)
-{
-    for (uint32_t place = begin; place < end; ++place) {
-        float& smoothing = gas_.at(column::Smoothing)[grid_.order()[place]];
-        smoothing = adaptSmoothing(smoothing, gas_.mass, gas_.sortedAt(sorted::Density)[place],
-                                   gas_.sortedAt(sorted::Equilibrium)[place]);
-    }
-}
-
-void GasSolver::countWork(StepCounters& counters) const
-{
-    uint64_t ordered = 0; // each pair is found by both of its particles
-    for (uint32_t i = 0; i < gas_.count; ++i) {
-        ordered += gas_.pairs[i];
-        counters.clamped += gas_.clamped[i];
-    }
-    counters.neighborPairs += ordered / 2;
-    counters.particleSteps += gas_.count;
-    ++counters.subSteps;
+    hottest_ = 0;
+    for (uint32_t id = 0; id < view.count; ++id)
+        hottest_ = std::max(hottest_, float(parcels_.fire[id].temperature));
 }
 
 void GasSolver::retireWhenDissolved()
 {
-    const float* const presence = gas_.at(column::Presence);
-    const auto isGone = [](float p) { return p <= kFaintest; };
-    if (!std::all_of(presence, presence + gas_.count, isGone))
-        return;
-    gas_.count = 0;
-    done_ = true;
+    const float* const presence = parcels_.presence.data();
+    done_ = std::all_of(presence, presence + particles_, [](float p) { return p <= kFaintest; });
 }
 
 } // namespace fx::sim

@@ -1,46 +1,64 @@
 /// @file gas_solver.h
-/// One body of hot gas of one instance.
+/// One explosion of gas of one instance.
 #pragma once
 
 #include "simulation/solver.h"
+#include "simulation/sph/dynamics/gas_dynamics.h"
+#include "simulation/sph/gas_air.h"
 #include "simulation/sph/gas_def.h"
-#include "simulation/sph/gas_motion.h"
-#include "simulation/sph/gas_store.h"
-#include "simulation/sph/neighbor_grid.h"
+#include "simulation/sph/gas_parcels.h"
 
 namespace fx::sim {
 
-/// Most sub-steps of one step. What they do not cover is not simulated, and counted as clamped.
+/// Most sub-steps between two exchanges with the air. What they do not cover is not simulated, and reported
+/// as debt.
 constexpr uint32_t kMostGasSubSteps = 400;
 
-/// Smoothed particle hydrodynamics with sub-steps as short as sound needs to cross a particle.
+/// Gas dynamics between exchanges with the air, which come as often as the cloud moves a third of its size,
+/// and in every step.
 class GasSolver final : public Solver
 {
 public:
     /// @param def outlives the solver
     /// @param kind of the groups it publishes
-    GasSolver(const GasDef& def, base::KindId kind, std::pmr::memory_resource* memory);
+    GasSolver(const GasDef& def, const Quality& quality, base::KindId kind,
+              std::pmr::memory_resource* memory);
 
     void step(const StepContext& context) override;
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
     bool finished(base::Ticks) const override { return done_; }
-    uint32_t elementCount() const override { return gas_.count; }
+    uint32_t elementCount() const override { return done_ ? 0 : gas_.count(); }
+    void save(StateWriter& writer) const override;
+    void restore(StateReader& reader) override;
 
 private:
     bool release(const StepContext& context);
-    double subStep(const GasMotion& motion, double left);
-    void sortParticles();
-    float stableSeconds() const;
-    void adaptParticles(uint32_t begin, uint32_t end);
-    void countWork(StepCounters& counters) const;
+    /// [m/s]
+    struct FlowSpeeds
+    {
+        double flow;         ///< root mean square
+        double sound;        ///< of the hottest gas
+        double reducedSound; ///< that is simulated
+    };
+    FlowSpeeds speedsOf(const StepContext& context, const ThermalFlow& thermal) const;
+    double exchange(const StepContext& context, double longest, double shortest);
+    void settle(const StepContext& context, float seconds);
     void retireWhenDissolved();
+    void writeMotion(class BlobWriter& writer) const;
+    void writeLooks(class BlobWriter& writer) const;
 
     const GasDef& def_;
+    Quality quality_;
     base::KindId kind_;
-    GasStore gas_;
-    NeighborGrid grid_;
-    base::Ticks released_; ///< local time of the release
-    base::Ticks now_ = 0;  ///< end of the last step
+    ChargePlan plan_; ///< at the def's energy
+    GasThermodynamics thermodynamics_;
+    uint32_t particles_;
+    GasDynamics<float> gas_;
+    GasParcels parcels_;
+    base::Column<GasParticle> scratch_; ///< of the release
+    float hottest_ = 0;                 ///< [K] of all parcels at the end of the last step
+    base::Ticks released_;              ///< local time of the release
+    base::Ticks now_ = 0;               ///< end of the last step
     bool begun_ = false;
     bool done_ = false;
 };

@@ -9,11 +9,9 @@ namespace fx::sim {
 
 namespace {
 
-namespace column = gas_column;
-
-glm::vec3 row(const GasStore& gas, size_t first, uint32_t i)
+glm::dvec3 positionOf(const GasView<float>& gas, uint32_t i)
 {
-    return {gas.at(first)[i], gas.at(first + 1)[i], gas.at(first + 2)[i]};
+    return {gas.x[i], gas.y[i], gas.z[i]};
 }
 
 } // namespace
@@ -33,39 +31,41 @@ glm::vec3 ThermalFlow::velocity(const glm::vec3& position) const
     return (0.5f * speed * ratio * ratio * ratio) * ((3.0f * z / r2) * s - up); // (2)
 }
 
-ThermalFlow measureThermal(const GasStore& gas, const glm::vec3& gravity, const glm::vec3& wind)
+ThermalFlow measureThermal(const GasView<float>& gas, const glm::vec3& gravity, const glm::vec3& wind)
 {
     ThermalFlow flow;
     const float weight = glm::length(gravity);
-    if (!(weight > 0.0f) || gas.count == 0)
+    if (gas.count == 0)
         return flow;
 
+    double mass = 0;
     glm::dvec3 center(0.0);
-    glm::dvec3 velocity(0.0);
+    glm::dvec3 momentum(0.0);
     for (uint32_t i = 0; i < gas.count; ++i) {
-        center += glm::dvec3(row(gas, column::X, i));
-        velocity += glm::dvec3(row(gas, column::VelocityX, i));
+        const double m = gas.mass[i];
+        mass += m;
+        center += m * positionOf(gas, i);
+        momentum += m * glm::dvec3(gas.vx[i], gas.vy[i], gas.vz[i]);
     }
-    center /= double(gas.count);
-    velocity /= double(gas.count);
+    center /= mass;
     double spread = 0;
     for (uint32_t i = 0; i < gas.count; ++i) {
-        const glm::dvec3 away = glm::dvec3(row(gas, column::X, i)) - center;
-        spread += glm::dot(away, away);
+        const glm::dvec3 away = positionOf(gas, i) - center;
+        spread += double(gas.mass[i]) * glm::dot(away, away);
     }
-    spread /= double(gas.count);
-
     flow.center = glm::vec3(center);
+    flow.radius = std::max(float(std::sqrt(spread / mass * (5.0 / 3.0))), 1e-3f); // (3)
+    if (!(weight > 0.0f))
+        return flow;
     flow.up = gravity * (-1.0f / weight);
-    flow.radius = std::max(float(std::sqrt(spread * (5.0 / 3.0))), 1e-3f); // (3)
-    flow.speed = std::max(glm::dot(glm::vec3(velocity) - wind, flow.up), 0.0f);
+    flow.speed = std::max(glm::dot(glm::vec3(momentum / mass) - wind, flow.up), 0.0f);
     if (!flow.active())
         return flow;
 
     glm::dvec3 lift(0.0);
     for (uint32_t i = 0; i < gas.count; ++i)
-        lift += glm::dvec3(flow.velocity(row(gas, column::X, i)));
-    flow.mean = glm::vec3(lift / double(gas.count)); // (4)
+        lift += double(gas.mass[i]) * glm::dvec3(flow.velocity(glm::vec3(positionOf(gas, i))));
+    flow.mean = glm::vec3(lift / mass); // (4)
     return flow;
 }
 

@@ -17,7 +17,8 @@
 ///   Outside, the potential flow around a sphere:
 ///       u = (U a^3 / 2) (3 z s / r^5 - e / r^3)                                                   (2)
 ///   Both are free of divergence and meet at r = a.
-///   The cloud's sphere is that of a uniform ball with the same mean square distance q from the center:
+///   The cloud's sphere is that of a uniform ball with the same mean square distance q from the center, by
+///   mass:
 ///       a^2 = 5/3 q                                                                               (3)
 ///   What turns the cloud over must not lift it: the mean of u over its particles is taken off.     (4)
 /// @source    [TUR64] Turner, "The flow into an expanding spherical vortex", doi:10.1017/S0022112064000544,
@@ -29,7 +30,7 @@
 /// @tests     tests/simulation/test_thermal_flow.cpp
 #pragma once
 
-#include "simulation/sph/gas_store.h"
+#include "simulation/sph/dynamics/gas_dynamics.h"
 
 #include <glm/vec3.hpp>
 
@@ -50,8 +51,8 @@ struct ThermalFlow
     glm::vec3 circulation(const glm::vec3& position) const { return velocity(position) - mean; }
 };
 
-/// The flow that the gas as a whole makes. Sums run over the particles in order.
+/// The flow that the gas as a whole makes. Sums run over the particles in the order of their places.
 /// @param wind [m/s] in which the cloud drifts
-ThermalFlow measureThermal(const GasStore& gas, const glm::vec3& gravity, const glm::vec3& wind);
+ThermalFlow measureThermal(const GasView<float>& gas, const glm::vec3& gravity, const glm::vec3& wind);
 
 } // namespace fx::sim

@@ -43,6 +43,15 @@ std::string burstPreset(int count, double seconds)
            R"(, "radius": 0.5, "forces": {"drag": 0.5, "buoyancy": 0.2, "curlStrength": 1, "curlScale": 2}}]})";
 }
 
+std::string smallBlastPreset()
+{
+    return R"({"version": 1, "name": "small blast", "gas": [{"particles": 40, "dissipation": 0}],
+        "emitters": [
+            {"maxParticles": 64, "shape": "sphere", "size": 0.5, "emission": {"rate": 20}, "lifetime": 1,
+             "speed": 2, "radius": 0.25, "forces": {"curlStrength": 1, "curlRate": 0.3, "bounce": 0.5}},
+            {"maxParticles": 32, "emission": {"bursts": [{"time": 0.3, "count": 20}]}, "lifetime": 100}]})";
+}
+
 FxPresetId loadText(FxContext* context, const std::string& text)
 {
     FxPresetId preset{};
@@ -95,6 +104,34 @@ uint64_t ApiTest::hash() const
     uint64_t hash = 0;
     EXPECT_EQ(fxScene_GetStateHash(scene_, &hash), FX_OK) << fxGetLastErrorMessage();
     return hash;
+}
+
+uint64_t ApiTest::simulationHash() const
+{
+    uint64_t hash = 0;
+    EXPECT_EQ(fxScene_GetSimulationHash(scene_, &hash), FX_OK) << fxGetLastErrorMessage();
+    return hash;
+}
+
+std::vector<std::byte> ApiTest::savedState() const
+{
+    size_t size = 0;
+    EXPECT_EQ(fxScene_SaveState(scene_, nullptr, 0, &size), FX_OK) << fxGetLastErrorMessage();
+    std::vector<std::byte> state(size);
+    EXPECT_EQ(fxScene_SaveState(scene_, state.data(), state.size(), &size), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(size, state.size());
+    return state;
+}
+
+FxResult ApiTest::restore(const std::vector<std::byte>& state) const
+{
+    return fxScene_RestoreState(scene_, state.data(), state.size());
+}
+
+void ApiTest::play(int frames) const
+{
+    for (int frame = 0; frame < frames; ++frame)
+        ASSERT_EQ(fxScene_Update(scene_, kFrame), FX_OK) << fxGetLastErrorMessage();
 }
 
 uint64_t ApiTest::bytesInUse() const

@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace fx::test {
 
@@ -33,10 +35,15 @@ private:
     int64_t bytes_ = 0;
 };
 
+constexpr double kFrame = 1.0 / 60.0; ///< [s]
+
 /// 60 particles a second that live 1 s, for ever; falls under gravity.
 std::string fountainPreset();
 /// One burst of `count` particles that live `seconds`.
 std::string burstPreset(int count, double seconds);
+
+/// A gas, a burst and a fountain: little work, but everything that has a state.
+std::string smallBlastPreset();
 
 FxPresetId loadText(FxContext* context, const std::string& text);
 
@@ -51,13 +58,15 @@ protected:
     FxInstanceId addFountain();
     FxSceneStatistics statistics() const;
     uint64_t hash() const;
+    uint64_t simulationHash() const;
+    std::vector<std::byte> savedState() const;
+    FxResult restore(const std::vector<std::byte>& state) const;
+    void play(int frames) const;
     uint64_t bytesInUse() const; ///< [byte] of the context
 
     FxContext* context_ = nullptr;
     FxScene* scene_ = nullptr;
     FxPresetId fountain_{};
 };
-
-constexpr double kFrame = 1.0 / 60.0; ///< [s]
 
 } // namespace fx::test

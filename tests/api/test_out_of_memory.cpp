@@ -101,6 +101,52 @@ TEST(OutOfMemory, presetsScenesAndInstancesFailCleanlyAtEveryAllocationAndTheNex
     EXPECT_EQ(memory.blocks(), 0);
 }
 
+TEST(OutOfMemory, leavingASharedSimulationSavingAndRestoringFailCleanlyAtEveryAllocation)
+{
+    HostAllocator memory;
+    const FxContextDef def = contextDefOf(memory);
+    FxContext* context = nullptr;
+    ASSERT_EQ(fxCreateContext(&def, &context), FX_OK);
+    const FxSceneDef sceneDef = fxDefaultSceneDef();
+    FxScene* scene = nullptr;
+    ASSERT_EQ(fxCreateScene(context, &sceneDef, &scene), FX_OK);
+    FxInstanceDef instanceDef = fxDefaultInstanceDef();
+    instanceDef.preset = loadText(context, fx::test::smallBlastPreset());
+    FxInstanceId first{}, second{};
+    ASSERT_EQ(fxScene_CreateInstance(scene, &instanceDef, &first), FX_OK);
+    ASSERT_EQ(fxScene_CreateInstance(scene, &instanceDef, &second), FX_OK);
+    for (int frame = 0; frame < 10; ++frame)
+        ASSERT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+
+    /// Sweeps over an action that must change nothing while it fails.
+    const auto sweepUnchanged = [&](auto&& action) {
+        uint64_t before = 0;
+        EXPECT_EQ(fxScene_GetSimulationHash(scene, &before), FX_OK);
+        EXPECT_GT(sweep(memory,
+                        [&] {
+                            const FxResult result = action();
+                            memory.failFrom(0);
+                            uint64_t after = 0;
+                            EXPECT_EQ(fxScene_GetSimulationHash(scene, &after), FX_OK);
+                            if (result != FX_OK) {
+                                EXPECT_EQ(after, before);
+                            }
+                            return result;
+                        }),
+                  0u);
+    };
+    std::vector<std::byte> state(1 << 20);
+    size_t size = 0;
+    sweepUnchanged([&] { return fxScene_SaveState(scene, state.data(), state.size(), &size); });
+    FxInstanceParameters parameters = fxDefaultInstanceParameters();
+    parameters.wind[0] = 2.0f;
+    sweepUnchanged([&] { return fxScene_SetParameters(scene, second, &parameters); });
+    sweepUnchanged([&] { return fxScene_RestoreState(scene, state.data(), size); });
+    EXPECT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+    EXPECT_EQ(fxDestroyContext(context), FX_OK);
+    EXPECT_EQ(memory.blocks(), 0);
+}
+
 TEST(OutOfMemory, anUpdateWithoutMemoryStillTakesItsStepsAndRecovers)
 {
     HostAllocator memory;

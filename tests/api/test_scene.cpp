@@ -162,6 +162,7 @@ TEST_F(SceneApi, aFinishedInstanceIsNoLongerVisitedAndItsMemoryIsBack)
         def.destroyWhenFinished = 0;
         ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &kept), FX_OK);
         def.destroyWhenFinished = 1;
+        ++def.seed; // another one, so that they do not share a simulation
         ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &gone), FX_OK);
         ASSERT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
         EXPECT_EQ(statistics().particles, 2000u);

@@ -37,6 +37,49 @@ TEST(NaturalExp, keepsItsAccuracyForTinyArguments)
         ASSERT_NEAR(naturalExp(-x), std::exp(-x), 2.3e-16) << x;
 }
 
+TEST(NaturalLog, agreesWithTheLibraryOverAllMagnitudes)
+{
+    for (double x = 2.3e-308; x < 1e308; x *= 1.0371)
+        ASSERT_LE(std::abs(naturalLog(x) - std::log(x)), 5e-16 * std::abs(std::log(x))) << x;
+}
+
+TEST(NaturalLog, keepsItsRelativeAccuracyNearOne)
+{
+    EXPECT_EQ(naturalLog(1.0), 0.0);
+    for (double d = 1e-15; d < 0.9; d *= 1.31) {
+        ASSERT_LE(relative(naturalLog(1.0 + d), std::log(1.0 + d)), 5e-16) << d;
+        ASSERT_LE(relative(naturalLog(1.0 - d), std::log(1.0 - d)), 5e-16) << d;
+    }
+}
+
+TEST(NaturalLog, hasTheLimitsOfALogarithm)
+{
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(naturalLog(0.0), -infinity);
+    EXPECT_EQ(naturalLog(1e-310), -infinity);
+    EXPECT_EQ(naturalLog(infinity), infinity);
+    EXPECT_TRUE(std::isnan(naturalLog(-1.0)));
+    EXPECT_TRUE(std::isnan(naturalLog(std::numeric_limits<double>::quiet_NaN())));
+}
+
+TEST(Power, agreesWithTheLibrary)
+{
+    for (double x = 1e-30; x < 1e30; x *= 1.73)
+        for (const double y : {-2.0 / 3.0, -0.4, 0.3, 0.4, 2.0 / 3.0, 1.0, 1.4, 5.0 / 3.0, 6.15}) {
+            const double bound = 1e-15 * (2.0 + std::abs(y * std::log(x)));
+            ASSERT_LE(relative(power(x, y), std::pow(x, y)), bound) << x << " to the power " << y;
+        }
+}
+
+TEST(Power, isExactWhereItCanBe)
+{
+    EXPECT_EQ(power(0.0, 1.4), 0.0);
+    EXPECT_EQ(power(0.0, 0.0), 1.0);
+    EXPECT_EQ(power(1.0, -0.4), 1.0);
+    EXPECT_EQ(power(1e300, 0.0), 1.0);
+    EXPECT_TRUE(std::isfinite(power(1e300, 5.0)));
+}
+
 TEST(CubeRoot, agreesWithTheLibraryOverAllMagnitudes)
 {
     for (double x = 1e-290; x < 1e290; x *= 1.37) {

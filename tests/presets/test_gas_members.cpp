@@ -10,13 +10,14 @@ Fields fieldsOf(const fx::sim::SolverDef& solver)
     const auto& g = dynamic_cast<const fx::sim::GasDef&>(solver);
     Fields fields{double(g.particles),
                   g.start,
-                  g.radius,
-                  g.temperature,
+                  g.energy,
+                  double(g.material->name.size()),
                   g.pressureRatio,
                   g.soundSpeed,
                   g.jitter,
-                  g.initialSpeed,
-                  g.cooling,
+                  g.lumpiness,
+                  g.throwSpeed,
+                  g.entrainment,
                   g.radiation,
                   g.drag,
                   g.braking,
@@ -25,8 +26,7 @@ Fields fieldsOf(const fx::sim::SolverDef& solver)
                   g.curlStrength,
                   g.curlScale,
                   g.viscosity,
-                  g.sootYield,
-                  g.opticalDepth,
+                  g.opacity,
                   g.sootTemperature,
                   g.growth,
                   g.heat,
@@ -36,7 +36,7 @@ Fields fieldsOf(const fx::sim::SolverDef& solver)
                   g.anisotropy};
     add(fields, g.position);
     add(fields, g.initialBias);
-    add(fields, g.albedoOverSoot);
+    add(fields, g.smokeTint);
     return fields;
 }
 

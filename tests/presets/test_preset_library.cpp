@@ -50,7 +50,7 @@ TEST(PresetLibrary, holdsWhatItPromisesAndAllOfItIsValid)
     const std::vector<std::string> list = names();
     const std::set<std::string> found(list.begin(), list.end());
     EXPECT_EQ(found, (std::set<std::string>{"explosion", "gas-fire", "campfire", "smoke-column", "dust-burst",
-                                            "sparks", "steam"}));
+                                            "sparks", "steam", "burning-debris"}));
     for (const std::string& name : list) {
         const auto effect = load(name);
         ASSERT_TRUE(effect);

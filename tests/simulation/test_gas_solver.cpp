@@ -1,5 +1,5 @@
+#include "simulation/combustion/charge_plan.h"
 #include "simulation/sph/gas_def.h"
-#include "simulation/sph/gas_release.h"
 #include "simulation/sph/gas_solver.h"
 #include "tests/simulation/stage.h"
 
@@ -14,9 +14,12 @@ namespace blob = base::blob_column;
 
 namespace {
 
+/// 16 MJ of TNT products, four kilograms, high above any ground.
 std::unique_ptr<sim::GasDef> fireball(uint32_t particles = 200)
 {
     auto def = std::make_unique<sim::GasDef>();
+    def->material = sim::findMaterial("tnt");
+    def->energy = 16e6;
     def->particles = particles;
     def->position = {0, 20, 0};
     return def;
@@ -27,7 +30,7 @@ std::unique_ptr<sim::GasDef> pureGas(uint32_t particles)
 {
     auto def = fireball(particles);
     def->drag = def->braking = def->buoyancy = def->rolling = def->curlStrength = 0.0f;
-    def->cooling = def->radiation = 0.0f;
+    def->entrainment = def->radiation = def->lumpiness = 0.0f;
     return def;
 }
 
@@ -80,67 +83,103 @@ TEST(GasSolver, pressureConservesMomentum)
 {
     Stage stage;
     stage.add({}, pureGas(300));
-    stage.play(30);
+    stage.play(20);
     const Shape shape = shapeOf(stage);
     EXPECT_GT(shape.meanSpeed, 5.0);
-    EXPECT_LT(glm::length(shape.momentum), 1e-5 * 300.0 * shape.meanSpeed);
+    EXPECT_LT(glm::length(shape.momentum), 2e-3 * 300.0 * shape.meanSpeed); // block steps
 }
 
-TEST(GasSolver, compressedGasExpandsAndBalancedGasStays)
-{
-    Stage compressed;
-    compressed.add({}, pureGas(200));
-    compressed.play(12);
-    EXPECT_GT(shapeOf(compressed).radius, 2.5);
-
-    Stage balanced;
-    auto def = pureGas(200);
-    def->pressureRatio = 1.0f;
-    balanced.add({}, std::move(def));
-    balanced.play(12);
-    EXPECT_LT(shapeOf(balanced).radius, 1.6); // a little: its particles are not placed in perfect balance
-}
-
-TEST(GasSolver, aMetreOfHotGasMakesAFireballOfSeveralMetresThatRises)
+TEST(GasSolver, compressedGasExpandsAsFarAsItsHeatFillsAtThePressureOfTheAir)
 {
     Stage stage;
-    stage.add({}, fireball(270));
-    stage.play(3);
-    EXPECT_LT(shapeOf(stage).radius, 3.2);
-    stage.play(9);
-    const Shape ball = shapeOf(stage);
-    EXPECT_GT(ball.radius, 3.0);
-    EXPECT_GT(ball.temperature, 1800.0);
-    stage.play(24);
-    const Shape rolling = shapeOf(stage);
-    EXPECT_GT(rolling.radius, 3.5);
-    EXPECT_LT(rolling.radius, 6.0);
-    stage.play(54);
-    const Shape cloud = shapeOf(stage);
-    EXPECT_GT(cloud.center.y, ball.center.y + 2.0);
-    EXPECT_LT(cloud.temperature, 1100.0);
+    auto def = pureGas(500);
+    def->drag = 50.0f; // or it would swing past: nothing draws it back
+    const sim::ChargePlan plan = sim::planCharge(*def->material, def->energy, double(def->pressureRatio));
+    stage.add({}, std::move(def));
+    stage.play(240);
+    const double ratio = plan.pressure / sim::AmbientAir{}.pressure;
+    const double adiabatic = plan.radius * std::pow(ratio, 1.0 / (3.0 * plan.gamma));
+    EXPECT_GT(shapeOf(stage).radius, 0.9 * adiabatic);
+    EXPECT_LT(shapeOf(stage).radius, 2.2 * adiabatic); // particles of the surface see too little gas
 }
 
-TEST(GasSolver, everyParticleCoolsAndTheCloudOnlyRises)
+TEST(GasSolver, aLitreOfPetrolMakesTheFireballOfTheCorrelation)
 {
     Stage stage;
-    stage.add({}, fireball());
-    stage.step();
-    std::vector<float> last(200, 1e9f);
-    double height = 0;
-    for (int i = 0; i < 120; ++i) {
+    auto def = fireball(400);
+    def->material = sim::findMaterial("petrol");
+    def->energy = 32e6;
+    def->entrainment = 4.0f;
+    const sim::ChargePlan plan = sim::planCharge(*def->material, def->energy);
+    stage.add({}, std::move(def));
+    double widest = 0;
+    for (int i = 0; i < 90; ++i) {
         stage.step();
-        const base::SnapshotGroup& group = stage.look().group(0);
-        const auto temperature = group.column(blob::Temperature);
-        for (uint32_t k = 0; k < group.count(); ++k) {
-            ASSERT_LE(temperature[k], last[k]);
-            ASSERT_GE(temperature[k], sim::kAirTemperature);
-            last[k] = temperature[k];
-        }
-        const double now = Shape(group).center.y;
-        ASSERT_GE(now, height);
-        height = now;
+        const Shape shape = shapeOf(stage);
+        if (shape.temperature > 1000.0)
+            widest = std::max(widest, 2.0 * shape.radius);
     }
+    EXPECT_GT(widest, 0.5 * plan.fireballDiameter);
+    EXPECT_LT(widest, 2.0 * plan.fireballDiameter);
+    const Shape late = shapeOf(stage);
+    EXPECT_GT(late.center.y, 21.0); // it rises
+}
+
+TEST(GasSolver, fireNeedsAir)
+{
+    const auto hottest = [](float entrainment) {
+        Stage stage;
+        auto def = fireball(100);
+        def->material = sim::findMaterial("petrol");
+        def->entrainment = entrainment;
+        stage.add({}, std::move(def));
+        stage.play(30);
+        return shapeOf(stage).temperature;
+    };
+    EXPECT_LT(hottest(0.0f), 450.0); // petrol vapor as it boils, and what its burst rubs into it
+    EXPECT_GT(hottest(4.0f), 650.0);
+}
+
+TEST(GasSolver, radiationCoolsIt)
+{
+    const auto temperature = [](float radiation) {
+        Stage stage;
+        auto def = fireball(150);
+        def->radiation = radiation;
+        stage.add({}, std::move(def));
+        stage.play(60);
+        return shapeOf(stage).temperature;
+    };
+    EXPECT_LT(temperature(3.0f), 0.95 * temperature(0.0f));
+}
+
+TEST(GasSolver, qualityChoosesTheNumberOfParticles)
+{
+    Stage stage;
+    sim::InstanceStart start;
+    start.quality = sim::QualityLevel::Low;
+    const sim::Slot slot = stage.add(start, fireball(200));
+    stage.step();
+    EXPECT_EQ(stage.world().elementCount(slot), 50u);
+}
+
+TEST(GasSolver, slowerSoundNeedsFewerStepsAndGivesACloudOfSimilarSize)
+{
+    const auto run = [](float soundSpeed) {
+        Stage stage;
+        auto def = fireball(60);
+        def->soundSpeed = soundSpeed;
+        def->braking = 1.0f;
+        sim::InstanceStart start;
+        start.quality = sim::QualityLevel::Reference; // sound keeps the preset's speed
+        stage.add(start, std::move(def));
+        stage.play(40);
+        return std::pair(shapeOf(stage), stage.counters().particleSteps);
+    };
+    const auto [slow, fewSteps] = run(60.0f);
+    const auto [fast, manySteps] = run(0.0f);
+    EXPECT_LT(2 * fewSteps, manySteps);
+    EXPECT_LT(fast.radius, 2.0 * slow.radius); // the work of expansion is less
 }
 
 TEST(GasSolver, theGroundSpreadsItSideways)
@@ -168,6 +207,7 @@ TEST(GasSolver, aLoneParticleFliesStraight)
 {
     Stage stage;
     auto def = pureGas(1);
+    def->position = {0, 0, 0};
     def->initialBias = {3, 1, -2};
     def->jitter = 0.0f;
     stage.add({}, std::move(def));
@@ -175,7 +215,7 @@ TEST(GasSolver, aLoneParticleFliesStraight)
     const glm::vec3 first = Shape::row(stage.look().group(0), blob::PositionX, 0);
     stage.play(60);
     const glm::vec3 then = Shape::row(stage.look().group(0), blob::PositionX, 0);
-    EXPECT_LT(glm::length(then - first - glm::vec3(3, 1, -2)), 5e-5f);
+    EXPECT_LT(glm::length(then - first - glm::vec3(3, 1, -2)), 2e-4f);
 }
 
 TEST(GasSolver, theWindCarriesItAlong)
@@ -191,24 +231,11 @@ TEST(GasSolver, theWindCarriesItAlong)
     EXPECT_LT(glm::length(velocity - glm::vec3(3, 0, -1)), 1e-4f);
 }
 
-TEST(GasSolver, speedIsLimitedAndTheLimitReported)
-{
-    Stage stage;
-    auto def = pureGas(20);
-    def->buoyancy = 1e5f;
-    const float fastest = 20.0f * def->soundSpeed;
-    stage.add({}, std::move(def));
-    stage.play(10);
-    for (uint32_t i = 0; i < 20; ++i)
-        EXPECT_LE(glm::length(Shape::row(stage.look().group(0), blob::VelocityX, i)), 1.001f * fastest);
-    EXPECT_GT(stage.counters().clamped, 0u);
-}
-
 TEST(GasSolver, coincidentParticlesStayFinite)
 {
     Stage stage;
     auto def = fireball(64);
-    def->radius = 1e-20f;
+    def->energy = 1.0; // a ball of millimetres
     def->jitter = 0.0f;
     stage.add({}, std::move(def));
     stage.play(30);
@@ -217,18 +244,19 @@ TEST(GasSolver, coincidentParticlesStayFinite)
 
 TEST(GasSolver, extremePresetsStayFiniteAndBounded)
 {
-    for (const float wild : {1e3f, 1e6f, 1e12f}) {
+    for (const float wild : {1e2f, 1e4f, 1e8f}) {
         Stage stage;
         auto def = fireball(64);
+        def->energy = double(wild) * 1e6;
         def->pressureRatio = wild;
-        def->soundSpeed = wild;
+        def->soundSpeed = 0.0f;
         def->curlStrength = wild;
+        def->buoyancy = wild;
         def->viscosity = 4.0f;
         stage.add({}, std::move(def));
-        stage.play(5);
+        stage.play(3);
         expectFinite(stage);
-        EXPECT_LE(stage.counters().subSteps, 5u * sim::kMostGasSubSteps);
-        EXPECT_EQ(stage.counters().clamped > 0, wild > 1e4f); // what could not be simulated is reported
+        EXPECT_LE(stage.counters().subSteps, 3u * 65u * (sim::kMostGasSubSteps + 1));
     }
 }
 
@@ -318,26 +346,24 @@ TEST(GasSolver, smokeDissolvesToNothingWithoutASuddenEnd)
             last += double(sigma) / 30.0;
     }
     EXPECT_TRUE(stage.world().finished(slot, stage.now()));
-    EXPECT_LT(last, 0.01); // of 1.4 m2 at its thickest
+    EXPECT_LT(last, 0.05);
 }
 
-TEST(GasSolver, opticsStartAsAFlameOfTheWantedDepthAndEndAsSoot)
+TEST(GasSolver, theSmokeThatRemainsIsTheSootOfTheMaterial)
 {
     Stage stage;
     auto def = fireball(100);
-    def->opticalDepth = 2.0f;
-    def->sootYield = 3.0f;
     def->dissipation = 0.0f;
-    const double radius = double(def->growth) * double(sim::releaseSmoothing(*def));
+    def->entrainment = 8.0f;
+    const sim::Material& tnt = *def->material;
+    const double soot = def->energy / tnt.nominalEnergy * tnt.smokeSoot; // [kg]
     stage.add({}, std::move(def));
-    stage.step();
-    const base::SnapshotGroup& flame = stage.look().group(0);
-    EXPECT_NEAR(double(flame.column(blob::CrossSection)[0]), 2.0 * 3.14159265 * radius * radius / 3.5, 1e-4);
-    EXPECT_EQ(flame.column(blob::FireShare)[0], 1.0f);
-    stage.play(480);
-    const base::SnapshotGroup& smoke = stage.look().group(0);
-    EXPECT_NEAR(smoke.column(blob::CrossSection)[0], 3.0f, 1e-3f);
-    EXPECT_EQ(smoke.column(blob::FireShare)[0], 0.0f);
+    stage.play(600);
+    double area = 0;
+    for (const float sigma : stage.look().group(0).column(blob::CrossSection))
+        area += double(sigma);
+    EXPECT_NEAR(area, soot * sim::kSootOptics.extinction, 0.35 * area);
+    EXPECT_EQ(stage.look().group(0).column(blob::FireShare)[0], 0.0f);
 }
 
 TEST(GasSolver, boundsHoldEveryBlobWithItsRadius)

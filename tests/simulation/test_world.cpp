@@ -24,6 +24,8 @@ public:
     void publish(const base::GroupInfo&, base::FrameSnapshot&) const override {}
     bool finished(base::Ticks tick) const override { return tick >= kStep; }
     uint32_t elementCount() const override { return 3; }
+    void save(sim::StateWriter&) const override {}
+    void restore(sim::StateReader&) override {}
 
 private:
     Recording* recording_;
@@ -32,7 +34,7 @@ private:
 struct RecordingDef final : sim::SolverDef
 {
     explicit RecordingDef(Recording* target) : recording(target) {}
-    std::unique_ptr<sim::Solver> create(const base::SnapshotSchema&,
+    std::unique_ptr<sim::Solver> create(const base::SnapshotSchema&, const sim::Quality&,
                                         std::pmr::memory_resource*) const override
     {
         return std::make_unique<RecordingSolver>(recording);
@@ -44,7 +46,7 @@ struct RecordingDef final : sim::SolverDef
 /// Fails when its solver is made.
 struct FailingDef final : sim::SolverDef
 {
-    std::unique_ptr<sim::Solver> create(const base::SnapshotSchema&,
+    std::unique_ptr<sim::Solver> create(const base::SnapshotSchema&, const sim::Quality&,
                                         std::pmr::memory_resource*) const override
     {
         throw std::bad_alloc();

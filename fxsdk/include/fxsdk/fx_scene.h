@@ -19,6 +19,19 @@
 extern "C" {
 #endif
 
+/// How much work an instance may cost: a gas has more particles, more neighbors and a finer sound at a higher
+/// quality. Emitters are as their preset says at every quality. Chosen for the life of an instance, so that
+/// the same calls give the same bits; what views draw is set in fx_view.h.
+typedef enum FxQuality
+{
+    FX_QUALITY_DEFAULT = 0,          ///< of an instance: the scene's; of a scene: medium
+    FX_QUALITY_LOW = 1,              ///< about a quarter of the particles
+    FX_QUALITY_MEDIUM = 2,           ///< what presets are written for
+    FX_QUALITY_HIGH = 3,             ///< about twice the particles
+    FX_QUALITY_REFERENCE = 4,        ///< four times the particles and sound at full speed; not for games
+    FX_QUALITY_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never valid
+} FxQuality;
+
 /// How a scene starts. Fill with fxDefaultSceneDef(), then change what you need.
 typedef struct FxSceneDef
 {
@@ -30,13 +43,16 @@ typedef struct FxSceneDef
     float gravity[3];      ///< [m/s2] world, each within +-1000; default 0, -9.80665, 0
     uint32_t hasGround;    ///< 1 (default): presets with a ground have it in their plane y = 0, turned with
                            ///< them; 0: none
+    uint32_t quality;      ///< FxQuality of instances that do not choose; default FX_QUALITY_DEFAULT
+    uint32_t shareInstances; ///< 1 (default): instances that come out alike are simulated once, see
+                             ///< fxScene_CreateInstance; 0: one by one. Results are the same.
 } FxSceneDef;
 
 /// The definition of a scene that steps 60 times a second.
 static inline FxSceneDef fxDefaultSceneDef(void)
 {
     FxSceneDef def = {sizeof(FxSceneDef),      65536, FX_TICKS_PER_SECOND / 60, FX_TICKS_PER_SECOND / 15,
-                      {0.0f, -9.80665f, 0.0f}, 1};
+                      {0.0f, -9.80665f, 0.0f}, 1,     FX_QUALITY_DEFAULT,       1};
     return def;
 }
 
@@ -70,6 +86,8 @@ typedef struct FxInstanceDef
     float wind[3];       ///< [m/s] see FxInstanceParameters; default 0
     uint32_t emitting;   ///< see FxInstanceParameters; default 1
     uint32_t destroyWhenFinished; ///< 1: the id turns stale when the effect has ended; default 0
+    uint32_t quality;             ///< FxQuality, for life; default FX_QUALITY_DEFAULT: the scene's
+    uint32_t reserved;            ///< must be 0
 } FxInstanceDef;
 
 /// The definition of an instance that starts at once at the world's origin; only its preset is missing.
@@ -116,6 +134,11 @@ typedef struct FxSceneStatistics
     int64_t
         droppedTicks; ///< [tick] time given up since the scene was created because it exceeded maxFrameTicks
     uint64_t updateAllocations; ///< allocations from the context's allocator during the last fxScene_Update
+    int64_t debtTicks; ///< [tick] time that gases did not simulate because a step would have taken too many
+                       ///< sub-steps; the sum over all gases
+    uint64_t subSteps; ///< sub-steps of gases
+    uint32_t simulations; ///< existing; fewer than instancesActive when some of those share one
+    uint32_t reserved;    ///< 0
 } FxSceneStatistics;
 
 /// Creates an empty scene at time 0; the calling thread becomes its scene thread. [any]
@@ -135,8 +158,10 @@ FX_API FxResult fxDestroyScene(FxScene* scene);
 FX_API FxResult fxScene_AdoptThread(FxScene* scene);
 
 /// Adds an instance; it wakes when the scene clock reaches def->startTick, or with the next step when that is
-/// past. An instance that starts with the next step takes its memory here, a later one when it wakes. [scene
-/// thread]
+/// past. An instance that starts with the next step takes its memory here, a later one when it wakes.
+/// Instances of one preset with the same start, seed, quality, intensity and emission, and with the same
+/// gravity and wind once these are turned and scaled into their own space, share one simulation until one of
+/// them is changed: they are stepped once, and shown each at its own place. [scene thread]
 /// @param outInstance receives the id; untouched on failure
 /// @return FX_OK, FX_ERROR_STALE_ID (preset), FX_ERROR_INVALID_ARGUMENT (not finite or out of range),
 ///         FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (maxInstances), FX_ERROR_OUT_OF_MEMORY,
@@ -163,14 +188,15 @@ FX_API FxResult fxScene_GetInstanceState(FxScene* scene, FxInstanceId instance, 
 /// @param position [m] world, each within +-1e9
 /// @param rotation unit quaternion x, y, z, w (length within 1e-3 of 1; it is normalized)
 /// @param scale    [1] 1e-3..1e3
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
+///         FX_ERROR_OUT_OF_MEMORY (an instance that turns out of the others' simulation needs its own)
 FX_API FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, const double position[3],
                                      const float rotation[4], float scale);
 
 /// Changes the parameters of an instance; they hold from the next step on. [scene thread]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null or out of range), FX_ERROR_VERSION (structSize),
 /// FX_ERROR_STALE_ID,
-///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (as fxScene_SetTransform)
 FX_API FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance,
                                       const FxInstanceParameters* parameters);
 
@@ -193,6 +219,46 @@ FX_API FxResult fxScene_GetStatistics(FxScene* scene, FxSceneStatistics* ioStati
 /// @param outHash receives the hash; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_GetStateHash(FxScene* scene, uint64_t* outHash);
+
+/// Hashes everything that decides what later steps give: instances with their parameters, and the whole state
+/// of every simulation, seen or not. Scenes with equal hashes that get equal calls stay equal. It depends on
+/// neither the frame rate, the number of threads nor on what is shared. For tests and replays. [scene thread]
+/// @param outHash receives the hash; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
+/// FX_ERROR_OUT_OF_MEMORY
+FX_API FxResult fxScene_GetSimulationHash(FxScene* scene, uint64_t* outHash);
+
+/// Writes the state of a scene: clock, counters, instances with their ids and parameters, simulations.
+/// Presets, views and held snapshots are not in it. It can be restored by the same version of the library on
+/// a machine with the same byte order. [scene thread]
+/// @param buffer   receives the state; null asks for the size alone
+/// @param capacity [byte] of buffer
+/// @param outSize  [byte] of the state; it changes with every update; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_CAPACITY (the message says how many bytes it takes),
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
+FX_API FxResult fxScene_SaveState(FxScene* scene, void* buffer, size_t capacity, size_t* outSize);
+
+/// Brings a scene back to a saved state, from where it continues bit for bit. The scene must have the step,
+/// gravity and ground of the one that was saved, and the presets of the saved instances must be loaded in its
+/// context or be in use in the scene. All instances become those of the state: in the scene that was saved,
+/// ids are valid again that were valid then; another scene finds its ids with fxScene_GetInstances. Views
+/// show the restored step; held snapshots stay as they are. [scene thread]
+/// @param state the bytes of fxScene_SaveState; not kept
+/// @param size  [byte]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, or another step, gravity or ground), FX_ERROR_PARSE (not a
+///         state, cut or damaged), FX_ERROR_VERSION (saved by another version), FX_ERROR_NOT_FOUND (a
+///         preset), FX_ERROR_CAPACITY (maxInstances), FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
+///         FX_ERROR_OUT_OF_MEMORY. A failure leaves the scene as it was.
+FX_API FxResult fxScene_RestoreState(FxScene* scene, const void* state, size_t size);
+
+/// Lists the instances of a scene. [scene thread]
+/// @param outInstances receives the ids, in an order that equal calls repeat; null asks for the number alone
+/// @param capacity     ids that outInstances has room for
+/// @param outCount     instances of the scene; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_CAPACITY (nothing is written), FX_ERROR_WRONG_THREAD,
+///         FX_ERROR_RE_ENTRANT
+FX_API FxResult fxScene_GetInstances(FxScene* scene, FxInstanceId* outInstances, uint32_t capacity,
+                                     uint32_t* outCount);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,207 @@
+// bench_pair_loops [--size=N] [--repeat=N] [--neighbors=N] [--reach=R] [--widest] [--validate-hash=0x...]
+//
+// Times the sums over neighbors of a jittered periodic lattice of N^3 particles that stand in the order of
+// the tree: density with its search for the support, and forces. One thread, CPU time of the fastest of
+// `repeat` runs, instruction sets interleaved (or only the widest). Supports start 1 % beside their solution,
+// as a time step leaves them. Prints one JSON object per case. The hash of all results must be the same for
+// every instruction set.
+#include "foundation/math/hash.h"
+#include "foundation/simd/instruction_set.h"
+#include "fxsdk/cli/json_line.h"
+#include "tests/simulation/pair_loops/gas_stage.h"
+
+#include <algorithm>
+#include <array>
+#include <cinttypes>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <string>
+
+namespace {
+
+using namespace fx;
+
+struct Options
+{
+    uint32_t size = 32;
+    uint32_t repeat = 7;
+    double neighbors = 58;
+    double reach = 0.05;
+    bool onlyWidest = false;
+    uint64_t validateHash = 0;
+};
+
+double cpuSeconds()
+{
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+template <class T>
+uint64_t hashOf(uint64_t hash, const std::vector<T>& column)
+{
+    return base::hashBytes(hash, column.data(), column.size() * sizeof(T));
+}
+
+/// What one kind of sum has taken and given.
+struct Case
+{
+    double seconds = 1e30;
+    uint64_t hash = 0;
+    uint64_t pairs = 0; ///< neighbors that contributed
+};
+
+/// Operations of one pair in one evaluation, counted in the text; roots and divisions count as one.
+constexpr double kMassFlops = 20;
+constexpr double kAllFlops = 75;
+constexpr double kForceFlops = 110;
+
+template <class T>
+Case timeDensity(const test::GasStage<T>& stage, const Options& options)
+{
+    sim::DensityRules rules;
+    rules.neighbors = options.neighbors;
+    test::Densities<T> at = stage.template sized<test::Densities<T>>();
+    const test::Densities<T> solved = stage.densities(rules, 1.0);
+    at.support = solved.support;
+    stage.sumDensity(rules, options.reach, at); // now by place
+    const std::vector<T> solution = at.support;
+    for (uint32_t i = 0; i < stage.count(); ++i)
+        at.support[i] = solution[i] * T(0.99 + 0.02 * test::chance(9, i, 0));
+    Case result;
+    const double start = cpuSeconds();
+    stage.sumDensity(rules, options.reach, at);
+    result.seconds = cpuSeconds() - start;
+    for (const auto* column : {&at.support, &at.density, &at.correction, &at.divergence, &at.curl})
+        result.hash = hashOf(result.hash, *column);
+    result.hash = hashOf(result.hash, at.neighbors);
+    for (const uint32_t n : at.neighbors)
+        result.pairs += n;
+    return result;
+}
+
+template <class T>
+Case timeForces(const test::GasStage<T>& stage)
+{
+    test::Forces<T> at = stage.template sized<test::Forces<T>>();
+    Case result;
+    const double start = cpuSeconds();
+    stage.sumForces({}, at);
+    result.seconds = cpuSeconds() - start;
+    for (const auto* column : {&at.ax, &at.ay, &at.az, &at.heating, &at.signalSpeed, &at.fastestNeighbor})
+        result.hash = hashOf(result.hash, *column);
+    for (const uint32_t n : at.pairs)
+        result.pairs += n;
+    return result;
+}
+
+const cli::Machine& machine()
+{
+    static const cli::Machine read = cli::readMachine();
+    return read;
+}
+
+std::string hexadecimal(uint64_t hash)
+{
+    char text[19];
+    std::snprintf(text, sizeof text, "0x%016" PRIx64, hash);
+    return text;
+}
+
+void print(const char* name, const char* precision, base::InstructionSet set, const Options& options,
+           const Case& c, double entries, double flops)
+{
+    const double particles = double(options.size) * options.size * options.size;
+    cli::printJsonLine(cli::withMachine(
+        {{"name", name},
+         {"variant", std::string(precision) + "." + std::string(base::instructionSetName(set))},
+         {"particles", uint64_t(particles)},
+         {"threads", 1},
+         {"repeat", options.repeat},
+         {"ns_per_particle", 1e9 * c.seconds / particles},
+         {"ns_per_pair", 1e9 * c.seconds / double(c.pairs)},
+         {"pairs_per_particle", double(c.pairs) / particles},
+         {"entries_per_particle", entries / particles},
+         {"gflops", 1e-9 * flops * entries / c.seconds},
+         {"hash", hexadecimal(c.hash)}},
+        machine()));
+}
+
+/// Runs all instruction sets of one precision. False when their results differ.
+template <class T>
+bool runPrecision(const char* precision, const Options& options, uint64_t& ioHash)
+{
+    test::Gas gas = test::latticeGas(options.size, 0.3, options.neighbors);
+    test::stir(gas);
+    const test::GasStage<T> stage(gas, test::unitBox(sim::AxisKind::Periodic), options.reach);
+    const base::InstructionSet widest = base::instructionSet();
+    const uint32_t first = options.onlyWidest ? uint32_t(widest) : 0;
+    std::array<Case, 4> density, forces;
+    for (uint32_t run = 0; run < options.repeat; ++run) {
+        for (uint32_t set = first; set <= uint32_t(widest); ++set) {
+            base::limitInstructionSet(base::InstructionSet(set));
+            const Case d = timeDensity(stage, options), f = timeForces(stage);
+            density[set] = d.seconds < density[set].seconds ? d : density[set];
+            forces[set] = f.seconds < forces[set].seconds ? f : forces[set];
+        }
+    }
+    bool isSame = true;
+    const double entries = double(stage.entries());
+    for (uint32_t set = first; set <= uint32_t(widest); ++set) {
+        print("pair_loops.density", precision, base::InstructionSet(set), options, density[set], entries,
+              kMassFlops + kAllFlops);
+        print("pair_loops.forces", precision, base::InstructionSet(set), options, forces[set], entries,
+              kForceFlops);
+        isSame = isSame && density[set].hash == density[first].hash && forces[set].hash == forces[first].hash;
+    }
+    ioHash = base::hashWord(base::hashWord(ioHash, density[first].hash), forces[first].hash);
+    return isSame;
+}
+
+bool read(const char* argument, const char* name, std::string& outValue)
+{
+    const size_t length = std::strlen(name);
+    if (std::strncmp(argument, name, length) != 0)
+        return false;
+    outValue = argument + length;
+    return true;
+}
+
+} // namespace
+
+int main(int count, char** arguments)
+{
+    Options options;
+    for (int i = 1; i < count; ++i) {
+        std::string value;
+        if (read(arguments[i], "--size=", value))
+            options.size = uint32_t(std::strtoul(value.c_str(), nullptr, 10));
+        else if (read(arguments[i], "--repeat=", value))
+            options.repeat = uint32_t(std::strtoul(value.c_str(), nullptr, 10));
+        else if (read(arguments[i], "--neighbors=", value))
+            options.neighbors = std::strtod(value.c_str(), nullptr);
+        else if (read(arguments[i], "--reach=", value))
+            options.reach = std::strtod(value.c_str(), nullptr);
+        else if (!std::strcmp(arguments[i], "--widest"))
+            options.onlyWidest = true;
+        else if (read(arguments[i], "--validate-hash=", value))
+            options.validateHash = std::strtoull(value.c_str(), nullptr, 16);
+        else {
+            std::fprintf(stderr, "bench_pair_loops: unknown argument '%s'\n", arguments[i]);
+            return 2;
+        }
+    }
+    machine(); // before the instruction sets are limited
+    uint64_t hash = 0;
+    const bool sameFloats = runPrecision<float>("float", options, hash);
+    const bool isSame = runPrecision<double>("double", options, hash) && sameFloats;
+    if (!isSame)
+        std::fprintf(stderr, "bench_pair_loops: instruction sets differ in their results\n");
+    const bool isExpected = options.validateHash == 0 || options.validateHash == hash;
+    if (!isExpected)
+        std::fprintf(stderr, "bench_pair_loops: hash is 0x%016" PRIx64 "\n", hash);
+    return isSame && isExpected ? 0 : 1;
+}

@@ -1,0 +1,40 @@
+/// @file instruction_set.h
+/// Which vector instructions the simulation uses. All give the same bits; they differ in speed.
+///
+/// Kernels are compiled once for each instruction set with Highway and chosen at run time. Call
+/// applyInstructionSetLimit() before HWY_DYNAMIC_DISPATCH: the first call of the process reads FXSDK_SIMD.
+/// The limit belongs to Highway as the process has loaded it: a host that uses the same library shares it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace fx::base {
+
+/// In order of width.
+enum class InstructionSet : uint8_t
+{
+    Scalar, ///< what every processor of the architecture has, one number at a time
+    Sse4,
+    Avx2,
+    Avx512
+};
+
+/// As FXSDK_SIMD spells it: scalar, sse4, avx2, avx512.
+std::string_view instructionSetName(InstructionSet set);
+std::optional<InstructionSet> instructionSetOf(std::string_view name);
+
+/// Once in a process, applies the limit of the environment variable FXSDK_SIMD; an unknown value is ignored.
+/// Cheap and thread-safe.
+void applyInstructionSetLimit();
+/// What came of FXSDK_SIMD: empty when it is unset or was understood, otherwise a sentence for the user.
+std::string_view instructionSetNote();
+
+/// The one in use: the widest that both the processor and the limit allow.
+InstructionSet instructionSet();
+
+/// Replaces the limit, for tests and benchmarks. Not while kernels run.
+void limitInstructionSet(InstructionSet widest);
+
+} // namespace fx::base

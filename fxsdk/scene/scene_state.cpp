@@ -1,0 +1,278 @@
+// How a scene is saved, restored and hashed.
+#include "fxsdk/scene/scene.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fx::scene {
+
+namespace {
+
+constexpr base::Ticks kLatestTick = INT64_MAX / 4; ///< no clock and no start goes beyond it
+constexpr double kFarthest = 1e9;                  ///< [m]
+
+void saveSetup(sim::StateWriter& writer, const InstanceSetup& setup)
+{
+    writer.value(setup.seed);
+    writer.value(setup.startTick);
+    writer.vector(setup.placement.position);
+    writer.rotation(setup.placement.rotation);
+    writer.value(setup.placement.scale);
+    writer.value(setup.parameters.intensity);
+    writer.vector(setup.parameters.wind);
+    writer.flag(setup.parameters.emitting);
+    writer.flag(setup.destroyWhenFinished);
+    writer.value(setup.quality);
+}
+
+/// All but the effect.
+InstanceSetup restoreSetup(sim::StateReader& reader)
+{
+    InstanceSetup setup;
+    setup.seed = reader.value<uint64_t>();
+    setup.startTick = reader.value<base::Ticks>(0, kLatestTick, "an instance starts out of range");
+    setup.placement.position = reader.doubleVector();
+    setup.placement.rotation = reader.rotation();
+    setup.placement.scale = reader.value<float>(1e-3f, 1e3f, "an instance's scale is out of range");
+    setup.parameters.intensity = reader.value<float>(0.0f, 1e3f, "an intensity is out of range");
+    setup.parameters.wind = reader.vector();
+    setup.parameters.emitting = reader.flag();
+    setup.destroyWhenFinished = reader.flag();
+    setup.quality =
+        reader.value(sim::QualityLevel::Low, sim::QualityLevel::Reference, "a quality is out of range");
+    const glm::dvec3 distance = glm::abs(setup.placement.position);
+    reader.require(std::max({distance.x, distance.y, distance.z}) <= kFarthest,
+                   "an instance is too far away");
+    const glm::quat& q = setup.placement.rotation;
+    const float length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    reader.require(length2 > 0.99f && length2 < 1.01f, "a rotation is not a unit quaternion");
+    return setup;
+}
+
+void saveCounters(sim::StateWriter& writer, const SceneCounters& counters)
+{
+    for (const uint64_t count : {counters.steps, counters.wakeFailures, counters.refusedUpdates,
+                                 counters.work.born, counters.work.dropped, counters.work.particleSteps,
+                                 counters.work.neighborPairs, counters.work.subSteps, counters.work.clamped})
+        writer.value(count);
+    writer.value(counters.droppedTicks);
+    writer.value(counters.work.debt);
+}
+
+SceneCounters restoreCounters(sim::StateReader& reader)
+{
+    SceneCounters counters;
+    for (uint64_t* count : {&counters.steps, &counters.wakeFailures, &counters.refusedUpdates,
+                            &counters.work.born, &counters.work.dropped, &counters.work.particleSteps,
+                            &counters.work.neighborPairs, &counters.work.subSteps, &counters.work.clamped})
+        *count = reader.value<uint64_t>();
+    counters.droppedTicks = reader.value<base::Ticks>(0, INT64_MAX, "dropped time is negative");
+    counters.work.debt = reader.value<base::Ticks>(0, kLatestTick, "time debt is out of range");
+    return counters;
+}
+
+} // namespace
+
+struct Scene::Restored
+{
+    explicit Restored(const Scene& scene)
+        : instances(scene.memory_, scene.options_.maxInstances), dormant(scene.memory_),
+          active(scene.memory_), world(scene.schema_, scene.tasks_, scene.memory_, scene.options_.environment,
+                                       scene.options_.shareInstances)
+    {}
+
+    base::ClockState clock;
+    SceneCounters counters;
+    uint64_t nextSerial = 0;
+    IdTable<Instance> instances;
+    activation::WakeQueue dormant;
+    activation::ActiveList active;
+    sim::World world;
+};
+
+Scene::Effects Scene::effects() const
+{
+    Effects found;
+    instances_.forEach([&](uint32_t, const Instance& instance) {
+        if (std::find(found.begin(), found.end(), instance.setup.effect) == found.end())
+            found.push_back(instance.setup.effect);
+    });
+    return found;
+}
+
+void Scene::saveRules(sim::StateWriter& writer) const
+{
+    writer.value(options_.stepTicks);
+    writer.vector(options_.environment.gravity);
+    writer.flag(options_.environment.hasGround);
+}
+
+void Scene::saveInstances(sim::StateWriter& writer) const
+{
+    const Effects used = effects();
+    writer.value(uint32_t(used.size()));
+    for (const std::shared_ptr<const sim::EffectDef>& effect : used)
+        writer.value(effect->fingerprint);
+    writer.value(nextSerial_);
+    instances_.save(writer, [&](const Instance& instance) {
+        const auto at = std::find(used.begin(), used.end(), instance.setup.effect);
+        writer.value(uint32_t(at - used.begin()));
+        writer.value(instance.serial);
+        writer.value(instance.state);
+        saveSetup(writer, instance.setup);
+    });
+}
+
+void Scene::save(sim::StateWriter& writer) const
+{
+    saveRules(writer);
+    saveInstances(writer);
+    const base::ClockState clock = clock_.state();
+    writer.value(clock.steps);
+    writer.value(clock.now);
+    writer.value(clock.remainder);
+    saveCounters(writer, counters_);
+    world_.save(active_.slots(), writer);
+}
+
+uint64_t Scene::simulationHash() const
+{
+    sim::StateHasher hasher;
+    saveRules(hasher);
+    saveInstances(hasher);
+    hasher.value(clock_.simulated());
+    hasher.value(world_.hash(active_.slots()));
+    return hasher.hash();
+}
+
+base::Status Scene::restore(std::span<const std::byte> bytes, const FindEffect& findEffect)
+{
+    sim::StateReader reader(bytes);
+    Restored state(*this);
+    checkRules(reader);
+    const Effects effects = restoreEffects(reader, findEffect);
+    restoreInstances(reader, effects, state);
+    state.clock = restoreClock(reader);
+    const SceneCounters counters = restoreCounters(reader);
+    state.counters = counters;
+    restoreWorld(reader, state);
+    reader.require(reader.left() == 0, "the state goes on after its end");
+    if (reader.ok())
+        take(state);
+    return reader.status();
+}
+
+void Scene::checkRules(sim::StateReader& reader) const
+{
+    sim::StateBuffer expected(memory_);
+    saveRules(expected);
+    std::vector<std::byte> found(expected.bytes().size());
+    reader.values(std::span<std::byte>(found));
+    if (!std::equal(found.begin(), found.end(), expected.bytes().begin()))
+        reader.fail({base::Code::InvalidArgument,
+                     "the state is of a scene with another stepTicks, gravity or hasGround"});
+}
+
+Scene::Effects Scene::restoreEffects(sim::StateReader& reader, const FindEffect& findEffect) const
+{
+    const Effects here = effects();
+    const uint32_t count = reader.value<uint32_t>();
+    Effects found;
+    for (uint32_t i = 0; i < count && reader.ok(); ++i) {
+        const uint64_t fingerprint = reader.value<uint64_t>();
+        const auto isWanted = [&](const std::shared_ptr<const sim::EffectDef>& effect) {
+            return effect->fingerprint == fingerprint;
+        };
+        const auto at = std::find_if(here.begin(), here.end(), isWanted);
+        found.push_back(at != here.end() ? *at : findEffect(fingerprint));
+        if (!found.back())
+            reader.fail({base::Code::NotFound,
+                         "the state needs a preset that is not loaded, or not as it was; load it first"});
+    }
+    return found;
+}
+
+base::ClockState Scene::restoreClock(sim::StateReader& reader) const
+{
+    base::ClockState clock;
+    const base::Ticks step = options_.stepTicks;
+    clock.steps = reader.value<int64_t>(0, kLatestTick / step, "the clock is out of range");
+    clock.now = reader.value<base::Ticks>(clock.steps * step, clock.steps * step + step - 1,
+                                          "the clock is ahead of its steps or behind them");
+    clock.remainder = reader.value<double>(-0.5, 0.5, "the clock's remainder is out of range");
+    return clock;
+}
+
+void Scene::restoreInstances(sim::StateReader& reader, const Effects& effects, Restored& state) const
+{
+    state.nextSerial = reader.value<uint64_t>();
+    state.instances.restore(reader, [&] {
+        const uint32_t effect = reader.value<uint32_t>();
+        Instance instance;
+        instance.serial = reader.value<uint64_t>();
+        instance.state = reader.value(InstanceState::Dormant, InstanceState::Finished,
+                                      "the state of an instance is out of range");
+        instance.setup = restoreSetup(reader);
+        reader.require(effect < effects.size(), "an instance has no effect");
+        reader.require(instance.serial < state.nextSerial, "an instance is from the future");
+        if (reader.ok())
+            instance.setup.effect = effects[effect];
+        return instance;
+    });
+}
+
+void Scene::restoreWorld(sim::StateReader& reader, Restored& state) const
+{
+    if (!reader.ok())
+        return;
+    std::vector<std::pair<uint64_t, uint32_t>> bySerial; // and index
+    state.instances.forEach([&](uint32_t index, const Instance& instance) {
+        bySerial.push_back({instance.serial, index});
+    });
+    std::sort(bySerial.begin(), bySerial.end());
+    const auto isSame = [](const auto& a, const auto& b) { return a.first == b.first; };
+    reader.require(std::adjacent_find(bySerial.begin(), bySerial.end(), isSame) == bySerial.end(),
+                   "two instances were created at the same time");
+
+    std::vector<sim::World::Entry> entries;
+    std::vector<uint32_t> awake;
+    for (const auto& [serial, index] : bySerial) {
+        const Instance& instance = state.instances.at(index);
+        if (instance.state == InstanceState::Active) {
+            entries.push_back({instance.setup.effect, startOf(state.instances, index)});
+            awake.push_back(index);
+        }
+        if (instance.state == InstanceState::Dormant)
+            state.dormant.add({instance.setup.startTick, serial, index});
+        if (instance.state == InstanceState::Finished)
+            ++state.counters.finished;
+    }
+    std::vector<sim::Slot> slots(entries.size());
+    state.world.restore(entries, reader, slots);
+    state.active.reserve(bySerial.size());
+    for (size_t i = 0; i < awake.size() && reader.ok(); ++i) {
+        Instance& instance = state.instances.at(awake[i]);
+        instance.slot = slots[i];
+        state.active.insert(instance.serial, awake[i], instance.slot);
+    }
+}
+
+/// Makes a restored state that of the scene, and shows it. Throws only while nothing has changed.
+void Scene::take(Restored& state)
+{
+    const base::Ticks simulated = state.clock.steps * options_.stepTicks;
+    state.world.publish(state.active.slots(), ring_.beginWrite(simulated));
+    clock_.restore(state.clock);
+    counters_ = state.counters;
+    nextSerial_ = state.nextSerial;
+    std::swap(instances_, state.instances);
+    std::swap(dormant_, state.dormant);
+    std::swap(active_, state.active);
+    world_.swap(state.world);
+    std::lock_guard lock(presentation_);
+    ring_.publish();
+    ring_.forgetOlder();
+    show(simulated, clock_.interpolation());
+}
+
+} // namespace fx::scene

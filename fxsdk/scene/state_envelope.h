@@ -1,0 +1,29 @@
+/// @file state_envelope.h
+/// What is around a saved state: a header by which foreign, older, cut and damaged ones are recognized.
+///
+/// magic u32 · version of the SDK u32 · layout u32 · 0 u32 · size of the state u64 · checksum u64 · the
+/// state. In the byte order of the machine; another order shows in the magic number.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace fx::scene {
+
+constexpr size_t kStateHeaderBytes = 32;
+
+/// Raised with every change of what a state consists of between two versions of the SDK.
+constexpr uint32_t kStateLayout = 1;
+
+/// @param sdkVersion as FX_VERSION
+/// @param out room for kStateHeaderBytes
+void writeStateHeader(std::span<const std::byte> state, uint32_t sdkVersion, std::byte* out);
+
+/// The state inside of `bytes`.
+/// @return Parse (not a state, cut or damaged), Version (of another SDK or layout)
+base::Result<std::span<const std::byte>> openState(std::span<const std::byte> bytes, uint32_t sdkVersion);
+
+} // namespace fx::scene

@@ -1,0 +1,71 @@
+/// @file charge_plan.h
+/// What a charge of stated energy is when the effect begins, and what fireball to expect of it.
+///
+/// @formula charge-plan
+/// Mass, ball of gas at the start and fireball, all from the energy.
+///
+/// symbol   unit      meaning
+///   E       J         energy of the charge; W kg of TNT are 4.184e6 W
+///   e       J/kg      nominal energy of the material
+///   m       kg        mass
+///   e_0     J/kg      heat at the start
+///   r, T    J/(kg K), K  gas constant and temperature of the gas at the start
+///   p       Pa        pressure at the start
+///   V, R    m3, m     volume and radius of the ball
+///   gamma   1         ratio of heats that makes the ball hold exactly the heat e_0 m
+///   D, t    m, s      diameter and duration of the fireball
+/// @derivation
+///   m = E / e                                                                          (1)
+///   The products have spread, without doing work yet, to the pressure p: V = m r T / p   (2)
+///   p V / (gamma - 1) = e_0 m gives gamma = 1 + r T / e_0                              (3)
+///   without heat at the start the ball is at the air's pressure and gamma that of air   (4)
+///   D = k_D m^(1/3), t = k_t m^(1/3); above the mass of large clouds t = k_l m^(1/6)    (5)
+///   so every length and time of one material grows as E^(1/3) (Hopkinson).
+/// @source    [ROB81] [CCPS10] for (5); (2)-(4) are elementary (ideal gas)
+/// @deviation (2) starts from a ball at moderate pressure instead of the solid charge: the work that the
+/// products
+///            do on the first air is left to the ball, so that the blast keeps the charge's energy
+/// @valid     E > 0 and finite; anything else gives a plan of mass 0
+/// @accuracy  p V / (gamma - 1) = e_0 m to 1e-14; scaling to 1e-14
+/// @tests     tests/simulation/combustion/test_charge_plan.cpp
+#pragma once
+
+#include "simulation/combustion/materials.h"
+
+namespace fx::sim {
+
+/// The air that a charge meets.
+struct AmbientAir
+{
+    double temperature = 293.15; ///< [K]
+    double pressure = 101325.0;  ///< [Pa]
+};
+
+struct ChargePlan
+{
+    double mass = 0;             ///< [kg] of the material
+    double radius = 0;           ///< [m] of the ball of gas at the start
+    double temperature = 0;      ///< [K]
+    double pressure = 0;         ///< [Pa]
+    double density = 0;          ///< [kg/m3]
+    double gamma = 0;            ///< [1]
+    double rimSpeed = 0;         ///< [m/s] at the surface, growing linearly from the center
+    double heat = 0;             ///< [J] present at the start, above the air's
+    double fuel = 0;             ///< [J] still to be released by burning
+    double fireballDiameter = 0; ///< [m] expected
+    double fireballDuration = 0; ///< [s] expected
+};
+
+/// @param energy [J]
+/// @param pressureRatio [1] pressure of the ball over the air's, clamped to 1..1e4; ignored without heat at
+/// the start
+ChargePlan planCharge(const Material& material, double energy, double pressureRatio = 40.0,
+                      const AmbientAir& air = {});
+
+/// [J] of so many kilograms of TNT.
+constexpr double energyOfTnt(double kilograms)
+{
+    return kTntEquivalent * kilograms;
+}
+
+} // namespace fx::sim

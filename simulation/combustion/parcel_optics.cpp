@@ -1,0 +1,36 @@
+#include "simulation/combustion/parcel_optics.h"
+
+#include "foundation/math/elementary.h"
+
+namespace fx::sim {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr float kDark = 800.0f;    // [K] of the first visible glow
+constexpr float kBright = 1200.0f; // [K] where soot outshines daylight on smoke
+
+} // namespace
+
+ParcelOptics opticsOf(const Material& material, const FireParcel& parcel)
+{
+    const double soot =
+        parcel.ownMass * (material.flameSoot * parcel.burning + material.smokeSoot * parcel.burnt); // (1)
+    const double salt = parcel.ownMass * material.smokeSalt * parcel.burnt;
+    const double bySoot = kSootOptics.extinction * soot;
+    const double bySalt = kSaltOptics.extinction * salt;
+    ParcelOptics optics;
+    optics.extinction = bySoot + bySalt; // (2)
+    const double scattering = kSootOptics.albedo * bySoot + kSaltOptics.albedo * bySalt;
+    optics.absorption = optics.extinction - scattering;
+    optics.albedo = optics.extinction > 0.0 ? scattering / optics.extinction : 0.0;         // (3)
+    optics.fireShare = double(base::smoothStep(kDark, kBright, float(parcel.temperature))); // (4)
+    return optics;
+}
+
+double emissivityOf(const Material& material, const FireParcel& parcel, double radius)
+{
+    return 1.0 - base::naturalExp(-opticsOf(material, parcel).absorption / (kPi * radius * radius));
+}
+
+} // namespace fx::sim

@@ -1,0 +1,55 @@
+/// @file fragment_store.h
+/// The fragments of one instance, as columns of fixed capacity.
+#pragma once
+
+#include "foundation/memory/column.h"
+#include "foundation/time/ticks.h"
+#include "simulation/state/state_reader.h"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+
+namespace fx::sim {
+
+namespace fragment_column {
+enum : size_t
+{
+    X, ///< [m] local
+    Y,
+    Z,
+    VelocityX, ///< [m/s]
+    VelocityY,
+    VelocityZ,
+    Size,        ///< [m] diameter
+    Temperature, ///< [K]
+    Hottest,     ///< [K] temperature at the start
+    Due,         ///< [m] way to the next blob of smoke
+    Count
+};
+}
+
+/// Rows in the order of their numbers.
+struct FragmentStore
+{
+    FragmentStore(std::pmr::memory_resource* memory, size_t capacity);
+
+    size_t capacity() const { return number.capacity(); }
+    float* at(size_t column) { return attributes[column].data(); }
+    const float* at(size_t column) const { return attributes[column].data(); }
+
+    /// Removes the rows whose end is not after `tick`; the others keep their order.
+    void removeDead(base::Ticks tick);
+
+    void save(StateWriter& writer) const;
+    void restore(StateReader& reader);
+
+    uint32_t count = 0;
+    base::Column<uint32_t> number;  ///< 0 .. those released
+    base::Column<uint32_t> trailed; ///< blobs of smoke left so far
+    base::Column<base::Ticks> dies; ///< local time
+    std::array<base::Column<float>, fragment_column::Count> attributes;
+};
+
+} // namespace fx::sim

@@ -1,0 +1,97 @@
+/// @file fragments_def.h
+/// What a preset says about a burst of incandescent solids. All lengths in the instance's local space.
+#pragma once
+
+#include "foundation/math/curve.h"
+#include "simulation/solver.h"
+
+#include <glm/vec3.hpp>
+
+#include <string>
+
+namespace fx::sim {
+
+/// Into which directions fragments fly.
+enum class FragmentShape : uint8_t
+{
+    Sphere,
+    Hemisphere, ///< upwards
+    Cone,       ///< within `angle` of +Y
+};
+
+/// How many fragments there are of each size; see fragment_sizes.h.
+enum class SizeLaw : uint8_t
+{
+    Mott,
+    PowerLaw,
+};
+
+/// What the fragments are made of and how the air meets them.
+struct FragmentMatter
+{
+    float density = 7850.0f;      ///< [kg/m3] > 0; steel
+    float specificHeat = 490.0f;  ///< [J/(kg K)] > 0
+    float emissivity = 0.85f;     ///< [1] 0 .. 1; oxidized steel
+    float dragCoefficient = 1.0f; ///< [1] >= 0; tumbling, a smooth ball has 0.47
+    float gravity = 1.0f;         ///< [1] multiple of the world's
+    float bounce = 0.35f;         ///< [1] restitution at the ground, 0 .. 1
+    float friction = 0.4f;        ///< [1] tangential velocity lost at a bounce, 0 .. 1
+};
+
+/// The smoke that a hot fragment leaves behind: one blob every `spacing` of its way.
+struct TrailDef
+{
+    float spacing = 0.2f;             ///< [m] 0 leaves none
+    float idle = 0.0f;                ///< [m/s] a slower fragment smokes as if it were this fast
+    uint32_t maxBlobs = 4096;         ///< alive at once
+    float coldest = 650.0f;           ///< [K] a fragment below it smokes no more
+    base::Range lifetime{1.5f, 3.0f}; ///< [s] > 0
+    base::Range radius{0.06f, 0.1f};  ///< [m] at birth, behind the largest fragment
+    float opticalDepth = 0.5f;  ///< [1] along a diameter at birth, behind a fragment as hot as at the start
+    float temperature = 900.0f; ///< [K] at birth
+    float mixing = 5.0f;        ///< [1/s] rate of approach to the air's temperature
+    float spreading = 0.02f;    ///< [m2/s] how the square of the radius grows
+    float inherited = 0.15f;    ///< [1] share of the fragment's velocity
+    float drag = 4.0f;          ///< [1/s] rate at which the velocity approaches the air's
+    float buoyancy = 1.0f;      ///< [1] multiple of Archimedes' force
+    float curlStrength = 0.35f; ///< [m/s] turbulence
+    float curlScale = 0.7f;     ///< [m]
+    float curlRate = 0.4f;      ///< [1/s]
+    base::ColorCurve albedoOverLife{std::array{0.35f, 0.34f, 0.33f}};
+    float detailAmount = 0.6f; ///< see blob_constant
+    float detailScale = 1.2f;
+    float anisotropy = 0.3f;
+};
+
+/// A burst of fragments at one moment.
+struct FragmentsDef final : SolverDef
+{
+    std::string name;
+    uint32_t count = 100;      ///< 1 .. 8192
+    float start = 0.0f;        ///< [s]
+    glm::vec3 position{0.0f};  ///< [m] center of the ball in which they begin
+    float originRadius = 0.2f; ///< [m] of that ball
+    FragmentShape shape = FragmentShape::Sphere;
+    float angle = 0.5235988f;        ///< [rad] half angle of the cone
+    base::Range speed{10.0f, 30.0f}; ///< [m/s]
+
+    SizeLaw sizeLaw = SizeLaw::Mott;
+    base::Range size{0.004f, 0.05f}; ///< [m] smallest and largest diameter
+    float meanSize = 0.015f;         ///< [m] Mott: diameter of the fragment of mean mass
+    float exponent = 2.5f;           ///< [1] power law: N(larger than d) ~ d^-exponent, > 0
+
+    base::Range temperature{1300.0f, 1700.0f}; ///< [K] at the start
+    base::Range lifetime{6.0f, 9.0f};          ///< [s] until the fragment is taken away
+    FragmentMatter matter;
+    TrailDef trail;
+
+    float visibleSize = 1.0f;   ///< [1] radius drawn over the fragment's
+    float shutter = 0.0166667f; ///< [s]
+    float heat = 0.0f;          ///< see EmitterDef
+
+    std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
+                                   std::pmr::memory_resource* memory) const override;
+    uint32_t capacity() const override { return count + (trail.spacing > 0.0f ? trail.maxBlobs : 0); }
+};
+
+} // namespace fx::sim

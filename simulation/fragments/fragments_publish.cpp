@@ -1,0 +1,99 @@
+#include "simulation/fragments/fragments_solver.h"
+
+#include "foundation/math/elementary.h"
+#include "simulation/blob_writer.h"
+#include "simulation/emitters/emitter_def.h"
+#include "simulation/motion/blob_optics.h"
+
+#include <algorithm>
+
+namespace fx::sim {
+
+namespace {
+
+namespace blob = base::blob_column;
+namespace constant = base::blob_constant;
+
+constexpr float kSolid = 6.0f;          // [1] optical depth of what nothing shines through
+constexpr uint64_t kTrail = 1ull << 39; // marks ids of smoke
+constexpr float kDark = 750.0f;         // [K] first visible glow
+constexpr float kBright = 1050.0f;      // [K] bright in daylight
+
+float fireShare(float temperature)
+{
+    return base::smoothStep(kDark, kBright, temperature);
+}
+
+} // namespace
+
+void FragmentsSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+{
+    if (kind_ == base::kNoKind)
+        return;
+    publishFragments(base, snapshot);
+    publishTrail(base, snapshot);
+}
+
+void FragmentsSolver::publishFragments(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+{
+    namespace column = fragment_column;
+    BlobWriter writer(snapshot, base, kind_, fragments_.count, uint32_t(fragments_.capacity()));
+    writer.constant(constant::Layer) = float(uint32_t(base::MediaLayer::Dust));
+    writer.constant(constant::DetailAmount) = 0.0f;
+    writer.constant(constant::DetailScale) = 1.0f;
+    writer.constant(constant::Anisotropy) = 0.0f;
+    writer.constant(constant::Shutter) = def_.shutter;
+    for (size_t k = 0; k < 3; ++k) {
+        writer.copy(blob::PositionX + k, fragments_.at(column::X + k));
+        writer.copy(blob::VelocityX + k, fragments_.at(column::VelocityX + k));
+        writer.fill(blob::AlbedoR + k, 1.0f - def_.matter.emissivity);
+        writer.fill(blob::EmissionR + k, 0.0f);
+    }
+    writer.fill(blob::Age, float(base::toSeconds(std::max(now_ - start_, base::Ticks(0)))));
+    for (uint32_t i = 0; i < fragments_.count; ++i) {
+        const float temperature = fragments_.at(column::Temperature)[i];
+        const float radius = 0.5f * def_.visibleSize * fragments_.at(column::Size)[i];
+        writer.column(blob::Radius)[i] = radius;
+        writer.column(blob::CrossSection)[i] = crossSectionOf(kSolid, radius);
+        writer.column(blob::Temperature)[i] = temperature;
+        writer.column(blob::FireShare)[i] = fireShare(temperature);
+        writer.column(blob::Heat)[i] = def_.heat * std::max(temperature - kAirTemperature, 0.0f);
+        writer.ids()[i] = blobId(base.solver, fragments_.number[i]);
+    }
+    writer.closeBounds();
+}
+
+void FragmentsSolver::publishTrail(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+{
+    namespace column = trail_column;
+    const TrailDef& def = def_.trail;
+    BlobWriter writer(snapshot, base, kind_, trail_.count, uint32_t(trail_.capacity()));
+    writer.constant(constant::Layer) = float(uint32_t(base::MediaLayer::Smoke));
+    writer.constant(constant::DetailAmount) = def.detailAmount;
+    writer.constant(constant::DetailScale) = def.detailScale;
+    writer.constant(constant::Anisotropy) = def.anisotropy;
+    writer.constant(constant::Shutter) = 0.0f;
+    for (size_t k = 0; k < 3; ++k) {
+        writer.copy(blob::PositionX + k, trail_.at(column::X + k));
+        writer.copy(blob::VelocityX + k, trail_.at(column::VelocityX + k));
+        writer.fill(blob::EmissionR + k, 0.0f);
+    }
+    for (uint32_t i = 0; i < trail_.count; ++i) {
+        const float age = float(base::toSeconds(now_ - trail_.born[i]));
+        const float life = float(base::toSeconds(trail_.dies[i] - trail_.born[i]));
+        const SmokeLook look = smokeLook(def, trail_.at(column::Radius)[i], age, life);
+        const std::array<float, 3> albedo = def.albedoOverLife.at(age / life);
+        writer.column(blob::Radius)[i] = look.radius;
+        writer.column(blob::CrossSection)[i] = trail_.at(column::CrossSection)[i] * look.share;
+        writer.column(blob::Temperature)[i] = look.temperature;
+        writer.column(blob::FireShare)[i] = fireShare(look.temperature);
+        writer.column(blob::Heat)[i] = def_.heat * (look.temperature - kAirTemperature);
+        writer.column(blob::Age)[i] = age;
+        for (size_t k = 0; k < 3; ++k)
+            writer.column(blob::AlbedoR + k)[i] = albedo[k];
+        writer.ids()[i] = blobId(base.solver, kTrail | trail_.id[i]);
+    }
+    writer.closeBounds();
+}
+
+} // namespace fx::sim

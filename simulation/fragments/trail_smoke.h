@@ -1,0 +1,88 @@
+/// @file trail_smoke.h
+/// How the smoke of a fragment is left behind, moves and fades.
+///
+/// @formula smoke-trail
+/// Blobs at equal distances along the way, and what becomes of each.
+///
+/// symbol   unit   meaning
+///   L       m      way of a fragment during a step, at least idle speed times its length
+///   D       m      way left to the next blob
+///   h       m      spacing
+///   f_j     1      share of the step after which blob j is left
+///   R_0, R  m      radius at birth, at age a
+///   K       m2/s   spreading
+///   T_0, T  K      temperature at birth, at age a; T_a of the air
+///   q       1/s    mixing
+///   s       1      how much of the smoke is still drawn
+///   l       s      lifetime
+/// @derivation
+///   Blob j = 0, 1, ... is left after f_j = (D + j h) / L, while that is at most 1               (1)
+///   and D <- D + n h - L after n of them: the sum over steps is the way, however it is cut      (2)
+///   By diffusion the square of the radius grows linearly, R^2 = R_0^2 + K a                     (3)
+///   By mixing T = T_a + (T_0 - T_a) exp(-q a)                                                    (4)
+///   The cross section stays (soot is conserved) and is faded out, s = (1 - (a/l)^2)^2             (5)
+///   A blob rises by (T / T_a - 1) g, with the mean of (4) over the step, and follows the air by
+///   formula linear-drag-step                                                                     (6)
+/// @source    own; (1)-(4) are elementary
+/// @deviation the way within a step is its chord
+/// @valid     h > 0
+/// @accuracy  spacing along the way: float rounding times the number of blobs; equal for all steps up to the
+///            difference of chord and path, relative (turn of the velocity in a step)^2 / 24
+/// @tests     tests/simulation/fragments/test_fragments_solver.cpp,
+/// tests/simulation/fragments/test_trail_smoke.cpp
+#pragma once
+
+#include "simulation/fragments/fragment_store.h"
+#include "simulation/fragments/fragments_def.h"
+#include "simulation/fragments/trail_store.h"
+#include "simulation/motion/curl_noise.h"
+#include "simulation/motion/ground_contact.h"
+
+#include <array>
+
+namespace fx::sim {
+
+/// What all blobs of a step have in common.
+struct TrailStep
+{
+    TrailStep(const FragmentsDef& definition, const StepContext& context);
+
+    const FragmentsDef& def;
+    const StepContext& step;
+    base::Ticks end; ///< local time at which the step ends
+    CurlNoise noise;
+};
+
+/// Where a fragment was at both ends of what it flew of a step.
+struct FragmentWay
+{
+    MotionState from;
+    MotionState to;
+    float length;    ///< [m] L, as counted for smoke
+    float due;       ///< [m] D before the step
+    uint32_t blobs;  ///< left during the step
+    uint32_t stored; ///< of these, those for which there is room
+    uint32_t first;  ///< row of the first of them
+};
+
+/// n of (2): how many blobs a way leaves.
+uint32_t blobsAlong(float length, float due, float spacing);
+
+/// Fills the rows of the smoke that fragment `row` leaves on `way`, as they are at the end of the step.
+/// @param begin local time at which the way begins
+void leaveSmoke(const TrailStep& step, const FragmentStore& fragments, uint32_t row, const FragmentWay& way,
+                base::Ticks begin, TrailStore& trail);
+
+/// Moves the rows [begin, end) through the whole step.
+void moveSmoke(const TrailStep& step, TrailStore& trail, uint32_t begin, uint32_t end);
+
+/// How a blob of radius `radius` at birth looks at an age.
+struct SmokeLook
+{
+    float radius;      ///< [m] (3)
+    float temperature; ///< [K] (4)
+    float share;       ///< [1] (5)
+};
+SmokeLook smokeLook(const TrailDef& def, float radius, float age, float lifetime);
+
+} // namespace fx::sim

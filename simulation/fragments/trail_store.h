@@ -1,0 +1,59 @@
+/// @file trail_store.h
+/// The blobs of smoke behind the fragments of one instance, as columns of fixed capacity.
+#pragma once
+
+#include "foundation/memory/column.h"
+#include "foundation/time/ticks.h"
+#include "simulation/state/state_reader.h"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+
+namespace fx::sim {
+
+namespace trail_column {
+enum : size_t
+{
+    X, ///< [m] local
+    Y,
+    Z,
+    VelocityX, ///< [m/s]
+    VelocityY,
+    VelocityZ,
+    Radius,       ///< [m] at birth
+    CrossSection, ///< [m2] at birth
+    Count
+};
+}
+
+/// Which blob of which fragment: the same for any length of the steps.
+constexpr uint64_t trailId(uint32_t fragment, uint32_t blob)
+{
+    return (uint64_t(fragment) << 24) | (blob & 0xFFFFFFu);
+}
+
+/// Rows in the order in which they were left.
+struct TrailStore
+{
+    TrailStore(std::pmr::memory_resource* memory, size_t capacity);
+
+    size_t capacity() const { return id.capacity(); }
+    float* at(size_t column) { return attributes[column].data(); }
+    const float* at(size_t column) const { return attributes[column].data(); }
+
+    /// Removes the rows whose end is not after `tick`; the others keep their order.
+    void removeDead(base::Ticks tick);
+
+    void save(StateWriter& writer) const;
+    /// @param now local time of the state
+    void restore(StateReader& reader, base::Ticks now);
+
+    uint32_t count = 0;
+    base::Column<uint64_t> id;      ///< trailId
+    base::Column<base::Ticks> born; ///< local time
+    base::Column<base::Ticks> dies; ///< local time
+    std::array<base::Column<float>, trail_column::Count> attributes;
+};
+
+} // namespace fx::sim

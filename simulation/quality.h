@@ -1,0 +1,47 @@
+/// @file quality.h
+/// How much work an instance may cost. Chosen when the instance is created and fixed for its life, so that
+/// equal calls give equal bits.
+///
+/// Gases follow it. Emitters do not: their particle counts are the author's, they cost little beside a gas,
+/// and fewer but denser particles would change the picture.
+#pragma once
+
+#include <cstdint>
+
+namespace fx::sim {
+
+enum class QualityLevel : uint8_t
+{
+    Low,
+    Medium, ///< what presets are written for
+    High,
+    Reference, ///< for measuring the others
+};
+
+/// What a level means for solvers. The steps are choices, to be judged by measured errors: `fx accuracy`.
+struct Quality
+{
+    QualityLevel level = QualityLevel::Medium;
+    float particles = 1.0f;    ///< [1] multiple of the preset's particle count, > 0
+    float neighbors = 58.0f;   ///< [1] nominal number of neighbors, 4/3 pi n H^3
+    float radiusFloor = 0.25f; ///< [1] smallest radius of a gas particle over its radius at release; 0: none
+    float flowMach = 0.3f; ///< [1] highest Mach number of the flow when the speed of sound is reduced to take
+                           ///< longer steps; 0: sound keeps its speed
+};
+
+constexpr Quality qualityOf(QualityLevel level)
+{
+    switch (level) {
+    case QualityLevel::Low:
+        return {level, 0.25f, 40.0f, 0.5f, 0.3f};
+    case QualityLevel::Medium:
+        break;
+    case QualityLevel::High:
+        return {level, 2.0f, 58.0f, 0.1f, 0.15f};
+    case QualityLevel::Reference:
+        return {level, 4.0f, 93.0f, 0.0f, 0.0f};
+    }
+    return {};
+}
+
+} // namespace fx::sim

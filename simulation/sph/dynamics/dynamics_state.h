@@ -1,0 +1,136 @@
+/// @file dynamics_state.h
+/// What the parts of the gas dynamics share. Internal to this folder.
+#pragma once
+
+#include "simulation/sph/dynamics/gas_columns.h"
+#include "simulation/sph/dynamics/gas_dynamics.h"
+#include "simulation/sph/dynamics/step_clock.h"
+#include "simulation/sph/neighbors/neighbor_lists.h"
+#include "simulation/sph/neighbors/particle_tree.h"
+#include "simulation/sph/pair_loops/density_loop.h"
+#include "simulation/sph/pair_loops/force_loop.h"
+
+#include <atomic>
+#include <limits>
+
+namespace fx::sim {
+
+constexpr double kEndless = 1e30; ///< [s] step of a particle that nothing moves
+
+/// After heat or new particles the flow is rougher than steps can know that have not yet seen it: the first
+/// ones are this part of the usual, and grow by two each time. Fitted by the energy error of a point blast in
+/// 24^3 particles with block steps: 1.9e-2 for 1, 5e-3 for 1/2, 3.2e-3 for 1/4, 3.0e-3 for 1/8.
+constexpr float kFirstSteps = 0.25f;
+
+/// Heat that arrives later.
+struct DelayedHeat
+{
+    double seconds; ///< [s] from the beginning of the next frame
+    double joules;
+    uint32_t id;
+    uint32_t isGiven; ///< 1 between that moment and the end of the frame
+};
+
+/// Lists of neighbors and what they are still good for.
+struct ListState
+{
+    bool valid = false;
+    double margin = 0;  ///< [1] as built
+    double moved = 0;   ///< [1] farthest way of a particle since, in units of its support
+    double growth = 0;  ///< [1] largest growth of a support since
+    double perStep = 0; ///< [1] `moved` of the last sub-step
+};
+
+template <class T>
+struct DynamicsState
+{
+    DynamicsState(const GasDynamicsDef& definition, std::pmr::memory_resource* memory);
+
+    uint32_t placeOf(uint32_t particle) const { return place[particle]; }
+    std::span<const uint32_t> activePlaces() const { return active.first(activeCount); }
+    double seconds(double ticks) const { return ticks * tick; }
+
+    GasDynamicsDef def;
+    DensityRules densityRules;
+    ForceRules forceRules;
+    double pressureScale = 1; ///< [1] of GasDynamics::setPressureScale
+    double soundScale = 1;    ///< [1] its square root
+
+    uint32_t count = 0;
+    GasColumns<T> gas;
+    base::Column<uint32_t> place; ///< of each id
+    bool fresh = false;           ///< particles without a density are among them
+    bool stale = false;           ///< accelerations do not belong to the state: something came from outside
+    bool shaken = false;          ///< by heat or new particles: the first steps are to be short
+    bool heatedNow = false;       ///< heat has arrived at this tick
+    std::pmr::vector<DelayedHeat> delayed; ///< by time
+
+    ParticleTree<T> tree;
+    bool treeIsSorted = false;
+    bool mustRecoverTree = false; ///< restored: the tree is to be made from sortedX..sortedSupport
+    NeighborLists<T> lists;
+    ListState listState;
+    bool listsServeActive = false;                            ///< every active place has a list
+    base::Column<T> sortedX, sortedY, sortedZ, sortedSupport; ///< as the tree was sorted by, to sort it again
+    base::Column<T> nowX, nowY, nowZ;                         ///< [m] positions now, for the tree
+    base::Column<GasRecord<T>> records;                       ///< particles as their neighbors see them now
+
+    uint64_t now = 0;              ///< [tick] of the frame
+    double tick = 0;               ///< [s]
+    base::Column<uint32_t> active; ///< places whose step ends now, ascending
+    uint32_t activeCount = 0;
+    base::Column<uint32_t> blockCounts; ///< active places of each block of kBlock places
+    base::Column<uint64_t> blockEnds;   ///< [tick] first end after `now` of a step in each block
+    base::Column<T> blockSpeeds;        ///< [1/s2] largest (|v| / H)^2 in each block
+    std::atomic<uint64_t> nextEnd{0};   ///< [tick] when the next steps end
+    double fastest = 0;                 ///< [1/s] largest |v| / H
+
+    base::Column<uint8_t> wantsReach;
+    base::Column<uint32_t> neighbors;
+    base::Column<uint32_t> pairs;
+    base::Column<T> heating;
+    base::Column<T> signalSpeed;
+    base::Column<T> fastestNeighbor;
+    base::Column<uint8_t> levelLimit; ///< longest step that the neighborhood allows
+
+    std::atomic<uint64_t> clamped{0};
+    uint64_t pairSum = 0;
+    uint64_t searches = 0;
+};
+
+/// Largest and smallest of values that threads offer; the order in which they come does not matter.
+template <class N>
+void raiseTo(std::atomic<N>& largest, N value)
+{
+    N seen = largest.load(std::memory_order_relaxed);
+    while (seen < value && !largest.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+    }
+}
+template <class N>
+void lowerTo(std::atomic<N>& smallest, N value)
+{
+    N seen = smallest.load(std::memory_order_relaxed);
+    while (value < seen && !smallest.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+    }
+}
+
+/// [m5/(kg s2)] Push of a particle on its neighbors.
+template <class T>
+T pushOf(const DynamicsState<T>& s, T correction, T pressure, T density)
+{
+    const T excess = pressure - T(s.def.ambientPressure);
+    const T drawn = s.def.tension ? excess : std::max(excess, T(0));
+    return T(s.pressureScale) * correction * drawn / (density * density);
+}
+
+/// [m] Largest support that periodic sides and pairs of walls allow.
+double largestInDomain(const GasDynamicsDef& def);
+
+constexpr uint32_t kBlock = 1024; ///< places of a block in sums and searches over all particles
+
+inline uint32_t blockCount(uint32_t count)
+{
+    return (count + kBlock - 1) / kBlock;
+}
+
+} // namespace fx::sim

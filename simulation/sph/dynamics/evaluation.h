@@ -1,0 +1,27 @@
+/// @file evaluation.h
+/// Density, state and forces of the particles whose step ends now.
+#pragma once
+
+#include "simulation/sph/dynamics/dynamics_state.h"
+
+namespace fx::sim {
+
+/// Supports, densities and velocity gradients of the active places. Lists of all active places exist
+/// afterwards and cover their supports.
+template <class T>
+void evaluateDensity(DynamicsState<T>& state, base::TaskRunner& tasks);
+
+/// Densities of `places` from the lists that exist. True when a support wants to grow beyond them.
+template <class T>
+bool sumDensities(DynamicsState<T>& state, std::span<const uint32_t> places, double reach,
+                  base::TaskRunner& tasks);
+
+/// Pressure, switch and limiter of the active places from their new densities, into columns and records.
+template <class T>
+void evaluateState(DynamicsState<T>& state, base::TaskRunner& tasks);
+
+/// Accelerations, heating and longest steps of the active places.
+template <class T>
+void evaluateForces(DynamicsState<T>& state, base::TaskRunner& tasks);
+
+} // namespace fx::sim

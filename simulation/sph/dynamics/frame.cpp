@@ -1,0 +1,173 @@
+#include "simulation/sph/dynamics/frame.h"
+
+#include "simulation/sph/dynamics/evaluation.h"
+#include "simulation/sph/dynamics/first_density.h"
+#include "simulation/sph/dynamics/heat_input.h"
+#include "simulation/sph/dynamics/neighborhood.h"
+#include "simulation/sph/dynamics/prediction.h"
+#include "simulation/sph/dynamics/step_limiter.h"
+#include "simulation/sph/dynamics/stepping.h"
+
+#include <algorithm>
+
+namespace fx::sim {
+
+namespace {
+
+constexpr double kMostLoosened = 1.0; ///< of the tree before particles are sorted again
+/// A frame is at most this many of its first shortest steps long, so that steps can shrink a thousand times a
+/// thousand times before they meet the tick; longer times are cut into frames.
+constexpr double kMostSteps = 1 << 20;
+
+/// Particles where they are now, sorted when searches have become slow.
+template <class T>
+void lookAround(DynamicsState<T>& s, base::TaskRunner& tasks)
+{
+    predict(s, tasks);
+    if (s.treeIsSorted && s.tree.loosened() <= kMostLoosened)
+        return;
+    sortParticles(s, tasks);
+    predict(s, tasks);
+}
+
+/// Keeps account of how far particles have moved since their lists were made.
+template <class T>
+void countWay(ListState& lists, const DynamicsState<T>& s, uint64_t ticks)
+{
+    lists.perStep = s.fastest * double(ticks) * s.tick;
+    lists.moved += lists.perStep * (1.0 + lists.growth);
+}
+
+template <class T>
+void evaluateActive(DynamicsState<T>& s, base::TaskRunner& tasks)
+{
+    evaluateDensity(s, tasks);
+    evaluateState(s, tasks);
+    evaluateForces(s, tasks);
+}
+
+/// Gives out the heat that is due. What has just been evaluated and closed is evaluated again: the new step
+/// begins with the forces of the heat, the old one has ended without.
+template <class T>
+void heatNow(DynamicsState<T>& s, base::TaskRunner& tasks)
+{
+    for (const uint32_t i : s.activePlaces())
+        s.gas.begin[i] = s.now;
+    giveDelayedHeat(s);
+    evaluateState(s, tasks);
+    evaluateForces(s, tasks);
+}
+
+/// Everybody ends the step at `end`.
+template <class T>
+void truncateAll(DynamicsState<T>& s, uint64_t end)
+{
+    for (uint32_t i = 0; i < s.count; ++i)
+        if (s.gas.end[i] > end)
+            shortenStep(s, i, end);
+}
+
+/// One sub-step, to the next end of anybody's step. @return active particles
+template <class T>
+uint32_t subStep(DynamicsState<T>& s, bool isLast, base::TaskRunner& tasks)
+{
+    const uint64_t before = s.now;
+    const uint64_t next = std::min(s.nextEnd.load(), nextHeat(s));
+    if (isLast || (s.def.steps == StepScheme::Global && next < s.nextEnd))
+        truncateAll(s, next);
+    s.now = next;
+    s.heatedNow = false;
+    wakeHeated(s);
+    lookAround(s, tasks);
+    countWay(s.listState, s, s.now - before);
+    evaluateActive(s, tasks);
+    closeSteps(s, tasks);
+    uint32_t evaluated = s.activeCount;
+    if (s.heatedNow) {
+        heatNow(s, tasks);
+        evaluated += s.activeCount;
+    }
+    if (s.now == kFrameTicks || isLast) {
+        limitWantedSteps(s, tasks);
+        return evaluated;
+    }
+    openSteps(s, tasks);
+    if (wakeNeighbors(s, tasks) > 0) {
+        evaluateActive(s, tasks);
+        closeSteps(s, tasks);
+        openSteps(s, tasks);
+        evaluated += s.activeCount;
+    }
+    return evaluated;
+}
+
+/// Ticks and lists of a moment between frames.
+template <class T>
+void rest(DynamicsState<T>& s)
+{
+    s.now = 0;
+    s.activeCount = 0;
+    s.listsServeActive = false;
+    s.listState = {};
+    for (uint32_t i = 0; i < s.count; ++i)
+        s.gas.begin[i] = s.gas.end[i] = s.gas.drifted[i] = 0;
+}
+
+} // namespace
+
+template <class T>
+void prepare(DynamicsState<T>& s, base::TaskRunner& tasks)
+{
+    if (s.count == 0 || !(s.fresh || s.stale))
+        return;
+    s.tick = 0;
+    rest(s);
+    if (s.fresh)
+        findFirstDensities(s, tasks);
+    s.heatedNow = s.shaken;
+    lookAround(s, tasks); // everybody is active: steps of no length end now
+    evaluateActive(s, tasks);
+    limitWantedSteps(s, tasks);
+    rest(s);
+    s.fresh = s.stale = s.shaken = false;
+}
+
+template <class T>
+AdvanceReport runFrames(DynamicsState<T>& s, double seconds, base::TaskRunner& tasks)
+{
+    AdvanceReport report;
+    s.clamped = 0;
+    s.pairSum = s.searches = 0;
+    if (s.mustRecoverTree)
+        recoverTree(s, tasks);
+    prepare(s, tasks);
+    double left = seconds;
+    while (left > 0 && s.count > 0 && report.subSteps < s.def.maxSubSteps) {
+        const double frame = std::min(left, kMostSteps * shortestStep(s, tasks));
+        openFrame(s, frame, tasks);
+        while (s.now < kFrameTicks && report.subSteps < s.def.maxSubSteps) {
+            const bool isLast = report.subSteps + 1 == s.def.maxSubSteps;
+            report.particleSteps += subStep(s, isLast, tasks);
+            ++report.subSteps;
+        }
+        const double done = s.now == kFrameTicks ? frame : double(s.now) * s.tick;
+        left = done == left ? 0.0 : left - done;
+        passTime(s, done);
+        rest(s);
+    }
+    report.debt = s.count > 0 ? left : 0.0;
+    report.seconds = seconds - report.debt;
+    report.pairs = s.pairSum;
+    report.searches = s.searches;
+    report.clamped = s.clamped;
+    return report;
+}
+
+#define FX_INSTANTIATE(T)                                                                                    \
+    template void prepare<T>(DynamicsState<T>&, base::TaskRunner&);                                          \
+    template AdvanceReport runFrames<T>(DynamicsState<T>&, double, base::TaskRunner&);
+FX_INSTANTIATE(float)
+FX_INSTANTIATE(double)
+#undef FX_INSTANTIATE
+
+} // namespace fx::sim

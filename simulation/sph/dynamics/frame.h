@@ -1,0 +1,18 @@
+/// @file frame.h
+/// A frame from its beginning to its end.
+#pragma once
+
+#include "simulation/sph/dynamics/dynamics_state.h"
+
+namespace fx::sim {
+
+/// Gives new particles supports, densities and entropies, then evaluates everybody if anything has changed
+/// from outside. Nothing to do otherwise.
+template <class T>
+void prepare(DynamicsState<T>& state, base::TaskRunner& tasks);
+
+/// Steps by `seconds` > 0 within the budget of sub-steps.
+template <class T>
+AdvanceReport runFrames(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks);
+
+} // namespace fx::sim

@@ -1,0 +1,190 @@
+/// @file gas_dynamics.h
+/// The equations of gas dynamics by smoothed particle hydrodynamics: density by summation with variable
+/// support, entropy form, viscosity with a switch, kick-drift-kick with one step for all or a hierarchy of
+/// steps.
+///
+/// Knows nothing of presets, pictures or verification cases; all of them stand on it. One thread at a time
+/// calls a GasDynamics; it spreads its loops over the task runner it is given, and gives the same bits for
+/// any runner. All memory comes from the resource given at the beginning, except for save().
+#pragma once
+
+#include "foundation/result/status.h"
+#include "foundation/tasks/task_runner.h"
+#include "simulation/sph/dynamics/state_equation.h"
+#include "simulation/sph/neighbors/domain.h"
+#include "simulation/sph/pair_loops/sph_kernel.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::sim {
+
+template <class T>
+struct DynamicsState;
+
+enum class StepScheme : uint8_t
+{
+    Global, ///< all particles take the smallest step: momentum is conserved to rounding
+    Block   ///< powers of two of a tick, each particle its own
+};
+
+/// A particle as it enters or leaves.
+struct GasParticle
+{
+    glm::dvec3 position{0.0}; ///< [m]
+    glm::dvec3 velocity{0.0}; ///< [m/s]
+    double mass = 0;          ///< [kg] > 0
+    double energy = 0;        ///< [J/kg] specific internal energy, >= 0, cold curve included
+};
+
+struct ViscosityRules
+{
+    double alphaMin = 0.05;  ///< [1]
+    double alphaMax = 2.0;   ///< [1]
+    double decay = 0.1;      ///< [1] decay rate of alpha in units of c / h
+    double beta = 3;         ///< [1]
+    double conductivity = 1; ///< [1]
+    bool limiter = true;     ///< Balsara
+};
+
+struct GasDynamicsDef
+{
+    uint32_t capacity = 0; ///< particles, 1 .. 2^28
+    SphKernel kernel = SphKernel::WendlandC2;
+    double neighbors = 58; ///< [1] 4/3 pi n H^3
+    StateEquation state;
+    ViscosityRules viscosity;
+    StepScheme steps = StepScheme::Block;
+    double courant = 0.2; ///< [1] step = 2 courant h / v_sig, h = H / 2
+    double neighborStepRatio =
+        4; ///< [1] limiter of steps between neighbors; infinity switches it off (tests)
+    uint32_t maxSubSteps = 1u << 30; ///< >= 1, of one advance(); what is left is debt
+    double smallestSupport = 0;      ///< [m] 0: a ten-thousandth of the first median
+    double largestSupport = 1e30;    ///< [m] 1e30: two hundred times the first median
+    Domain domain;
+    glm::dvec3 gravity{0.0};    ///< [m/s2]
+    double ambientPressure = 0; ///< [Pa] of air that is not simulated
+    bool tension = true; ///< false: gas thinner than the ambient pressure allows is not drawn together; for a
+                         ///< cloud in air that is not simulated, whose surface the density sum sees too thin
+};
+
+/// Sums over all particles, in double, in a fixed order.
+struct GasTotals
+{
+    double mass = 0;
+    glm::dvec3 momentum{0.0};
+    double momentumScale = 0; ///< [kg m/s] sum m |v|
+    double kinetic = 0;       ///< [J]
+    double thermal = 0;       ///< [J]
+    double potential = 0;     ///< [J] in gravity and against the ambient pressure
+    double energy() const { return kinetic + thermal + potential; }
+};
+
+struct AdvanceReport
+{
+    double seconds = 0; ///< simulated
+    double debt = 0;    ///< [s] asked for and not simulated
+    uint64_t subSteps = 0;
+    uint64_t particleSteps = 0; ///< sum of active particles over sub-steps = force evaluations
+    uint64_t pairs = 0;         ///< ordered neighbor pairs in force evaluations
+    uint64_t searches = 0;      ///< times that lists were built
+    uint64_t clamped = 0;       ///< values limited to keep the state finite
+};
+
+/// What outer physics (drag, buoyancy, combustion) sees and may change between two calls of advance. Arrays
+/// are indexed by place, an order that changes with every advance; id[place] is the index with which the
+/// particle was added. Whoever writes must call edited() afterwards.
+template <class T>
+struct GasView
+{
+    uint32_t count;
+    const uint32_t* id;
+    T *x, *y, *z;        ///< [m]
+    T *vx, *vy, *vz;     ///< [m/s]
+    T* mass;             ///< [kg] > 0
+    T* entropy;          ///< K of state-equation, > 0
+    const T* support;    ///< [m] H
+    const T* density;    ///< [kg/m3]
+    const T* pressure;   ///< [Pa]
+    const T* energy;     ///< [J/kg] thermal part
+    const T* divergence; ///< [1/s]
+    const T* curl;       ///< [1/s]
+    const T* viscosity;  ///< [1] alpha
+    const T* exposure;   ///< [1] 0 deep inside the gas, about 1 on a free surface
+};
+
+/// Refuses a definition that is not finite or out of the ranges stated at its members.
+base::Status checkGasDynamicsDef(const GasDynamicsDef& def);
+
+template <class T>
+class GasDynamics
+{
+public:
+    /// @param def one that checkGasDynamicsDef accepts
+    GasDynamics(const GasDynamicsDef& def, std::pmr::memory_resource* memory);
+    ~GasDynamics();
+
+    /// Adds particles between two calls of advance. Refuses, with the state unchanged, what is not finite,
+    /// negative, beyond capacity or outside the domain, masses and energies outside [1e-20, 1e20] kg and
+    /// [0, 1e18] J/kg, positions and speeds beyond 1e9. Ids are given in order from 0.
+    base::Status add(std::span<const GasParticle> particles);
+    /// Solves supports and densities and converts energies to entropies; evaluates what edited(), inject()
+    /// and setEnergy() have made stale. Called by advance if not before. Nothing to do otherwise.
+    void initialize(base::TaskRunner& tasks);
+
+    /// Steps by `seconds`: 0 changes nothing; NaN, infinite and negative values are refused (the state
+    /// unchanged). All particles are synchronous afterwards. Results that are not numbers never enter the
+    /// state: the particle keeps what it had, and the report counts it.
+    base::Result<AdvanceReport> advance(double seconds, base::TaskRunner& tasks);
+
+    /// Gives particle `id` < count() `joules` of heat: exact at constant density, negative takes heat away
+    /// (refused where there is not so much). Its neighborhood wakes up.
+    void inject(uint32_t id, double joules);
+    /// The same `delay` seconds >= 0 from now, in the middle of whatever step the particle is in then, to a
+    /// thousandth of the frame.
+    void injectLater(uint32_t id, double joules, double delay);
+    /// Sets the internal energy of particle `id` [J/kg] at its density.
+    void setEnergy(uint32_t id, double energy);
+    /// Must be called after anything has been written through view().
+    void edited();
+
+    /// Reduced speed of sound: pressure forces are multiplied by `scale` in (0, 1] and the speed of sound in
+    /// signal speeds by its square root, so that steps grow. A deviation from physics: flows whose Mach
+    /// number stays below 0.3 with the reduced speed are nearly those of the full one; the kinetic energy
+    /// that expansion gives is multiplied by `scale`, so total energy is not conserved.
+    void setPressureScale(double scale);
+    double pressureScale() const;
+
+    uint32_t count() const;
+    const GasDynamicsDef& definition() const;
+    GasView<T> view();
+    GasView<const T> view() const;
+    uint32_t placeOf(uint32_t id) const;
+    GasParticle particle(uint32_t id) const; ///< state of one particle, by its id
+    double densityOf(uint32_t id) const;     ///< [kg/m3]
+    double pressureOf(uint32_t id) const;    ///< [Pa]
+    double supportOf(uint32_t id) const;     ///< [m]
+    double stepOf(uint32_t id) const;        ///< [s] longest step that the particle allows now
+    GasTotals totals() const;
+    uint64_t hash() const; ///< of the whole state, by id: equal for equal states
+
+    /// The whole state as bytes, and back into an object of the same definition: advancing afterwards gives
+    /// the same bits. Bytes that are damaged or do not fit are refused, the state unchanged; forged ones,
+    /// with the right checksum but impossible values, are refused and leave no particles.
+    void save(std::vector<std::byte>& out) const;
+    base::Status restore(std::span<const std::byte> bytes);
+
+private:
+    std::unique_ptr<DynamicsState<T>> state_;
+};
+
+extern template class GasDynamics<float>;
+extern template class GasDynamics<double>;
+
+} // namespace fx::sim

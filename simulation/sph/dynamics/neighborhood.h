@@ -1,0 +1,30 @@
+/// @file neighborhood.h
+/// Keeps the tree and the lists of neighbors fit for the particles as they are now.
+#pragma once
+
+#include "simulation/sph/dynamics/dynamics_state.h"
+
+namespace fx::sim {
+
+/// Sorts particles by their positions now, moving all columns. Records and active places must be made anew.
+template <class T>
+void sortParticles(DynamicsState<T>& state, base::TaskRunner& tasks);
+
+/// Restores the tree of a state whose columns are in the order of a sort by sortedX..sortedSupport.
+template <class T>
+void recoverTree(DynamicsState<T>& state, base::TaskRunner& tasks);
+
+/// Searches the neighbors of `owners` within (1 + margin) times the larger support.
+template <class T>
+void searchNeighbors(DynamicsState<T>& state, std::span<const uint32_t> owners, double margin,
+                     base::TaskRunner& tasks);
+
+/// [1] How much supports may grow with the lists that exist; 0 where they must be made anew.
+template <class T>
+double roomOfLists(const DynamicsState<T>& state);
+
+/// [1] The margin that new lists should have: large where they will serve several steps.
+template <class T>
+double marginOfLists(const DynamicsState<T>& state);
+
+} // namespace fx::sim

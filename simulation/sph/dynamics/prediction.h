@@ -1,0 +1,32 @@
+/// @file prediction.h
+/// Particles in the middle of their steps, as they are now.
+#pragma once
+
+#include "simulation/sph/dynamics/dynamics_state.h"
+
+namespace fx::sim {
+
+/// Fills records, positions for the tree, the list of active places (those whose step ends now) and the next
+/// end of the others. Particles that have left the domain are brought back.
+///
+/// Positions move with the velocity of the middle of the step, velocity and entropy grow by their rates,
+/// pressure and energy by the change of density that the divergence gives and by heat: all linear in time.
+template <class T>
+void predict(DynamicsState<T>& state, base::TaskRunner& tasks);
+
+/// Factor of the density when the divergence times the time is `change`: positive, and to first order 1 -
+/// change.
+template <class T>
+T thinning(T change)
+{
+    return change > 0 ? T(1) / (T(1) + change) : T(1) - change;
+}
+
+/// value + growth, but never less than a tenth of a positive value.
+template <class T>
+T grown(T value, T growth)
+{
+    return value > 0 ? std::max(value + growth, T(0.1) * value) : value;
+}
+
+} // namespace fx::sim

@@ -1,0 +1,27 @@
+/// @file gas_parcels.h
+/// What each particle of a gas carries beside its motion: a parcel that burns, and how it is seen.
+#pragma once
+
+#include "foundation/memory/column.h"
+#include "simulation/combustion/fire_parcel.h"
+
+#include <cstdint>
+#include <memory_resource>
+
+namespace fx::sim {
+
+/// Arrays indexed by the particle's id, which never changes, unlike its place in the gas.
+constexpr float kFaintest = 0.02f; ///< [1] presence below which smoke is no longer drawn, having faded to it
+
+struct GasParcels
+{
+    GasParcels(std::pmr::memory_resource* memory, uint32_t capacity)
+        : fire(memory, capacity), vigor(memory, capacity), presence(memory, capacity)
+    {}
+
+    base::Column<FireParcel> fire; ///< its temperature is what the parcel has at the air's pressure
+    base::Column<float> vigor;     ///< [1] this parcel's rate of mixing over the mean
+    base::Column<float> presence;  ///< [1] part of the smoke that has not yet dissolved, 1..0
+};
+
+} // namespace fx::sim

@@ -1,0 +1,69 @@
+/// @file domain.h
+/// The space that a gas lives in, axis by axis.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace fx::sim {
+
+enum class AxisKind : uint8_t
+{
+    Open,      ///< endless
+    Periodic,  ///< what leaves at `high` enters at `low`
+    Reflecting ///< rigid, frictionless walls at `low` and `high`; an infinite bound is no wall
+};
+
+struct Domain
+{
+    std::array<AxisKind, 3> axes{AxisKind::Open, AxisKind::Open, AxisKind::Open};
+    glm::dvec3 low{-std::numeric_limits<double>::infinity()}; ///< [m]
+    glm::dvec3 high{std::numeric_limits<double>::infinity()}; ///< [m] > low
+};
+
+/// What pair loops need of a domain. On every axis at most one of `period` and `wall` is at work.
+template <class T>
+struct PairImages
+{
+    /// [m] length of a periodic axis, 0 elsewhere; 1/m its inverse, 0 elsewhere. The difference of two
+    /// coordinates is d - period * round(d * perPeriod): one expression for all axes.
+    std::array<T, 3> period{};
+    std::array<T, 3> perPeriod{};
+    /// [m] walls of a reflecting axis, infinite where there is none. The difference of x_i and the image of
+    /// x_j in the wall w is (x_i - w) + (x_j - w): the same bits for i and the image of j as for j and the
+    /// image of i.
+    std::array<T, 3> low{-kNone, -kNone, -kNone};
+    std::array<T, 3> high{kNone, kNone, kNone};
+
+    /// [m] The wall in which a particle at `x` sees images.
+    T nearerWall(uint32_t axis, T x) const
+    {
+        return x - low[axis] <= high[axis] - x ? low[axis] : high[axis];
+    }
+
+private:
+    static constexpr T kNone = std::numeric_limits<T>::infinity();
+};
+
+template <class T>
+PairImages<T> pairImages(const Domain& domain)
+{
+    PairImages<T> images;
+    for (uint32_t a = 0; a < 3; ++a) {
+        const double length = domain.high[int(a)] - domain.low[int(a)];
+        if (domain.axes[a] == AxisKind::Periodic) {
+            images.period[a] = T(length);
+            images.perPeriod[a] = T(1) / T(length);
+        }
+        if (domain.axes[a] == AxisKind::Reflecting) {
+            images.low[a] = T(domain.low[int(a)]);
+            images.high[a] = T(domain.high[int(a)]);
+        }
+    }
+    return images;
+}
+
+} // namespace fx::sim

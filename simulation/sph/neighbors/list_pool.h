@@ -1,0 +1,120 @@
+/// @file list_pool.h
+/// Memory of neighbor lists, given out in blocks to many threads at once.
+#pragma once
+
+#include "foundation/memory/column.h"
+#include "simulation/sph/neighbors/list_entry.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory_resource>
+
+namespace fx::sim {
+
+/// Lists of entries, by place. Who finds no room depends on which thread comes first; what a list holds does
+/// not, because it can always be searched anew.
+class ListPool
+{
+public:
+    static constexpr uint32_t kUnlisted = ~0u;
+
+    /// @param capacity places
+    ListPool(std::pmr::memory_resource* memory, uint32_t capacity, size_t entries)
+        : entries_(memory, entries / kLanes * kLanes), start_(memory, capacity), count_(memory, capacity)
+    {}
+
+    void clear()
+    {
+        used_ = 0;
+        unlisted_ = 0;
+        total_ = 0;
+    }
+    /// First entry of a list in units of kLanes, or kUnlisted.
+    uint32_t start(uint32_t place) const { return start_[place]; }
+    uint32_t count(uint32_t place) const { return count_[place]; }
+    const uint32_t* entries(uint32_t start) const { return entries_.data() + size_t(start) * kLanes; }
+    uint32_t unlisted() const { return unlisted_.load(std::memory_order_relaxed); }
+    uint64_t total() const { return total_.load(std::memory_order_relaxed); }
+
+private:
+    friend class ListWriter;
+
+    base::Column<uint32_t> entries_;
+    base::Column<uint32_t> start_;
+    base::Column<uint32_t> count_;
+    std::atomic<uint64_t> used_{0}; ///< entries given out
+    std::atomic<uint32_t> unlisted_{0};
+    std::atomic<uint64_t> total_{0}; ///< entries in lists, without padding
+};
+
+/// Writes lists one after another. One thread each.
+class ListWriter
+{
+public:
+    explicit ListWriter(ListPool& pool) : pool_(pool) {}
+    ListWriter(const ListWriter&) = delete;
+    ListWriter& operator=(const ListWriter&) = delete;
+    ~ListWriter()
+    {
+        giveBack();
+        pool_.unlisted_.fetch_add(unlisted_, std::memory_order_relaxed);
+        pool_.total_.fetch_add(total_, std::memory_order_relaxed);
+    }
+
+    /// Room for `entries` more, or null for ever after.
+    uint32_t* room(uint32_t entries)
+    {
+        if (end_ - next_ < entries && !refill(entries))
+            return nullptr;
+        return pool_.entries_.data() + next_;
+    }
+    bool exhausted() const { return exhausted_; }
+    /// Ends the list of `place`, which has `count` entries at room(); pads it.
+    void finish(uint32_t place, uint32_t count)
+    {
+        uint32_t* const list = pool_.entries_.data() + next_;
+        const uint32_t length = (count + kLanes - 1) / kLanes * kLanes;
+        std::fill_n(list + count, kLanes, place); // more than needed, but of a length that is known
+        pool_.start_[place] = uint32_t(next_ / kLanes);
+        pool_.count_[place] = count;
+        next_ += length;
+        total_ += count;
+    }
+    void leaveUnlisted(uint32_t place)
+    {
+        pool_.start_[place] = ListPool::kUnlisted;
+        ++unlisted_;
+    }
+
+private:
+    static constexpr uint64_t kBlock = 16384; ///< entries
+
+    bool refill(uint32_t entries)
+    {
+        giveBack();
+        const uint64_t capacity = pool_.entries_.capacity();
+        const uint64_t wanted = std::max<uint64_t>(kBlock, (entries + kLanes - 1) / kLanes * kLanes);
+        next_ = std::min(pool_.used_.fetch_add(wanted, std::memory_order_relaxed), capacity);
+        end_ = std::min(next_ + wanted, capacity);
+        exhausted_ = end_ - next_ < entries;
+        return !exhausted_;
+    }
+    /// The rest of the block, when nobody has taken the next one since.
+    void giveBack()
+    {
+        uint64_t expected = end_;
+        if (end_ > next_)
+            pool_.used_.compare_exchange_strong(expected, next_, std::memory_order_relaxed);
+        end_ = next_;
+    }
+
+    ListPool& pool_;
+    uint64_t next_ = 0;
+    uint64_t end_ = 0;
+    bool exhausted_ = false;
+    uint32_t unlisted_ = 0;
+    uint64_t total_ = 0;
+};
+
+} // namespace fx::sim

@@ -1,0 +1,29 @@
+/// @file packed_lanes.h
+/// How lanes of a vector move together when only some are kept.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace fx::sim {
+
+using PackedLanes = std::array<std::array<uint32_t, 8>, 256>;
+
+constexpr PackedLanes packedLanes()
+{
+    PackedLanes table{};
+    for (uint32_t bits = 0; bits < 256; ++bits) {
+        uint32_t place = 0;
+        for (const uint32_t kept : {1u, 0u})
+            for (uint32_t lane = 0; lane < 8; ++lane)
+                if ((bits >> lane & 1) == kept)
+                    table[bits][place++] = lane;
+    }
+    return table;
+}
+
+/// Row `bits`: the lanes whose bit is set, ascending, then the others. The first n numbers of the rows below
+/// 2^n are right for vectors of n lanes.
+alignas(64) inline constexpr PackedLanes kPackedLanes = packedLanes();
+
+} // namespace fx::sim

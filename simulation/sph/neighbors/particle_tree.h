@@ -1,0 +1,106 @@
+/// @file particle_tree.h
+/// Particles in the order of a Morton curve, and a tree of boxes over them.
+#pragma once
+
+#include "foundation/memory/column.h"
+#include "foundation/tasks/task_runner.h"
+#include "simulation/sph/neighbors/domain.h"
+#include "simulation/sph/neighbors/morton_sort.h"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+
+namespace fx::sim {
+
+/// Where particles are and how far they reach. Arrays of `count` elements.
+template <class T>
+struct PointColumns
+{
+    const T* x;       ///< [m] finite
+    const T* y;       ///< [m]
+    const T* z;       ///< [m]
+    const T* support; ///< [m] radius of the kernel's support, > 0
+    uint32_t count;
+};
+
+constexpr uint32_t kTreeFanOut = 8;      ///< children of a node
+constexpr uint32_t kTreeMostLevels = 11; ///< 8^10 leaves and a root
+constexpr uint32_t kLeafMost = 16;       ///< particles of a leaf
+
+/// Read access for searches. Level 0 are the leaves: leaf k holds the places leafBegin[k] .. leafBegin[k + 1]
+/// - 1. Box k of level l + 1 covers the boxes 8 k .. 8 k + 7 of level l; the last level has one box. Boxes
+/// are numbered through all levels from levelFirst[l]; between them are empty ones that nothing touches, so
+/// that eight children can always be read.
+template <class T>
+struct TreeView
+{
+    uint32_t count = 0;  ///< particles
+    uint32_t levels = 0; ///< 0 for an empty tree
+    std::array<uint32_t, kTreeMostLevels> levelFirst{};
+    std::array<uint32_t, kTreeMostLevels> levelCount{};
+    const uint32_t* leafBegin = nullptr;
+    std::array<const T*, 3> low{};      ///< [m] of boxes
+    std::array<const T*, 3> high{};     ///< [m]
+    const T* reach = nullptr;           ///< [m] largest support inside a box
+    std::array<const T*, 3> position{}; ///< [m] of particles, as of the last refit
+    const T* support = nullptr;         ///< [m]
+};
+
+/// Tree over particles sorted along a Morton curve of 64-bit keys. A leaf is the largest cell of the curve's
+/// binary tree with at most kLeafMost particles; eight leaves that follow on each other share a box, eight
+/// such boxes the next, so that no pointers are needed and eight children are tested at once. Its memory is
+/// fixed by the capacity: 92 bytes a particle in float, 147 in double.
+template <class T>
+class ParticleTree
+{
+public:
+    ParticleTree(std::pmr::memory_resource* memory, uint32_t capacity);
+
+    /// Decides the order of the particles and the cells of the tree. order()[place] is the index of the
+    /// particle of `points` that belongs at `place`; the caller moves its columns accordingly and then calls
+    /// refit. Ties are broken by index, so that equal input gives equal order for any number of workers.
+    /// Particles at NaN are allowed: they are near nobody.
+    void sort(const PointColumns<T>& points, const Domain& domain, base::TaskRunner& tasks);
+    std::span<const uint32_t> order() const { return sort_.order(); }
+
+    /// Recomputes bounds and reaches of all cells from columns that are in tree order, and keeps a copy of
+    /// them; as often as particles move. The cells stay right however far particles have moved, only slower:
+    /// sort again when loosened() exceeds about 1.
+    void refit(const PointColumns<T>& sorted, base::TaskRunner& tasks);
+    /// [1] growth, since the first refit after the last sort, of the volume that a search from a leaf covers,
+    /// mean over leaves: 1 means that searches test about twice as many particles.
+    double loosened() const { return loosened_; }
+
+    TreeView<T> view() const;
+
+private:
+    void cutLeaves(base::TaskRunner& tasks);
+    uint32_t cutChunk(uint32_t begin, uint32_t end, uint32_t* leaves) const;
+    void layOutLevels();
+    void fitLeaf(uint32_t leaf, const PointColumns<T>& sorted);
+    void fitNode(uint32_t level, uint32_t node);
+    void measureLoosening();
+
+    uint32_t count_ = 0;
+    bool fresh_ = true; ///< sorted, not yet refit
+    double loosened_ = 0;
+    uint32_t levels_ = 0;
+    std::array<uint32_t, kTreeMostLevels> levelFirst_{};
+    std::array<uint32_t, kTreeMostLevels> levelCount_{};
+    MortonSort<T> sort_;
+    base::Column<uint32_t> leafBegin_;
+    base::Column<uint32_t> chunkLeaves_; ///< leaves of each chunk of places
+    std::array<base::Column<T>, 3> low_;
+    std::array<base::Column<T>, 3> high_;
+    base::Column<T> reach_;
+    base::Column<T> sizeAtSort_; ///< [m] width that a search from a leaf covers
+    std::array<base::Column<T>, 3> position_;
+    base::Column<T> support_;
+};
+
+extern template class ParticleTree<float>;
+extern template class ParticleTree<double>;
+
+} // namespace fx::sim

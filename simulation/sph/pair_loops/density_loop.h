@@ -1,0 +1,89 @@
+/// @file density_loop.h
+/// How much gas there is around a particle, how far it has to look for it, and how the gas flows there.
+///
+/// @formula gas-density
+/// Density by summation, the radius of the kernel that holds a fixed mass, and gradients of the velocity.
+///
+/// symbol    unit     meaning
+///   m        kg       mass of a particle
+///   r        m        distance from particle i
+///   H        m        radius of the support of i
+///   q        1        r / H
+///   w, C, e  1        shape and constant of the kernel, part of the own contribution left out: sph-kernels
+///   N        1        nominal number of neighbors, 4/3 pi H^3 times the number density
+///   S        kg       mass in units of the kernel, H^3 rho
+///   D        kg       its growth, H dS/dH
+///   rho      kg/m3    density
+///   f        1        correction of pressure forces for varying supports
+///   d, u     m, m/s   position and velocity of i relative to a neighbor
+///   M        kg m2    second moments of the neighborhood
+///   G        kg m2/s  moments of velocity
+///   J        1/s      gradient of the velocity, J_ab = d v_a / d x_b
+///   E        kg m     first moments of the neighborhood
+/// @derivation
+///   S(H) = C [ (1 - e) m_i w(0) + sum m_j w(q) ],  rho = S / H^3                                (1)
+///   H follows from H^3 rho(H) = 3 N m_i / (4 pi), that is S(H) = 3 N m_i / (4 pi)               (2)
+///   D = -C sum m_j q w'(q) >= 0: S grows with H, so that (2) has one solution; Newton's step is
+///   H <- H (1 + (3 N m_i / (4 pi) - S) / D), kept inside of a bracket that shrinks              (3)
+///   f = 1 / (1 + H / (3 rho) drho/dH) = 3 S / D, because H drho/dH = (D - 3 S) / H^3            (4)
+///   With weights g = -m_j w'(q) / q:  M_ab = sum g d_a d_b,  G_ab = sum g u_a d_b,  J = G M^-1  (5)
+///   which is exact for a velocity that is linear in space, whatever the order of the particles.
+///   div v = J_xx + J_yy + J_zz,  curl v = (J_zy - J_yz, J_xz - J_zx, J_yx - J_xy)               (6)
+///   E_a = sum g d_a is zero inside of even gas; on the plane surface of a half space of even gas, with the
+///   Wendland C2 kernel, |E| = tr M / H. So the exposure is min(H |E| / tr M, 1), 1 without neighbors (7)
+/// @source    [PRI12] sections 2 and 3 for (1), (2), (4), doi:10.1016/j.jcp.2010.12.011; [DA12] eq. (18) for
+///            e; (5) is a least-squares fit
+/// @deviation where the neighbors span no volume (det M below 1 % of that of a sphere of the same trace), J
+/// is
+///            3 G / tr M. A Newton step below sqrt(tolerance) / 2 is the last: its error is squared by the
+///            next
+/// @valid     m, H > 0, everything finite; masses and lengths whose products stay in the range of T
+/// @accuracy  H within 2 tolerance of the solution; sums within 2e-6 (float), 1e-14 (double) of their
+/// positive
+///            terms; every instruction set gives the same bits
+/// @tests     tests/simulation/pair_loops/test_density_loop.cpp
+#pragma once
+
+#include "simulation/sph/neighbors/neighbor_lists.h"
+#include "simulation/sph/pair_loops/gas_record.h"
+#include "simulation/sph/pair_loops/sph_kernel.h"
+
+#include <span>
+
+namespace fx::sim {
+
+struct DensityRules
+{
+    SphKernel kernel = SphKernel::WendlandC2;
+    double neighbors = 58;        ///< [1] N = 4/3 pi n H^3
+    double smallestSupport = 0;   ///< [m]
+    double largestSupport = 1e30; ///< [m] >= smallestSupport
+    double tolerance = 1e-4;      ///< [1] of H where Newton's iteration ends (1e-7 in double)
+    bool subtractSelfBias = true; ///< e of (1); off for e = 0
+};
+
+/// Where results go: arrays indexed by place.
+template <class T>
+struct DensityResults
+{
+    T* support;            ///< [m] in: the guess, > 0; out: H
+    T* density;            ///< [kg/m3]
+    T* correction;         ///< [1] f, in [0.2, 5]; 1 where H is the smallest or largest support
+    T* divergence;         ///< [1/s] of the velocity
+    T* curl;               ///< [1/s] magnitude of the curl of the velocity
+    uint8_t* wantsReach;   ///< 1 where H would have grown beyond what its list covers
+    uint32_t* neighbors;   ///< particles within H, mirror images included, itself not counted
+    T* exposure = nullptr; ///< [1] 0 inside of even gas, 1 on a free surface; null: not wanted
+};
+
+/// Density, support and velocity gradients of `places` (a part of the lists' owners). Reads x, y, z, velocity
+/// and mass of the records. H grows at most to (1 + reach) times its guess, as far as the lists are complete;
+/// it may shrink as far as it has to, and stays within the bounds of the rules. A lone particle takes the
+/// largest support (within reach), coincident ones the smallest. At most 20 evaluations of (1).
+/// Bit-equal for every instruction set; runs on the calling thread (the caller splits the work).
+template <class T>
+void sumDensity(const DensityRules& rules, const NeighborLists<T>& lists, const GasRecord<T>* records,
+                const Domain& domain, T reach, std::span<const uint32_t> places,
+                const DensityResults<T>& results);
+
+} // namespace fx::sim

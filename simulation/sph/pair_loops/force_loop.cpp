@@ -1,0 +1,95 @@
+#include "simulation/sph/pair_loops/force_loop.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simulation/sph/pair_loops/force_loop.cpp"
+#include <hwy/foreach_target.h> // before everything that is compiled for each target
+
+#include "foundation/simd/instruction_set.h"
+#include "simulation/sph/pair_loops/force_sums-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fx::sim::pairs::HWY_NAMESPACE {
+namespace {
+
+template <class T, class Shape>
+void sumOne(const ForceRules& rules, const NeighborLists<T>& lists, const GasRecord<T>* records,
+            const ImageRules<T>& images, uint32_t place, const ForceResults<T>& out)
+{
+    const GasRecord<T>& own = records[place];
+    const PairOwner<T, Shape> owner(rules, own, place, images);
+    LaneSums<T, kForceSums> sums;
+    sums.clear();
+    for (T& level : sums.lane[kSumLevel])
+        level = static_cast<T>(kNoLevel);
+    uint32_t pairs = 0;
+    lists.forEachPiece(place, [&](const uint32_t* entries, uint32_t count, bool)
+                                  HWY_ATTR { pairs += addPiece(owner, records, entries, count, sums); });
+    T total[4], signal, level;
+    combineRows<4>(sums, kSumAcceleration, total, Adding());
+    combineRows<1>(sums, kSumSignal, &signal, TakingLarger());
+    combineRows<1>(sums, kSumLevel, &level, TakingSmaller());
+    out.ax[place] = T(0) - total[0];
+    out.ay[place] = T(0) - total[1];
+    out.az[place] = T(0) - total[2];
+    out.heating[place] = total[kSumHeating];
+    out.signalSpeed[place] = larger(own.sound + own.sound, signal);
+    out.fastestNeighbor[place] = pairs > 0 ? level : own.stepLevel;
+    out.pairs[place] = pairs;
+}
+
+template <class T>
+void sumAll(const ForceRules& rules, const NeighborLists<T>& lists, const GasRecord<T>* records,
+            const Domain& domain, std::span<const uint32_t> places, const ForceResults<T>& results)
+{
+    const ImageRules<T> images(domain);
+    withShape(rules.kernel, [&](auto shape) HWY_ATTR {
+        for (const uint32_t place : places)
+            sumOne<T, decltype(shape)>(rules, lists, records, images, place, results);
+    });
+}
+
+void sumFloats(const ForceRules& rules, const NeighborLists<float>& lists, const GasRecord<float>* records,
+               const Domain& domain, std::span<const uint32_t> places, const ForceResults<float>& results)
+{
+    sumAll(rules, lists, records, domain, places, results);
+}
+void sumDoubles(const ForceRules& rules, const NeighborLists<double>& lists, const GasRecord<double>* records,
+                const Domain& domain, std::span<const uint32_t> places, const ForceResults<double>& results)
+{
+    sumAll(rules, lists, records, domain, places, results);
+}
+
+} // namespace
+} // namespace fx::sim::pairs::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fx::sim {
+
+namespace pairs {
+namespace {
+HWY_EXPORT(sumFloats);
+HWY_EXPORT(sumDoubles);
+} // namespace
+} // namespace pairs
+
+template <>
+void sumForces(const ForceRules& rules, const NeighborLists<float>& lists, const GasRecord<float>* records,
+               const Domain& domain, std::span<const uint32_t> places, const ForceResults<float>& results)
+{
+    base::applyInstructionSetLimit();
+    using namespace pairs;
+    HWY_DYNAMIC_DISPATCH(sumFloats)(rules, lists, records, domain, places, results);
+}
+
+template <>
+void sumForces(const ForceRules& rules, const NeighborLists<double>& lists, const GasRecord<double>* records,
+               const Domain& domain, std::span<const uint32_t> places, const ForceResults<double>& results)
+{
+    base::applyInstructionSetLimit();
+    using namespace pairs;
+    HWY_DYNAMIC_DISPATCH(sumDoubles)(rules, lists, records, domain, places, results);
+}
+
+} // namespace fx::sim
+#endif

@@ -1,0 +1,77 @@
+/// @file force_loop.h
+/// What neighbors do to a particle: push, brake, heat.
+///
+/// @formula gas-pair-forces
+/// Acceleration by pressure and viscosity, heating by viscosity and conduction, in pairs that conserve
+/// momentum and energy.
+///
+/// symbol     unit        meaning
+///   m         kg          mass of a particle
+///   d, r      m           position of i relative to j, its length
+///   v         m/s         velocity of i relative to j
+///   H, rho                support and density: gas-density
+///   F         1/m5        F_i = C / H_i^5 w'(q_i) / q_i, so that F_i d is the gradient of W(r; H_i)
+///   p         m5/(kg s2)  push, f (P - P_ambient) / rho^2
+///   c         m/s         speed of sound
+///   mu        m/s         speed of approach, <= 0
+///   s         m/s         signal speed
+///   a, B      1           alpha of the viscosity switch, Balsara's factor
+///   nu        m5/(kg s2)  viscosity of a pair
+///   u         J/kg        specific thermal energy
+///   b, k      1           the rules' beta and conductivity
+/// @derivation
+///   mu = min(v.d, 0) / r,  s = c_i + c_j - b mu                                              (1)
+///   bars are means of both:  rho- = (rho_i + rho_j) / 2, likewise F-, a-, B-
+///   nu = -1/2 a- B- mu s / rho-  >= 0                                                         (2)
+///   dv_i/dt = -sum m_j (p_i F_i + p_j F_j + nu F-) d                                          (3)
+///   heating by viscosity: sum m_j nu / 2 (v.d) F-, half of what (3) takes from the motion     (4)
+///   heating by conduction: sum m_j k sqrt(|P_i - P_j| / rho-) (u_i - u_j) / rho- r F-,
+///   which flows from hot to cold, as F < 0, and is antisymmetric                              (5)
+///   The bracket of (3) is symmetric in i and j bit for bit and d is antisymmetric: what i feels from j, over
+///   m_j, is the exact opposite of what j feels from i, over m_i.
+///   A pair nearer than 1e-6 of its mean support has no direction: d becomes 0.05 of the mean support along a
+///   direction hashed from both ids, opposite for i and j; for an image in a wall, away from the wall (6)
+/// @source    [PRI12] section 3 for pressure in (3), doi:10.1016/j.jcp.2010.12.011; [MON05] for (1), (2);
+///            [PRI08] for (5), doi:10.1016/j.jcp.2008.08.011
+/// @deviation (6); pressure work is not part of the heating: the entropy form needs none
+/// @valid     m, H, rho > 0, everything finite
+/// @accuracy  sums within 4e-6 (float), 2e-14 (double) of their absolute terms; every instruction set gives
+///            the same bits
+/// @tests     tests/simulation/pair_loops/test_force_loop.cpp
+#pragma once
+
+#include "simulation/sph/pair_loops/density_loop.h"
+
+namespace fx::sim {
+
+struct ForceRules
+{
+    SphKernel kernel = SphKernel::WendlandC2; ///< unstable beyond kernelFacts(kernel).largestNeighbors
+    double beta = 3;                          ///< [1] of the signal speed
+    double conductivity = 1;                  ///< [1] 0 for none
+    /// By place: who a particle is, for the direction in which coincident ones part. Null: its place.
+    const uint32_t* ids = nullptr;
+};
+
+/// Where results go: arrays indexed by place.
+template <class T>
+struct ForceResults
+{
+    T* ax; ///< [m/s2]
+    T* ay;
+    T* az;
+    T* heating;         ///< [W/kg] by viscosity and conduction; pressure work is not in it: entropy form
+    T* signalSpeed;     ///< [m/s] largest over pairs, at least 2 c
+    T* fastestNeighbor; ///< [1] smallest stepLevel among neighbors within the larger support; its own without
+                        ///< any
+    uint32_t* pairs;    ///< neighbors j with r < max(H_i, H_j), mirror images included
+};
+
+/// Accelerations of `places` (a part of the lists' owners): pressure with corrections for varying support,
+/// viscosity with signal speed and limiter, conduction. Bit-equal for every instruction set; runs on the
+/// calling thread (the caller splits the work).
+template <class T>
+void sumForces(const ForceRules& rules, const NeighborLists<T>& lists, const GasRecord<T>* records,
+               const Domain& domain, std::span<const uint32_t> places, const ForceResults<T>& results);
+
+} // namespace fx::sim

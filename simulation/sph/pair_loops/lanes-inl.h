@@ -1,0 +1,184 @@
+/// @file lanes-inl.h
+/// Arithmetic on as many numbers at once as the instruction set has, and sums whose bits do not depend on how
+/// many that is. Included once for each instruction set.
+///
+/// Every sum over neighbors has kLanes = 16 virtual lanes: lane k takes the list entries 16 m + k. Narrow
+/// instruction sets work on a few of these lanes after another. The 16 partial results are combined by one
+/// tree for all.
+#if defined(FX_PAIR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef FX_PAIR_LANES_INL
+#undef FX_PAIR_LANES_INL
+#else
+#define FX_PAIR_LANES_INL
+#endif
+
+#include "simulation/sph/neighbors/neighbor_lists.h"
+#include "simulation/sph/pair_loops/sph_kernel.h"
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace fx::sim::pairs::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A vector of at most 16 numbers that formulas can be written with. Never fuses, never approximates.
+template <class T>
+struct Pack
+{
+    using Tag = hn::CappedTag<T, kLanes>;
+    using Vector = hn::Vec<Tag>;
+    using Mask = hn::Mask<Tag>;
+    static constexpr uint32_t kWidth = HWY_LANES(T) < kLanes ? uint32_t(HWY_LANES(T)) : kLanes;
+
+    Vector v;
+
+    HWY_INLINE Pack() : v(hn::Zero(Tag())) {}
+    HWY_INLINE explicit Pack(Vector vector) : v(vector) {}
+    HWY_INLINE explicit Pack(double x) : v(hn::Set(Tag(), static_cast<T>(x))) {}
+    HWY_INLINE explicit Pack(float x) : v(hn::Set(Tag(), static_cast<T>(x))) {}
+    static HWY_INLINE Pack load(const T* from) { return Pack(hn::LoadU(Tag(), from)); }
+    HWY_INLINE void store(T* to) const { hn::StoreU(v, Tag(), to); }
+};
+
+template <class T>
+HWY_INLINE Pack<T> operator+(Pack<T> a, Pack<T> b)
+{
+    return Pack<T>(hn::Add(a.v, b.v));
+}
+template <class T>
+HWY_INLINE Pack<T> operator-(Pack<T> a, Pack<T> b)
+{
+    return Pack<T>(hn::Sub(a.v, b.v));
+}
+template <class T>
+HWY_INLINE Pack<T> operator*(Pack<T> a, Pack<T> b)
+{
+    return Pack<T>(hn::Mul(a.v, b.v));
+}
+template <class T>
+HWY_INLINE Pack<T> operator/(Pack<T> a, Pack<T> b)
+{
+    return Pack<T>(hn::Div(a.v, b.v));
+}
+template <class T>
+HWY_INLINE Pack<T>& operator+=(Pack<T>& a, Pack<T> b)
+{
+    return a = a + b;
+}
+template <class T>
+HWY_INLINE Pack<T> larger(Pack<T> a, Pack<T> b)
+{
+    return Pack<T>(hn::Max(a.v, b.v));
+}
+template <class T>
+HWY_INLINE Pack<T> smaller(Pack<T> a, Pack<T> b)
+{
+    return Pack<T>(hn::Min(a.v, b.v));
+}
+template <class T>
+HWY_INLINE Pack<T> root(Pack<T> a)
+{
+    return Pack<T>(hn::Sqrt(a.v));
+}
+template <class T>
+HWY_INLINE Pack<T> magnitude(Pack<T> a)
+{
+    return Pack<T>(hn::Abs(a.v));
+}
+template <class T>
+HWY_INLINE Pack<T> choose(typename Pack<T>::Mask mask, Pack<T> yes, Pack<T> no)
+{
+    return Pack<T>(hn::IfThenElse(mask, yes.v, no.v));
+}
+
+/// The nearest integer, ties to even, for |a| < 2^22 (float) or 2^51: by the rounding of an addition, which
+/// is the same everywhere.
+template <class T>
+HWY_INLINE Pack<T> nearestInteger(Pack<T> a)
+{
+    const Pack<T> big(sizeof(T) == 4 ? 12582912.0 : 6755399441055744.0); // 1.5 times 2^23 and 2^52
+    return (a + big) - big;
+}
+
+/// Scalars under the names that kernel_shapes.inl uses.
+HWY_INLINE float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+HWY_INLINE double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+#include "simulation/sph/pair_loops/kernel_shapes.inl"
+
+/// Partial results of Q sums, 16 lanes each.
+template <class T, uint32_t Q>
+struct alignas(64) LaneSums
+{
+    T lane[Q][kLanes];
+
+    void clear()
+    {
+        for (auto& row : lane)
+            for (T& x : row)
+                x = T(0);
+    }
+};
+
+struct Adding
+{
+    template <class D, class V>
+    HWY_INLINE V operator()(D, V a, V b) const
+    {
+        return hn::Add(a, b);
+    }
+};
+struct TakingLarger
+{
+    template <class D, class V>
+    HWY_INLINE V operator()(D, V a, V b) const
+    {
+        return hn::Max(a, b);
+    }
+};
+struct TakingSmaller
+{
+    template <class D, class V>
+    HWY_INLINE V operator()(D, V a, V b) const
+    {
+        return hn::Min(a, b);
+    }
+};
+
+/// One level of the tree: lane k with lane k + Half.
+template <uint32_t Half, class F, class T>
+HWY_INLINE void halve(const T* lane, T* out, F f)
+{
+    const hn::CappedTag<T, Half> tag;
+    constexpr uint32_t kWidth = uint32_t(hn::MaxLanes(hn::CappedTag<T, Half>()));
+    for (uint32_t k = 0; k < Half; k += kWidth)
+        hn::StoreU(f(tag, hn::LoadU(tag, lane + k), hn::LoadU(tag, lane + Half + k)), tag, out + k);
+}
+
+/// Combines the 16 lanes of rows [first, first + Rows): ((0+8)+(4+12))+((2+10)+(6+14)), plus the same of the
+/// odd ones. Level by level for all rows, so that none waits for the one before.
+template <uint32_t Rows, class F, class T, uint32_t Q>
+HWY_INLINE void combineRows(const LaneSums<T, Q>& sums, uint32_t first, T* out, F f)
+{
+    alignas(64) T part[Rows][8];
+    for (uint32_t s = 0; s < Rows; ++s)
+        halve<8>(sums.lane[first + s], part[s], f);
+    for (uint32_t s = 0; s < Rows; ++s)
+        halve<4>(part[s], part[s], f);
+    for (uint32_t s = 0; s < Rows; ++s)
+        halve<2>(part[s], part[s], f);
+    for (uint32_t s = 0; s < Rows; ++s)
+        halve<1>(part[s], out + s, f);
+}
+
+} // namespace fx::sim::pairs::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

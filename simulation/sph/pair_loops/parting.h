@@ -1,0 +1,37 @@
+/// @file parting.h
+/// The direction in which coincident particles push each other apart: gas-pair-forces (6).
+#pragma once
+
+#include "foundation/math/hash.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace fx::sim {
+
+constexpr double kCoincident = 1e-6;      ///< [1] of the mean support: nearer pairs have no direction
+constexpr double kPartingDistance = 0.05; ///< [1] of the mean support: where their kernel is taken
+
+/// A unit vector for particle `id` as seen from `other`; for `other` as seen from `id` its exact opposite.
+template <class T>
+std::array<T, 3> partingDirection(uint32_t id, uint32_t other)
+{
+    const uint32_t first = id < other ? id : other;
+    const uint32_t second = id < other ? other : id;
+    const uint64_t bits = base::hashWord(base::hashWord(0, first), second);
+    std::array<T, 3> direction;
+    T square = 0;
+    for (uint32_t a = 0; a < 3; ++a) {
+        // Odd numbers between -2^20 and 2^20: never 0, exact in float.
+        const int number = int((bits >> (20 * a)) & 0xFFFFF) * 2 + 1 - (1 << 20);
+        direction[a] = T(number);
+        square += direction[a] * direction[a];
+    }
+    const T scale = (id < other ? T(1) : T(-1)) / std::sqrt(square);
+    for (T& x : direction)
+        x *= scale;
+    return direction;
+}
+
+} // namespace fx::sim

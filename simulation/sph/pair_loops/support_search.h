@@ -1,0 +1,105 @@
+/// @file support_search.h
+/// Finds the support that holds a fixed mass: a bounded Newton iteration for gas-density (2), (3).
+#pragma once
+
+#include "foundation/math/elementary.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace fx::sim {
+
+/// The search for one particle. Evaluate the mass within support() and tell it, until isDone().
+template <class T>
+class SupportSearch
+{
+public:
+    static constexpr uint32_t kMostEvaluations = 19; ///< and one more at the result, by the caller
+
+    /// @param want [kg] 3 N m / (4 pi)
+    /// @param bottom, top [m] 0 < bottom <= top
+    /// @param guess [m] > 0
+    SupportSearch(T want, T bottom, T top, T guess, T tolerance)
+        : want_(want), bottom_(bottom), top_(top), low_(bottom), high_(top), tolerance_(tolerance),
+          support_(guess < bottom ? bottom
+                   : guess > top  ? top
+                                  : guess)
+    {}
+
+    T support() const { return support_; }
+    bool isDone() const { return done_; }
+    bool isAtTop() const { return atTop_; }       ///< more than `top` was wanted
+    bool isAtBottom() const { return atBottom_; } ///< less than `bottom` was wanted
+
+    /// @param mass [kg] S at support()
+    /// @param growth [kg] D at support()
+    void tell(T mass, T growth)
+    {
+        const bool grows = mass < want_;
+        (grows ? low_ : high_) = support_;
+        atTop_ = grows && support_ >= top_;
+        atBottom_ = !grows && support_ <= bottom_;
+        ++evaluations_;
+        if (atTop_ || atBottom_) {
+            done_ = true;
+            return;
+        }
+        const T next = proposal(mass, growth);
+        if (isNewton(mass, growth) && isWithin(next, T(0.25) * tolerance_))
+        { // its error is squared by the step
+            support_ = next < bottom_ ? bottom_ : next > top_ ? top_ : next;
+            done_ = true;
+            return;
+        }
+        const T safe = inside(next, grows);
+        done_ = isWithin(safe, tolerance_ * tolerance_) || evaluations_ >= kMostEvaluations;
+        support_ = safe;
+    }
+
+private:
+    static constexpr uint32_t kMostProposals = 8; ///< before the bracket is halved in every step
+
+    bool isNewton(T mass, T growth) const
+    {
+        return growth > T(0) && mass < T(2) * want_ && want_ < T(2) * mass;
+    }
+    /// Whether the square of the relative change is at most `square`.
+    bool isWithin(T next, T square) const
+    {
+        const T change = next - support_;
+        return change * change <= square * support_ * support_;
+    }
+    T proposal(T mass, T growth) const
+    {
+        if (isNewton(mass, growth))
+            return support_ * (T(1) + (want_ - mass) / growth); // (3)
+        if (!(growth > T(0)))                                   // nobody between here and the center
+            return mass < want_ ? top_ : bottom_;
+        return support_ * static_cast<T>(base::cubeRoot(static_cast<double>(want_ / mass))); // S grows as H^3
+    }
+    /// The proposal if it is inside of the bracket, or a bound not tried yet, or the bracket's middle.
+    T inside(T next, bool grows) const
+    {
+        if (evaluations_ < kMostProposals) {
+            if (next > low_ && next < high_)
+                return next;
+            if (grows && next >= top_ && high_ == top_)
+                return top_;
+            if (!grows && next <= bottom_ && low_ == bottom_)
+                return bottom_;
+        }
+        return std::sqrt(low_) * std::sqrt(high_); // scales are unknown: the geometric mean
+    }
+
+    T want_;
+    T bottom_, top_;
+    T low_, high_; ///< [m] bracket: S(low) < want <= S(high), where they have been tried
+    T tolerance_;
+    T support_;
+    uint32_t evaluations_ = 0;
+    bool done_ = false;
+    bool atTop_ = false;
+    bool atBottom_ = false;
+};
+
+} // namespace fx::sim

@@ -1,0 +1,99 @@
+/// @file state_writer.h
+/// Where solvers and scenes put their state: into memory, to be restored, or into a hash, to be compared.
+///
+/// Values go one by one, in the byte order of the machine: no pointers, no padding, no addresses, so equal
+/// states give equal bytes. What is read back, by a StateReader, is read in the same order.
+#pragma once
+
+#include "foundation/math/hash.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory_resource>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace fx::sim {
+
+/// Types without padding whose every bit is part of the value.
+template <class T>
+concept StateValue = (std::is_arithmetic_v<T> && !std::is_same_v<T, bool> &&
+                      !std::is_same_v<T, long double>) ||
+                     std::is_enum_v<T>; // std::byte is one
+
+class StateWriter
+{
+public:
+    virtual ~StateWriter() = default;
+
+    template <StateValue T>
+    void value(T value)
+    {
+        put(&value, sizeof value);
+    }
+    void flag(bool flag) { value(uint8_t(flag ? 1 : 0)); }
+    void vector(const glm::vec3& v)
+    {
+        const float xyz[3] = {v.x, v.y, v.z};
+        put(xyz, sizeof xyz);
+    }
+    void vector(const glm::dvec3& v)
+    {
+        const double xyz[3] = {v.x, v.y, v.z};
+        put(xyz, sizeof xyz);
+    }
+    void rotation(const glm::quat& q)
+    {
+        const float xyzw[4] = {q.x, q.y, q.z, q.w};
+        put(xyzw, sizeof xyzw);
+    }
+    /// The elements alone; the reader must know how many there are.
+    template <StateValue T>
+    void values(std::span<const T> values)
+    {
+        put(values.data(), values.size_bytes());
+    }
+    /// Bytes of another format, with their number.
+    void block(std::span<const std::byte> bytes)
+    {
+        value(uint64_t(bytes.size()));
+        put(bytes.data(), bytes.size());
+    }
+
+protected:
+    virtual void put(const void* data, size_t size) = 0;
+};
+
+/// Keeps the bytes.
+class StateBuffer final : public StateWriter
+{
+public:
+    explicit StateBuffer(std::pmr::memory_resource* memory) : bytes_(memory) {}
+    std::span<const std::byte> bytes() const { return bytes_; }
+
+private:
+    void put(const void* data, size_t size) override
+    {
+        const auto* first = static_cast<const std::byte*>(data);
+        bytes_.insert(bytes_.end(), first, first + size);
+    }
+    std::pmr::vector<std::byte> bytes_;
+};
+
+/// Keeps nothing but a hash of what is written. Allocates nothing.
+class StateHasher final : public StateWriter
+{
+public:
+    uint64_t hash() const { return hash_; }
+
+private:
+    void put(const void* data, size_t size) override { hash_ = base::hashBytes(hash_, data, size); }
+    uint64_t hash_ = 0;
+};
+
+} // namespace fx::sim

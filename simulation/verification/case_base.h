@@ -1,0 +1,38 @@
+/// @file case_base.h
+/// What most cases have in common: their particles, and a center or an axis to be seen along.
+#pragma once
+
+#include "simulation/verification/gas_case.h"
+
+#include <vector>
+
+namespace fx::sim {
+
+class CaseBase : public GasCase
+{
+public:
+    const GasDynamicsDef& dynamics() const final { return def_; }
+    const std::vector<GasParticle>& particles() const final { return particles_; }
+    const std::vector<double>& looks() const final { return looks_; }
+    /// Distance from the origin and speed away from it.
+    ProfilePoint seen(const CaseParticle& particle) const override;
+
+protected:
+    /// @param gamma, time of the case, used where the settings leave them open
+    CaseBase(const CaseSettings& settings, double gamma, double time);
+
+    /// Fills def_ with what the particles and settings say; the last thing a constructor does.
+    /// @param lookCount equal parts of the time
+    void finish(uint32_t lookCount);
+
+    double gamma_;
+    double time_;  ///< [s] end
+    bool ownTime_; ///< the case's own gamma and end are used, so its limits hold
+    GasDynamicsDef def_;
+    std::vector<GasParticle> particles_;
+
+private:
+    std::vector<double> looks_;
+};
+
+} // namespace fx::sim

@@ -1,0 +1,43 @@
+/// @file case_run.h
+/// Runs a case and measures it.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "foundation/tasks/task_runner.h"
+#include "simulation/verification/gas_case.h"
+
+#include <functional>
+
+namespace fx::sim {
+
+struct CaseReport
+{
+    CaseMeasures measures;
+    uint32_t particles = 0;
+    double seconds = 0;         ///< simulated
+    double energyStart = 0;     ///< [J]
+    double energyDrift = 0;     ///< [1] (E - E_start) / E_start at the end
+    double momentumDrift = 0;   ///< [1] |P - P_start| / sum m |v|; not measured with walls
+    AdvanceReport work;         ///< of all steps
+    double initialSeconds = 0;  ///< wall time until the first step
+    double steppingSeconds = 0; ///< wall time of steps; looks are not in it
+    uint64_t hash = 0;          ///< of the state at the end
+    std::vector<ProfilePoint> profile;
+};
+
+struct CaseWatch
+{
+    /// Before each look: its number and how many there are.
+    std::function<void(uint32_t look, uint32_t looks)> progress;
+    /// Asked often; true ends the run as soon as possible, with Code::Interrupted.
+    std::function<bool()> stop;
+};
+
+/// @tparam T precision of the dynamics
+template <class T>
+base::Result<CaseReport> runCase(GasCase& gasCase, base::TaskRunner& tasks, const CaseWatch& watch = {});
+
+extern template base::Result<CaseReport> runCase<float>(GasCase&, base::TaskRunner&, const CaseWatch&);
+extern template base::Result<CaseReport> runCase<double>(GasCase&, base::TaskRunner&, const CaseWatch&);
+
+} // namespace fx::sim

@@ -1,0 +1,14 @@
+/// @file flow_state.h
+/// What a gas is doing at a point.
+#pragma once
+
+namespace fx::sim {
+
+struct FlowState
+{
+    double density = 0;  ///< [kg/m3]
+    double velocity = 0; ///< [m/s] along the axis, or outwards
+    double pressure = 0; ///< [Pa]
+};
+
+} // namespace fx::sim

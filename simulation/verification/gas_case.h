@@ -1,0 +1,106 @@
+/// @file gas_case.h
+/// A flow with a known course, as particles: where they start, when to look, how far they are from the truth.
+#pragma once
+
+#include "simulation/sph/dynamics/gas_dynamics.h"
+#include "simulation/verification/flow_state.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fx::sim {
+
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+/// What the user may choose of a case.
+struct CaseSettings
+{
+    uint32_t particles = 0; ///< wanted; the lattice decides how many there are; 0: the case's own number
+    double gamma = 0;       ///< [1] 0: the case's own
+    double time = 0;        ///< [s] end, 0: the case's own
+    GasDynamicsDef
+        rules; ///< kernel, neighbors, viscosity, steps, courant, step ratio; the case sets the rest
+};
+
+/// A particle when the case looks at it.
+struct CaseParticle
+{
+    glm::dvec3 position; ///< [m]
+    glm::dvec3 velocity; ///< [m/s]
+    double mass;         ///< [kg]
+    double density;      ///< [kg/m3]
+    double pressure;     ///< [Pa]
+    double support;      ///< [m]
+};
+
+/// A particle seen along the one direction in which the flow varies.
+struct ProfilePoint
+{
+    double place; ///< [m] distance from the center; x in planar cases
+    double mass;  ///< [kg]
+    FlowState state;
+};
+
+/// A further result of a case.
+struct Measure
+{
+    std::string name;
+    double value = 0;
+    std::string meaning;            ///< with its unit, for people
+    double expected = kNotMeasured; ///< the exact or published value
+};
+
+/// A bound that the case holds with the settings that it was made for.
+struct CaseLimit
+{
+    std::string name; ///< of the measure
+    double value = 0;
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool holds() const { return value >= low && value <= high; }
+};
+
+/// The error of the density of one particle.
+struct DensityError
+{
+    double volume; ///< [m3] that the particle stands for
+    double error;  ///< signed, in the case's unit of density
+};
+
+struct CaseMeasures
+{
+    double l1Density = kNotMeasured; ///< volume-weighted mean of |rho - exact|; each case names its units
+    double l1Velocity = kNotMeasured;
+    double l1Pressure = kNotMeasured;
+    double shockRadius = kNotMeasured; ///< [m]
+    double shockRadiusExact = kNotMeasured;
+    std::vector<DensityError> densityErrors; ///< of the particles that l1Density is the mean of
+    std::vector<Measure> more;
+    std::vector<CaseLimit> limits; ///< those that are stated for this size and time
+};
+
+class GasCase
+{
+public:
+    virtual ~GasCase() = default;
+
+    /// The dynamics that the case asks for; capacity is the number of particles.
+    virtual const GasDynamicsDef& dynamics() const = 0;
+    virtual const std::vector<GasParticle>& particles() const = 0;
+    /// [s] ascending; the last is the end.
+    virtual const std::vector<double>& looks() const = 0;
+    /// Is called at each of looks().
+    virtual void look(double time, std::span<const CaseParticle> particles);
+    virtual ProfilePoint seen(const CaseParticle& particle) const = 0;
+    /// @param particles at the end
+    virtual CaseMeasures measure(std::span<const CaseParticle> particles) const = 0;
+    /// [1] of the energy, that may be lost or won with the case's own settings.
+    virtual double energyTolerance() const { return 5e-3; }
+};
+
+} // namespace fx::sim

@@ -1,0 +1,36 @@
+/// @file gas_cases.h
+/// The list of cases. A new one adds its maker here and its line in gas_cases.cpp.
+#pragma once
+
+#include "simulation/verification/gas_case.h"
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+namespace fx::sim {
+
+std::unique_ptr<GasCase> makeSodCase(const CaseSettings& settings);
+std::unique_ptr<GasCase> makeSedovCase(const CaseSettings& settings);
+std::unique_ptr<GasCase> makeNohCase(const CaseSettings& settings);
+std::unique_ptr<GasCase> makeEvrardCase(const CaseSettings& settings);
+std::unique_ptr<GasCase> makeKelvinHelmholtzCase(const CaseSettings& settings);
+std::unique_ptr<GasCase> makeBlastWaveCase(const CaseSettings& settings);
+
+struct GasCaseEntry
+{
+    std::string_view name;
+    std::string_view summary;
+    uint32_t particles; ///< when the user names no number
+    std::unique_ptr<GasCase> (*make)(const CaseSettings& settings);
+};
+
+std::span<const GasCaseEntry> gasCases();
+
+/// Null when there is none of that name.
+const GasCaseEntry* findGasCase(std::string_view name);
+
+/// The case, with its own number of particles where the settings name none.
+std::unique_ptr<GasCase> makeGasCase(const GasCaseEntry& entry, CaseSettings settings);
+
+} // namespace fx::sim

@@ -1,0 +1,41 @@
+/// @file lattice.h
+/// Particles on cubic lattices.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+
+namespace fx::sim {
+
+/// Points in the middles of cubic cells.
+struct Lattice
+{
+    glm::dvec3 low;     ///< [m] corner
+    double spacing;     ///< [m]
+    glm::u32vec3 count; ///< cells along the axes
+
+    /// Calls f(position) for all points, x fastest.
+    template <class F>
+    void forEach(F&& f) const
+    {
+        for (uint32_t k = 0; k < count.z; ++k) {
+            for (uint32_t j = 0; j < count.y; ++j) {
+                for (uint32_t i = 0; i < count.x; ++i)
+                    f(low + spacing * glm::dvec3(i + 0.5, j + 0.5, k + 0.5));
+            }
+        }
+    }
+};
+
+/// The whole even number, at least `least`, whose cube is nearest to `particles`. Even, so that the middle of
+/// a cube is between particles: what happens there happens to all alike.
+uint32_t evenSide(uint32_t particles, uint32_t least);
+
+/// Rounds up to an even number.
+uint32_t evenAbove(double value);
+
+/// [1] support over spacing of a lattice for so many neighbors: 4/3 pi n H^3 = neighbors.
+double supportInSpacings(double neighbors);
+
+} // namespace fx::sim
