@@ -80,7 +80,7 @@ void SedovCase::addLimits(CaseMeasures& out) const
     const bool fine = side_ >= 64;
     out.limits.push_back({"l1_density", out.l1Density, 0, fine ? 0.15 : 0.25});
     out.limits.push_back({"l1_velocity", out.l1Velocity, 0, fine ? 0.105 : 0.165});
-    const double tolerance = fine ? 0.02 : 0.03;
+    const double tolerance = fine ? 0.02 : 0.04;
     out.limits.push_back({"shock_radius", out.shockRadius, (1 - tolerance) * out.shockRadiusExact,
                           (1 + tolerance) * out.shockRadiusExact});
 }

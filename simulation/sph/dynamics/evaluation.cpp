@@ -126,7 +126,8 @@ void updateRates(DynamicsState<T>& s, uint32_t i)
     if (s.def.steps == StepScheme::Block) // as fast as for the faster one of the pair
         signal = std::max(signal, T(2) * (signal - s.records[i].sound));
     gas.wantedStep[i] = longestStep(
-        T(s.def.courant), StepMotion<T>{gas.support[i], signal, square, gas.entropy[i], gas.entropyRate[i]});
+        StepLimits<T>{T(s.def.courant), T(s.def.volumeChange)},
+        StepMotion<T>{gas.support[i], signal, square, gas.entropy[i], gas.entropyRate[i], gas.divergence[i]});
     if (s.heatedNow)
         gas.wantedStep[i] *= T(kFirstSteps);
 }

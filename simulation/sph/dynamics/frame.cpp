@@ -14,7 +14,6 @@ namespace fx::sim {
 
 namespace {
 
-constexpr double kMostLoosened = 1.0; ///< of the tree before particles are sorted again
 /// A frame is at most this many of its first shortest steps long, so that steps can shrink a thousand times a
 /// thousand times before they meet the tick; longer times are cut into frames.
 constexpr double kMostSteps = 1 << 20;
@@ -24,7 +23,7 @@ template <class T>
 void lookAround(DynamicsState<T>& s, base::TaskRunner& tasks)
 {
     predict(s, tasks);
-    if (s.treeIsSorted && s.tree.loosened() <= kMostLoosened)
+    if (treeIsGood(s))
         return;
     sortParticles(s, tasks);
     predict(s, tasks);

@@ -6,6 +6,14 @@
 
 namespace fx::sim {
 
+/// Whether the order of the particles still serves; if not, they are sorted at the next evaluation.
+template <class T>
+bool treeIsGood(const DynamicsState<T>& s)
+{
+    constexpr double kMostLoosened = 1.0;
+    return s.treeIsSorted && s.tree.loosened() <= kMostLoosened;
+}
+
 /// Sorts particles by their positions now, moving all columns. Records and active places must be made anew.
 template <class T>
 void sortParticles(DynamicsState<T>& state, base::TaskRunner& tasks);

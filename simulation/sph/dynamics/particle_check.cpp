@@ -62,7 +62,8 @@ base::Status checkGasDynamicsDef(const GasDynamicsDef& def)
         !isWithin(viscosity.decay, 0, 100) || !isWithin(viscosity.beta, 0, 100) ||
         !isWithin(viscosity.conductivity, 0, 100))
         return refuse("the viscosity rules of a gas are out of range");
-    if (!isWithin(def.courant, 1e-6, 1.0) || !(def.neighborStepRatio >= 1.0) || def.maxSubSteps < 1)
+    if (!isWithin(def.courant, 1e-6, 1.0) || !isWithin(def.volumeChange, 1e-6, 1.0) ||
+        !(def.neighborStepRatio >= 1.0) || def.maxSubSteps < 1)
         return refuse("the time steps of a gas are out of range");
     if (!isWithin(def.smallestSupport, 0, 1e30) || !isWithin(def.largestSupport, 1e-30, 1e30) ||
         def.smallestSupport > def.largestSupport)

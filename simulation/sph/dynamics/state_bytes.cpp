@@ -45,6 +45,7 @@ uint64_t hashDefinition(const GasDynamicsDef& def, size_t elementSize)
                               double(def.viscosity.limiter),
                               double(def.steps),
                               def.courant,
+                              def.volumeChange,
                               def.neighborStepRatio,
                               def.domain.low.x,
                               def.domain.low.y,
@@ -100,7 +101,7 @@ void saveState(const DynamicsState<T>& state, std::vector<std::byte>& out)
     header.delayed = uint32_t(s.delayed.size());
     header.fresh = s.fresh;
     header.stale = s.stale;
-    header.treeIsSorted = s.treeIsSorted || s.mustRecoverTree;
+    header.treeIsSorted = treeIsGood(s) || s.mustRecoverTree;
     header.shaken = s.shaken;
     const size_t start = out.size();
     append(out, &header, sizeof(header));

@@ -9,13 +9,19 @@
 ///   v_sig   m/s    largest signal speed over pairs, at least 2 c
 ///   a       m/s2   acceleration
 ///   K, K'          entropy function and its rate
+///   d       1/s    divergence of the velocity
 ///   C       1      Courant's number
+///   V       1      largest change of volume
 /// @derivation
 ///   no signal crosses more than a part of the support:  t1 = C H / v_sig       (1)
 ///   no force moves a particle out of its neighborhood:  t2 = sqrt(H / 2 / |a|) / 4   (2)
 ///   no particle loses more than a quarter of its heat:  t3 = K / (4 |K'|) where K' < 0   (3)
-///   t = min(t1, t2, t3), 1e30 where nothing happens
-/// @source    [PRI12] section 3 for (1); [SPR05] section 3.2 for (2); (3) keeps K positive
+///   no volume changes by more than a part:  t4 = V / |d|   (4)
+///   t = min(t1, t2, t3, t4), 1e30 where nothing happens
+/// @source    [PRI12] section 3 for (1); [SPR05] section 3.2 for (2); (3) keeps K positive; (4) is ours: a
+/// point
+///            blast in 32^3 particles with global steps has an energy error of 1.1e-3 without it, 2.0e-4 with
+///            V = 1/20, 6e-5 with 1/40
 /// @deviation (1) is the usual 2 C h / v_sig with h = H / 2. With block steps v_sig is at least 2 (v_sig -
 /// c_i):
 ///            beside hot gas the cold takes the step of the hot, else the pair exchanges heat and momentum
@@ -38,19 +44,30 @@ struct StepMotion
     T squareAcceleration; ///< [m2/s4]
     T entropy;
     T entropyRate; ///< [1/s] of entropy
+    T divergence;  ///< [1/s] of the velocity
+};
+
+/// Parts of a neighborhood and of a volume.
+template <class T>
+struct StepLimits
+{
+    T courant;      ///< [1]
+    T volumeChange; ///< [1]
 };
 
 template <class T>
-T longestStep(T courant, const StepMotion<T>& motion)
+T longestStep(const StepLimits<T>& limits, const StepMotion<T>& motion)
 {
     T step = T(1e30);
     if (motion.signalSpeed > 0)
-        step = std::min(step, courant * motion.support / motion.signalSpeed); // (1)
+        step = std::min(step, limits.courant * motion.support / motion.signalSpeed); // (1)
     if (motion.squareAcceleration > 0)
         step = std::min(
             step, T(0.25) * std::sqrt(T(0.5) * motion.support / std::sqrt(motion.squareAcceleration))); // (2)
     if (motion.entropyRate < 0 && motion.entropy > 0)
         step = std::min(step, T(0.25) * motion.entropy / -motion.entropyRate); // (3)
+    if (motion.divergence != 0)
+        step = std::min(step, limits.volumeChange / std::abs(motion.divergence)); // (4)
     return step;
 }
 

@@ -30,11 +30,14 @@ TEST(StepClock, theMiddleOfAStepIsExact)
     EXPECT_EQ(ticksSinceMiddle(kFrameTicks, kFrameTicks - 1, kFrameTicks), 0.5);
 }
 
-TEST(StepCriteria, theShortestOfThreeDecides)
+constexpr StepLimits<double> kLimits{0.2, 0.025};
+
+TEST(StepCriteria, theShortestOfFourDecides)
 {
-    EXPECT_DOUBLE_EQ(longestStep(0.2, StepMotion<double>{2.0, 10.0, 0.0, 1.0, 0.0}), 0.04);
-    EXPECT_DOUBLE_EQ(longestStep(0.2, StepMotion<double>{2.0, 0.0, 1e4, 1.0, 0.0}), 0.025);
-    EXPECT_DOUBLE_EQ(longestStep(0.2, StepMotion<double>{2.0, 0.0, 0.0, 1.0, -5.0}), 0.05);
-    EXPECT_DOUBLE_EQ(longestStep(0.2, StepMotion<double>{2.0, 0.0, 0.0, 1.0, 5.0}), 1e30);
-    EXPECT_DOUBLE_EQ(longestStep(0.2, StepMotion<double>{2.0, 10.0, 1e4, 1.0, -5.0}), 0.025);
+    EXPECT_DOUBLE_EQ(longestStep(kLimits, StepMotion<double>{2.0, 10.0, 0.0, 1.0, 0.0, 0.0}), 0.04);
+    EXPECT_DOUBLE_EQ(longestStep(kLimits, StepMotion<double>{2.0, 0.0, 1e4, 1.0, 0.0, 0.0}), 0.025);
+    EXPECT_DOUBLE_EQ(longestStep(kLimits, StepMotion<double>{2.0, 0.0, 0.0, 1.0, -5.0, 0.0}), 0.05);
+    EXPECT_DOUBLE_EQ(longestStep(kLimits, StepMotion<double>{2.0, 0.0, 0.0, 1.0, 5.0, 0.0}), 1e30);
+    EXPECT_DOUBLE_EQ(longestStep(kLimits, StepMotion<double>{2.0, 0.0, 0.0, 1.0, 0.0, -2.5}), 0.01);
+    EXPECT_DOUBLE_EQ(longestStep(kLimits, StepMotion<double>{2.0, 10.0, 1e4, 1.0, -5.0, 1.0}), 0.025);
 }

@@ -46,7 +46,7 @@ TEST(GasAccuracy, theTubeConvergesAndTheQuarticForceDoesNotPass)
 
 TEST(GasAccuracy, theBlastGrowsAsTheTwoFifthsPowerOfTime)
 {
-    CaseSettings settings = settingsOf(20 * 20 * 20);
+    CaseSettings settings = settingsOf(24 * 24 * 24);
     const CaseReport late = report("sedov", settings);
     settings.time = 0.025;
     const CaseReport early = report("sedov", settings);
