@@ -37,7 +37,7 @@ constexpr Quality qualityOf(QualityLevel level)
     case QualityLevel::Medium:
         break;
     case QualityLevel::High:
-        return {level, 2.0f, 58.0f, 0.1f, 0.15f};
+        return {level, 2.0f, 58.0f, 0.1f, 0.075f};
     case QualityLevel::Reference:
         return {level, 4.0f, 93.0f, 0.0f, 0.0f};
     }

@@ -127,7 +127,7 @@ void addAccuracyCommand(CLI::App& app, int& outExitCode)
     CLI::App* command =
         app.add_subcommand("accuracy", "Error against time of a technique, setting by setting");
     command->add_option("TECHNIQUE", arguments->technique, "sph")->required();
-    command->add_option("--scene", arguments->scene, "What to compute: of sph sedov, sod or noh");
+    command->add_option("--scene", arguments->scene, "What to compute: of sph sedov, sod, noh or explosion");
     command->add_option("--particles", arguments->particles, "Size of the baseline, as 13824 or 24^3");
     command->add_option("--repeat", arguments->repetitions, "Interleaved repetitions")->capture_default_str();
     command->add_option("--threads", arguments->threads, "Threads of each run")->capture_default_str();

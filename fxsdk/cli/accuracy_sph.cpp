@@ -149,6 +149,8 @@ base::Result<AccuracySample> SphAccuracy::run(size_t index, const std::function<
 
 std::unique_ptr<AccuracyTechnique> makeSphAccuracy(const std::string& scene, const AccuracyScale& scale)
 {
+    if (scene == "explosion")
+        return makeExplosionAccuracy(scale);
     return std::make_unique<SphAccuracy>(scene, scale);
 }
 

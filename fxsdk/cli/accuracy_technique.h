@@ -67,6 +67,7 @@ struct AccuracyTechniqueEntry
 
 const std::vector<AccuracyTechniqueEntry>& accuracyTechniques();
 
+std::unique_ptr<AccuracyTechnique> makeExplosionAccuracy(const AccuracyScale& scale);
 std::unique_ptr<AccuracyTechnique> makeSphAccuracy(const std::string& scene, const AccuracyScale& scale);
 
 } // namespace fx::cli

@@ -53,8 +53,8 @@ GasDynamicsDef dynamicsOf(const GasDef& def, const ChargePlan& plan, const Quali
     dynamics.viscosity.alphaMax = std::max(double(def.viscosity), dynamics.viscosity.alphaMin);
     dynamics.viscosity.decay = 0.1;        // soon: rolls are to last
     dynamics.viscosity.conductivity = 0.0; // mixing is entrainment's
-    dynamics.courant = 0.4;
-    dynamics.volumeChange = 0.2; // a look, not a measurement
+    dynamics.courant = 0.5;
+    dynamics.volumeChange = 0.5; // a look, not a measurement
     dynamics.maxSubSteps = kMostGasSubSteps;
     dynamics.smallestSupport =
         std::max(double(quality.radiusFloor), 0.02) * evenSupport(plan.radius, count, dynamics.neighbors);

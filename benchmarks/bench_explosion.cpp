@@ -1,0 +1,108 @@
+// bench_explosion [--particles=N] [--seconds=S] [--threads=T] [--sound=preset|mach|full]
+//
+// The gas of the library's explosion alone, as a game steps it: 60 steps a second. Prints one JSON object:
+// simulated seconds a second of wall time, over all and over the worst of its seconds, and the work behind
+// them. --sound: `preset` limits the speed of sound as the preset says, `mach` only by the quality's Mach
+// number, `full` not at all.
+#include "fxsdk/cli/explosion_run.h"
+#include "fxsdk/cli/json_line.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+#include <string_view>
+
+namespace {
+
+using namespace fx;
+using Clock = std::chrono::steady_clock;
+
+struct Options
+{
+    uint32_t particles = 10'000;
+    int seconds = 4;
+    uint32_t threads = 2;
+    std::string sound = "preset";
+};
+
+[[noreturn]] void fail(const std::string& what)
+{
+    std::fprintf(stderr, "bench_explosion: %s\n", what.c_str());
+    std::exit(1);
+}
+
+Options parse(int argc, char** argv)
+{
+    Options options;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view a = argv[i];
+        if (a.starts_with("--particles="))
+            options.particles = uint32_t(std::clamp(std::atoi(a.data() + 12), 8, 20'000));
+        else if (a.starts_with("--seconds="))
+            options.seconds = std::clamp(std::atoi(a.data() + 10), 1, 60);
+        else if (a.starts_with("--threads="))
+            options.threads = uint32_t(std::clamp(std::atoi(a.data() + 10), 1, 256));
+        else if (a == "--sound=preset" || a == "--sound=mach" || a == "--sound=full")
+            options.sound = a.substr(8);
+        else
+            fail("usage: bench_explosion [--particles=8..20000] [--seconds=1..60] [--threads=N] "
+                 "[--sound=preset|mach|full]");
+    }
+    return options;
+}
+
+double secondsSince(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const Options options = parse(argc, argv);
+    const auto tasks = base::makeTbbRunner(options.threads);
+    cli::ExplosionSetting setting{options.particles};
+    if (options.sound != "preset")
+        setting.soundSpeed = 0;
+    if (options.sound == "full")
+        setting.flowMach = 0;
+    const auto run = cli::ExplosionRun::create(setting, *tasks);
+    if (!run)
+        fail(run.status().message());
+
+    double wall = 0, worst = 0;
+    for (int second = 0; second < options.seconds; ++second) {
+        const auto begin = Clock::now();
+        for (int frame = 0; frame < cli::kExplosionFrames; ++frame)
+            (*run)->step();
+        const double spent = secondsSince(begin);
+        wall += spent;
+        worst = std::max(worst, spent);
+        std::fprintf(stderr, "second %d: %.2f s\n", second + 1, spent);
+    }
+    const sim::StepCounters& sum = (*run)->counters();
+    cli::printJsonLine(
+        cli::withMachine({{"name", "explosion"},
+                          {"variant", options.sound},
+                          {"count", options.particles},
+                          {"threads", options.threads},
+                          {"simulated_s", options.seconds},
+                          {"wall_s", wall},
+                          {"cpu_s", double(std::clock()) / CLOCKS_PER_SEC},
+                          {"simulated_per_second", options.seconds / wall},
+                          {"worst_second_per_second", 1.0 / worst},
+                          {"sub_steps", sum.subSteps},
+                          {"particle_steps", sum.particleSteps},
+                          {"ns_per_particle_step", 1e9 * wall / double(sum.particleSteps)},
+                          {"pairs_per_particle_step", double(sum.neighborPairs) / double(sum.particleSteps)},
+                          {"debt_s", base::toSeconds(sum.debt)},
+                          {"clamped", sum.clamped}},
+                         cli::readMachine()));
+    if (sum.particleSteps < uint64_t(options.particles) * cli::kExplosionFrames * uint64_t(options.seconds))
+        fail("the gas was not stepped to the end");
+    return 0;
+}

@@ -1,0 +1,59 @@
+/// @file explosion_run.h
+/// The gas of the library's explosion alone, stepped as a game steps it: for measurements.
+#pragma once
+
+#include "foundation/memory/host_memory.h"
+#include "foundation/result/status.h"
+#include "foundation/snapshot/frame_snapshot.h"
+#include "simulation/solver.h"
+#include "simulation/sph/gas_def.h"
+
+#include <memory>
+
+namespace fx::cli {
+
+constexpr int kExplosionFrames = 60; ///< a second
+
+struct ExplosionSetting
+{
+    uint32_t particles = 10'000; ///< 8 .. 20000
+    float soundSpeed = -1;       ///< [m/s] limit on the speed of sound, 0: none, negative: the preset's
+    float flowMach = 0.3f;       ///< [1] of sim::Quality, 0: none
+};
+
+/// The cloud as a whole.
+struct ExplosionState
+{
+    double height;      ///< [m] of its middle
+    double radius;      ///< [m] root of the mean square distance from the axis
+    double speed;       ///< [m/s] root mean square
+    double temperature; ///< [K] mean
+};
+
+class ExplosionRun
+{
+public:
+    /// @param tasks must outlive the run
+    /// @return NotFound when the library has no explosion of gas
+    static base::Result<std::unique_ptr<ExplosionRun>> create(const ExplosionSetting& setting,
+                                                              base::TaskRunner& tasks);
+    ExplosionRun(const sim::GasDef& gas, const sim::Quality& quality, base::TaskRunner& tasks);
+
+    void step(); ///< one frame
+    ExplosionState look();
+    const sim::StepCounters& counters() const { return counters_; }
+
+private:
+    sim::GasDef def_;
+    base::TaskRunner& tasks_;
+    base::HostMemory memory_;
+    base::SnapshotSchema schema_;
+    std::unique_ptr<sim::Solver> solver_;
+    base::Arena arena_;
+    base::FrameSnapshot snapshot_;
+    sim::InstanceParameters parameters_;
+    sim::StepCounters counters_;
+    int frame_ = 0;
+};
+
+} // namespace fx::cli
