@@ -1,12 +1,11 @@
 /// @file accuracy_command.cpp
 /// fx accuracy: what exactness costs in time.
 
-#include "fxsdk/cli/accuracy_curve.h"
+#include "fxsdk/cli/accuracy_measure.h"
 #include "fxsdk/cli/atomic_file.h"
 #include "fxsdk/cli/calibration.h"
 #include "fxsdk/cli/commands.h"
 #include "fxsdk/cli/exit_code.h"
-#include "fxsdk/cli/instruction_counter.h"
 #include "fxsdk/cli/interrupt.h"
 #include "fxsdk/cli/json_line.h"
 #include "fxsdk/cli/progress.h"
@@ -14,7 +13,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -32,6 +30,9 @@ struct AccuracyArguments
     uint32_t threads = 1;
     std::string csv;
     std::string svg;
+    std::string html;
+    bool noCallgrind = false;
+    bool countWork = false;
     bool json = false;
 };
 
@@ -41,82 +42,103 @@ int failed(const base::Status& status, int exitCode)
     return exitCode;
 }
 
-base::Result<std::unique_ptr<AccuracyTechnique>> makeTechnique(const AccuracyArguments& arguments)
+base::Status checkArguments(const AccuracyArguments& arguments, const std::vector<AccuracyTask>& tasks)
 {
-    std::vector<std::string> names;
-    for (const AccuracyTechniqueEntry& entry : accuracyTechniques()) {
-        names.emplace_back(entry.name);
-        if (entry.name != arguments.technique)
-            continue;
-        const std::string scene = arguments.scene.empty() ? entry.scenes.front() : arguments.scene;
-        if (std::find(entry.scenes.begin(), entry.scenes.end(), scene) == entry.scenes.end())
-            return unknownName("scene", scene, entry.scenes);
-        const AccuracyScale scale{particleCount(arguments.particles), arguments.threads};
-        if (!arguments.particles.empty() && scale.particles < 2048)
-            return base::Status(base::Code::InvalidArgument, "--particles: 2048 to 2^28, as 13824 or 24^3");
-        return entry.make(scene, scale);
-    }
-    return unknownName("technique", arguments.technique, names);
+    const auto refused = [](const char* text) { return base::Status(base::Code::InvalidArgument, text); };
+    if (arguments.repetitions < 1 || arguments.repetitions > 1000 || arguments.threads < 1)
+        return refused("--repeat: 1 to 1000; --threads: 1 or more");
+    if (!arguments.particles.empty() && particleCount(arguments.particles) < 2048)
+        return refused("--particles: 2048 to 2^28, as 13824 or 24^3");
+    bool isScalable = false;
+    for (const AccuracyTask& task : tasks)
+        isScalable = isScalable || task.technique->isScalable;
+    if (!isScalable && (!arguments.particles.empty() || arguments.threads > 1))
+        return refused(
+            "--particles and --threads: this technique has its own scenes, and measures one thread");
+    return {};
 }
 
-base::Result<AccuracyCurve> measure(const AccuracyArguments& arguments, AccuracyTechnique& technique)
+base::Result<std::vector<AccuracyCurve>> measureAll(const AccuracyArguments& arguments,
+                                                    const std::vector<AccuracyTask>& tasks)
 {
-    AccuracyCurve curve{arguments.technique, std::string(technique.scene()), {}};
-    for (const AccuracySetting& setting : technique.settings())
-        curve.points.push_back({setting, {}, {}, {}});
-    InstructionCounter counter;
-    Progress progress("run", uint64_t(arguments.repetitions) * curve.points.size(), !arguments.json);
-    uint64_t done = 0;
-    for (uint32_t round = 0; round < arguments.repetitions; ++round) {
-        for (size_t k = 0; k < curve.points.size(); ++k) {
-            counter.start();
-            const base::Result<AccuracySample> sample = technique.run(k, interruptRequested);
-            const double instructions = counter.stop();
-            if (!sample)
-                return sample.status();
-            if (round == 0)
-                curve.points[k].sample = *sample;
-            curve.points[k].seconds.push_back(sample->seconds);
-            curve.points[k].instructions.push_back(instructions);
-            progress.update(++done);
-        }
+    std::vector<AccuracyCurve> curves;
+    for (const AccuracyTask& task : tasks) {
+        Progress bar(std::string(task.technique->name) + " " + task.scene + " run",
+                     uint64_t(arguments.repetitions) * 20, !arguments.json);
+        MeasureRules rules;
+        rules.scale = {particleCount(arguments.particles), arguments.threads};
+        rules.repetitions = arguments.repetitions;
+        rules.useCallgrind = !arguments.noCallgrind;
+        rules.stop = interruptRequested;
+        rules.progress = [&](uint64_t done, uint64_t all) {
+            bar.update(done * uint64_t(arguments.repetitions) * 20 / all);
+        };
+        base::Result<AccuracyCurve> curve = measureAccuracy(task, rules);
+        if (!curve)
+            return curve.status();
+        curves.push_back(std::move(*curve));
+        if (interruptRequested())
+            return base::Status(base::Code::Interrupted, "interrupted");
     }
-    return curve;
+    return curves;
+}
+
+base::Status writeReports(const AccuracyArguments& arguments, const std::vector<AccuracyCurve>& curves,
+                          const std::string& origin)
+{
+    base::Status status;
+    if (!arguments.csv.empty())
+        status = writeFileAtomically(arguments.csv, curvesCsv(curves, origin));
+    if (status.ok() && !arguments.svg.empty())
+        status = writeFileAtomically(arguments.svg, curvesSvg(curves, origin));
+    if (status.ok() && !arguments.html.empty())
+        status = writeFileAtomically(arguments.html, curvesHtml(curves, origin));
+    return status;
+}
+
+void printReport(const AccuracyArguments& arguments, const std::vector<AccuracyCurve>& curves,
+                 const Machine& machine)
+{
+    if (!arguments.json) {
+        for (const AccuracyCurve& curve : curves)
+            std::printf("%s\n", curveTable(curve).c_str());
+        std::printf("%s, %u threads, %u repetitions\n", provenance(toText(machine)).c_str(),
+                    curves.back().threads, arguments.repetitions);
+        return;
+    }
+    const nlohmann::json calibration = toJson(calibrate());
+    for (const AccuracyCurve& curve : curves)
+        for (nlohmann::json line : curveJson(curve)) {
+            line["calibration"] = calibration;
+            printJsonLine(withMachine(line, machine));
+        }
 }
 
 int runAccuracy(const AccuracyArguments& arguments)
 {
-    if (arguments.repetitions < 1 || arguments.repetitions > 1000 || arguments.threads < 1)
-        return failed({base::Code::InvalidArgument, "--repeat: 1 to 1000; --threads: 1 or more"}, kUsage);
-    const auto technique = makeTechnique(arguments);
-    if (!technique)
-        return failed(technique.status(), kUsage);
-    const base::Result<AccuracyCurve> curve = measure(arguments, **technique);
-    if (!curve)
-        return failed(curve.status(), exitCodeOf(curve.status()));
+    const base::Result<std::vector<AccuracyTask>> tasks = accuracyTasks(arguments.technique, arguments.scene);
+    if (!tasks)
+        return failed(tasks.status(), kUsage);
+    if (base::Status status = checkArguments(arguments, *tasks); !status)
+        return failed(status, kUsage);
+    if (arguments.countWork)
+        return countWork(tasks->front()) ? kSuccess : kFailed;
+    const base::Result<std::vector<AccuracyCurve>> curves = measureAll(arguments, *tasks);
+    if (!curves)
+        return failed(curves.status(), exitCodeOf(curves.status()));
     const Machine machine = readMachine();
-    if (!arguments.csv.empty()) {
-        if (base::Status status = writeFileAtomically(arguments.csv, curveCsv(*curve, toText(machine)));
-            !status)
-            return failed(status, kFailed);
-    }
-    if (!arguments.svg.empty()) {
-        if (base::Status status = writeFileAtomically(arguments.svg, curveSvg(*curve, toText(machine)));
-            !status)
-            return failed(status, kFailed);
-    }
-    if (!arguments.json) {
-        std::printf("%s\non %s, %u threads, %u repetitions\n", curveTable(*curve).c_str(),
-                    toText(machine).c_str(), arguments.threads, arguments.repetitions);
-        return kSuccess;
-    }
-    const nlohmann::json calibration = toJson(calibrate());
-    for (nlohmann::json line : curveJson(*curve)) {
-        line["threads"] = arguments.threads;
-        line["calibration"] = calibration;
-        printJsonLine(withMachine(line, machine));
-    }
+    if (base::Status status = writeReports(arguments, *curves, provenance(toText(machine))); !status)
+        return failed(status, kFailed);
+    printReport(arguments, *curves, machine);
     return kSuccess;
+}
+
+std::string techniqueHelp()
+{
+    std::string text;
+    for (const AccuracyTechniqueEntry& entry : accuracyTechniques())
+        text += std::string(entry.name) + ": " + std::string(entry.summary) + "; ";
+    return text + "all";
 }
 
 } // namespace
@@ -126,13 +148,17 @@ void addAccuracyCommand(CLI::App& app, int& outExitCode)
     auto arguments = std::make_shared<AccuracyArguments>();
     CLI::App* command =
         app.add_subcommand("accuracy", "Error against time of a technique, setting by setting");
-    command->add_option("TECHNIQUE", arguments->technique, "sph")->required();
-    command->add_option("--scene", arguments->scene, "What to compute: of sph sedov, sod, noh or explosion");
-    command->add_option("--particles", arguments->particles, "Size of the baseline, as 13824 or 24^3");
+    command->add_option("TECHNIQUE", arguments->technique, techniqueHelp())->required();
+    command->add_option("--scene", arguments->scene, "One scene of the technique, such as tau-10 or sedov");
+    command->add_option("--particles", arguments->particles, "sph: size of the baseline, as 13824 or 24^3");
     command->add_option("--repeat", arguments->repetitions, "Interleaved repetitions")->capture_default_str();
-    command->add_option("--threads", arguments->threads, "Threads of each run")->capture_default_str();
-    command->add_option("--csv", arguments->csv, "Write the curve as a table");
-    command->add_option("--svg", arguments->svg, "Draw the curve: error against time on logarithmic axes");
+    command->add_option("--threads", arguments->threads, "sph: threads of each run")->capture_default_str();
+    command->add_option("--csv", arguments->csv, "Write the curves as a table");
+    command->add_option("--svg", arguments->svg, "Draw the curves: error against time on logarithmic axes");
+    command->add_option("--html", arguments->html, "Write a page with plots and tables");
+    command->add_flag("--no-callgrind", arguments->noCallgrind,
+                      "Leave instructions out where the system itself does not count them");
+    command->add_flag("--count-work", arguments->countWork)->group(""); // what callgrind is given to run
     command->add_flag("--json", arguments->json, "One object a setting");
     command->callback([arguments, &outExitCode] { outExitCode = runAccuracy(*arguments); });
 }

@@ -28,8 +28,16 @@ struct AccuracyCurve
 {
     std::string technique;
     std::string scene;
+    std::string item; ///< what ns_per_item is about
+    ShownError shown = ShownError::P99;
     std::vector<AccuracyPoint> points; ///< the first is the baseline
+    std::string instructionsBy;        ///< "perf", "callgrind" or empty
+    uint32_t threads = 1;
 };
+
+/// The error by which points are compared and drawn.
+double shownError(const AccuracyCurve& curve, size_t point);
+const char* shownErrorName(const AccuracyCurve& curve);
 
 /// Time of a point in units of the baseline's: fastest over fastest, and the range of the rounds. The median
 /// of n rounds lies within that range with probability 1 - 2^(1-n).
@@ -41,14 +49,27 @@ struct TimeRatio
 };
 TimeRatio timeRatio(const AccuracyCurve& curve, size_t point);
 
-/// Whether no other point is both as fast (in fastest times) and as exact (in mean errors).
+/// [ns] of the fastest round.
+double nanosecondsPerItem(const AccuracyPoint& point);
+
+/// Fewest instructions of a point in units of the baseline's; 0 where they are not known.
+double instructionRatio(const AccuracyCurve& curve, size_t point);
+
+/// Whether no other point is both as fast (in fastest times) and as exact (in the shown error), and faster by
+/// 3 % or more exact: two settings that turn out to do the same work are both on the front.
 bool isOnFront(const AccuracyCurve& curve, size_t point);
 
+/// "fx 0.3.0 at 6316190 on Intel Xeon, 2 cores, AVX3": what a report was made by.
+std::string provenance(const std::string& machine);
+
 std::string curveTable(const AccuracyCurve& curve);
-std::string curveCsv(const AccuracyCurve& curve, const std::string& machine);
+/// One table of all curves. @param origin of provenance()
+std::string curvesCsv(const std::vector<AccuracyCurve>& curves, const std::string& origin);
 /// One object a point, without machine and version.
 std::vector<nlohmann::json> curveJson(const AccuracyCurve& curve);
-/// Error against time on logarithmic axes.
-std::string curveSvg(const AccuracyCurve& curve, const std::string& machine);
+/// Error against time on logarithmic axes, a panel a curve.
+std::string curvesSvg(const std::vector<AccuracyCurve>& curves, const std::string& origin);
+/// A page that needs no other file: the plots, and the tables under them.
+std::string curvesHtml(const std::vector<AccuracyCurve>& curves, const std::string& origin);
 
 } // namespace fx::cli

@@ -1,20 +1,27 @@
 /// @file accuracy_plot.cpp
-/// The curve as a drawing that every browser shows.
+/// The curves as a drawing that every browser shows: a panel a curve, error over time on logarithmic axes.
 
 #include "fxsdk/cli/accuracy_curve.h"
+#include "fxsdk/cli/accuracy_labels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 
 namespace fx::cli {
 namespace {
 
-constexpr double kWidth = 860, kHeight = 560;                       // [pixel]
-constexpr double kLeft = 90, kRight = 220, kTop = 50, kBottom = 60; // [pixel] margins
+constexpr double kPanelWidth = 640, kPanelHeight = 460;            // [pixel]
+constexpr double kLeft = 76, kRight = 24, kTop = 44, kBottom = 52; // [pixel] margins of a panel
+constexpr double kHead = 40;                                       // [pixel] above all panels
+constexpr const char* kColors[] = {"#1f6fb4", "#c0392b", "#2e8b57", "#8e5ea2",
+                                   "#c77800", "#444444", "#008b8b"};
 
-/// A logarithmic axis over whole decades and their 2 and 5.
+constexpr const char* kFrontStroke = "#f2b8a0\" stroke-width=\"5\" stroke-linecap=\"round";
+
+/// A logarithmic axis, marked at every decade or second one, and at 2 and 5 when there are few.
 struct Axis
 {
     double low = std::numeric_limits<double>::infinity();
@@ -27,10 +34,10 @@ struct Axis
         low = std::min(low, value);
         high = std::max(high, value);
     }
-    void widen()
+    void widen(double below, double above)
     {
-        low /= 1.3;
-        high *= 1.3;
+        low /= below;
+        high *= above;
     }
     double at(double value) const
     {
@@ -38,95 +45,180 @@ struct Axis
     }
     std::vector<double> marks() const
     {
+        const double decades = std::log10(high / low);
         std::vector<double> marks;
         for (int decade = int(std::floor(std::log10(low))); decade <= int(std::ceil(std::log10(high)));
-             ++decade) {
+             ++decade)
             for (const double step : {1.0, 2.0, 5.0}) {
                 const double value = step * std::pow(10.0, decade);
-                if (value >= low && value <= high)
+                const bool isUsed = decades < 3.0 || (step == 1.0 && (decades < 9.0 || decade % 2 == 0));
+                if (value >= low && value <= high && isUsed)
                     marks.push_back(value);
             }
-        }
         return marks;
     }
 };
 
-std::string escaped(const std::string& text)
+template <class... Numbers>
+std::string format(const char* pattern, Numbers... numbers)
 {
-    std::string out;
-    for (const char c : text)
-        out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    return out;
-}
-
-std::string textAt(double x, double y, const std::string& anchor, const std::string& text)
-{
-    char buffer[160];
-    std::snprintf(buffer, sizeof buffer, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">", x, y,
-                  anchor.c_str());
-    return buffer + escaped(text) + "</text>\n";
-}
-
-std::string lineAt(double x1, double y1, double x2, double y2)
-{
-    char buffer[160];
-    std::snprintf(buffer, sizeof buffer,
-                  "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#ccc\"/>\n", x1, y1, x2,
-                  y2);
+    char buffer[400];
+    std::snprintf(buffer, sizeof buffer, pattern, numbers...);
     return buffer;
 }
 
-std::string shortNumber(double value)
+std::string textAt(double x, double y, const char* anchor, const std::string& text, const char* more = "")
 {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%g", value);
-    return buffer;
+    return format("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" %s>", x, y, anchor, more) +
+           escapedMarkup(text) + "</text>\n";
 }
 
-std::string gridOf(const Axis& x, const Axis& y)
+std::string lineAt(double x1, double y1, double x2, double y2, const char* stroke)
 {
-    std::string svg;
-    for (const double mark : x.marks())
-        svg += lineAt(x.at(mark), kTop, x.at(mark), kHeight - kBottom) +
-               textAt(x.at(mark), kHeight - kBottom + 18, "middle", shortNumber(mark));
-    for (const double mark : y.marks())
-        svg += lineAt(kLeft, y.at(mark), kWidth - kRight, y.at(mark)) +
-               textAt(kLeft - 8, y.at(mark) + 4, "end", shortNumber(mark));
-    return svg;
+    return format("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\"/>\n", x1, y1, x2, y2,
+                  stroke);
 }
+
+/// "paper" of "paper-4": settings of one family are joined by a line.
+std::string familyOf(const std::string& name)
+{
+    return name.substr(0, name.find_first_of("-0123456789 "));
+}
+
+/// One curve with its axes; places are relative to the panel.
+class Panel
+{
+public:
+    explicit Panel(const AccuracyCurve& curve) : curve_(curve)
+    {
+        x_.from = kLeft;
+        x_.to = kPanelWidth - kRight;
+        y_.from = kPanelHeight - kBottom;
+        y_.to = kTop;
+        for (size_t k = 0; k < curve.points.size(); ++k) {
+            x_.include(timeRatio(curve, k).best);
+            if (shownError(curve, k) > 0 && shownError(curve, k) < 1e6)
+                y_.include(shownError(curve, k));
+        }
+        if (!(y_.high > 0))
+            y_.low = y_.high = 1;
+        x_.widen(1.25, std::pow(x_.high / x_.low, 0.12) * 1.3); // room for labels
+        y_.widen(3, 3);
+        for (const AccuracyPoint& point : curve.points)
+            colors_.try_emplace(familyOf(point.setting.name), kColors[colors_.size() % std::size(kColors)]);
+    }
+
+    std::string svg() const { return grid() + front() + families() + points(); }
+
+private:
+    double px(size_t k) const { return x_.at(timeRatio(curve_, k).best); }
+    /// Errors of 0 and beyond the axis lie on its ends.
+    double py(size_t k) const
+    {
+        return y_.at(std::clamp(shownError(curve_, k), y_.low * 1.5, y_.high / 1.5));
+    }
+
+    std::string grid() const
+    {
+        std::string svg = textAt(kLeft, 20, "start", curve_.technique + ": " + curve_.scene,
+                                 "font-size=\"15\" font-weight=\"bold\"");
+        for (const double mark : x_.marks())
+            svg += lineAt(x_.at(mark), kTop, x_.at(mark), y_.from, "#e4e4e4") +
+                   textAt(x_.at(mark), y_.from + 17, "middle", format("%g", mark));
+        for (const double mark : y_.marks())
+            svg += lineAt(kLeft, y_.at(mark), x_.to, y_.at(mark), "#e4e4e4") +
+                   textAt(kLeft - 7, y_.at(mark) + 4, "end", format("%g", mark));
+        svg += format(
+            "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#999\"/>\n",
+            kLeft, kTop, x_.to - kLeft, y_.from - kTop);
+        return svg +
+               textAt(0.5 * (kLeft + x_.to), kPanelHeight - 14, "middle",
+                      "time, 1 = " + curve_.points.front().setting.name) +
+               textAt(kLeft, kTop - 7, "start", shownErrorName(curve_));
+    }
+
+    /// Steps along the settings that no other beats.
+    std::string front() const
+    {
+        std::vector<size_t> best;
+        for (size_t k = 0; k < curve_.points.size(); ++k)
+            if (isOnFront(curve_, k))
+                best.push_back(k);
+        std::sort(best.begin(), best.end(), [&](size_t a, size_t b) { return px(a) < px(b); });
+        std::string svg;
+        for (size_t i = 1; i < best.size(); ++i) {
+            const double x = px(best[i]), before = py(best[i - 1]), after = py(best[i]);
+            svg += lineAt(px(best[i - 1]), before, x, before, kFrontStroke) +
+                   lineAt(x, before, x, after, kFrontStroke);
+        }
+        return svg;
+    }
+
+    std::string families() const
+    {
+        std::string svg;
+        for (const auto& [family, color] : colors_) {
+            std::string path;
+            for (size_t k = 0; k < curve_.points.size(); ++k)
+                if (familyOf(curve_.points[k].setting.name) == family)
+                    path += format("%s%.1f %.1f", path.empty() ? "M" : " L", px(k), py(k));
+            svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + color +
+                   "\" stroke-opacity=\"0.5\" stroke-width=\"1\"/>\n";
+        }
+        return svg;
+    }
+
+    std::string points() const
+    {
+        LabelPlaces places(kLeft + 2, kTop + 2, x_.to - 2, y_.from - 2);
+        for (size_t k = 0; k < curve_.points.size(); ++k)
+            places.avoid(px(k), py(k));
+        std::string svg;
+        for (size_t k = 0; k < curve_.points.size(); ++k) {
+            const AccuracySetting& setting = curve_.points[k].setting;
+            const char* color = colors_.at(familyOf(setting.name));
+            const bool isBest = isOnFront(curve_, k);
+            svg += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\" fill=\"%s\" stroke=\"%s\" "
+                          "stroke-width=\"1.5\"/>\n",
+                          px(k), py(k), isBest ? color : "white", color);
+            std::string label = setting.name;
+            if (!setting.tier.empty())
+                label += " (" + setting.tier + ")";
+            if (!(shownError(curve_, k) > 0))
+                label += ": exact";
+            const LabelPlaces::Place place = places.place(px(k), py(k), label);
+            svg +=
+                textAt(place.x, place.y, "start", label,
+                       setting.tier.empty() ? "font-size=\"11\"" : "font-size=\"11\" font-weight=\"bold\"");
+        }
+        return svg;
+    }
+
+    const AccuracyCurve& curve_;
+    Axis x_, y_;
+    std::map<std::string, const char*> colors_;
+};
 
 } // namespace
 
-std::string curveSvg(const AccuracyCurve& curve, const std::string& machine)
+std::string curvesSvg(const std::vector<AccuracyCurve>& curves, const std::string& origin)
 {
-    Axis x{.from = kLeft, .to = kWidth - kRight};
-    Axis y{.from = kHeight - kBottom, .to = kTop};
-    for (size_t k = 0; k < curve.points.size(); ++k) {
-        x.include(timeRatio(curve, k).best);
-        y.include(std::max(curve.points[k].sample.errorMean, 1e-12));
-    }
-    x.widen();
-    y.widen();
-    char buffer[256];
-    std::snprintf(buffer, sizeof buffer,
-                  "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
-                  "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%%\" height=\"100%%\" "
-                  "fill=\"white\"/>\n",
-                  kWidth, kHeight);
-    std::string svg =
-        buffer + textAt(kLeft, 24, "start", curve.technique + " on " + curve.scene + ": error over time") +
-        textAt(kLeft, 40, "start", machine) + gridOf(x, y) +
-        textAt(0.5 * (kLeft + kWidth - kRight), kHeight - 16, "middle",
-               "time, 1 = " + curve.points.front().setting.name) +
-        textAt(kLeft - 70, kTop - 10, "start", "mean error");
-    for (size_t k = 0; k < curve.points.size(); ++k) {
-        const AccuracyPoint& point = curve.points[k];
-        const double px = x.at(timeRatio(curve, k).best);
-        const double py = y.at(std::max(point.sample.errorMean, 1e-12));
-        std::snprintf(buffer, sizeof buffer, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\" fill=\"%s\"/>\n", px,
-                      py, isOnFront(curve, k) ? "#c33" : "#999");
-        svg += buffer + textAt(px + 8, py + 4, "start", point.setting.name);
-    }
+    const size_t columns = curves.size() > 1 ? 2 : 1;
+    const size_t rows = (curves.size() + columns - 1) / columns;
+    const double width = kPanelWidth * double(columns);
+    const double height = kHead + kPanelHeight * double(rows);
+    std::string svg = format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
+                             "viewBox=\"0 0 %.0f %.0f\" font-family=\"sans-serif\" font-size=\"12\">\n"
+                             "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+                             width, height, width, height);
+    svg += textAt(12, 16, "start", origin, "font-size=\"11\" fill=\"#555\"") +
+           textAt(12, 32, "start",
+                  "filled, on the broad line: no other setting is both as fast and as exact (Pareto front)",
+                  "font-size=\"11\" fill=\"#555\"");
+    for (size_t i = 0; i < curves.size(); ++i)
+        svg += format("<g transform=\"translate(%.0f,%.0f)\">\n", kPanelWidth * double(i % columns),
+                      kHead + kPanelHeight * double(i / columns)) +
+               Panel(curves[i]).svg() + "</g>\n";
     return svg + "</svg>\n";
 }
 

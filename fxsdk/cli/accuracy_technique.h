@@ -5,13 +5,14 @@
 #pragma once
 
 #include "foundation/result/status.h"
+#include "fxsdk/cli/accuracy_work.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <span>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,7 @@ struct AccuracySample
     double bias = 0;                                ///< mean of the signed error
     double seconds = 0;                             ///< of the timed part
     double items = 0;                               ///< what the time is spent on, such as particle steps
+    double instructions = 0;                        ///< of the timed part, 0 when the system does not count
     nlohmann::json work = nlohmann::json::object(); ///< counters
 };
 
@@ -55,13 +57,27 @@ public:
     virtual const std::vector<AccuracySetting>& settings() const = 0;
     /// @param stop true to leave as soon as possible with Code::Interrupted
     virtual base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) = 0;
+    /// Does the timed part alone, once, by measureWork(). Nothing for techniques whose work is too long to be
+    /// counted by a simulated processor.
+    virtual std::optional<MeasuredWork> work(size_t /*setting*/) { return std::nullopt; }
+};
+
+/// Which of the errors the plot shows and the front is made of.
+enum class ShownError
+{
+    Mean,
+    P99
 };
 
 struct AccuracyTechniqueEntry
 {
     std::string_view name;
     std::string_view summary;
-    std::vector<std::string> scenes; ///< the first is the default
+    std::string_view item; ///< what ns_per_item is about
+    ShownError shown;
+    std::vector<std::string> scenes;
+    size_t usualScenes; ///< so many of them, from the first, are run when none is named
+    bool isScalable;    ///< takes AccuracyScale into account
     std::unique_ptr<AccuracyTechnique> (*make)(const std::string& scene, const AccuracyScale& scale);
 };
 
@@ -69,5 +85,9 @@ const std::vector<AccuracyTechniqueEntry>& accuracyTechniques();
 
 std::unique_ptr<AccuracyTechnique> makeExplosionAccuracy(const AccuracyScale& scale);
 std::unique_ptr<AccuracyTechnique> makeSphAccuracy(const std::string& scene, const AccuracyScale& scale);
+std::unique_ptr<AccuracyTechnique> makeRayIntegralAccuracy(const std::string& scene, const AccuracyScale&);
+std::unique_ptr<AccuracyTechnique> makeFurnaceAccuracy(const std::string& scene, const AccuracyScale&);
+std::unique_ptr<AccuracyTechnique> makeBillboardAccuracy(const std::string& scene, const AccuracyScale&);
+std::unique_ptr<AccuracyTechnique> makeDazzleAccuracy(const std::string& scene, const AccuracyScale&);
 
 } // namespace fx::cli

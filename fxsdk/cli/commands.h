@@ -14,5 +14,7 @@ void addDoctorCommand(CLI::App& app, int& outExitCode);
 void addParametersCommand(CLI::App& app, int& outExitCode);
 void addVerifyCommand(CLI::App& app, int& outExitCode);
 void addAccuracyCommand(CLI::App& app, int& outExitCode);
+void addStabilityCommand(CLI::App& app, int& outExitCode);
+void addDazzleCommand(CLI::App& app, int& outExitCode);
 
 } // namespace fx::cli

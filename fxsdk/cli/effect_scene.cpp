@@ -32,8 +32,8 @@ FxInstanceDef definitionOf(const scene_file::SceneInstance& instance, FxPresetId
 }
 
 /// Copies one group of blobs that the C API hands out.
-base::Status copyGroup(FxScene* scene, FxSnapshotId id, uint32_t index, const FxSnapshotGroup& source,
-                       base::SnapshotGroup& target)
+base::Status copyGroup(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, uint32_t index,
+                       const FxSnapshotGroup& source, base::SnapshotGroup& target)
 {
     base::GroupInfo& info = target.editInfo();
     info.count = source.count;
@@ -48,7 +48,7 @@ base::Status copyGroup(FxScene* scene, FxSnapshotId id, uint32_t index, const Fx
     for (uint32_t c = 0; c < source.columnCount; ++c) {
         FxSnapshotColumn column = {};
         column.structSize = sizeof column;
-        const FxResult result = fxScene_GetSnapshotColumn(scene, id, FX_SNAPSHOT_NEWER, index, c, &column);
+        const FxResult result = fxScene_GetSnapshotColumn(scene, id, step, index, c, &column);
         if (result != FX_OK)
             return toStatus(result);
         std::copy_n(column.values, column.count, target.editColumn(c).begin());
@@ -56,22 +56,20 @@ base::Status copyGroup(FxScene* scene, FxSnapshotId id, uint32_t index, const Fx
     return {};
 }
 
-base::Status copyGroups(FxScene* scene, FxSnapshotId id, base::KindId blobs, base::FrameSnapshot& target)
+base::Status copyGroups(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, const FxSnapshotInfo& info,
+                        base::KindId blobs, base::FrameSnapshot& target)
 {
-    FxSnapshotInfo info = {};
-    info.structSize = sizeof info;
-    if (FxResult result = fxScene_GetSnapshotInfo(scene, id, &info); result != FX_OK)
-        return toStatus(result);
-    target.begin(info.tickNewer, 1);
-    for (uint32_t i = 0; i < info.groupsNewer; ++i) {
+    const bool isNewer = step == FX_SNAPSHOT_NEWER;
+    target.begin(isNewer ? info.tickNewer : info.tickOlder, 1);
+    const uint32_t groups = isNewer ? info.groupsNewer : info.groupsOlder;
+    for (uint32_t i = 0; i < groups; ++i) {
         FxSnapshotGroup group = {};
         group.structSize = sizeof group;
-        if (FxResult result = fxScene_GetSnapshotGroup(scene, id, FX_SNAPSHOT_NEWER, i, &group);
-            result != FX_OK)
+        if (FxResult result = fxScene_GetSnapshotGroup(scene, id, step, i, &group); result != FX_OK)
             return toStatus(result);
         if (group.kind != base::kBlobKind.name)
             continue;
-        if (base::Status status = copyGroup(scene, id, i, group, target.addGroup(blobs, group.count));
+        if (base::Status status = copyGroup(scene, id, step, i, group, target.addGroup(blobs, group.count));
             !status)
             return status;
     }
@@ -84,6 +82,7 @@ EffectScene::EffectScene()
 {
     schema_.add(base::kBlobKind);
     copy_ = std::make_unique<base::FrameSnapshot>(&schema_, std::pmr::get_default_resource());
+    older_ = std::make_unique<base::FrameSnapshot>(&schema_, std::pmr::get_default_resource());
 }
 
 EffectScene::~EffectScene()
@@ -156,16 +155,32 @@ base::Status EffectScene::showMoment(base::Ticks tick)
 
 base::Result<const base::FrameSnapshot*> EffectScene::snapshot()
 {
+    const auto copied = moment();
+    if (!copied.ok())
+        return copied.status();
+    return static_cast<const base::FrameSnapshot*>(copy_.get());
+}
+
+base::Result<SceneMoment> EffectScene::moment()
+{
     FxSnapshotId id = {};
     if (base::Status status = toStatus(fxScene_AcquireSnapshot(scene_, &id)); !status)
         return status;
-    const base::Status copied = copyGroups(scene_, id, schema_.find(base::kBlobKind.name), *copy_);
+    FxSnapshotInfo info = {};
+    info.structSize = sizeof info;
+    const base::KindId blobs = schema_.find(base::kBlobKind.name);
+    base::Status copied = toStatus(fxScene_GetSnapshotInfo(scene_, id, &info));
+    if (copied.ok())
+        copied = copyGroups(scene_, id, FX_SNAPSHOT_NEWER, info, blobs, *copy_);
+    const bool hasOlder = copied.ok() && info.tickOlder < info.tickNewer;
+    if (hasOlder)
+        copied = copyGroups(scene_, id, FX_SNAPSHOT_OLDER, info, blobs, *older_);
     const base::Status released = toStatus(fxScene_ReleaseSnapshot(scene_, id));
     if (!copied)
         return copied;
     if (!released)
         return released;
-    return static_cast<const base::FrameSnapshot*>(copy_.get());
+    return SceneMoment{{copy_.get(), hasOlder ? older_.get() : nullptr}, info.interpolation};
 }
 
 base::Result<FxSceneStatistics> EffectScene::statistics() const

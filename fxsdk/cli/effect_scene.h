@@ -5,7 +5,7 @@
 #pragma once
 
 #include "foundation/result/status.h"
-#include "foundation/snapshot/frame_snapshot.h"
+#include "foundation/snapshot/snapshot_ring.h"
 #include "foundation/time/ticks.h"
 #include "fxsdk/fxsdk.h"
 #include "fxsdk/scene_file/scene_file.h"
@@ -21,6 +21,13 @@ struct EffectSceneOptions
     int stepsPerSecond = 60;
     uint32_t quality = FX_QUALITY_DEFAULT; ///< FxQuality of what is simulated
     std::optional<uint64_t> seed;          ///< instance k gets seed + k instead of the file's
+};
+
+/// What a view shows: a moment between two steps.
+struct SceneMoment
+{
+    base::SnapshotPair snapshots; ///< older is null before the second step
+    double interpolation = 0;     ///< 0 shows the older, 1 would show the newer
 };
 
 class EffectScene
@@ -40,6 +47,9 @@ public:
     /// Copies the last step into a snapshot as renderers know it. Valid until the next call.
     base::Result<const base::FrameSnapshot*> snapshot();
 
+    /// Copies the last two steps: what a view would show now. Valid until the next call, of snapshot() too.
+    base::Result<SceneMoment> moment();
+
     base::Result<FxSceneStatistics> statistics() const;
     FxContext* context() const { return context_; }
     FxScene* scene() const { return scene_; }
@@ -54,7 +64,8 @@ private:
     base::Ticks step_ = 0;
     base::Ticks now_ = 0;
     base::SnapshotSchema schema_;
-    std::unique_ptr<base::FrameSnapshot> copy_;
+    std::unique_ptr<base::FrameSnapshot> copy_;  ///< of the last step
+    std::unique_ptr<base::FrameSnapshot> older_; ///< of the step before
 };
 
 } // namespace fx::cli

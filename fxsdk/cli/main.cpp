@@ -28,6 +28,8 @@ int run(int argumentCount, char** arguments)
     fx::cli::addParametersCommand(app, exitCode);
     fx::cli::addVerifyCommand(app, exitCode);
     fx::cli::addAccuracyCommand(app, exitCode);
+    fx::cli::addStabilityCommand(app, exitCode);
+    fx::cli::addDazzleCommand(app, exitCode);
     try {
         app.parse(argumentCount, arguments);
     } catch (const CLI::ParseError& error) {

@@ -9,6 +9,7 @@
 #include "fxsdk/cli/interrupt.h"
 #include "fxsdk/cli/json_line.h"
 #include "fxsdk/cli/progress.h"
+#include "fxsdk/cli/reference_render.h"
 #include "fxsdk/cli/render_options.h"
 #include "fxsdk/cli/render_statistics.h"
 
@@ -132,6 +133,13 @@ int runRender(const RenderArguments& arguments)
     const auto plan = planRender(arguments);
     if (!plan.ok()) {
         failed(plan.status());
+        return kUsage;
+    }
+    if (arguments.renderer == "reference")
+        return runReference(arguments, *plan, [&] { return loadInput(arguments, *plan); });
+    if (isBlobList(arguments.input)) {
+        failed(
+            {base::Code::InvalidArgument, arguments.input + ": a list of blobs needs --renderer reference"});
         return kUsage;
     }
     const auto scene = loadInput(arguments, *plan);

@@ -60,9 +60,10 @@ base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
 void addRenderOptions(CLI::App& command, RenderArguments& arguments)
 {
     command
-        .add_option("FILE", arguments.input,
-                    "A scene (*.scene.json), a preset (*.fx.json) or library:NAME; a preset "
-                    "stands on a plain ground")
+        .add_option(
+            "FILE", arguments.input,
+            "A scene (*.scene.json), a preset (*.fx.json), library:NAME, or a list of blobs (*.blobs.csv); "
+            "a preset stands on a plain ground")
         ->required();
     command
         .add_option("-o,--output", arguments.output,
@@ -96,13 +97,17 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments)
         ->check(CLI::Range(-20.0, 40.0));
     command.add_flag("--no-dazzle", arguments.noDazzle, "Without glare (EXR never has it)");
     command.add_flag("--no-shimmer", arguments.noShimmer, "Without heat shimmer (EXR never has it)");
-    command.add_option("--renderer", arguments.renderer, "gl is the only one")
-        ->check(CLI::IsMember({"gl"}))
+    command
+        .add_option("--renderer", arguments.renderer,
+                    "gl, or reference: the ray integral on the processor, exact and slow, to EXR; draws "
+                    "*.blobs.csv too")
+        ->check(CLI::IsMember({"gl", "reference"}))
         ->capture_default_str();
     command.add_option("--stats", arguments.statistics, "Write one JSON object a frame to this file");
     command.add_flag("--overdraw", arguments.overdraw,
                      "Count shaded fragments and covered pixels in the statistics");
     command.add_flag("--json", arguments.json, "Print one JSON object a frame");
+    addReferenceOptions(command, arguments.reference);
 }
 
 base::Result<RenderPlan> planRender(const RenderArguments& arguments)

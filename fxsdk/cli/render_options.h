@@ -5,6 +5,7 @@
 #include "foundation/result/status.h"
 #include "foundation/time/ticks.h"
 #include "fxsdk/cli/output_target.h"
+#include "fxsdk/cli/reference_options.h"
 #include "fxsdk/fxsdk.h"
 #include "rendering/view/view_types.h"
 
@@ -38,6 +39,7 @@ struct RenderArguments
     bool noShimmer = false;
     bool overdraw = false;
     bool json = false;
+    ReferenceArguments reference;
 };
 
 /// Checked and understood.

@@ -1,4 +1,3 @@
-#include "formulas/sensor_law.fx.h"
 #include "passes/dazzle_shared.glsl"
 
 // One workgroup: totals of all tiles, temporal adaptation, sensor law, and from them how much glare each quantum of
@@ -72,13 +71,41 @@ double adapt(double state, double frame)
     return next;
 }
 
+const double kOverFactorial[12] = double[12](
+    1.6059043836821613e-10LF, 2.08767569878681e-09LF, 2.505210838544172e-08LF,
+    2.755731922398589e-07LF, 2.7557319223985893e-06LF, 2.48015873015873e-05LF,
+    0.0001984126984126984LF, 0.001388888888888889LF, 0.008333333333333333LF,
+    0.041666666666666664LF, 0.16666666666666666LF, 0.5LF); // 1 / 13!, ... 1 / 2!
+
+// exp(-x) for x >= 0 from additions and multiplications, which every GPU rounds alike; explained, with the same text, in
+// rendering/reference/dazzle/dazzle_reference.cpp.
+double expOfMinus(double x)
+{
+    if (!(x < 700.0LF))
+        return 0.0LF;
+    precise double n = floor(x * 1.4426950408889634LF + 0.5LF);
+    precise double r = (n * 6.93147180369123816490e-01LF - x) + n * 1.90821492927058770002e-10LF;
+    precise double sum = 0.0LF;
+    for (int k = 0; k < 12; ++k)
+        sum = sum * r + kOverFactorial[k];
+    sum = (sum * r + 1.0LF) * r + 1.0LF;
+    precise double scaled = sum * packDouble2x32(uvec2(0u, uint(1023 - int(n)) << 20));
+    return scaled;
+}
+
+// Formula sensor-law (1): A + B exp(-C over)
+double gainOf(double over)
+{
+    precise double gain = double(sensorLaw.x) + double(sensorLaw.y) * expOfMinus(double(sensorLaw.z) * over);
+    return gain;
+}
+
 // [quantum] of glare that is wanted, cut to the headroom.
 uvec2 budgetOf(double state, double frame, uvec3 overflow, uvec2 headroom)
 {
     if (state == frame && sensorLaw.x == 1.0 && sensorLaw.y == 0.0) // the overflow itself, as an integer
         return overflow.z != 0u || less64(headroom, overflow.xy) ? headroom : overflow.xy;
-    precise float gain = fxSensorGain(float(state), sensorLaw.x, sensorLaw.y, sensorLaw.z);
-    precise double wanted = floor(state * double(gain) * capacity);
+    precise double wanted = floor(state * gainOf(state) * capacity);
     if (!(wanted < toDouble(uvec3(headroom, 0u))))
         return headroom;
     precise double high = floor(wanted / kWord);

@@ -1,5 +1,5 @@
 // What the three programs of the dazzle share. Layouts asserted in rendering/passes/dazzle_pass.cpp; the same
-// arithmetic in C++ is rendering/passes/dazzle_reference.cpp.
+// arithmetic in C++ is rendering/reference/dazzle/dazzle_reference.cpp.
 //
 // Light is counted in quanta: whole multiples of 2^quantumExponent, of which `white` is exactly whiteQuanta <= 2^24.
 // 64-bit integers are uvec2(low, high).

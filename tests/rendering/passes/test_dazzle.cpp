@@ -1,7 +1,7 @@
 #include "foundation/random/philox.h"
 #include "rendering/frame_graph/recording_backend.h"
 #include "rendering/passes/dazzle_pass.h"
-#include "rendering/passes/dazzle_reference.h"
+#include "rendering/reference/dazzle/dazzle_reference.h"
 #include "tests/rendering/passes/post_pass_harness.h"
 
 #include <cmath>
@@ -179,6 +179,29 @@ TEST_F(DazzleOnGpu, adaptsLikeTheReferenceFromFrameToFrame)
         const auto want = dazzleReference(picture.texels, 61, 37, settings, steps[i], i == 4, onCpu);
         EXPECT_EQ(test::differentBits(got, want), 0u) << "frame " << i;
         EXPECT_EQ(onGpu.adapted[1], onCpu.adapted[1]) << "frame " << i;
+    }
+}
+
+TEST_F(DazzleOnGpu, equalsTheReferenceBitForBitForEverySensorLaw)
+{
+    const float laws[][3] = {{0.01f, 0.0f, 1.0f}, {0.3f, 0.9f, 1.5f},  {1.0f, -1.0f, 0.7f},
+                             {0.5f, 3.0f, 40.0f}, {0.05f, 0.3f, 1e6f}, {0.4f, 0.1f, 0.0f}};
+    for (const auto& law : laws)
+        for (const float white : {0.05f, 1.0f, 4.0f})
+            expectEqualToReference(randomPicture(113, 75, 13),
+                                   {.white = white, .a = law[0], .b = law[1], .c = law[2]});
+}
+
+TEST_F(DazzleOnGpu, adaptsLikeTheReferenceWithASensorLawThatBends)
+{
+    const DazzleSettings settings{.white = 1.0f, .a = 0.2f, .b = 0.7f, .c = 2.0f};
+    DazzleHistory onGpu{}, onCpu{};
+    for (uint64_t i = 0; i < 6; ++i) {
+        const Picture picture = randomPicture(61, 37, i);
+        const auto got = frame(picture, settings, onGpu, 0.03);
+        const auto want = dazzleReference(picture.texels, 61, 37, settings, 0.03, false, onCpu);
+        EXPECT_EQ(test::differentBits(got, want), 0u) << "frame " << i;
+        EXPECT_EQ(onGpu.adapted[2], onCpu.adapted[2]) << "frame " << i;
     }
 }
 

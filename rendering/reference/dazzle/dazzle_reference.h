@@ -1,9 +1,6 @@
 /// @file dazzle_reference.h
 /// The dazzle on the CPU, in 128-bit integers: what the GPU programs are compared with, and the path without
-/// a GPU.
-///
-/// Equal to DazzlePass bit for bit when B = 0. Otherwise only the gain differs: exp() of a GPU changes the
-/// budget by a relative error of at most 2^-20 and each pixel by what follows from it.
+/// a GPU. Equal to DazzlePass bit for bit, for every sensor law.
 #pragma once
 
 #include "rendering/passes/dazzle_pass.h"
@@ -20,5 +17,9 @@ namespace fx::render {
 std::vector<float> dazzleReference(std::span<const float> rgba, int width, int height,
                                    const DazzleSettings& settings, double deltaTime, bool resetHistory,
                                    DazzleHistory& ioHistory);
+
+/// Glare per overflow, formula sensor-law (1), in operations that every processor and GPU rounds alike.
+/// @param over mean overflow per pixel in units of white, >= 0
+double dazzleGain(double over, const DazzleSettings& settings);
 
 } // namespace fx::render

@@ -1,4 +1,4 @@
-#include "rendering/passes/dazzle_reference.h"
+#include "rendering/reference/dazzle/dazzle_reference.h"
 #include "shaders/formulas/formula.h"
 
 #include <gtest/gtest.h>
@@ -283,4 +283,28 @@ TEST(SensorLaw, valuesThatMakeNoSenseAreRefusedByName)
     EXPECT_NE(message([](auto& s) { s.riseTime = -0.1f; }).find("riseTime"), std::string::npos);
     EXPECT_NE(message([](auto& s) { s.fallTime = kNan; }).find("fallTime"), std::string::npos);
     EXPECT_TRUE(render::checkSensorLaw(DazzleSettings{}).ok());
+}
+
+TEST(SensorLaw, theDazzlesOwnGainIsAsExactAsItsArgument)
+{
+    for (const float c : {0.0f, 0.3f, 1.0f, 50.0f})
+        for (double over = 1e-12; over < 1e6; over *= 1.0937) {
+            const DazzleSettings settings{.a = 0.0f, .b = 1.0f, .c = c};
+            const double want = double(expl(-static_cast<long double>(settings.c) * over));
+            const double got = render::dazzleGain(over, settings);
+            if (double(c) * over > 699.0)
+                break;
+            ASSERT_NEAR(got / want, 1.0, (4.0 + double(c) * over) * 0x1p-52) << c << " " << over;
+        }
+}
+
+TEST(SensorLaw, theDazzlesOwnGainIsTheFormulas)
+{
+    for (const double over : {0.0, 0.01, 0.5, 3.0, 200.0}) {
+        const DazzleSettings settings{.a = 0.3f, .b = 0.9f, .c = 1.5f};
+        EXPECT_NEAR(render::dazzleGain(over, settings),
+                    formula64::fxSensorGain(over, double(settings.a), double(settings.b), double(settings.c)),
+                    1e-15);
+    }
+    EXPECT_EQ(render::dazzleGain(1e30, {.a = 0.7f, .b = 0.4f, .c = 3e38f}), double(0.7f));
 }

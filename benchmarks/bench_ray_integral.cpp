@@ -1,0 +1,160 @@
+// bench_ray_integral [--repeat=N] [--width=W] [--height=H] [--validate-hash=0x...]
+//
+// The integration alone of a picture of 270 overlapping blobs in a ball whose diameter is the picture's
+// width: blobs of every ray are found beforehand. One JSON object a case: scheme, optical depth, processor
+// time of one thread (the least of N interleaved runs) a frame, a ray and a blob that a ray meets, its ratio
+// to the default scheme in the same run, the wall time on two threads, work counters, and a hash of the
+// picture. The packets of a picture are 20 MB: they stream through the caches as they do in a renderer.
+#include "foundation/math/hash.h"
+#include "foundation/simd/instruction_set.h"
+#include "foundation/tasks/task_runner.h"
+#include "fxsdk/cli/json_line.h"
+#include "rendering/reference/integral/accuracy_cases.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <time.h>
+#include <vector>
+
+namespace {
+
+using namespace fx;
+
+struct Options
+{
+    int repeat = 7;
+    uint32_t width = 480, height = 300;
+    uint64_t validate = 0; ///< 0: nothing
+};
+
+[[noreturn]] void fail(const std::string& what)
+{
+    std::fprintf(stderr, "bench_ray_integral: %s\n", what.c_str());
+    std::exit(1);
+}
+
+Options parse(int argc, char** argv)
+{
+    Options options;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view a = argv[i];
+        if (a.starts_with("--repeat="))
+            options.repeat = std::max(std::atoi(a.data() + 9), 1);
+        else if (a.starts_with("--width="))
+            options.width = uint32_t(std::max(std::atoi(a.data() + 8) / 4, 1)) * 4;
+        else if (a.starts_with("--height="))
+            options.height = uint32_t(std::max(std::atoi(a.data() + 9) / 4, 1)) * 4;
+        else if (a.starts_with("--validate-hash="))
+            options.validate = std::strtoull(a.data() + 16, nullptr, 16);
+        else
+            fail("usage: bench_ray_integral [--repeat=N] [--width=W] [--height=H] [--validate-hash=0x...]");
+    }
+    return options;
+}
+
+const cli::Machine& machine()
+{
+    static const cli::Machine read = cli::readMachine();
+    return read;
+}
+
+double threadSeconds()
+{
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+struct Variant
+{
+    std::string name;
+    render::IntegralSettings settings;
+    double seconds = 1e30; ///< of one thread
+    double wall = 1e30;    ///< [s] on two
+};
+
+/// Packets in chunks over two threads, each with an integrator of its own.
+double twoThreads(const render::PacketPicture<float>& picture, const render::IntegralSettings& settings,
+                  base::TaskRunner& tasks, std::vector<render::PacketLight<float>>& lights)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    constexpr uint32_t kChunk = 64;
+    tasks.parallelFor(
+        uint32_t(picture.packets() + kChunk - 1) / kChunk, 1, [&](uint32_t first, uint32_t last) {
+            render::PacketIntegrator<float> integrator(settings);
+            picture.integrate(integrator, first * kChunk, std::min<size_t>(last * kChunk, picture.packets()),
+                              lights.data());
+        });
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+uint64_t run(const Options& options, double depth)
+{
+    const render::PacketPicture<float> picture =
+        render::ballOfBlobs<float>(depth, options.width, options.height);
+    std::vector<render::PacketLight<float>> lights(picture.packets());
+    std::vector<Variant> variants;
+    for (const char* name :
+         {"gauss-5", "gauss-8", "gauss-3", "paper-1", "paper-4", "simpson-4", "march-0.01"})
+        variants.push_back({name, {*render::parseScheme(name), render::SourceModel::PerBlob, 2}});
+    const std::unique_ptr<base::TaskRunner> tasks = base::makeTbbRunner(2);
+    for (int repeat = 0; repeat < options.repeat; ++repeat)
+        for (Variant& variant : variants) {
+            render::PacketIntegrator<float> integrator(variant.settings);
+            const double begin = threadSeconds();
+            picture.integrate(integrator, 0, picture.packets(), lights.data());
+            variant.seconds = std::min(variant.seconds, threadSeconds() - begin);
+            variant.wall = std::min(variant.wall, twoThreads(picture, variant.settings, *tasks, lights));
+        }
+    uint64_t all = 0;
+    for (const Variant& variant : variants) {
+        render::PacketIntegrator<float> integrator(variant.settings);
+        integrator.countWork(true);
+        picture.integrate(integrator, 0, picture.packets(), lights.data());
+        const render::RayWork& work = integrator.work();
+        uint64_t hash = 0;
+        for (const render::PacketLight<float>& light : lights)
+            hash = base::hashBytes(hash, light.radiance, sizeof(light.radiance));
+        all = base::hashWord(all, hash);
+        char text[32];
+        std::snprintf(text, sizeof(text), "0x%016llx", static_cast<unsigned long long>(hash));
+        cli::printJsonLine(cli::withMachine(
+            {{"name", "ray_integral"},
+             {"variant", variant.name},
+             {"simd", base::instructionSetName(base::instructionSet())},
+             {"tau", depth},
+             {"ms_per_frame_one_thread", variant.seconds * 1e3},
+             {"ms_per_frame_two_threads", variant.wall * 1e3},
+             {"ns_per_ray", variant.seconds * 1e9 / double(work.rays)},
+             {"ns_per_hit", variant.seconds * 1e9 / double(work.hits)},
+             {"ratio_to_default", variant.seconds / variants.front().seconds},
+             {"rays", work.rays},
+             {"hits", work.hits},
+             {"intervals", work.intervals},
+             {"parts", work.parts},
+             {"blobs_per_interval", double(work.blobSums) / double(std::max<uint64_t>(work.intervals, 1))},
+             {"nodes", work.nodes},
+             {"hash", text}},
+            machine()));
+    }
+    return all;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const Options options = parse(argc, argv);
+    uint64_t hash = 0;
+    for (const double depth : {0.1, 1.0, 10.0, 100.0}) {
+        hash = base::hashWord(hash, run(options, depth));
+    }
+    if (options.validate != 0 && hash != options.validate)
+        fail("the pictures differ from those of --validate-hash");
+    return 0;
+}

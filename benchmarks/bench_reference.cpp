@@ -1,0 +1,164 @@
+// bench_reference [--blobs=N] [--cover=C] [--depth=D] [--size=WxH] [--threads=N] [--repeat=N] [--float]
+//
+// Times a whole picture of the reference renderer: N blobs in a unit ball, that cover its cross-section C
+// times and have the mean optical depth D over it, whatever N is. So pictures of different N show as much
+// medium, and a ray meets as many blobs; what differs is the scene around it. Prints one JSON object: least
+// time of `repeat` runs, of building and of rendering, work, and a hash of the picture.
+#include "foundation/math/hash.h"
+#include "fxsdk/cli/json_line.h"
+#include "rendering/reference/render/reference_renderer.h"
+#include "tests/rendering/reference/trace/ball_scenes.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <numbers>
+#include <string_view>
+
+namespace {
+
+using namespace fx;
+
+struct Options
+{
+    size_t blobs = 100000;
+    double cover = 32.0; ///< about what a ray meets within the ball
+    double depth = 4.0;  ///< [1]
+    int width = 640;
+    int height = 360;
+    uint32_t threads = 2;
+    int repeat = 5;
+    bool isSingle = false;
+};
+
+bool parse(int argc, char** argv, Options& options)
+{
+    for (int i = 1; i < argc; ++i) {
+        if (std::sscanf(argv[i], "--blobs=%zu", &options.blobs) == 1 ||
+            std::sscanf(argv[i], "--cover=%lf", &options.cover) == 1 ||
+            std::sscanf(argv[i], "--depth=%lf", &options.depth) == 1 ||
+            std::sscanf(argv[i], "--size=%dx%d", &options.width, &options.height) == 2 ||
+            std::sscanf(argv[i], "--threads=%u", &options.threads) == 1 ||
+            std::sscanf(argv[i], "--repeat=%d", &options.repeat) == 1)
+            continue;
+        if (std::string_view(argv[i]) == "--float") {
+            options.isSingle = true;
+            continue;
+        }
+        std::fprintf(stderr, "bench_reference [--blobs=N] [--cover=C] [--depth=D] [--size=WxH] [--threads=N] "
+                             "[--repeat=N] [--float]\n");
+        return false;
+    }
+    return options.blobs > 0 && options.cover > 0.0 && options.depth > 0.0 && options.repeat > 0;
+}
+
+render::ReferenceScene makeScene(const Options& options)
+{
+    test::Chance chance(1);
+    const double count = double(options.blobs);
+    const double radius = std::sqrt(options.cover / count);
+    render::ReferenceScene scene;
+    scene.blobs.reserve(options.blobs);
+    while (scene.blobs.size() < options.blobs) {
+        render::MediumBlob blob;
+        blob.center = chance.inCube();
+        if (glm::dot(blob.center, blob.center) >= 1.0)
+            continue;
+        blob.radius = radius * chance.between(0.8, 1.2);
+        blob.crossSection = options.depth * std::numbers::pi / count;
+        blob.source = {chance(), chance(), chance()};
+        scene.blobs.push_back(blob);
+    }
+    scene.opaque.isEmpty = true;
+    scene.camera = render::ReferenceCamera::lookAt({0.0, 0.0, 3.0}, glm::dvec3(0.0), {0.0, 1.0, 0.0});
+    scene.camera.halfHeight = 0.36; // the ball fills most of the picture's height
+    return scene;
+}
+
+double processSeconds()
+{
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+struct Result
+{
+    double build = 1e30;  ///< [s] wall
+    double render = 1e30; ///< [s] wall
+    double cpu = 1e30;    ///< [s] of all threads
+    render::ReferenceWork work;
+    double meanDepth = 0.0; ///< [1] over the picture
+    uint64_t hash = 0;
+};
+
+bool runOnce(const render::ReferenceScene& scene, const Options& options, base::TaskRunner& tasks,
+             Result& out)
+{
+    using Clock = std::chrono::steady_clock;
+    render::ReferenceSettings settings;
+    settings.width = options.width;
+    settings.height = options.height;
+    settings.isSingle = options.isSingle;
+    const double cpu = processSeconds();
+    const Clock::time_point start = Clock::now();
+    render::ReferenceRenderer renderer;
+    if (!renderer.build(scene, settings, tasks).ok())
+        return false;
+    const Clock::time_point built = Clock::now();
+    if (!renderer.render(nullptr, {}).ok())
+        return false;
+    const Clock::time_point done = Clock::now();
+    out.cpu = std::min(out.cpu, processSeconds() - cpu);
+    out.build = std::min(out.build, std::chrono::duration<double>(built - start).count());
+    out.render = std::min(out.render, std::chrono::duration<double>(done - built).count());
+    out.work = renderer.work();
+    out.hash = 0;
+    for (uint32_t c = 0; c < render::reference_channel::Count; ++c) {
+        const std::vector<float>& plane = renderer.pixels(c);
+        out.hash = base::hashBytes(out.hash, plane.data(), plane.size() * sizeof(float));
+    }
+    double sum = 0.0;
+    for (const float depth : renderer.pixels(render::reference_channel::OpticalDepth))
+        sum += double(depth);
+    out.meanDepth = sum / double(options.width * options.height);
+    return true;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    Options options;
+    if (!parse(argc, argv, options))
+        return 2;
+    const render::ReferenceScene scene = makeScene(options);
+    const auto tasks = base::makeTbbRunner(options.threads);
+    Result result;
+    for (int i = 0; i < options.repeat; ++i)
+        if (!runOnce(scene, options, *tasks, result)) {
+            std::fprintf(stderr, "bench_reference: the renderer refuses the scene\n");
+            return 1;
+        }
+    char hash[32];
+    std::snprintf(hash, sizeof(hash), "0x%016llx", static_cast<unsigned long long>(result.hash));
+    cli::printJsonLine(cli::withMachine({{"name", "reference"},
+                                         {"variant", options.isSingle ? "float" : "double"},
+                                         {"blobs", options.blobs},
+                                         {"cover", options.cover},
+                                         {"threads", options.threads},
+                                         {"width", options.width},
+                                         {"height", options.height},
+                                         {"rays", result.work.rays},
+                                         {"hits", result.work.hits},
+                                         {"mean_depth", result.meanDepth},
+                                         {"ms_build", result.build * 1e3},
+                                         {"ms_render", result.render * 1e3},
+                                         {"ms_picture", (result.build + result.render) * 1e3},
+                                         {"ms_processor", result.cpu * 1e3},
+                                         {"hash", hash}},
+                                        cli::readMachine()));
+    return 0;
+}

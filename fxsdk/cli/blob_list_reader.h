@@ -1,0 +1,29 @@
+/// @file blob_list_reader.h
+/// Lists of blobs (`*.blobs.csv`) for experiments with the reference renderer.
+///
+/// The first line is `x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb`, every other one nine numbers. A
+/// blob's extinction is tau_area W(r; radius) with the quartic kernel; it sends out (1 - albedo) e per
+/// optical depth.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "rendering/reference/render/medium_blobs.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fx::cli {
+
+constexpr uint64_t kBlobListBytes = uint64_t(1) << 30;
+
+/// @param name of the file, for messages
+/// @return Parse, with file, line and column: another header, too few or too many numbers, something that is
+/// no
+///   number or outside its range (radius > 0, tau_area >= 0, albedo 0..1, e >= 0, all below 1e12)
+base::Result<std::vector<render::MediumBlob>> readBlobList(std::string_view text, const std::string& name);
+
+/// The same for a file. @return also NotFound, Io, TooLarge
+base::Result<std::vector<render::MediumBlob>> loadBlobList(const std::string& path);
+
+} // namespace fx::cli

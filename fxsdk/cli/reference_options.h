@@ -1,0 +1,50 @@
+/// @file reference_options.h
+/// The arguments of fx render that belong to the reference renderer.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "rendering/reference/integral/integral_scheme.h"
+#include "rendering/reference/render/tile_renderer.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace fx::cli {
+
+/// As written on the command line.
+struct ReferenceArguments
+{
+    std::string integrator = "gauss-5";
+    std::string precision = "double";
+    std::string source = "per-blob";
+    std::string scattering = "centers";
+    std::string view;   ///< "ex,ey,ez,tx,ty,tz,fov": replaces the camera
+    std::string camera; ///< a scene file whose camera is used
+    int samples = 1;
+    uint32_t threads = 0; ///< 0: all
+    bool resume = false;
+};
+
+/// Checked and understood.
+struct ReferencePlan
+{
+    render::IntegralSettings integral;
+    bool isSingle = false;
+    render::ScatteringMode scattering = render::ScatteringMode::Centers;
+    std::optional<render::ReferenceCamera> camera; ///< of --view
+};
+
+void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments);
+
+/// @return InvalidArgument, which is a usage error
+base::Result<ReferencePlan> planReference(const ReferenceArguments& arguments);
+
+/// Understands "ex,ey,ez,tx,ty,tz,fov_y_degrees": eye and target [m], different.
+base::Result<render::ReferenceCamera> parseView(const std::string& text);
+
+} // namespace fx::cli

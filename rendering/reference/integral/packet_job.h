@@ -1,0 +1,81 @@
+/// @file packet_job.h
+/// Calls into the text that is compiled for each instruction set.
+#pragma once
+
+#include "rendering/reference/integral/group_scratch.h"
+#include "rendering/reference/integral/ray_packet.h"
+
+namespace fx::render::integral {
+
+/// Those blobs of a packet that one of its groups of rays meets. Keeps its memory.
+template <class T>
+struct MetBlobs
+{
+    LineArray<T> center, chord2;
+    std::vector<typename RayPacket<T>::Shared> shared;
+};
+
+template <class T>
+struct PacketJob
+{
+    const GroupRules<T>& rules;
+    GroupScratch<T>& scratch;
+    MetBlobs<T>& met;
+    const PacketRays<T>& rays;
+    const RayPacket<T>& packet;
+    RayWork* work; ///< null: not counted
+    PacketLight<T>& light;
+};
+
+template <class T>
+T largestRadius(const RayPacket<T>& packet)
+{
+    T largest = T(0);
+    for (const typename RayPacket<T>::Shared& blob : packet.shared)
+        largest = largest < blob.radius ? blob.radius : largest;
+    return largest;
+}
+
+/// Lanes from `lane` on.
+template <class T>
+GroupInput<T> inputOf(const PacketJob<T>& job, uint32_t lane, T largest)
+{
+    const PacketRays<T>& rays = job.rays;
+    return {uint32_t(job.packet.shared.size()),
+            kPacketRays,
+            largest,
+            job.packet.center.data() + lane,
+            job.packet.chord2.data() + lane,
+            rays.nearest + lane,
+            rays.farthest + lane,
+            {rays.background[0] + lane, rays.background[1] + lane, rays.background[2] + lane}};
+}
+template <class T>
+GroupOutput<T> outputOf(const PacketJob<T>& job, uint32_t lane)
+{
+    PacketLight<T>& light = job.light;
+    return {{light.radiance[0] + lane, light.radiance[1] + lane, light.radiance[2] + lane},
+            light.opticalDepth + lane,
+            light.transmittance + lane,
+            light.flags + lane};
+}
+
+template <class T>
+struct MeetJob
+{
+    const PacketRays<T>& rays;
+    std::span<const BallBlob<T>> balls;
+    std::span<const uint32_t> candidates;
+    RayPacket<T>& packet;
+};
+
+// With the instruction set of the machine, see foundation/simd/instruction_set.h.
+void integrateFloats(const PacketJob<float>& job);
+void integrateDoubles(const PacketJob<double>& job);
+/// What processors without vectors do: the text of RayIntegrator.
+template <class T>
+void integrateOneByOne(const PacketJob<T>& job);
+uint64_t meetFloats(const MeetJob<float>& job);
+uint64_t meetDoubles(const MeetJob<double>& job);
+
+} // namespace fx::render::integral

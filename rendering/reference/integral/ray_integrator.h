@@ -1,0 +1,39 @@
+/// @file ray_integrator.h
+/// The light along one ray through overlapping blobs. For many rays at once see ray_packet.h, which gives the
+/// same bits.
+#pragma once
+
+#include "rendering/reference/integral/integral_scheme.h"
+#include "rendering/reference/integral/ray_records.h"
+
+#include <memory>
+#include <span>
+
+namespace fx::render {
+
+/// Keeps its memory between rays: one for each thread. T is float or double; tests instantiate
+/// ray_integrator-inl.h for __float128.
+template <class T>
+class RayIntegrator
+{
+public:
+    explicit RayIntegrator(const IntegralSettings& settings);
+    ~RayIntegrator();
+    RayIntegrator(RayIntegrator&&) noexcept;
+    RayIntegrator& operator=(RayIntegrator&&) noexcept;
+
+    /// The order of `blobs` does not matter: the result is the same bit for bit.
+    RayLight<T> integrate(std::span<const RayBlob<T>> blobs, const RayWindow<T>& window);
+
+    const RayWork& work() const;
+    void clearWork();
+
+private:
+    class Machine;
+    std::unique_ptr<Machine> machine_;
+};
+
+extern template class RayIntegrator<float>;
+extern template class RayIntegrator<double>;
+
+} // namespace fx::render

@@ -1,0 +1,36 @@
+/// @file blob_light.h
+/// What blobs scatter of the light that arrives at their centers.
+#pragma once
+
+#include "rendering/reference/render/medium_view.h"
+#include "rendering/reference/render/opaque_view.h"
+
+#include <vector>
+
+namespace fx::render {
+
+/// @formula center-scattering
+/// Light that a blob scatters towards the eye, taken as constant over the blob.
+///
+/// symbol    unit    meaning
+///   a, p    1, 1/sr albedo and phase function of the blob
+///   E_l     lx      illuminance of light l with nothing in its way; T_l the transmittance towards it
+///   L_j     cd/m2   luminance of sky or ground in direction j; T_j the transmittance up to it
+///   w_j     1       weight of direction j, sum 1
+///   S       cd/m2   scattered light per optical depth
+/// @derivation
+///   S = a sum over l of p E_l T_l + a sum over j of w_j L_j T_j                                 (1)
+///   j: along the axes, w = 1/15, and to the corners of a cube, w = 3/40: exact for L_j T_j of degree 5  (2)
+///   L_j is that of the ground where a triangle stands in the way, T_j ends there.              (3)
+/// @source    [LL99] on quadrature over the sphere, 14 points, for (2)
+/// @deviation light of the sky is scattered alike in all directions, whatever p
+/// @valid     single scattering only
+/// @accuracy  transmittances are exact; light that changes over a blob is not resolved
+/// @tests     tests/rendering/reference/render/test_blob_light.cpp
+///
+/// @param lights sun and glowing groups as well; false: sky and ground alone
+/// @return S of each blob, by its place in the tree of `medium`; empty if nothing shines
+std::vector<glm::vec3> lightAtCenters(const MediumView& medium, const OpaqueView& opaque, bool lights,
+                                      base::TaskRunner& tasks);
+
+} // namespace fx::render

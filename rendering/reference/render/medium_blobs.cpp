@@ -1,0 +1,163 @@
+#include "rendering/reference/render/medium_blobs.h"
+
+#include "foundation/math/bits.h"
+#include "rendering/optics/black_body.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+namespace fx::render {
+
+namespace {
+
+namespace column = base::blob_column;
+namespace constant = base::blob_constant;
+
+constexpr int kMostStreakBlobs = 10;
+
+/// A moment of a group: the newer snapshot's elements, and their places in the older.
+class GroupMoment
+{
+public:
+    GroupMoment(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, double t,
+                double stepSeconds)
+        : newer_(newer), older_(older), t_(older ? t : 1.0), stepSeconds_(stepSeconds)
+    {
+        place_ = newer.info().placement;
+        if (!older)
+            return;
+        const base::Placement& before = older->info().placement;
+        place_.position = glm::mix(before.position, place_.position, t);
+        place_.rotation = glm::slerp(before.rotation, place_.rotation, float(t));
+        place_.scale = glm::mix(before.scale, place_.scale, float(t));
+    }
+
+    void appendTo(MediumList& out)
+    {
+        size_t j = 0;
+        for (size_t i = 0; i < newer_.count(); ++i) {
+            const size_t old = oldPlaceOf(i, j);
+            if (old == kNone && older_ && newer_.column(column::Age)[i] < (1.0 - t_) * stepSeconds_)
+                continue; // not yet born
+            append(i, old, out);
+        }
+    }
+
+private:
+    static constexpr size_t kNone = std::numeric_limits<size_t>::max();
+
+    size_t oldPlaceOf(size_t i, size_t& ioNext) const
+    {
+        if (!older_)
+            return kNone;
+        const auto ids = older_->ids();
+        const uint64_t id = newer_.ids()[i];
+        while (ioNext < ids.size() && ids[ioNext] < id)
+            ++ioNext;
+        return ioNext < ids.size() && ids[ioNext] == id ? ioNext : kNone;
+    }
+
+    double value(size_t c, size_t i, size_t old) const
+    {
+        const double now = double(newer_.column(c)[i]);
+        return old == kNone ? now : glm::mix(double(older_->column(c)[old]), now, t_);
+    }
+    glm::dvec3 vector(size_t c, size_t i, size_t old) const
+    {
+        return {value(c, i, old), value(c + 1, i, old), value(c + 2, i, old)};
+    }
+
+    void append(size_t i, size_t old, MediumList& out) const
+    {
+        const glm::dvec3 velocity = vector(column::VelocityX, i, old);
+        glm::dvec3 position = vector(column::PositionX, i, old);
+        if (old == kNone && older_)
+            position -= velocity * ((1.0 - t_) * stepSeconds_);
+        const double scale = double(place_.scale);
+        const glm::dquat rotation(place_.rotation);
+        const float temperature = float(value(column::Temperature, i, old));
+
+        MediumBlob blob;
+        blob.center = place_.position + rotation * (position * scale);
+        blob.radius = value(column::Radius, i, old) * scale;
+        blob.crossSection = value(column::CrossSection, i, old) * scale * scale;
+        blob.albedo = vector(column::AlbedoR, i, old);
+        blob.source = (1.0 - blob.albedo) * glm::dvec3(blackBodyLuminance(temperature)) +
+                      vector(column::EmissionR, i, old);
+        blob.fireShare = glm::clamp(value(column::FireShare, i, old), 0.0, 1.0);
+        blob.anisotropy = double(newer_.constants()[constant::Anisotropy]);
+        blob.layer = base::MediaLayer(uint32_t(newer_.constants()[constant::Layer]));
+        const glm::dvec3 streak =
+            rotation * (velocity * scale) * double(newer_.constants()[constant::Shutter]);
+        if (!isFinite(blob) || !base::isFinite(temperature) || !base::isFinite(glm::dot(streak, streak))) {
+            ++out.nonFinite;
+            return;
+        }
+        if (blob.crossSection > 0.0 && blob.radius > 0.0)
+            appendStreak(blob, streak, out);
+    }
+
+    static bool isFinite(const MediumBlob& b)
+    {
+        const double sum = b.center.x + b.center.y + b.center.z + b.radius + b.crossSection + b.albedo.x +
+                           b.albedo.y + b.albedo.z + b.source.x + b.source.y + b.source.z + b.fireShare;
+        return base::isFinite(sum);
+    }
+
+    /// A moving blob is seen along its way while the shutter is open.
+    static void appendStreak(const MediumBlob& blob, const glm::dvec3& streak, MediumList& out)
+    {
+        const double length = glm::length(streak);
+        const int pieces = int(std::clamp(length / blob.radius, 0.0, double(kMostStreakBlobs - 1))) + 1;
+        for (int k = 0; k < pieces; ++k) {
+            out.blobs.push_back(blob);
+            out.blobs.back().crossSection /= pieces;
+            out.blobs.back().center -= streak * (double(k) / pieces);
+        }
+    }
+
+    const base::SnapshotGroup& newer_;
+    const base::SnapshotGroup* older_;
+    double t_;
+    double stepSeconds_;
+    base::Placement place_;
+};
+
+const base::SnapshotGroup* sameGroup(const base::FrameSnapshot* older, const base::GroupInfo& info)
+{
+    for (size_t g = 0; older && g < older->groupCount(); ++g) {
+        const base::GroupInfo& other = older->group(g).info();
+        if (other.instance == info.instance && other.solver == info.solver && other.kind == info.kind)
+            return &older->group(g);
+    }
+    return nullptr;
+}
+
+} // namespace
+
+MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation)
+{
+    MediumList list;
+    if (!snapshots.newer)
+        return list;
+    const base::FrameSnapshot& newer = *snapshots.newer;
+    const base::KindId kind = newer.schema().find(base::kBlobKind.name);
+    const double stepSeconds =
+        snapshots.older ? base::toSeconds(newer.tick() - snapshots.older->tick()) : 0.0;
+    for (size_t g = 0; g < newer.groupCount(); ++g) {
+        const base::SnapshotGroup& group = newer.group(g);
+        if (group.info().kind == kind)
+            GroupMoment(group, sameGroup(snapshots.older, group.info()), glm::clamp(interpolation, 0.0, 1.0),
+                        stepSeconds)
+                .appendTo(list);
+    }
+    return list;
+}
+
+} // namespace fx::render

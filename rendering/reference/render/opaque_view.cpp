@@ -1,0 +1,102 @@
+#include "rendering/reference/render/opaque_view.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fx::render {
+
+namespace {
+
+constexpr double kInvPi = std::numbers::inv_pi;
+constexpr double kLift = 1e-6; ///< of the distance, by which shadow rays begin above their surface
+
+glm::dvec3 blend(std::span<const glm::vec3> column, const SurfaceHit& hit)
+{
+    const size_t first = size_t(hit.triangle) * 3;
+    return (1.0 - hit.u - hit.v) * glm::dvec3(column[first]) + hit.u * glm::dvec3(column[first + 1]) +
+           hit.v * glm::dvec3(column[first + 2]);
+}
+
+} // namespace
+
+void OpaqueView::build(const OpaqueScene& scene, const glm::dvec3& eye, base::TaskRunner& tasks)
+{
+    scene_ = scene;
+    eye_ = eye;
+    triangles_.build(scene_.mesh, eye, tasks);
+}
+
+OpaqueSample OpaqueView::sample(const TraceRay& ray, double x, double y, const RayHits& hits, double begin,
+                                RayHits& scratch) const
+{
+    OpaqueSample sample;
+    const SurfaceHit hit = hasMesh() ? triangles_.nearest(ray, hits, begin) : SurfaceHit{};
+    sample.distance = hit.distance;
+    sample.luminance = hit.isHit() ? surfaceAt(ray, hit, scratch) : backgroundAt(ray.direction, x, y);
+    return sample;
+}
+
+glm::dvec3 OpaqueView::imageAt(double x, double y, bool wraps) const
+{
+    const OpaqueBackground& b = scene_.background;
+    const double column = x * b.width - 0.5;
+    const double row = y * b.height - 0.5;
+    const double column0 = std::floor(column);
+    const double row0 = std::floor(row);
+    const auto texel = [&](int i, int j) {
+        i = wraps ? (i % b.width + b.width) % b.width : std::clamp(i, 0, b.width - 1);
+        j = std::clamp(j, 0, b.height - 1);
+        return glm::dvec3(b.image[size_t(j) * size_t(b.width) + size_t(i)]);
+    };
+    const int i = int(column0);
+    const int j = int(row0);
+    return glm::mix(glm::mix(texel(i, j), texel(i + 1, j), column - column0),
+                    glm::mix(texel(i, j + 1), texel(i + 1, j + 1), column - column0), row - row0);
+}
+
+glm::dvec3 OpaqueView::backgroundAt(const glm::dvec3& d, double x, double y) const
+{
+    const OpaqueBackground& b = scene_.background;
+    if (scene_.isEmpty)
+        return glm::dvec3(0.0);
+    if (b.image.empty())
+        return glm::mix(glm::dvec3(b.luminance), glm::dvec3(b.horizon),
+                        std::pow(1.0 - std::max(d.y, 0.0), 4.0));
+    if (!b.panorama)
+        return imageAt(x, y, false);
+    return imageAt(std::atan2(d.x, -d.z) * 0.5 * kInvPi + 0.5,
+                   0.5 - std::asin(glm::clamp(d.y, -1.0, 1.0)) * kInvPi, true);
+}
+
+glm::dvec3 OpaqueView::surfaceAt(const TraceRay& ray, const SurfaceHit& hit, RayHits& scratch) const
+{
+    const Lighting& light = scene_.lighting;
+    const glm::dvec3 sun(light.sunDirection);
+    const glm::dvec3 sunLight(light.sunIlluminance);
+    const glm::dvec3 sky(light.skyLuminance);
+    const glm::dvec3 n = glm::normalize(blend(scene_.mesh.normals, hit));
+    const glm::dvec3 point = ray.origin + ray.direction * hit.distance;
+    glm::dvec3 illuminance(0.0);
+    const double cosine = glm::dot(n, sun);
+    if (cosine > 0.0 && sunLight != glm::dvec3(0.0)) {
+        const TraceRay shadow{point + n * (kLift * hit.distance), sun};
+        if (!triangles_.trace(shadow, 0.0, scratch).isHit())
+            illuminance += sunLight * cosine;
+    }
+    const glm::dvec3 ground = double(light.groundAlbedo) * (sunLight * (std::max(sun.y, 0.0) * kInvPi) + sky);
+    illuminance += std::numbers::pi * glm::mix(ground, sky, 0.5 + 0.5 * n.y);
+    for (const EffectLight& fire : scene_.lights) {
+        const glm::dvec3 toLight = fire.position - eye_ - point;
+        const double d2 = glm::dot(toLight, toLight) + double(fire.radius) * double(fire.radius);
+        const double facing = glm::dot(n, toLight) / std::sqrt(d2);
+        illuminance +=
+            glm::dvec3(fire.intensity) * (std::max(facing * 0.8 + 0.2, 0.0) / d2); // a wide light wraps
+    }
+    return blend(scene_.mesh.colors, hit) * kInvPi * illuminance;
+}
+
+} // namespace fx::render

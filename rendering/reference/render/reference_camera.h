@@ -1,0 +1,30 @@
+/// @file reference_camera.h
+/// The camera of the reference renderer, in double throughout.
+#pragma once
+
+#include "rendering/reference/trace/ray_grid.h"
+
+#include <glm/vec3.hpp>
+
+namespace fx::render {
+
+struct ReferenceCamera
+{
+    glm::dvec3 eye{0.0};                ///< [m] world
+    glm::dvec3 right{1.0, 0.0, 0.0};    ///< unit
+    glm::dvec3 up{0.0, 1.0, 0.0};       ///< unit
+    glm::dvec3 forward{0.0, 0.0, -1.0}; ///< unit
+    bool orthographic = false;
+    double halfHeight =
+        0.5; ///< half the picture's height: tangent of half the angle, or [m] when orthographic
+    double nearDistance = 0.1; ///< [m] along the axis, >= 0
+
+    /// Looks from `position` to `target`. Both differ, and `up` is not parallel to their difference.
+    static ReferenceCamera lookAt(const glm::dvec3& position, const glm::dvec3& target,
+                                  const glm::dvec3& upwards);
+
+    /// The rays of a picture with square pixels, relative to the eye.
+    RayGrid grid(int width, int height) const;
+};
+
+} // namespace fx::render

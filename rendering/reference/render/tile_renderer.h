@@ -1,0 +1,102 @@
+/// @file tile_renderer.h
+/// Renders tiles of a picture, each by itself: the same bits in any order and on any thread.
+#pragma once
+
+#include "rendering/reference/render/medium_view.h"
+#include "rendering/reference/render/opaque_view.h"
+#include "rendering/reference/render/reference_camera.h"
+#include "rendering/reference/render/scattered_light.h"
+#include "rendering/reference/render/seen_depth.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// Which light that the medium scatters once is added.
+enum class ScatteringMode : uint8_t
+{
+    None,
+    Centers, ///< of sun, glowing gas and sky, as it arrives at the blobs' centers
+    Single   ///< of sun and glowing gas by shadow rays all along each ray; of the sky as above
+};
+
+struct ReferenceSettings
+{
+    int width = 640;       ///< [pixel] 1..16384
+    int height = 360;      ///< [pixel] 1..16384
+    int samples = 1;       ///< [1] a pixel is the mean of samples x samples rays, 1..16
+    double exposure = 1.0; ///< [m2/cd] written value per luminance
+    bool isSingle = false; ///< integrates in float instead of double
+    ScatteringMode scattering = ScatteringMode::None;
+    IntegralSettings integral;
+};
+
+/// Values of a pixel, in this order.
+namespace reference_channel {
+enum : uint32_t
+{
+    Color, ///< RGBA, linear, exposed; A is 1 where something opaque stands behind, or the medium's opacity
+    Background = 4, ///< RGBA of the opaque scene
+    Fire = 8,       ///< RGBA premultiplied
+    Smoke = 12,
+    Dust = 16,
+    Depth = 20,   ///< [m] mean distance of the medium seen, +infinity for none
+    OpticalDepth, ///< [1]
+    Count
+};
+}
+
+/// All that tiles share. Built once, then read by all threads.
+struct ReferencePicture
+{
+    ReferenceSettings settings;
+    ReferenceCamera camera;
+    MediumView medium;
+    OpaqueView opaque;
+};
+
+/// Counts of what was done.
+struct ReferenceWork
+{
+    uint64_t rays = 0;
+    uint64_t hits = 0; ///< blobs that rays met
+
+    ReferenceWork& operator+=(const ReferenceWork& other);
+};
+
+/// One for each thread.
+class TileRenderer
+{
+public:
+    explicit TileRenderer(const ReferencePicture& picture);
+    ~TileRenderer();
+
+    /// Writes reference_channel::Count floats for each pixel of `block`, row by row from the top.
+    void render(const PixelBlock& block, std::span<float> out);
+
+    const ReferenceWork& work() const { return work_; }
+
+private:
+    struct Sample;
+    void renderOpaque(const PixelBlock& rays);
+    void renderMedium(const PixelBlock& rays);
+    void addScattered(std::span<Sample* const> samples);
+    void renderBundle(const PixelBlock& rays, const PixelBlock& part, const TileCandidates& candidates);
+    Sample& sampleAt(const PixelBlock& rays, int x, int y);
+    void writePixel(const PixelBlock& rays, int x, int y, float* out) const;
+
+    const ReferencePicture& picture_;
+    RayGrid grid_;
+    TileWalk walk_;
+    std::unique_ptr<BundleIntegrator> integrator_;
+    SeenDepth seenDepth_;
+    ScatteredLight scattered_;
+    std::vector<Sample> samples_;
+    RayHits hits_;
+    RayHits shadowHits_;
+    ReferenceWork work_;
+};
+
+} // namespace fx::render

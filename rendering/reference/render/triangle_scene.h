@@ -1,0 +1,64 @@
+/// @file triangle_scene.h
+/// Opaque triangles for rays: where a ray ends, and what a light cannot reach.
+#pragma once
+
+#include "rendering/reference/trace/ball_tree.h"
+#include "rendering/reference/trace/ray_grid.h"
+#include "rendering/reference/trace/ray_hits.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// Triangles with a diffuse color per vertex, three vertices each. Owned by the caller.
+struct OpaqueMesh
+{
+    glm::dvec3 origin{0.0};               ///< [m] world position that the vertices are relative to
+    std::span<const glm::vec3> positions; ///< [m]
+    std::span<const glm::vec3> normals;   ///< unit
+    std::span<const glm::vec3> colors;    ///< [0, 1] linear albedo
+};
+
+/// Where a ray meets a triangle first.
+struct SurfaceHit
+{
+    double distance = std::numeric_limits<double>::infinity(); ///< [m] ray parameter; infinite: nowhere
+    uint32_t triangle = 0;
+    double u = 0.0, v = 0.0; ///< [1] weights of the second and third vertex
+
+    bool isHit() const { return distance < std::numeric_limits<double>::infinity(); }
+};
+
+/// Finds triangles by a tree over balls around them. Coordinates are relative to the origin given to build().
+class TriangleScene
+{
+public:
+    void build(const OpaqueMesh& mesh, const glm::dvec3& origin, base::TaskRunner& tasks);
+
+    bool empty() const { return tree_.count() == 0; }
+    const BallTree& tree() const { return tree_; }
+
+    /// The nearest of the triangles whose balls are in `hits`, behind the parameter `begin`. Both sides
+    /// count.
+    SurfaceHit nearest(const TraceRay& ray, const RayHits& hits, double begin) const;
+    /// The nearest of all. @param scratch keeps memory from call to call
+    SurfaceHit trace(const TraceRay& ray, double begin, RayHits& scratch) const;
+
+private:
+    struct Triangle
+    {
+        glm::dvec3 corner, edge1, edge2; ///< [m]
+        uint32_t index;                  ///< in the mesh
+    };
+    void meet(const Triangle& triangle, const TraceRay& ray, double begin, SurfaceHit& io) const;
+
+    BallTree tree_;
+    std::vector<Triangle> triangles_; ///< those that are not degenerate, in the order of the mesh
+};
+
+} // namespace fx::render

@@ -1,0 +1,91 @@
+/// @file ball_tree.h
+/// A bounding-volume hierarchy over balls, built anew for every frame, from which rays and tiles of rays get
+/// all balls that they meet.
+///
+/// Balls are put in the order of a Hilbert curve, eight of them share a leaf, and eight boxes share a node,
+/// up to one root: a packed tree [KF93], whose places follow from counting, so that it needs no pointers and
+/// every level is built in parallel. Balls of different size stand in different parts of the order, since one
+/// large ball among small ones would blow up their box. Building is one sort and one pass over the balls; the
+/// result has the same bits for any number of workers.
+///
+/// Threads: build() by one thread at a time; reading by any.
+#pragma once
+
+#include "foundation/tasks/task_runner.h"
+#include "rendering/reference/trace/curve_order.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// What the tree is built over.
+struct TraceBall
+{
+    glm::dvec3 center; ///< [m] finite
+    double radius;     ///< [m] > 0, finite
+};
+
+class BallTree
+{
+public:
+    static constexpr uint32_t kWidth = 8; ///< balls of a leaf, children of a node
+
+    /// Eight balls. Unused places have a hugely negative radius, by which every test leaves them out.
+    struct alignas(64) Leaf
+    {
+        double x[kWidth]; ///< [m] relative to the tree's origin
+        double y[kWidth];
+        double z[kWidth];
+        double radius[kWidth]; ///< [m]
+    };
+
+    /// Boxes of eight children, a little larger than what they hold, so that float arithmetic misses nothing.
+    struct alignas(64) Node
+    {
+        float center[3][kWidth]; ///< [m] relative to the tree's origin
+        float extent[3][kWidth]; ///< [m] half the edge; hugely negative for a child that is not there
+    };
+
+    /// @param origin [m] the point that rays and results are relative to, best the eye: doubles relative to
+    /// it
+    ///   make the picture independent of where in the world the scene stands
+    void build(std::span<const TraceBall> balls, const glm::dvec3& origin, base::TaskRunner& tasks);
+
+    uint32_t count() const { return count_; }
+    const glm::dvec3& origin() const { return origin_; }
+    /// The ball that stands at a place of the tree's order: its index in the list that was given to build().
+    /// Place 8 i + k is place k of leaf i.
+    uint32_t ballAt(uint32_t place) const { return order_[place].index; }
+    std::span<const Leaf> leaves() const { return leaves_; }
+    /// Nodes of one level. Child k of node i is node 8 i + k one level lower, and leaf 8 i + k on level 0.
+    /// The highest level has one node. No level at all: there are no balls.
+    uint32_t levels() const { return uint32_t(levelBegin_.size()); }
+    const Node& node(uint32_t level, uint32_t index) const { return nodes_[levelBegin_[level] + index]; }
+
+private:
+    void sortBalls(std::span<const TraceBall> balls, base::TaskRunner& tasks);
+    void fillLeaves(std::span<const TraceBall> balls, base::TaskRunner& tasks);
+    void fillLevels(base::TaskRunner& tasks);
+
+    uint32_t count_ = 0;
+    glm::dvec3 origin_{0.0};
+    std::vector<Leaf> leaves_;
+    std::vector<Node> nodes_;
+    std::vector<uint32_t> levelBegin_;
+    std::vector<KeyedIndex> order_;
+    std::vector<KeyedIndex> scratch_;
+};
+
+/// A node to be visited.
+struct TreePosition
+{
+    uint32_t level, index;
+};
+/// Room for the nodes that a walk has put off: each level adds at most seven, and 11 levels hold 2^36 balls.
+constexpr size_t kTreeStack = 11 * BallTree::kWidth;
+
+} // namespace fx::render

@@ -1,0 +1,55 @@
+/// @file ray_grid.h
+/// The rays of a picture, and the part of space that those of a rectangle of pixels can reach.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace fx::render {
+
+/// A ray from which distances are measured. Coordinates are those of the tree it is traced through.
+struct TraceRay
+{
+    glm::dvec3 origin;    ///< [m]
+    glm::dvec3 direction; ///< unit
+};
+
+/// Rectangle of pixels, or of positions between them: pixel (i, j) covers [i, i + 1) x [j, j + 1).
+struct PixelRect
+{
+    double x0, y0, x1, y1;
+};
+
+/// All rays of a perspective or orthographic picture. Row 0 is at the top.
+struct RayGrid
+{
+    glm::dvec3 origin{0.0};     ///< [m] of the ray through the corner (0, 0)
+    glm::dvec3 originX{0.0};    ///< [m] its change for one pixel to the right
+    glm::dvec3 originY{0.0};    ///< [m] for one pixel down
+    glm::dvec3 direction{0.0};  ///< of the ray through (0, 0); its component along the view axis is 1
+    glm::dvec3 directionX{0.0}; ///< change for one pixel to the right
+    glm::dvec3 directionY{0.0};
+
+    /// The ray through position (x, y). @param outLengthPerDepth receives the ray parameter per distance
+    /// along the view axis
+    TraceRay ray(double x, double y, double* outLengthPerDepth = nullptr) const;
+};
+
+/// Half-spaces n . x + d >= 0 whose common part contains every point of the rays through a rectangle.
+struct TileFrustum
+{
+    struct Plane
+    {
+        glm::dvec3 normal{0.0}; ///< unit, inwards
+        double offset = 0.0;    ///< [m]
+    };
+    static constexpr uint32_t kPlanes = 6;
+    std::array<Plane, kPlanes> planes; ///< left, right, top, bottom, near, far
+};
+
+/// @param farthest [m] ray parameter beyond which nothing is wanted, may be +inf
+TileFrustum frustumOf(const RayGrid& grid, const PixelRect& rect, double farthest);
+
+} // namespace fx::render

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""fx accuracy of the techniques that need no gas: what they promise, the files they write, what they refuse."""
+import json
+import shutil
+import unittest
+
+from fx_program import FxTest, fx
+
+FIELDS = {"technique", "scene", "setting", "tier", "parameters", "error_p50", "error_p99", "error_max", "bias", "time_ratio",
+          "baseline", "ns_per_item", "instructions", "work", "machine", "version", "commit", "threads", "calibration"}
+QUICK = ["--repeat", "1", "--no-callgrind", "--json"]
+
+
+def lines_of(*arguments):
+    outcome = fx("accuracy", *arguments)
+    assert outcome.code == 0, outcome.err
+    return [json.loads(line) for line in outcome.out.strip().split("\n")]
+
+
+def by_setting(lines):
+    return {line["setting"]: line for line in lines}
+
+
+class FxAccuracyOfLight(FxTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.integral = lines_of("ray-integral", *QUICK)
+
+    def at_depth(self, tau):
+        return [line for line in self.integral if line["parameters"]["tau"] == tau]
+
+    def test_the_ray_integral_runs_at_four_depths_with_every_field(self):
+        lines = self.integral
+        self.assertEqual({line["parameters"]["tau"] for line in lines}, {0.1, 1, 10, 100})
+        for line in lines:
+            self.assertEqual(FIELDS - set(line), set())
+            self.assertEqual(line["baseline"], "paper-1")
+            self.assertLessEqual(line["error_p50"], line["error_p99"])
+            self.assertLessEqual(line["error_p99"], line["error_max"])
+        for tau in (0.1, 1, 10, 100):
+            names = by_setting(self.at_depth(tau))
+            self.assertLessEqual({"paper-1", "paper-4", "simpson-4", "march-0.01", "gauss-5", "gauss-8"}, set(names))
+            self.assertEqual((names["gauss-5"]["tier"], names["gauss-8"]["tier"]), ("default", "high"))
+
+    def test_the_default_is_a_hundred_times_better_than_the_paper_and_a_thousand_where_it_is_thick(self):
+        for tau, factor in ((1, 100), (100, 1000)):
+            names = by_setting(self.at_depth(tau))
+            self.assertGreater(names["paper-1"]["error_p99"], factor * names["gauss-5"]["error_p99"])
+
+    @unittest.skipUnless(shutil.which("valgrind"), "valgrind is missing")
+    def test_instructions_are_counted_where_valgrind_is_there(self):
+        names = by_setting(lines_of("ray-integral", "--scene", "tau-1", "--repeat", "1", "--json"))
+        self.assertIn(names["paper-1"]["instructions_by"], ("perf", "callgrind"))
+        self.assertGreater(names["paper-1"]["instructions"], 1e6)
+        self.assertLess(names["gauss-5"]["instructions"], 1.3 * names["paper-1"]["instructions"])
+        self.assertGreater(names["paper-16"]["instructions"], 4 * names["paper-1"]["instructions"]) # sees the work
+
+    def test_the_furnace_keeps_its_light(self):
+        lines = lines_of("furnace", *QUICK)
+        for precision, setting, limit in (("float", "gauss-5", 1e-3), ("float", "gauss-8", 1e-4), ("double", "gauss-8", 2e-5)):
+            line = by_setting([l for l in lines if l["scene"] == precision])[setting]
+            self.assertLessEqual(line["error_max"], limit, (precision, setting))
+            self.assertLessEqual(line["work"]["excess"], 2e-4)
+        paper = by_setting([l for l in lines if l["scene"] == "double"])["paper-1"]
+        self.assertGreater(paper["error_max"], 0.5) # the sweep is hard enough to tell
+
+    def test_kernel_billboards_are_exact_alone_and_wrong_where_they_overlap(self):
+        lines = lines_of("billboards", *QUICK)
+        error = {(line["scene"], line["setting"]): line["error_p99"] for line in lines}
+        for count in (1, 10, 270):
+            self.assertLess(error[f"isolated-{count}", "kernel"], 1e-4)
+            self.assertGreater(error[f"isolated-{count}", "constant"], 0.1)
+        self.assertGreater(error["isolated-10", "planar"], 0.01) # cards meet the ground
+        for count in (10, 270):
+            self.assertGreater(error[f"overlapping-{count}", "kernel"], 0.01)
+            self.assertGreater(error[f"sorted-wrong-{count}", "kernel"], 2 * error[f"overlapping-{count}", "kernel"])
+            self.assertLess(error[f"overlapping-{count}", "gauss-5"], 1e-3)
+            self.assertLess(error[f"sorted-wrong-{count}", "gauss-5"], 1e-3) # the integral knows no order
+
+    def test_only_integers_keep_the_light_of_the_dazzle(self):
+        lines = lines_of("dazzle", *QUICK)
+        created = {(line["scene"], line["setting"]): abs(line["work"]["light_created_per_overflow"]) for line in lines}
+        for scene in ("explosion", "gray"):
+            self.assertLess(created[scene, "integers"], 1e-4) # parts of a quantum are dropped
+            self.assertLess(by_setting([l for l in lines if l["scene"] == scene])["integers"]["error_max"], 1e-6)
+        self.assertGreater(created["gray", "paper8-printed"], 0.1)
+
+    def test_reports_have_every_curve(self):
+        csv, svg, html = (self.folder / name for name in ("a.csv", "a.svg", "a.html"))
+        lines = lines_of("furnace", *QUICK, "--csv", csv, "--svg", svg, "--html", html)
+        self.assertEqual(len(csv.read_text().strip().split("\n")), len(lines) + 2)
+        self.assertEqual(svg.read_text().count("<circle"), len(lines))
+        page = html.read_text()
+        self.assertTrue(page.startswith("<!DOCTYPE html>") and page.endswith("</html>\n"))
+        self.assertIn(lines[0]["commit"], page)
+        self.assertIn(lines[0]["machine"]["cpu"].split("(")[0], page)
+
+    def test_work_that_is_the_same_is_reported_the_same(self):
+        again = lines_of("ray-integral", "--scene", "tau-10", *QUICK)
+        for a, b in zip(self.at_depth(10), again, strict=True):
+            self.assertEqual((a["error_p99"], a["error_max"], a["work"]), (b["error_p99"], b["error_max"], b["work"]))
+
+    def test_what_makes_no_sense_is_refused(self):
+        for arguments, expected in [(["ray"], "ray-integral"), (["ray-integral", "--scene", "tau-2"], "tau-1"),
+                                    (["all", "--scene", "tau-1"], "--scene"), (["furnace", "--threads", "2"], "--threads"),
+                                    (["dazzle", "--particles", "4096"], "--particles"), (["dazzle", "--repeat", "0"], "--repeat")]:
+            outcome = fx("accuracy", *arguments)
+            self.assertEqual((outcome.code, outcome.out), (2, ""), arguments)
+            self.assertIn(expected, outcome.err)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+"""fx render --renderer reference: lists of blobs and presets to EXR, resumed after being killed, on a full disk."""
+import json
+import os
+import random
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+from exr_planes import read_planes
+from fx_program import FX, FxTest, fx
+
+HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb\n"
+VIEW = ("--renderer", "reference", "--view", "0,0,4,0,0,0,40")
+
+
+def blobs(count, radius=0.3, seed=1, shift=0.0):
+    chance = random.Random(seed)
+    lines = [HEADER]
+    for _ in range(count):
+        # places on a grid of 2^-20 m, which numbers of 1e5 m hold as well
+        place = [round(chance.uniform(-1, 1) * 2**20) / 2**20 + shift for _ in range(3)]
+        light = [chance.random() for _ in range(3)]
+        lines.append(",".join(repr(v) for v in [*place, radius, 4.0 / count, 0.0, *light]) + "\n")
+    return "".join(lines)
+
+
+class FxReference(FxTest):
+    def test_a_list_of_blobs_becomes_one_exr_and_nothing_else_stays(self):
+        self.write("a.blobs.csv", blobs(20))
+        outcome = fx("render", self.folder / "a.blobs.csv", "-o", self.folder / "a.exr", *VIEW, "--size", "64x48", "--json")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        self.assertEqual(self.names(), ["a.blobs.csv", "a.exr"])
+        line = json.loads(outcome.out)
+        self.assertEqual((line["blobs"], line["rays"], line["integrator"]), (20, 64 * 48, "gauss-5"))
+        self.assertGreater(line["hits"], 1000)
+
+    def test_a_preset_is_rendered_without_a_gpu(self):
+        outcome = fx("render", "library:sparks", "-o", self.folder / "a.exr", "--renderer", "reference", "--size", "48x32")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        self.assertEqual(self.names(), ["a.exr"])
+
+    def test_threads_do_not_change_a_bit(self):
+        self.write("a.blobs.csv", blobs(20))
+        for threads in (1, 3):
+            outcome = fx("render", self.folder / "a.blobs.csv", "-o", self.folder / f"{threads}.exr", *VIEW, "--size", "70x50",
+                         "--threads", threads)
+            self.assertEqual(outcome.code, 0, outcome.err)
+        self.assertEqual((self.folder / "1.exr").read_bytes(), (self.folder / "3.exr").read_bytes())
+
+    def test_usage_errors_are_told_before_any_work(self):
+        path = self.write("a.blobs.csv", blobs(3))
+        for arguments in (("--renderer", "gl"), ("--renderer", "reference", "--view", "1,2"),
+                          (*VIEW, "--integrator", "magic"), (*VIEW, "--samples", "0")):
+            outcome = fx("render", path, "-o", self.folder / "a.exr", *arguments)
+            self.assertEqual(outcome.code, 2, outcome.err)
+        self.assertEqual(fx("render", path, "-o", self.folder / "a.png", *VIEW).code, 2)
+        self.assertEqual(self.names(), ["a.blobs.csv"])
+
+    def test_a_faulty_list_is_refused_with_file_line_and_column(self):
+        path = self.write("a.blobs.csv", HEADER + "0,0,0,1,1,0,1,1,1\n0,0,zero,1,1,0,1,1,1\n")
+        outcome = fx("render", path, "-o", self.folder / "a.exr", *VIEW)
+        self.assertEqual(outcome.code, 1)
+        self.assertIn(f"{path}:3:5:", outcome.err)
+        self.assertEqual(self.names(), ["a.blobs.csv"])
+
+    def picture(self, name, text, view, *arguments):
+        self.write(name + ".blobs.csv", text)
+        outcome = fx("render", self.folder / (name + ".blobs.csv"), "-o", self.folder / (name + ".exr"), "--renderer",
+                     "reference", "--view", view, "--size", "96x64", *arguments)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        return read_planes(self.folder / (name + ".exr"))[2]
+
+    def changes(self, *arguments):
+        """Relative change of every pixel when scene and camera move by 1e5 m along each axis, in order."""
+        here = self.picture("here", blobs(270), "0.5,0.25,4,0,0,0,40", *arguments)
+        there = self.picture("there", blobs(270, shift=1e5), "100000.5,100000.25,100004,1e5,1e5,1e5,40", *arguments)
+        return sorted(abs(b - a) / a for channel in "RGB" for a, b in zip(here[channel], there[channel]) if a > 1e-6)
+
+    def test_a_hundred_kilometres_away_it_is_the_same_picture(self):
+        for precision in ("double", "float"):
+            changes = self.changes("--precision", precision)
+            self.assertGreater(len(changes), 5000)
+            self.assertLessEqual(changes[len(changes) // 2], 1e-6, precision)
+            self.assertLessEqual(changes[len(changes) * 99 // 100], 1e-4, precision)
+
+    def test_a_scene_is_lit_by_its_sky_unless_scattering_is_off(self):
+        light = {}
+        for mode in ("none", "centers", "single"):
+            path = self.folder / f"{mode}.exr"
+            outcome = fx("render", "library:smoke-column", "-o", path, "--renderer", "reference", "--size", "64x48", "--time",
+                         "2", "--scattering", mode)
+            self.assertEqual(outcome.code, 0, outcome.err)
+            planes = read_planes(path)[2]
+            light[mode] = sum(planes["smoke.G"])
+            for i in range(64 * 48): # layers and what is behind them make the picture
+                behind = 1 - sum(planes[layer + ".A"][i] for layer in ("fire", "smoke", "dust"))
+                sum_ = sum(planes[layer + ".G"][i] for layer in ("fire", "smoke", "dust"))
+                self.assertAlmostEqual(planes["G"][i], sum_ + behind * planes["background.G"][i],
+                                       delta=1e-3 * (planes["G"][i] + planes["background.G"][i]))
+        self.assertEqual(light["none"], 0.0)
+        self.assertGreater(light["single"], 0.0)
+        self.assertLess(max(light["centers"], light["single"]), 2.0 * min(light["centers"], light["single"]))
+
+    def start(self, output, *arguments, size="320x240"):
+        return subprocess.Popen([FX, "render", str(self.folder / "a.blobs.csv"), "-o", str(self.folder / output), *VIEW,
+                                 "--size", size, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def finish(self, output, *arguments, size="320x240"):
+        self.assertEqual(self.start(output, *arguments, size=size).wait(200), 0)
+
+    def wait_for_growth(self, process, path, least):
+        """Until the file has so many bytes, or the process has ended."""
+        for _ in range(3000):
+            if process.poll() is not None or (path.exists() and path.stat().st_size >= least):
+                return
+            time.sleep(0.01)
+
+    def test_a_render_that_is_killed_twenty_times_gives_the_same_bits(self):
+        self.write("a.blobs.csv", blobs(3000, 0.12))
+        begin = time.monotonic()
+        self.finish("whole.exr", size="800x600")
+        whole = time.monotonic() - begin
+        journal = self.folder / "a.exr.journal"
+        chance = random.Random(7)
+        sizes = {0}
+        for kill in range(20):
+            process = self.start("a.exr", "--resume", size="800x600")
+            time.sleep(chance.uniform(0.0, whole / 15)) # before there is a journal, within a tile, within a record
+            self.assertIsNone(process.poll(), f"done before kill {kill + 1}")
+            process.send_signal(signal.SIGKILL)
+            process.wait(60)
+            self.assertNotIn("a.exr", self.names())
+            sizes.add(journal.stat().st_size if journal.exists() else 0)
+        self.assertGreaterEqual(len(sizes), 6) # of the kills hit it while it was rendering
+        self.finish("a.exr", "--resume", size="800x600")
+        self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "whole.exr").read_bytes())
+        self.assertEqual(self.names(), ["a.blobs.csv", "a.exr", "whole.exr"])
+
+    def test_ctrl_c_keeps_the_journal_and_another_picture_does_not_take_it(self):
+        self.write("a.blobs.csv", blobs(3000, 0.12))
+        process = self.start("a.exr")
+        self.wait_for_growth(process, self.folder / "a.exr.journal", 20_000)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), 130)
+        self.assertEqual(self.names(), ["a.blobs.csv", "a.exr.journal"])
+        other = fx("render", self.folder / "a.blobs.csv", "-o", self.folder / "a.exr", *VIEW, "--size", "320x240", "--resume",
+                   "--integrator", "paper-1")
+        self.assertEqual(other.code, 1)
+        self.assertIn("a.exr.journal", other.err)
+        self.assertEqual(self.names(), ["a.blobs.csv", "a.exr.journal"])
+
+    def render_on_a_disk_of(self, size, *arguments):
+        """Files can grow to `size` bytes: what is beyond fails as on a full disk."""
+
+        def limit():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+        return subprocess.run([FX, "render", str(self.folder / "a.blobs.csv"), "-o", str(self.folder / "a.exr"), *VIEW,
+                               "--size", "320x240", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              preexec_fn=limit)
+
+    def test_a_full_disk_names_the_file_and_leaves_no_half_picture(self):
+        self.write("a.blobs.csv", blobs(20))
+        self.finish("whole.exr")
+        for size, file in ((100_000, b"a.exr.journal"), (0, b"a.exr.journal")):
+            process = self.render_on_a_disk_of(size, "--resume")
+            self.assertEqual(process.returncode, 1)
+            self.assertIn(file, process.stderr)
+            self.assertNotIn("a.exr", self.names())
+        self.finish("a.exr", "--resume")
+        self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "whole.exr").read_bytes())
+        self.assertEqual(self.names(), ["a.blobs.csv", "a.exr", "whole.exr"])
+
+    def test_a_disk_that_is_full_for_the_picture_alone_keeps_the_journal(self):
+        self.write("a.blobs.csv", blobs(20))
+        self.finish("whole.exr")
+        journal = self.folder / "a.exr.journal"
+        process = self.start("a.exr")
+        self.wait_for_growth(process, journal, 320 * 240 * 22 * 4 * 9 // 10)
+        process.send_signal(signal.SIGINT)
+        process.wait(60)
+        if process.returncode == 0: # too fast to be caught
+            return
+        size = (self.folder / "whole.exr").stat().st_size
+        self.assertGreater(journal.stat().st_size, 0)
+        process = self.render_on_a_disk_of(min(size - 1, journal.stat().st_size - 1), "--resume")
+        self.assertEqual(process.returncode, 1)
+        self.assertIn(b"a.exr", process.stderr)
+        self.assertEqual(self.names(), ["a.blobs.csv", "a.exr.journal", "whole.exr"])
+
+
+if __name__ == "__main__":
+    unittest.main()
