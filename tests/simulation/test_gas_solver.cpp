@@ -69,6 +69,25 @@ Shape shapeOf(Stage& stage)
     return Shape(stage.look().group(0));
 }
 
+/// Median over particles of the distance to the nearest other, in units of the spacing that their supports
+/// stand for.
+double medianNearest(const base::SnapshotGroup& group, double growth)
+{
+    constexpr double kSupportInSpacings = 2.40; // of 58 neighbors: (3 58 / (4 pi))^(1/3)
+    std::vector<double> nearest(group.count(), 1e30);
+    for (uint32_t i = 0; i < group.count(); ++i) {
+        for (uint32_t j = 0; j < group.count(); ++j)
+            if (j != i)
+                nearest[i] =
+                    std::min(nearest[i], double(glm::distance(Shape::row(group, blob::PositionX, i),
+                                                              Shape::row(group, blob::PositionX, j))));
+        const double support = 2.0 * double(group.column(blob::Radius)[i]) / growth;
+        nearest[i] *= kSupportInSpacings / support;
+    }
+    std::nth_element(nearest.begin(), nearest.begin() + std::ptrdiff_t(nearest.size() / 2), nearest.end());
+    return nearest[nearest.size() / 2];
+}
+
 void expectFinite(Stage& stage)
 {
     const base::SnapshotGroup& group = stage.look().group(0);
@@ -180,6 +199,25 @@ TEST(GasSolver, slowerSoundNeedsFewerStepsAndGivesACloudOfSimilarSize)
     const auto [fast, manySteps] = run(0.0f);
     EXPECT_LT(2 * fewSteps, manySteps);
     EXPECT_LT(fast.radius, 2.0 * slow.radius); // the work of expansion is less
+}
+
+TEST(GasSolver, itsParticlesStayFartherApartThanChanceWouldHaveThem)
+{
+    constexpr double kByChance = 0.55; // median of points strewn evenly without order
+    auto def = std::make_unique<sim::GasDef>();
+    def->energy = 60e6;
+    def->particles = 800;
+    def->position = {0, 6, 0};
+    def->soundSpeed = 120;
+    def->lumpiness = 0.9f;
+    const double growth = double(def->growth);
+    Stage stage;
+    stage.add({}, std::move(def));
+    for (int quarter = 1; quarter <= 6; ++quarter) {
+        stage.play(15);
+        EXPECT_GT(medianNearest(stage.look().group(0), growth), 1.05 * kByChance)
+            << quarter << " quarters of a second";
+    }
 }
 
 TEST(GasSolver, theGroundSpreadsItSideways)

@@ -31,7 +31,7 @@ double waveError(double amplitude, int steps)
     return worst;
 }
 
-/// 3000 steps, or as many as FXSDK_LONG_RUN says: 100000 is the full test.
+/// 1000 steps, or as many as FXSDK_LONG_RUN says: 100000 is the full test.
 int longRun()
 {
     const char* steps = std::getenv("FXSDK_LONG_RUN");
