@@ -127,9 +127,9 @@ int runAccuracy(const AccuracyArguments& arguments)
     if (!curves)
         return failed(curves.status(), exitCodeOf(curves.status()));
     const Machine machine = readMachine();
+    printReport(arguments, *curves, machine); // first: what was measured is not lost with a file
     if (base::Status status = writeReports(arguments, *curves, provenance(toText(machine))); !status)
         return failed(status, kFailed);
-    printReport(arguments, *curves, machine);
     return kSuccess;
 }
 

@@ -11,6 +11,7 @@ namespace fx::cli {
 namespace {
 
 constexpr std::string_view kHeader = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr size_t kColumns = 9;
 constexpr double kLargest = 1e12;
 
@@ -24,15 +25,15 @@ struct Column
 };
 
 constexpr std::array<Column, kColumns> kColumn{{
-    {"x", -kLargest, kLargest, false, "a number up to 1e12"},
-    {"y", -kLargest, kLargest, false, "a number up to 1e12"},
-    {"z", -kLargest, kLargest, false, "a number up to 1e12"},
-    {"radius", 0.0, kLargest, true, "a number above 0"},
-    {"tau_area", 0.0, kLargest, false, "a number of at least 0"},
+    {"x", -kLargest, kLargest, false, "a number from -1e12 to 1e12"},
+    {"y", -kLargest, kLargest, false, "a number from -1e12 to 1e12"},
+    {"z", -kLargest, kLargest, false, "a number from -1e12 to 1e12"},
+    {"radius", 0.0, kLargest, true, "a number above 0, up to 1e12"},
+    {"tau_area", 0.0, kLargest, false, "a number from 0 to 1e12"},
     {"albedo", 0.0, 1.0, false, "a number from 0 to 1"},
-    {"er", 0.0, kLargest, false, "a number of at least 0"},
-    {"eg", 0.0, kLargest, false, "a number of at least 0"},
-    {"eb", 0.0, kLargest, false, "a number of at least 0"},
+    {"er", 0.0, kLargest, false, "a number from 0 to 1e12"},
+    {"eg", 0.0, kLargest, false, "a number from 0 to 1e12"},
+    {"eb", 0.0, kLargest, false, "a number from 0 to 1e12"},
 }};
 
 using Row = std::array<double, kColumns>;
@@ -46,6 +47,16 @@ std::string_view withoutSpaces(std::string_view text)
     return text;
 }
 
+/// The beginning of a field as a message can show it: a terminal must not obey what stands in a file.
+std::string printable(std::string_view field)
+{
+    std::string text(field.substr(0, 40));
+    for (char& c : text)
+        if (uint8_t(c) < 0x20 || c == 0x7F)
+            c = '?';
+    return text;
+}
+
 /// Reads the text line by line and knows where it is.
 class BlobListReader
 {
@@ -54,6 +65,8 @@ public:
 
     base::Result<std::vector<render::MediumBlob>> read()
     {
+        if (text_.starts_with(kByteOrderMark)) // spreadsheets write one
+            text_.remove_prefix(kByteOrderMark.size());
         std::string_view line;
         if (!nextLine(line) || withoutSpaces(line) != kHeader)
             return failed(1, "the first line must be " + std::string(kHeader));
@@ -114,8 +127,8 @@ private:
         const bool isNumber = error == std::errc() && rest == end && std::isfinite(out);
         if (isNumber && out >= column.low && out <= column.high && !(column.isOpen && out == column.low))
             return {};
-        return failed(position, "found '" + std::string(number.substr(0, 40)) + "' for " +
-                                    std::string(column.name) + ", expected " + std::string(column.range));
+        return failed(position, "found '" + printable(number) + "' for " + std::string(column.name) +
+                                    ", expected " + std::string(column.range));
     }
 
     static render::MediumBlob blobOf(const Row& row)

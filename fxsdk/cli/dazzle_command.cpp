@@ -12,6 +12,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace fx::cli {
@@ -22,7 +23,7 @@ struct DazzleArguments
     std::string input;
     std::string output;
     std::string sensor = "0.01,0,1";
-    float white = 0;
+    std::optional<float> white;
     std::string algorithm = "exact";
     bool json = false;
 };
@@ -74,8 +75,7 @@ void report(const DazzleArguments& arguments, const DazzleImage& image,
 base::Result<render::DazzleSettings> settingsOf(const DazzleArguments& arguments)
 {
     render::DazzleSettings settings;
-    if (arguments.white != 0)
-        settings.white = arguments.white;
+    settings.white = arguments.white.value_or(settings.white);
     if (base::Status status = readSensor(arguments.sensor, settings); !status)
         return status;
     if (arguments.output.size() < 5 || arguments.output.substr(arguments.output.size() - 4) != ".exr")

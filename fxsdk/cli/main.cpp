@@ -10,6 +10,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <new>
 
 namespace {
 
@@ -46,6 +47,8 @@ int main(int argumentCount, char** arguments)
     int exitCode = fx::cli::kFailed;
     try {
         exitCode = run(argumentCount, arguments);
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "fx: not enough memory; ask for a smaller picture or fewer particles\n");
     } catch (const std::exception& error) {
         std::fprintf(stderr, "fx: %s\n", error.what());
     }

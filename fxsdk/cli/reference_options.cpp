@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -12,6 +13,7 @@ namespace fx::cli {
 namespace {
 
 constexpr size_t kViewNumbers = 7;
+constexpr double kFarthest = 1e12; ///< [m] of eye and target, as of blobs in a list
 
 base::Status usage(const std::string& message)
 {
@@ -99,6 +101,8 @@ base::Result<render::ReferenceCamera> parseView(const std::string& text)
     const glm::dvec3 eye(n[0], n[1], n[2]);
     const glm::dvec3 target(n[3], n[4], n[5]);
     const glm::dvec3 upwards(0.0, 1.0, 0.0);
+    if (std::any_of(n.begin(), n.end() - 1, [](double number) { return std::abs(number) > kFarthest; }))
+        return usage("--view " + text + ": eye and target must lie within 1e12 m");
     if (!(n[6] > 0.0 && n[6] < 180.0))
         return usage("--view " + text + ": the field of view must lie between 0 and 180 degrees");
     const glm::dvec3 look = target - eye;

@@ -62,9 +62,6 @@ public:
         auto blobs = loadBlobList(arguments_.input);
         if (!blobs.ok())
             return blobs.status();
-        if (!camera_ && arguments_.reference.camera.empty())
-            return {base::Code::InvalidArgument,
-                    arguments_.input + ": a list of blobs needs --view or --camera"};
         if (arguments_.exposureEv100)
             setExposure(*arguments_.exposureEv100);
         ReferenceFrame frame;
@@ -214,10 +211,13 @@ base::Status runScene(ReferenceJob& job, const base::Result<scene_file::SceneFil
     return job.runScene(*scene);
 }
 
-base::Status checkFolder(const std::filesystem::path& file)
+/// Finds out before anything is rendered what would fail at the end.
+base::Status checkTarget(const std::filesystem::path& file)
 {
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+        return {base::Code::Io, "cannot create " + file.string() + ": it is a folder"};
     if (std::filesystem::is_directory(folder, error))
         return {};
     return {base::Code::Io, "cannot create " + file.string() + ": there is no folder " + folder.string()};
@@ -239,8 +239,12 @@ int runReference(const RenderArguments& arguments, const RenderPlan& plan,
     if (plan.output.kind != OutputKind::Exr)
         return failedUsage(
             {base::Code::InvalidArgument, "--renderer reference writes EXR files: -o NAME.exr"});
-    if (base::Status status = checkFolder(plan.output.path); !status)
-        return failed(status);
+    for (const RenderPlan::Frame& moment : plan.frames)
+        if (base::Status status = checkTarget(plan.output.frame(moment.number)); !status)
+            return failed(status);
+    if (isBlobList(arguments.input) && !reference->camera && arguments.reference.camera.empty())
+        return failedUsage(
+            {base::Code::InvalidArgument, arguments.input + ": a list of blobs needs --view or --camera"});
     ReferenceJob job(arguments, plan, *reference);
     if (base::Status status = job.chooseCamera(); !status)
         return failed(status);

@@ -96,7 +96,7 @@ base::Status unknownName(const std::string& what, const std::string& name,
     std::string message = "unknown " + what + " '" + name + "'";
     if (const auto nearest = preset::nearestName(name, known))
         message += ", did you mean '" + *nearest + "'?";
-    message += " There are:";
+    message += "; there are";
     for (const std::string& candidate : known)
         message += " " + candidate;
     return usage(message);

@@ -48,6 +48,18 @@ TEST(BlobListReader, acceptsWindowsLineEndsSpacesEmptyLinesAndAMissingLastLineEn
     EXPECT_TRUE(readBlobList(kHeader, "a.blobs.csv")->empty());
 }
 
+TEST(BlobListReader, theByteOrderMarkOfASpreadsheetIsNoFault)
+{
+    EXPECT_EQ(readBlobList("\xEF\xBB\xBF" + kHeader + "1,2,3,1,1,0,1,1,1\n", "a.blobs.csv")->size(), 1u);
+}
+
+TEST(BlobListReader, messagesShowTheRangeAndNoControlCharacters)
+{
+    EXPECT_NE(messageOf("1,2,3,1,1e400,0,1,1,1\n").find("expected a number from 0 to 1e12"),
+              std::string::npos);
+    EXPECT_NE(messageOf("\x1b[31mred,2,3,1,1,0,1,1,1\n").find("found '?[31mred' for x"), std::string::npos);
+}
+
 TEST(BlobListReader, anotherHeaderIsRefusedAndTheRightOneIsShown)
 {
     for (const char* text : {"", "\n", "x,y,z,radius,tau_area,albedo,er,eg,eb\n", "1,2,3,1,1,0,1,1,1\n"}) {

@@ -52,12 +52,27 @@ class FxReference(FxTest):
 
     def test_usage_errors_are_told_before_any_work(self):
         path = self.write("a.blobs.csv", blobs(3))
-        for arguments in (("--renderer", "gl"), ("--renderer", "reference", "--view", "1,2"),
+        for arguments in (("--renderer", "gl"), ("--renderer", "reference"), ("--renderer", "reference", "--view", "1,2"),
+                          ("--renderer", "reference", "--view", "1e200,0,0,0,0,0,40"),
                           (*VIEW, "--integrator", "magic"), (*VIEW, "--samples", "0")):
             outcome = fx("render", path, "-o", self.folder / "a.exr", *arguments)
             self.assertEqual(outcome.code, 2, outcome.err)
         self.assertEqual(fx("render", path, "-o", self.folder / "a.png", *VIEW).code, 2)
         self.assertEqual(self.names(), ["a.blobs.csv"])
+
+    def test_a_folder_in_place_of_the_picture_is_told_before_any_work(self):
+        path = self.write("a.blobs.csv", blobs(3))
+        (self.folder / "a.exr").mkdir()
+        outcome = fx("render", path, "-o", self.folder / "a.exr", *VIEW)
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("it is a folder", outcome.err)
+        self.assertEqual(self.names(), ["a.blobs.csv", "a.exr"])
+
+    def test_adaptive_splitting_ends_where_floats_do_not_suffice(self):
+        path = self.write("a.blobs.csv", HEADER + "0,0,0,1,1e12,0,1,1,1\n0.1,0,0,1e6,1e12,1,1,0,0\n")
+        outcome = fx("render", path, "-o", self.folder / "a.exr", *VIEW, "--size", "9x9", "--precision", "float",
+                     "--integrator", "adaptive-0.001")
+        self.assertEqual(outcome.code, 0, outcome.err)
 
     def test_a_faulty_list_is_refused_with_file_line_and_column(self):
         path = self.write("a.blobs.csv", HEADER + "0,0,0,1,1,0,1,1,1\n0,0,zero,1,1,0,1,1,1\n")

@@ -159,8 +159,10 @@ struct AdaptiveRule : RuleBase<V, kDegree, kProduct>
         const V own = chooseLess(zero, isOpen, this->open(length), zero);
         const V share = allowed / larger(bounds.intervals, Lanes<V>::all(1));
         const V wanted = root(passed * light * bend / larger(share, Lanes<V>::all(T(1e-37f))));
+        const V most = Lanes<V>::all(T(kMostParts));
+        // Where a product above is out of range, `wanted` may be no number: as many parts as there can be.
         const V number =
-            larger(wholeAbove(smaller(wanted, Lanes<V>::all(T(kMostParts)))), Lanes<V>::all(1)); // (3)
+            larger(wholeAbove(chooseLess(wanted, most, wanted, most)), Lanes<V>::all(1)); // (3)
         const V used = chooseLess(zero, own, number, Lanes<V>::all(1));
         parts.inParts(begin, own, uint32_t(highest(used)), used);
     }

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -13,7 +14,7 @@ namespace fx::render {
 
 namespace {
 
-constexpr std::array<char, 8> kMagic{'f', 'x', 't', 'i', 'l', 'e', 's', '1'};
+constexpr std::array<char, 8> kMagic{'f', 'x', 't', 'i', 'l', 'e', 's', '2'};
 
 struct Header
 {
@@ -28,9 +29,10 @@ struct RecordHead
     uint64_t checksum;
 };
 
-uint64_t checksumOf(uint32_t tile, std::span<const float> values)
+/// With the key, so that a tile of another picture is never taken for one of this.
+uint64_t checksumOf(uint64_t key, uint32_t tile, std::span<const float> values)
 {
-    return base::hashBytes(base::hashWord(0, tile), values.data(), values.size_bytes());
+    return base::hashBytes(base::hashWord(key, tile), values.data(), values.size_bytes());
 }
 
 bool readAll(int descriptor, void* to, size_t size, uint64_t at)
@@ -62,10 +64,16 @@ base::Status TileJournal::failed(const char* what) const
     return {base::Code::Io, std::string("cannot ") + what + " " + path_ + ": " + std::strerror(errno)};
 }
 
-base::Status TileJournal::open(bool mayTruncate)
+base::Status TileJournal::open()
 {
-    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | (mayTruncate ? O_TRUNC : 0), 0666);
-    return descriptor_ >= 0 ? base::Status() : failed("create");
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0)
+        return failed("create");
+    // Where a file system has no locks, nothing keeps two runs apart; the checksums do.
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        return {base::Code::Io,
+                path_ + " is being written by another run; wait for it, or choose another output"};
+    return {};
 }
 
 base::Status TileJournal::writeAll(const std::vector<char>& bytes)
@@ -102,8 +110,10 @@ base::Status TileJournal::writeHeader()
 
 base::Status TileJournal::start()
 {
-    if (base::Status status = open(true); !status)
+    if (base::Status status = open(); !status)
         return status;
+    if (ftruncate(descriptor_, 0) != 0)
+        return failed("write");
     return writeHeader();
 }
 
@@ -124,7 +134,7 @@ uint64_t TileJournal::readRecords(const Restore& restore)
             return at;
         values.resize(head.count);
         if (!readAll(descriptor_, values.data(), bytes, at + sizeof head) ||
-            checksumOf(head.tile, values) != head.checksum)
+            checksumOf(key_, head.tile, values) != head.checksum)
             return at;
         restore(head.tile, values);
         at += sizeof head + bytes;
@@ -133,7 +143,7 @@ uint64_t TileJournal::readRecords(const Restore& restore)
 
 base::Status TileJournal::resume(const Restore& restore)
 {
-    if (base::Status status = open(false); !status)
+    if (base::Status status = open(); !status)
         return status;
     Header header{};
     struct stat info = {};
@@ -157,7 +167,7 @@ base::Status TileJournal::resume(const Restore& restore)
 
 base::Status TileJournal::append(uint32_t tile, std::span<const float> values)
 {
-    const RecordHead head{tile, uint32_t(values.size()), checksumOf(tile, values)};
+    const RecordHead head{tile, uint32_t(values.size()), checksumOf(key_, tile, values)};
     std::vector<char> bytes(sizeof head + values.size_bytes());
     std::memcpy(bytes.data(), &head, sizeof head);
     std::memcpy(bytes.data() + sizeof head, values.data(), values.size_bytes());

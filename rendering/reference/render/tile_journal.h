@@ -30,9 +30,10 @@ public:
     TileJournal& operator=(const TileJournal&) = delete;
 
     /// Begins a new journal in place of any other.
+    /// @return Io when it cannot be written, or when another TileJournal has it open: it is left as it is
     base::Status start();
     /// Continues an earlier one, or begins one when there is none.
-    /// @return InvalidArgument when the file belongs to another picture; it is left as it is
+    /// @return InvalidArgument when the file belongs to another picture; it is left as it is; Io as start()
     base::Status resume(const Restore& restore);
     /// Adds a finished tile. After a failure the journal ends with the last whole tile, and nothing more is
     /// added.
@@ -41,7 +42,7 @@ public:
     void remove();
 
 private:
-    base::Status open(bool mayTruncate);
+    base::Status open();
     base::Status failed(const char* what) const;
     base::Status writeHeader();
     base::Status writeAll(const std::vector<char>& bytes);

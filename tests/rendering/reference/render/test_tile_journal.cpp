@@ -113,6 +113,36 @@ TEST_F(TileJournalTest, anotherPicturesJournalIsRefusedAndLeftAlone)
     EXPECT_EQ(tiles, kTiles);
 }
 
+TEST_F(TileJournalTest, twoRunsNeverWriteTheSameJournal)
+{
+    {
+        TileJournal first(path_, 1);
+        ASSERT_TRUE(first.start().ok());
+        ASSERT_TRUE(first.append(7, kTiles.at(7)).ok());
+        TileJournal second(path_, 1);
+        const base::Status status = second.start();
+        EXPECT_EQ(status.code(), base::Code::Io);
+        EXPECT_NE(status.message().find(path_), std::string::npos);
+        TileJournal third(path_, 2);
+        EXPECT_EQ(third.resume([](uint32_t, std::span<const float>) {}).code(), base::Code::Io);
+    }
+    Tiles tiles;
+    ASSERT_TRUE(read(1, tiles).ok());
+    EXPECT_EQ(tiles, (Tiles{{7, kTiles.at(7)}}));
+}
+
+TEST_F(TileJournalTest, aTileOfAnotherPictureBehindItsOwnIsNotTaken)
+{
+    write(2, kTiles);
+    std::ifstream file(path_, std::ios::binary);
+    const std::string other((std::istreambuf_iterator<char>(file)), {});
+    write(1, {{30, {1.0f}}});
+    std::ofstream(path_, std::ios::binary | std::ios::app) << other.substr(16); // without its header
+    Tiles tiles;
+    ASSERT_TRUE(read(1, tiles).ok());
+    EXPECT_EQ(tiles, (Tiles{{30, {1.0f}}}));
+}
+
 TEST_F(TileJournalTest, aFullDiskIsAnErrorThatNamesTheFileAndKeepsWholeTiles)
 {
     std::signal(SIGXFSZ, SIG_IGN);
