@@ -5,6 +5,7 @@
 #include "foundation/time/ticks.h"
 #include "simulation/solver.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -22,6 +23,12 @@ struct EffectDef
     glm::vec3 wind{0.0f};     ///< [m/s] local
     bool hasGround = true;    ///< particles stay above the instance's y = 0
     std::vector<std::unique_ptr<const SolverDef>> solvers;
+
+    /// True when the host's geometry changes what it does.
+    bool collides() const
+    {
+        return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->collides(); });
+    }
 };
 
 } // namespace fx::sim

@@ -14,9 +14,15 @@ uint64_t bitsOf(float x, float y)
     return std::bit_cast<uint32_t>(x) | (uint64_t(std::bit_cast<uint32_t>(y)) << 32);
 }
 
-/// Everything of the conditions as whole words.
-std::array<uint64_t, 7> words(const RunConditions& c)
+uint64_t bitsOf(double x)
 {
+    return std::bit_cast<uint64_t>(x);
+}
+
+/// Everything of the conditions as whole words.
+std::array<uint64_t, 14> words(const RunConditions& c)
+{
+    const base::Placement& p = c.placement;
     const uint64_t choices = (uint64_t(c.quality.level) << 1) | uint64_t(c.parameters.emitting);
     return {c.seed,
             uint64_t(c.startTick),
@@ -24,7 +30,14 @@ std::array<uint64_t, 7> words(const RunConditions& c)
             bitsOf(c.gravity.x, c.gravity.y),
             bitsOf(c.gravity.z, c.wind.x),
             bitsOf(c.wind.y, c.wind.z),
-            bitsOf(c.groundHeight, c.parameters.intensity)};
+            bitsOf(c.groundHeight, c.parameters.intensity),
+            c.field ? c.field->hash() : 0,
+            bitsOf(p.position.x),
+            bitsOf(p.position.y),
+            bitsOf(p.position.z),
+            bitsOf(p.rotation.x, p.rotation.y),
+            bitsOf(p.rotation.z, p.rotation.w),
+            bitsOf(p.scale, 0.0f)};
 }
 
 } // namespace
@@ -112,6 +125,13 @@ RunIndex RunPool::copy(RunIndex index)
     throw std::logic_error("a solver does not take its own state: " + reader.status().message());
 }
 
+void RunPool::reset(RunIndex index, const RunConditions& conditions)
+{
+    unlink(index); // the chain is that of the old conditions
+    runs_[index].conditions = conditions;
+    welcome(index);
+}
+
 RunIndex RunPool::change(RunIndex index, const RunConditions& conditions)
 {
     if (runs_[index].conditions.equals(conditions))
@@ -124,9 +144,7 @@ RunIndex RunPool::change(RunIndex index, const RunConditions& conditions)
         return other;
     }
     if (isAlone) {
-        unlink(index); // the chain is that of the old conditions
-        runs_[index].conditions = conditions;
-        welcome(index);
+        reset(index, conditions);
         return index;
     }
     const RunIndex own = copy(index);

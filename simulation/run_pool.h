@@ -15,16 +15,18 @@
 namespace fx::sim {
 
 /// Everything that decides what a run computes, as its solvers see it. Position and scale are not in it, nor
-/// is a rotation that leaves gravity and wind as they are.
+/// is a rotation that leaves gravity and wind as they are, unless the run meets the host's geometry.
 struct RunConditions
 {
     uint64_t seed = 0;
     base::Ticks startTick = 0; ///< scene time of local tick 0
     Quality quality;
-    glm::vec3 gravity{0.0f};       ///< [m/s2] local
-    glm::vec3 wind{0.0f};          ///< [m/s] local, the effect's and the host's
-    float groundHeight = 0;        ///< [m] local y; -infinity for none
-    InstanceParameters parameters; ///< intensity and emission; its wind is 0, being part of `wind`
+    glm::vec3 gravity{0.0f};              ///< [m/s2] local
+    glm::vec3 wind{0.0f};                 ///< [m/s] local, the effect's and the host's
+    float groundHeight = 0;               ///< [m] local y; -infinity for none
+    InstanceParameters parameters;        ///< intensity and emission; its wind is 0, being part of `wind`
+    const DistanceField* field = nullptr; ///< the host's geometry; null for none
+    base::Placement placement;            ///< in that geometry; default without
 
     /// Bit for bit.
     bool equals(const RunConditions& other) const;
@@ -74,6 +76,8 @@ public:
     RunIndex create(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions);
     /// A copy of a run, with its state and one user.
     RunIndex copy(RunIndex index);
+    /// All users of a run are to have other conditions from now on. Never fails.
+    void reset(RunIndex index, const RunConditions& conditions);
     /// One user of a run is to have other conditions from now on. @return the run it then belongs to
     RunIndex change(RunIndex index, const RunConditions& conditions);
     /// One user fewer; the last one takes the solvers with it.

@@ -10,6 +10,7 @@
 #include "foundation/snapshot/frame_snapshot.h"
 #include "foundation/tasks/task_runner.h"
 #include "foundation/time/ticks.h"
+#include "simulation/collision/collider.h"
 #include "simulation/quality.h"
 #include "simulation/state/state_reader.h"
 #include "simulation/state/state_writer.h"
@@ -62,6 +63,7 @@ struct StepContext
     glm::vec3 gravity;                    ///< [m/s2] local
     glm::vec3 wind;                       ///< [m/s] local
     float groundHeight;                   ///< [m] local y of the ground plane; -infinity for none
+    const Collider* collider;             ///< the host's geometry; null for none
     const InstanceParameters* parameters; ///< intensity and emission; its wind is part of `wind` already
     base::TaskRunner* tasks;
     base::Arena* scratch; ///< forgotten after the step
@@ -106,6 +108,8 @@ public:
                                            std::pmr::memory_resource* memory) const = 0;
     /// Upper bound on elements alive at once, at medium quality.
     virtual uint32_t capacity() const = 0;
+    /// True when its solvers heed StepContext::collider.
+    virtual bool collides() const { return false; }
 };
 
 } // namespace fx::sim

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace fx::sim {
 
@@ -92,7 +94,43 @@ RunConditions World::conditionsOf(const EffectDef& effect, const InstanceStart& 
     const bool hasGround = environment_.hasGround && effect.hasGround;
     conditions.groundHeight = hasGround ? 0.0f : -std::numeric_limits<float>::infinity();
     conditions.parameters = {start.parameters.intensity, glm::vec3(0.0f), start.parameters.emitting};
+    if (environment_.field && effect.collides()) {
+        conditions.field = environment_.field.get();
+        conditions.placement = start.placement;
+    }
     return conditions;
+}
+
+/// Instances that meet geometry at different places no longer share a run. What each is does not change.
+void World::divideByPlacement()
+{
+    std::vector<const base::Placement*> places(runs_.size(), nullptr); // of the first user of each run
+    for (Instance& instance : instances_) {
+        if (instance.run == kNoRun || !runs_.at(instance.run).effect->collides())
+            continue;
+        const base::Placement& here = instance.start.placement;
+        const base::Placement*& first = places[instance.run];
+        if (!first)
+            first = &here;
+        if (first->position == here.position && first->rotation == here.rotation &&
+            first->scale == here.scale)
+            continue;
+        const RunIndex shared = instance.run;
+        instance.run = runs_.copy(shared);
+        runs_.leave(shared);
+        places.resize(runs_.size(), nullptr);
+        places[instance.run] = &here;
+    }
+}
+
+void World::setField(std::shared_ptr<const DistanceField> field)
+{
+    if (field)
+        divideByPlacement();
+    std::swap(environment_.field, field); // the old one lives on until no run names it
+    for (const Instance& instance : instances_)
+        if (instance.run != kNoRun)
+            runs_.reset(instance.run, conditionsOf(*runs_.at(instance.run).effect, instance.start));
 }
 
 bool World::finished(Slot slot, base::Ticks sceneTick) const
@@ -179,6 +217,10 @@ void World::stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, Ste
     context.gravity = run.conditions.gravity;
     context.wind = run.conditions.wind;
     context.groundHeight = run.conditions.groundHeight;
+    std::optional<Collider> collider;
+    if (run.conditions.field)
+        collider.emplace(*run.conditions.field, run.conditions.placement);
+    context.collider = collider ? &*collider : nullptr;
     context.parameters = &run.conditions.parameters;
     context.tasks = tasks_;
     context.scratch = &scratch_;

@@ -2,7 +2,8 @@
 /// Holds the instances that exist and steps those it is told to, and nothing else.
 ///
 /// Instances that must come out alike are simulated once: same effect, seed, start and quality, same
-/// intensity and emission, same gravity and wind in local space. Each is published at its own placement.
+/// intensity and emission, same gravity and wind in local space; and the same placement, when they meet the
+/// geometry of the host. Each is published at its own placement.
 /// Nobody can tell from the results: when one of them is changed, its state is copied first.
 ///
 /// Threads: one thread at a time (the scene thread). Work inside a step is spread over the task runner.
@@ -35,8 +36,9 @@ struct InstanceStart
 /// What all instances of a world share.
 struct Environment
 {
-    glm::vec3 gravity{0.0f, -9.80665f, 0.0f}; ///< [m/s2] world
-    bool hasGround = true;                    ///< false: no effect has a ground, whatever its preset says
+    glm::vec3 gravity{0.0f, -9.80665f, 0.0f};     ///< [m/s2] world
+    bool hasGround = true;                        ///< false: no effect has a ground, whatever its preset says
+    std::shared_ptr<const DistanceField> field{}; ///< geometry of the host; null for none
 };
 
 /// Index of an instance inside the world; valid until removed.
@@ -52,6 +54,11 @@ public:
     /// Creates all solvers of `effect`. Strong guarantee: on an exception nothing has changed.
     Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start);
     void remove(Slot slot);
+
+    const Environment& environment() const { return environment_; }
+    /// Exchanges the geometry of the host, from the next step on; null for none. Strong guarantee; needs
+    /// memory when instances at different places were simulated as one.
+    void setField(std::shared_ptr<const DistanceField> field);
 
     // Strong guarantee; both may need memory when the instance no longer comes out like others.
     void setPlacement(Slot slot, const base::Placement& placement);
@@ -100,6 +107,7 @@ private:
     Slot takeSlot(const InstanceStart& start, RunIndex run);
     /// The run of an instance becomes one that has the conditions of `start`.
     void change(Slot slot, const InstanceStart& start);
+    void divideByPlacement();
     void divideRuns(std::span<const Slot> active);
     void stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters);
     RunIndex restoreRun(const Entry& first, StateReader& reader);

@@ -112,7 +112,21 @@ base::Status EffectScene::start(const scene_file::SceneFile& file, const EffectS
     step_ = sceneDef.stepTicks;
     if (base::Status status = toStatus(fxCreateScene(context_, &sceneDef, &scene_)); !status)
         return status;
+    if (file.meshCollides)
+        if (base::Status status = addCollisionMesh(file); !status)
+            return status;
     return addInstances(file, options);
+}
+
+base::Status EffectScene::addCollisionMesh(const scene_file::SceneFile& file)
+{
+    const std::vector<glm::vec3>& positions = file.mesh.positions;
+    FxCollisionMesh mesh = fxDefaultCollisionMesh();
+    for (int i = 0; i < 3; ++i)
+        mesh.origin[i] = file.mesh.origin[i];
+    mesh.positions = positions.empty() ? nullptr : &positions[0].x;
+    mesh.vertexCount = uint32_t(positions.size());
+    return toStatus(fxScene_SetCollisionMesh(scene_, &mesh));
 }
 
 base::Status EffectScene::addInstances(const scene_file::SceneFile& file, const EffectSceneOptions& options)

@@ -57,6 +57,7 @@ public:
 private:
     EffectScene();
     base::Status start(const scene_file::SceneFile& file, const EffectSceneOptions& options);
+    base::Status addCollisionMesh(const scene_file::SceneFile& file);
     base::Status addInstances(const scene_file::SceneFile& file, const EffectSceneOptions& options);
 
     FxContext* context_ = nullptr;

@@ -63,6 +63,7 @@ void ExplosionRun::step()
                    {0, -9.80665f, 0},
                    {0, 0, 0},
                    0.0f,
+                   nullptr,
                    &parameters_,
                    &tasks_,
                    &arena_,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 namespace fx::scene {
 
@@ -82,6 +83,19 @@ void Scene::setParameters(LocalId id, const sim::InstanceParameters& parameters)
     if (instance.state == InstanceState::Active)
         world_.setParameters(instance.slot, parameters); // may throw
     instance.setup.parameters = parameters;
+}
+
+base::Status Scene::setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize)
+{
+    if (!mesh) {
+        world_.setField(nullptr);
+        return {};
+    }
+    base::Result<std::shared_ptr<const sim::DistanceField>> field =
+        sim::DistanceField::build(*mesh, cellSize, *tasks_, memory_);
+    if (field)
+        world_.setField(std::move(*field));
+    return field.status();
 }
 
 bool Scene::update(double dt)

@@ -89,6 +89,11 @@ public:
     void setPlacement(LocalId id, const base::Placement& placement);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
 
+    /// Exchanges the geometry that effects collide with; null for none. Strong guarantee.
+    /// @param cellSize see sim::DistanceField::build
+    /// @return what building the field fails with
+    base::Status setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize);
+
     /// Advances by dt [s] and publishes the last two of the steps taken.
     /// Throws std::bad_alloc after all steps when memory ran out in one: time has advanced, and what needed
     /// the memory is missing.
@@ -107,9 +112,10 @@ public:
     void save(sim::StateWriter& writer) const;
     /// Finds the effect of a fingerprint among those that no instance has any more; null when there is none.
     using FindEffect = std::function<std::shared_ptr<const sim::EffectDef>(uint64_t fingerprint)>;
-    /// Takes the state of a scene with the same step, gravity and ground, identities included, and publishes
-    /// it. Strong guarantee.
-    /// @return Parse, NotFound (an effect), InvalidArgument (another step, gravity or ground), Capacity
+    /// Takes the state of a scene with the same step, gravity, ground and geometry, identities included, and
+    /// publishes it. Strong guarantee.
+    /// @return Parse, NotFound (an effect), InvalidArgument (another step, gravity, ground or
+    /// geometry), Capacity
     base::Status restore(std::span<const std::byte> bytes, const FindEffect& findEffect);
     /// Calls f(id) for each instance by ascending index.
     template <class F>

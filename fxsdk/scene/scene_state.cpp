@@ -10,6 +10,7 @@ namespace {
 
 constexpr base::Ticks kLatestTick = INT64_MAX / 4; ///< no clock and no start goes beyond it
 constexpr double kFarthest = 1e9;                  ///< [m]
+constexpr int kHasGround = 1, kHasField = 2;       ///< bits of a byte of the rules
 
 void saveSetup(sim::StateWriter& writer, const InstanceSetup& setup)
 {
@@ -77,7 +78,7 @@ struct Scene::Restored
 {
     explicit Restored(const Scene& scene)
         : instances(scene.memory_, scene.options_.maxInstances), dormant(scene.memory_),
-          active(scene.memory_), world(scene.schema_, scene.tasks_, scene.memory_, scene.options_.environment,
+          active(scene.memory_), world(scene.schema_, scene.tasks_, scene.memory_, scene.world_.environment(),
                                        scene.options_.shareInstances)
     {}
 
@@ -104,7 +105,10 @@ void Scene::saveRules(sim::StateWriter& writer) const
 {
     writer.value(options_.stepTicks);
     writer.vector(options_.environment.gravity);
-    writer.flag(options_.environment.hasGround);
+    const sim::Environment& environment = world_.environment();
+    writer.value(uint8_t((environment.hasGround ? kHasGround : 0) | (environment.field ? kHasField : 0)));
+    if (environment.field)
+        writer.value(environment.field->hash());
 }
 
 void Scene::saveInstances(sim::StateWriter& writer) const
@@ -170,7 +174,7 @@ void Scene::checkRules(sim::StateReader& reader) const
     reader.values(std::span<std::byte>(found));
     if (!std::equal(found.begin(), found.end(), expected.bytes().begin()))
         reader.fail({base::Code::InvalidArgument,
-                     "the state is of a scene with another stepTicks, gravity or hasGround"});
+                     "the state is of a scene with another stepTicks, gravity, hasGround or collision mesh"});
 }
 
 Scene::Effects Scene::restoreEffects(sim::StateReader& reader, const FindEffect& findEffect) const

@@ -93,6 +93,7 @@ void readSceneMesh(Reader& reader, const PresetValue& value)
     float scale = 1.0f;
     value.read("position", position);
     value.read("scale", scale);
+    value.read("collide", reader.scene.meshCollides);
     for (glm::vec3& vertex : mesh->positions)
         vertex = position + scale * vertex;
     reader.scene.mesh = std::move(*mesh);

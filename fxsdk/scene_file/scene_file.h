@@ -47,7 +47,8 @@ struct SceneFile
     CameraPath camera;
     render::ViewSettings view; ///< exposure, lighting, shimmer, dazzle, form, tone map, detail
     render::StageBackground background;
-    render::StageMesh mesh; ///< empty when the scene has none
+    render::StageMesh mesh;    ///< empty when the scene has none
+    bool meshCollides = false; ///< effects collide with it
     std::vector<ScenePreset> presets;
     std::vector<SceneInstance> instances;
     std::vector<preset::Diagnostic> warnings;

@@ -48,7 +48,8 @@ struct EmitterForces
     float curlStrength = 0.0f; ///< [m/s] speed scale of the divergence-free noise that is added to the wind
     float curlScale = 1.0f;    ///< [m] length of one noise period
     float curlRate = 0.0f;     ///< [1/s] noise periods per second
-    float bounce = -1.0f;      ///< [1] restitution at the ground, 0..1; negative: particles pass
+    float bounce = -1.0f;      ///< [1] restitution at the ground and at the host's geometry, 0..1; negative:
+                               ///< particles pass
     float friction = 0.0f;     ///< [1] tangential velocity lost at a bounce, 0..1
 };
 
@@ -90,6 +91,7 @@ struct EmitterDef final : SolverDef
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return maxParticles; }
+    bool collides() const override { return forces.bounce >= 0.0f; }
 };
 
 constexpr float kAirTemperature = 293.15f; ///< [K] of the ambient air

@@ -138,6 +138,9 @@ void moveParticles(const EmitterStep& s, EmitterStore& store, const EmitterScrat
         MotionState after = fly(before, scratch.weight[i] * s.step.gravity, scratch.air[i], drag);
         if (hitsGround)
             after = bounce(before, after, drag.seconds, ground);
+        if (hitsGround && s.step.collider)
+            s.step.collider->bounce(before.position, after.position, after.velocity,
+                                    {0.0f, ground.restitution, ground.friction}, float(drag.seconds));
         x[i] = after.position.x;
         y[i] = after.position.y;
         z[i] = after.position.z;

@@ -92,6 +92,7 @@ struct FragmentsDef final : SolverDef
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return count + (trail.spacing > 0.0f ? trail.maxBlobs : 0); }
+    bool collides() const override { return true; }
 };
 
 } // namespace fx::sim

@@ -75,6 +75,19 @@ void createFragment(const FragmentsDef& def, const EmitterDef& directions, const
     store.at(column::Due)[i] = def.trail.spacing * life[1];
 }
 
+/// The end of a step of flight, with what the ground and the host's geometry do to it.
+MotionState bounceFragment(const StepContext& s, const FragmentMatter& matter, float size,
+                           const MotionState& from, const MotionState& to, float seconds)
+{
+    const float restitution = std::min(matter.bounce, 1.0f);
+    MotionState state =
+        bounce(from, to, seconds, {s.groundHeight + 0.5f * size, restitution, matter.friction});
+    if (s.collider)
+        s.collider->bounce(from.position, state.position, state.velocity,
+                           {0.5f * size, restitution, matter.friction}, seconds);
+    return state;
+}
+
 /// Flight, ground and cooling of one fragment; what it leaves behind is only counted.
 FragmentWay flyFragment(const TrailStep& s, FragmentStore& store, uint32_t i, float seconds)
 {
@@ -86,8 +99,7 @@ FragmentWay flyFragment(const TrailStep& s, FragmentStore& store, uint32_t i, fl
         {store.at(column::VelocityX)[i], store.at(column::VelocityY)[i], store.at(column::VelocityZ)[i]}};
     way.to =
         flyStep(way.from, matter.gravity * s.step.gravity, s.step.wind, dragPerMeter(matter, size), seconds);
-    way.to = bounce(way.from, way.to, seconds,
-                    {s.step.groundHeight + 0.5f * size, std::min(matter.bounce, 1.0f), matter.friction});
+    way.to = bounceFragment(s.step, matter, size, way.from, way.to, seconds);
     store.at(column::X)[i] = way.to.position.x;
     store.at(column::Y)[i] = way.to.position.y;
     store.at(column::Z)[i] = way.to.position.z;

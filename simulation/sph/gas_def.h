@@ -53,6 +53,7 @@ struct GasDef final : SolverDef
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return particles; }
+    bool collides() const override { return true; }
 };
 
 } // namespace fx::sim

@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t kMinBatch = 128;        ///< particles
 constexpr float kGroundClearance = 0.15f;  ///< [1] of the support between the ground and a center
-constexpr float kGroundRestitution = 0.1f; ///< [1]
+constexpr float kGroundRestitution = 0.1f; ///< [1] also of the host's geometry
 constexpr double kLargestGrowth = 4.0;     ///< [1] largest support over that of an even fireball
 
 constexpr double kMostSlices = 64.0; ///< exchanges with the air in a step
@@ -35,6 +35,29 @@ uint32_t particlesOf(const GasDef& def, const Quality& quality)
 {
     const double wanted = std::ceil(double(def.particles) * double(quality.particles));
     return uint32_t(std::clamp(wanted, 1.0, 1e6));
+}
+
+/// Where each parcel is, by id.
+void rememberPlaces(const GasView<float>& view, std::span<glm::vec3> outPlaces)
+{
+    for (uint32_t i = 0; i < view.count; ++i)
+        outPlaces[view.id[i]] = {view.x[i], view.y[i], view.z[i]};
+}
+
+/// What the geometry leaves of the way of particle `i`.
+void collide(const Collider& collider, const GasView<float>& view, uint32_t i, const glm::vec3& before)
+{
+    glm::vec3 position(view.x[i], view.y[i], view.z[i]);
+    glm::vec3 velocity(view.vx[i], view.vy[i], view.vz[i]);
+    const SurfaceResponse response{kGroundClearance * view.support[i], kGroundRestitution, 0.0f};
+    if (!collider.settle(before, position, velocity, response))
+        return;
+    view.x[i] = position.x;
+    view.y[i] = position.y;
+    view.z[i] = position.z;
+    view.vx[i] = velocity.x;
+    view.vy[i] = velocity.y;
+    view.vz[i] = velocity.z;
 }
 
 /// Support of particles with so many neighbors that fill a ball of `radius` evenly.
@@ -90,12 +113,17 @@ void GasSolver::step(const StepContext& context)
     if (done_ || now_ <= released_ || (!begun_ && !release(context)))
         return;
     const double seconds = base::toSeconds(now_ - std::max(context.tick, released_));
+    std::span<glm::vec3> before;
+    if (context.collider)
+        before = context.scratch->allocate<glm::vec3>(particles_);
     for (double left = seconds; left > 0.0;) {
         const double slice = exchange(context, left, seconds / kMostSlices);
+        if (context.collider)
+            rememberPlaces(gas_.view(), before);
         const base::Result<AdvanceReport> report = gas_.advance(slice, *context.tasks);
         if (report.ok())
             count(*report, *context.counters);
-        settle(context, float(slice));
+        settle(context, float(slice), before);
         left = slice < left ? left - slice : 0.0;
     }
     retireWhenDissolved();
@@ -116,7 +144,12 @@ bool GasSolver::release(const StepContext& context)
         return false;
     hottest_ = float(plan.temperature);
     gas_.initialize(*context.tasks);
-    settle(context, 0.0f);
+    std::span<glm::vec3> before;
+    if (context.collider) { // all ways begin at the charge: none leads through a wall
+        before = context.scratch->allocate<glm::vec3>(particles_);
+        std::fill(before.begin(), before.end(), def_.position);
+    }
+    settle(context, 0.0f, before);
     context.counters->born += particles_;
     return true;
 }
@@ -156,7 +189,7 @@ GasSolver::FlowSpeeds GasSolver::speedsOf(const StepContext& context, const Ther
     return {flow, sound, std::clamp(limit, 1e-3 * sound, sound)};
 }
 
-void GasSolver::settle(const StepContext& context, float seconds)
+void GasSolver::settle(const StepContext& context, float seconds, std::span<const glm::vec3> before)
 {
     const GasView<float> view = gas_.view();
     parallelRows(*context.tasks, view.count, kMinBatch, [&](uint32_t begin, uint32_t end) {
@@ -170,6 +203,8 @@ void GasSolver::settle(const StepContext& context, float seconds)
                 view.y[i] = floor;
                 view.vy[i] = view.vy[i] < 0.0f ? -kGroundRestitution * view.vy[i] : view.vy[i];
             }
+            if (context.collider)
+                collide(*context.collider, view, i, before[view.id[i]]);
             parcels_.presence[view.id[i]] *=
                 float(base::naturalExp(-double(def_.dissipation) * parcel.burnt * double(seconds)));
         }

@@ -42,7 +42,8 @@ private:
     };
     FlowSpeeds speedsOf(const StepContext& context, const ThermalFlow& thermal) const;
     double exchange(const StepContext& context, double longest, double shortest);
-    void settle(const StepContext& context, float seconds);
+    /// @param before [m] of each parcel by id, where its way began; empty without geometry
+    void settle(const StepContext& context, float seconds, std::span<const glm::vec3> before);
     void retireWhenDissolved();
     void writeMotion(class BlobWriter& writer) const;
     void writeLooks(class BlobWriter& writer) const;

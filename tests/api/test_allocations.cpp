@@ -51,3 +51,27 @@ TEST_F(AllocationApi, anExplosionAllocatesNothingFromItsFifthFrameToItsEnd)
     }
     EXPECT_EQ(newCalls() - before, 0u);
 }
+
+TEST_F(AllocationApi, collisionsAllocateNothingOnceTheSceneIsWarm)
+{
+    const float corners[9] = {2, -15, -15, 2, 15, -15, 2, 0, 15};
+    FxCollisionMesh mesh = fxDefaultCollisionMesh();
+    mesh.positions = corners;
+    mesh.vertexCount = 3;
+    mesh.cellSize = 0.5f;
+    ASSERT_EQ(fxScene_SetCollisionMesh(scene_, &mesh), FX_OK) << fxGetLastErrorMessage();
+    FxPresetId preset{};
+    ASSERT_EQ(fxLoadPresetLibrary(context_, "library:explosion", &preset), FX_OK);
+    FxInstanceDef def = instanceDef();
+    def.preset = preset;
+    FxInstanceId id{};
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK);
+    for (int frame = 0; frame < 5; ++frame)
+        ASSERT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
+    const uint64_t before = newCalls();
+    for (int frame = 0; frame < 60; ++frame) {
+        ASSERT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
+        ASSERT_EQ(statistics().updateAllocations, 0u) << "frame " << frame;
+    }
+    EXPECT_EQ(newCalls() - before, 0u);
+}

@@ -114,6 +114,7 @@ TEST(OutOfMemory, leavingASharedSimulationSavingAndRestoringFailCleanlyAtEveryAl
     instanceDef.preset = loadText(context, fx::test::smallBlastPreset());
     FxInstanceId first{}, second{};
     ASSERT_EQ(fxScene_CreateInstance(scene, &instanceDef, &first), FX_OK);
+    instanceDef.position[0] = 1.0; // geometry parts them
     ASSERT_EQ(fxScene_CreateInstance(scene, &instanceDef, &second), FX_OK);
     for (int frame = 0; frame < 10; ++frame)
         ASSERT_EQ(fxScene_Update(scene, kFrame), FX_OK);
@@ -143,6 +144,12 @@ TEST(OutOfMemory, leavingASharedSimulationSavingAndRestoringFailCleanlyAtEveryAl
     sweepUnchanged([&] { return fxScene_SetParameters(scene, second, &parameters); });
     sweepUnchanged([&] { return fxScene_RestoreState(scene, state.data(), size); });
     EXPECT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+    const float corners[9] = {2, -3, -3, 2, 3, -3, 2, 0, 3};
+    FxCollisionMesh mesh = fxDefaultCollisionMesh();
+    mesh.positions = corners;
+    mesh.vertexCount = 3;
+    mesh.cellSize = 0.5f;
+    sweepUnchanged([&] { return fxScene_SetCollisionMesh(scene, &mesh); });
     EXPECT_EQ(fxDestroyContext(context), FX_OK);
     EXPECT_EQ(memory.blocks(), 0);
 }

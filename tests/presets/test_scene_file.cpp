@@ -21,7 +21,7 @@ constexpr const char* kScene = R"({
   "exposureEv100": 9,
   "lighting": {"sunDirection": [0, 3, 4], "sunIlluminance": [1, 2, 3], "skyLuminance": 7, "groundAlbedo": 0.5},
   "background": {"color": [1, 2, 3]},
-  "mesh": {"file": "m.obj", "position": [10, 0, 0], "scale": 2},
+  "mesh": {"file": "m.obj", "position": [10, 0, 0], "scale": 2, "collide": true},
   "instances": [
     {"preset": "sparks.fx.json", "position": [100000.25, 1, 2], "rotationDegrees": [0, 90, 0], "scale": 2,
      "seed": 9007199254740991, "start": 1.5, "intensity": 3, "wind": [4, 5, 6]},
@@ -84,6 +84,9 @@ TEST(SceneFile, placesTheMesh)
 {
     const SceneFile scene = load(kScene);
     ASSERT_EQ(scene.mesh.positions.size(), 3u);
+    EXPECT_TRUE(scene.meshCollides);
+    EXPECT_FALSE(
+        load(R"({"version": 1, "camera": {"position": [0, 0, 9]}, "mesh": {"file": "m.obj"}})").meshCollides);
     EXPECT_EQ(scene.mesh.positions[1], glm::vec3(12, 0, 0));
     EXPECT_EQ(scene.mesh.normals[1], glm::vec3(0, 0, 1));
 }

@@ -102,6 +102,29 @@ static inline FxInstanceDef fxDefaultInstanceDef(void)
     return def;
 }
 
+/// Triangles that effects collide with: level geometry, at rest. Fill with fxDefaultCollisionMesh(), then set
+/// positions and their number.
+typedef struct FxCollisionMesh
+{
+    uint32_t structSize; ///< set by fxDefaultCollisionMesh(); do not touch
+    float cellSize;      ///< [m] of the grid that stands for the mesh, 1e-3..1e3; details below it are lost.
+                         ///< Default 0: the smallest with which four million cells suffice
+    double origin[3];    ///< [m] world position that positions are relative to, each within +-1e9; default 0
+    const float* positions;  ///< [m] x, y, z of each vertex, each within +-1e5; read during the call only
+    const uint32_t* indices; ///< three a triangle, counter-clockwise seen from outside; read during the call
+                             ///< only. Null (default): the vertices follow each other, three a triangle
+    uint32_t vertexCount;    ///< 3..2^24
+    uint32_t indexCount; ///< three times the triangles, of which there are at most 2^22; 0 without indices
+} FxCollisionMesh;
+
+/// A mesh without anything.
+static inline FxCollisionMesh fxDefaultCollisionMesh(void)
+{
+    FxCollisionMesh mesh = FX_ZEROED;
+    mesh.structSize = sizeof(FxCollisionMesh);
+    return mesh;
+}
+
 /// Where an instance is in its life.
 typedef enum FxInstanceState
 {
@@ -200,6 +223,21 @@ FX_API FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, cons
 FX_API FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance,
                                       const FxInstanceParameters* parameters);
 
+/// Sets the geometry that gases, fragments, and emitted particles that bounce collide with, in place of any
+/// former one; it holds from the next step on. Closed surfaces are solid; behind others, of which the side
+/// that is seen counter-clockwise is the front, two cells are. Walls thinner than a cell are thickened, so
+/// that nothing slips through. The mesh is turned into a grid of distances here, on the threads of the
+/// context, which takes seconds for a large one, 4 bytes a cell, at most 64 MiB, and 300 bytes a triangle
+/// during the call; steps then cost a few samples a particle and allocate nothing. With geometry, instances
+/// that collide share a simulation only when they stand at the same place. A saved state does not contain the
+/// mesh, only what tells it from another. [scene thread]
+/// @param mesh not kept; null: no geometry
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, not finite or out of range; an index beyond the vertices;
+///         no triangle with an area), FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (more than 2^24 cells:
+///         the message says how many), FX_ERROR_OUT_OF_MEMORY, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT.
+///         A failure leaves the scene as it was.
+FX_API FxResult fxScene_SetCollisionMesh(FxScene* scene, const FxCollisionMesh* mesh);
+
 /// Adds time and takes the steps that are due, then publishes the last two of them for views and hosts.
 /// Allocates nothing once the scene is warm, except when an instance wakes. [scene thread]
 /// @param dtSeconds [s] >= 0; 0 changes nothing; more than maxFrameTicks is shortened to it and counted
@@ -239,13 +277,14 @@ FX_API FxResult fxScene_GetSimulationHash(FxScene* scene, uint64_t* outHash);
 FX_API FxResult fxScene_SaveState(FxScene* scene, void* buffer, size_t capacity, size_t* outSize);
 
 /// Brings a scene back to a saved state, from where it continues bit for bit. The scene must have the step,
-/// gravity and ground of the one that was saved, and the presets of the saved instances must be loaded in its
-/// context or be in use in the scene. All instances become those of the state: in the scene that was saved,
-/// ids are valid again that were valid then; another scene finds its ids with fxScene_GetInstances. Views
-/// show the restored step; held snapshots stay as they are. [scene thread]
+/// gravity, ground and collision mesh of the one that was saved, and the presets of the saved instances must
+/// be loaded in its context or be in use in the scene. All instances become those of the state: in the scene
+/// that was saved, ids are valid again that were valid then; another scene finds its ids with
+/// fxScene_GetInstances. Views show the restored step; held snapshots stay as they are. [scene thread]
 /// @param state the bytes of fxScene_SaveState; not kept
 /// @param size  [byte]
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, or another step, gravity or ground), FX_ERROR_PARSE (not a
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, or another step, gravity, ground or
+///         collision mesh), FX_ERROR_PARSE (not a
 ///         state, cut or damaged), FX_ERROR_VERSION (saved by another version), FX_ERROR_NOT_FOUND (a
 ///         preset), FX_ERROR_CAPACITY (maxInstances), FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
 ///         FX_ERROR_OUT_OF_MEMORY. A failure leaves the scene as it was.

@@ -47,9 +47,9 @@ public:
     void play(int steps)
     {
         for (int i = 0; i < steps; ++i) {
-            const sim::StepContext context{now_,           kStep,     7,         0,
-                                           {0, -9.81f, 0}, {1, 0, 0}, 0.0f,      &parameters_,
-                                           tasks_.get(),   &scratch_, &counters_};
+            const sim::StepContext context{now_,           kStep,        7,         0,
+                                           {0, -9.81f, 0}, {1, 0, 0},    0.0f,      nullptr,
+                                           &parameters_,   tasks_.get(), &scratch_, &counters_};
             solver_.step(context);
             scratch_.reset();
             now_ += kStep;

@@ -1,0 +1,43 @@
+/// @file distance_grid.h
+/// Where the nodes of a distance field stand.
+#pragma once
+
+#include "foundation/math/geometry.h"
+#include "foundation/result/status.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace fx::sim {
+
+constexpr size_t kMostFieldNodes = size_t(1) << 24;      ///< 4 bytes each
+constexpr size_t kAutomaticFieldNodes = size_t(1) << 22; ///< at most, when the cell size is left open
+constexpr float kFieldMargin = 4.0f;                     ///< [cell] at least, around the mesh
+
+/// Cubic cells around a mesh.
+struct DistanceGrid
+{
+    glm::vec3 low{0.0f};   ///< [m] the first node, relative to the mesh's origin
+    float cell = 1.0f;     ///< [m] edge of a cell
+    glm::uvec3 nodes{0u};  ///< along each axis
+    base::Bounds bounds{}; ///< of the mesh
+
+    size_t count() const { return size_t(nodes.x) * nodes.y * nodes.z; }
+    size_t index(uint32_t x, uint32_t y, uint32_t z) const
+    {
+        return x + size_t(nodes.x) * (y + size_t(nodes.y) * z);
+    }
+    glm::dvec3 place(uint32_t x, uint32_t y, uint32_t z) const
+    {
+        return glm::dvec3(low) + double(cell) * glm::dvec3(x, y, z);
+    }
+};
+
+/// @param cell [m] edge; 0 for the smallest that needs at most kAutomaticFieldNodes, but not below a
+///             thousandth of the mesh
+/// @return Capacity when that takes more than kMostFieldNodes
+base::Result<DistanceGrid> planGrid(const base::Bounds& bounds, float cell);
+
+} // namespace fx::sim

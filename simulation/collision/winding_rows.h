@@ -1,0 +1,36 @@
+/// @file winding_rows.h
+/// Which nodes of a grid lie inside of closed surfaces. See row_crossings.h.
+#pragma once
+
+#include "simulation/collision/distance_grid.h"
+#include "simulation/collision/mesh_surface.h"
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::sim {
+
+class WindingRows
+{
+public:
+    /// @param solids closed surfaces. Throws std::bad_alloc.
+    WindingRows(std::span<const Triangle> solids, const DistanceGrid& grid,
+                std::pmr::memory_resource* memory);
+
+    /// True when the node at `x` [m] of row (y, z) is inside. Any thread.
+    bool isInside(double x, uint32_t y, uint32_t z) const;
+
+private:
+    struct Crossing
+    {
+        double x;     ///< [m]
+        int32_t sign; ///< +1, -1
+    };
+    std::pmr::vector<size_t> first_; ///< of each row's crossings, and the end of the last row's
+    std::pmr::vector<Crossing> crossings_;
+    uint32_t rowsInY_;
+};
+
+} // namespace fx::sim
