@@ -123,24 +123,25 @@ uint64_t run(const Options& options, double depth)
         all = base::hashWord(all, hash);
         char text[32];
         std::snprintf(text, sizeof(text), "0x%016llx", static_cast<unsigned long long>(hash));
-        cli::printJsonLine(cli::withMachine(
-            {{"name", "ray_integral"},
-             {"variant", variant.name},
-             {"simd", base::instructionSetName(base::instructionSet())},
-             {"tau", depth},
-             {"ms_per_frame_one_thread", variant.seconds * 1e3},
-             {"ms_per_frame_two_threads", variant.wall * 1e3},
-             {"ns_per_ray", variant.seconds * 1e9 / double(work.rays)},
-             {"ns_per_hit", variant.seconds * 1e9 / double(work.hits)},
-             {"ratio_to_default", variant.seconds / variants.front().seconds},
-             {"rays", work.rays},
-             {"hits", work.hits},
-             {"intervals", work.intervals},
-             {"parts", work.parts},
-             {"blobs_per_interval", double(work.blobSums) / double(std::max<uint64_t>(work.intervals, 1))},
-             {"nodes", work.nodes},
-             {"hash", text}},
-            machine()));
+        cli::printJsonLine(
+            cli::withMachine({{"name", "ray_integral"},
+                              {"variant", variant.name},
+                              {"simd", base::instructionSetName(base::instructionSet())},
+                              {"tau", depth},
+                              {"ms_per_frame_one_thread", variant.seconds * 1e3},
+                              {"ms_per_frame_two_threads", variant.wall * 1e3},
+                              {"ns_per_ray", variant.seconds * 1e9 / double(work.rays)},
+                              {"ns_per_hit", variant.seconds * 1e9 / double(work.hits)},
+                              {"ratio_to_default", variant.seconds / variants.front().seconds},
+                              {"rays", work.rays},
+                              {"hits", work.hits},
+                              {"intervals", work.intervals},
+                              {"parts", work.parts},
+                              {"blobs_per_interval",
+                               work.intervals > 0 ? double(work.blobSums) / double(work.intervals) : 0.0},
+                              {"nodes", work.nodes},
+                              {"hash", text}},
+                             machine()));
     }
     return all;
 }
