@@ -117,6 +117,23 @@ base::Result<render::ReferenceCamera> parseView(const std::string& text)
     return camera;
 }
 
+base::Status checkPictureMemory(int width, int height, uint64_t memory)
+{
+    constexpr uint64_t kPlanes = render::reference_channel::Count;
+    constexpr uint64_t kInterleaved = render::reference_channel::Depth;
+    constexpr uint64_t kPerPixel = sizeof(float) * (kPlanes + kInterleaved + kPlanes); // and the file
+    const uint64_t needed = kPerPixel * uint64_t(width) * uint64_t(height);
+    if (memory == 0 || needed <= memory)
+        return {};
+    const double share = std::sqrt(double(memory) / double(needed));
+    const auto fitting = [share](int side) { return std::to_string(std::max(1, int(side * share))); };
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    return {base::Code::OutOfMemory, "--size " + size + " needs " + std::to_string(needed) +
+                                         " bytes of memory and this machine has " + std::to_string(memory) +
+                                         ": choose a smaller one, at most " + fitting(width) + "x" +
+                                         fitting(height)};
+}
+
 base::Result<ReferencePlan> planReference(const ReferenceArguments& arguments)
 {
     ReferencePlan plan;

@@ -44,6 +44,11 @@ void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments);
 /// @return InvalidArgument, which is a usage error
 base::Result<ReferencePlan> planReference(const ReferenceArguments& arguments);
 
+/// Whether a picture, with its copy for the file and the file itself, fits into the machine.
+/// @param memory [byte] of the machine; 0 for unknown
+/// @return OutOfMemory with the bytes needed and the largest size that fits
+base::Status checkPictureMemory(int width, int height, uint64_t memory);
+
 /// Understands "ex,ey,ez,tx,ty,tz,fov_y_degrees": eye and target [m], different.
 base::Result<render::ReferenceCamera> parseView(const std::string& text);
 

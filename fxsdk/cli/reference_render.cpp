@@ -151,6 +151,11 @@ private:
     void report(const RenderPlan::Frame& moment, const ReferenceFrame& frame,
                 const render::ReferenceWork& work, double milliseconds)
     {
+        if (work.nonFinite > 0)
+            std::fprintf(stderr,
+                         "warning: %llu values of the picture were not finite, and were written as opaque "
+                         "medium without light\n",
+                         static_cast<unsigned long long>(work.nonFinite));
         nlohmann::json line;
         line["time"] = base::toSeconds(moment.tick);
         line["renderer"] = "reference";
@@ -158,7 +163,7 @@ private:
         line["scattering"] = arguments_.reference.scattering;
         line["precision"] = arguments_.reference.precision;
         line["blobs"] = frame.scene.blobs.size();
-        line["nonfinite"] = frame.nonFinite;
+        line["nonfinite"] = frame.nonFinite + work.nonFinite;
         line["rays"] = work.rays;
         line["hits"] = work.hits;
         line["ms_render"] = milliseconds;
@@ -246,6 +251,8 @@ int runReference(const RenderArguments& arguments, const RenderPlan& plan,
         return failedUsage(
             {base::Code::InvalidArgument, arguments.input + ": a list of blobs needs --view or --camera"});
     ReferenceJob job(arguments, plan, *reference);
+    if (base::Status status = checkPictureMemory(plan.width, plan.height, job.machine().memory); !status)
+        return failed(status);
     if (base::Status status = job.chooseCamera(); !status)
         return failed(status);
     const base::Status done = isBlobList(arguments.input) ? job.runBlobList() : runScene(job, loadScene());

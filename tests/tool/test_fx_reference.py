@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """fx render --renderer reference: lists of blobs and presets to EXR, resumed after being killed, on a full disk."""
 import json
+import math
 import os
 import random
 import resource
@@ -74,6 +75,36 @@ class FxReference(FxTest):
                      "--integrator", "adaptive-0.001")
         self.assertEqual(outcome.code, 0, outcome.err)
 
+    def test_small_and_dense_blobs_beside_large_ones_leave_no_value_that_is_no_number(self):
+        extreme = {"beside": "0,0,0,1,1e12,0,1,1,1\n0.1,0,0,1e6,1e12,1,1,0,0\n",
+                   "tiny": "0,0,0,1e-150,1e12,0,1,1,1\n0,0,0,1e-100,1e12,0,1e12,0,0\n0,0,-1e12,1e-150,1e12,0,1,1,1\n"}
+        for name, lines in extreme.items():
+            path = self.write(name + ".blobs.csv", HEADER + lines)
+            for scheme in ("gauss-5", "paper-4", "march-0.01", "simpson-4", "positive-4", "adaptive-0.001"):
+                for more in ((), ("--precision", "float"), ("--source", "product"), ("--precision", "float", "--source", "product")):
+                    size = "9x9" if scheme == "march-0.01" else "33x33" # which takes a million steps
+                    outcome = fx("render", path, "-o", self.folder / "a.exr", *VIEW, "--size", size, "--integrator", scheme,
+                                 "--json", *more)
+                    self.assertEqual((outcome.code, outcome.err), (0, ""))
+                    self.assertEqual(json.loads(outcome.out)["nonfinite"], 0, (name, scheme, more))
+                    planes = read_planes(self.folder / "a.exr")[2]
+                    for channel, values in planes.items():
+                        if channel != "depth.Z":
+                            self.assertTrue(all(map(math.isfinite, values)), (channel, scheme, more))
+                    if name == "beside" and scheme != "march-0.01":
+                        self.assertGreater(planes["A"][33 * 16 + 16], 0.999, (scheme, more))
+
+    def test_a_picture_that_memory_cannot_hold_is_refused_before_anything_is_made(self):
+        needed = 16384 * 16384 * 256
+        if os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") >= needed:
+            self.skipTest("this machine has the memory")
+        path = self.write("a.blobs.csv", blobs(3))
+        outcome = fx("render", path, "-o", self.folder / "a.exr", *VIEW, "--size", "16384x16384")
+        self.assertEqual(outcome.code, 1)
+        self.assertIn(f"needs {needed} bytes", outcome.err)
+        self.assertIn("choose a smaller one", outcome.err)
+        self.assertEqual(self.names(), ["a.blobs.csv"])
+
     def test_a_faulty_list_is_refused_with_file_line_and_column(self):
         path = self.write("a.blobs.csv", HEADER + "0,0,0,1,1,0,1,1,1\n0,0,zero,1,1,0,1,1,1\n")
         outcome = fx("render", path, "-o", self.folder / "a.exr", *VIEW)
@@ -119,9 +150,10 @@ class FxReference(FxTest):
         self.assertGreater(light["single"], 0.0)
         self.assertLess(max(light["centers"], light["single"]), 2.0 * min(light["centers"], light["single"]))
 
-    def start(self, output, *arguments, size="320x240"):
+    def start(self, output, *arguments, size="320x240", before_start=None):
         return subprocess.Popen([FX, "render", str(self.folder / "a.blobs.csv"), "-o", str(self.folder / output), *VIEW,
-                                 "--size", size, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                                 "--size", size, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                preexec_fn=before_start)
 
     def finish(self, output, *arguments, size="320x240"):
         self.assertEqual(self.start(output, *arguments, size=size).wait(200), 0)
@@ -133,23 +165,38 @@ class FxReference(FxTest):
                 return
             time.sleep(0.01)
 
+    def kill_at_growth(self, output, growth, limit, size):
+        """Renders on until the journal has `growth` bytes more, then kills; the system does so at `limit` bytes more.
+
+        @return the size of the journal
+        """
+        journal = self.folder / (output + ".journal")
+        size_of = lambda: journal.stat().st_size if journal.exists() else 0
+        before = size_of()
+
+        def limited():
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (before + limit, before + limit))
+
+        process = self.start(output, "--resume", size=size, before_start=limited)
+        while size_of() < before + growth and process.poll() is None:
+            time.sleep(0.001)
+        process.kill()
+        self.assertIn(process.wait(60), (-signal.SIGKILL, -signal.SIGXFSZ))
+        return size_of()
+
     def test_a_render_that_is_killed_twenty_times_gives_the_same_bits(self):
         self.write("a.blobs.csv", blobs(3000, 0.12))
-        begin = time.monotonic()
         self.finish("whole.exr", size="800x600")
-        whole = time.monotonic() - begin
-        journal = self.folder / "a.exr.journal"
+        bytes_of_tiles = 800 * 600 * 22 * 4
         chance = random.Random(7)
-        sizes = {0}
+        sizes = set()
         for kill in range(20):
-            process = self.start("a.exr", "--resume", size="800x600")
-            time.sleep(chance.uniform(0.0, whole / 15)) # before there is a journal, within a tile, within a record
-            self.assertIsNone(process.poll(), f"done before kill {kill + 1}")
-            process.send_signal(signal.SIGKILL)
-            process.wait(60)
+            # at once, or within a tile or a record; never so late that the picture is done after twenty times
+            growth = 0 if kill % 7 == 0 else chance.randint(1, bytes_of_tiles // 40)
+            sizes.add(self.kill_at_growth("a.exr", growth, bytes_of_tiles // 25, "800x600"))
             self.assertNotIn("a.exr", self.names())
-            sizes.add(journal.stat().st_size if journal.exists() else 0)
-        self.assertGreaterEqual(len(sizes), 6) # of the kills hit it while it was rendering
+        self.assertGreaterEqual(len(sizes), 17) # every kill that waited found the journal longer
         self.finish("a.exr", "--resume", size="800x600")
         self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "whole.exr").read_bytes())
         self.assertEqual(self.names(), ["a.blobs.csv", "a.exr", "whole.exr"])

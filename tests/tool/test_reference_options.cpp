@@ -42,6 +42,18 @@ TEST(ReferenceOptions, viewsThatMakeNoSenseAreRefusedByName)
     }
 }
 
+TEST(ReferenceOptions, aPictureMustFitIntoTheMachine)
+{
+    constexpr uint64_t kNeeded = 1024ull * 512 * 4 * (22 + 20 + 22);
+    EXPECT_TRUE(checkPictureMemory(1024, 512, kNeeded).ok());
+    EXPECT_TRUE(checkPictureMemory(16384, 16384, 0).ok()); // the system does not say
+    const base::Status refused = checkPictureMemory(1024, 512, kNeeded / 4);
+    EXPECT_EQ(refused.code(), base::Code::OutOfMemory);
+    EXPECT_NE(refused.message().find(std::to_string(kNeeded)), std::string::npos) << refused.message();
+    EXPECT_NE(refused.message().find("at most 512x256"), std::string::npos) << refused.message();
+    EXPECT_TRUE(checkPictureMemory(512, 256, kNeeded / 4).ok());
+}
+
 TEST(ReferenceOptions, schemesAreKnownByName)
 {
     ReferenceArguments arguments;

@@ -49,9 +49,10 @@ struct GroupScratch
     std::vector<uint32_t> nearby;
     uint32_t nearbyCount[2] = {};
     LineArray<T> weights; ///< 4 numbers a blob: extinction, then three sources, divided by radius^(2 degree)
-    T largest = T(0), unit = T(1); ///< the last group's largest radius, and the power of two below it
-    std::vector<T> first, last;    ///< of each blob over the lanes
-    std::vector<T> low, high;      ///< of each event over the lanes
+    T largest = T(0), unit = T(1);        ///< the last group's largest radius, and the power of two below it
+    T brightest = T(0), lightUnit = T(1); ///< its brightest source, and the power of two below it
+    std::vector<T> first, last;           ///< of each blob over the lanes
+    std::vector<T> low, high;             ///< of each event over the lanes
     std::vector<uint32_t> byFirst, byLast;
     std::vector<uint64_t> candidates; ///< bit i: blob i may matter in the present interval
 };
@@ -86,7 +87,8 @@ struct GroupInput
 {
     uint32_t count; ///< of blobs
     uint32_t stride;
-    T largest; ///< [m] radius of the caller's blobs, those that all rays miss among them
+    T largest;   ///< [m] radius of the caller's blobs, those that all rays miss among them
+    T brightest; ///< [cd/m2] source of the same blobs, in any channel
     const T* center;
     const T* chord2;
     const T* nearest;

@@ -99,7 +99,28 @@ void sortLanes(typename Lanes<V>::Scalar* numbers, uint32_t count)
     }
 }
 
-/// The blobs of a group, in lengths of which the largest radius is between 1 and 2.
+/// Powers of two that bound what goes into products, so that none leaves the range of T.
+template <class T>
+struct Range
+{
+    static constexpr bool kIsFloat = Real<T>::kDigits <= 24;
+    /// [1] Optical depth of a radius. The weight of the smallest blob is then below 2^114: a float holds the
+    /// sum of 8000 of them.
+    static constexpr int kDeepest = 14;
+    static constexpr int kBrightest = kIsFloat ? 100 : 900; ///< [cd/m2] source
+    static constexpr int kFarthest = kIsFloat ? 60 : 500;   ///< place, scaled: nothing there has a length
+    static T power(int exponent) { return static_cast<T>(std::ldexp(1.0, exponent)); }
+    /// The largest that is not above x, 1 for x = 0. Scaling by it is exact: the unit of x does not matter.
+    static T powerBelow(T x)
+    {
+        int exponent = 0;
+        std::frexp(static_cast<double>(x), &exponent);
+        return x > T(0) ? power(exponent - 1) : T(1);
+    }
+};
+
+/// The blobs of a group, in lengths of which the largest radius is between 1 and 2, and in light of which the
+/// brightest source is.
 template <class V, int kDegree, bool kProduct>
 class IntervalWalk
 {
@@ -127,6 +148,8 @@ public:
     V lastEvent() const { return Lanes<V>::load(events_ + size_t(kWidth) * (2 * count_ - 1)); }
     uint32_t events() const { return 2 * count_; }
     T scale() const { return scale_; }
+    /// [cd/m2] what light of 1 stands for.
+    T lightUnit() const { return scratch_.lightUnit; }
 
     /// Prepares sumKernels() for places in [low, high]; both must not decrease between calls after rewind().
     HWY_INLINE void moveTo(T low, T high)
@@ -147,7 +170,8 @@ public:
 
 private:
     template <class Shared>
-    void weigh(T largest, const Shared* shared);
+    void weigh(const GroupInput<T>& input, const Shared* shared);
+    void chooseUnits(T largest, T brightest);
     /// Blobs that a lane misses get events where the lane has some already, so that they split nothing, and
     /// the lanes keep step: before the middle of a ray at its front, otherwise at its back.
     void placeMisses(V front, V back);
@@ -178,18 +202,31 @@ private:
 };
 
 template <class V, int kDegree, bool kProduct>
-template <class Shared>
-void IntervalWalk<V, kDegree, kProduct>::weigh(T largest, const Shared* shared)
+void IntervalWalk<V, kDegree, kProduct>::chooseUnits(T largest, T brightest)
 {
-    if (!(scratch_.largest == largest)) { // mostly that of the group before
-        // A power of two, so that scaling is exact: the result does not depend on the unit of length.
-        int exponent = 0;
-        std::frexp(static_cast<double>(largest), &exponent);
-        scratch_.unit = largest > T(0) ? static_cast<T>(std::ldexp(1.0, exponent - 1)) : T(1);
+    // Mostly those of the group before.
+    if (!(scratch_.largest == largest)) {
+        scratch_.unit = Range<T>::powerBelow(largest);
         scratch_.largest = largest;
     }
+    if (!(scratch_.brightest == brightest)) {
+        scratch_.lightUnit = Range<T>::powerBelow(std::min(brightest, Range<T>::power(Range<T>::kBrightest)));
+        scratch_.brightest = brightest;
+    }
+    scale_ = T(1) / scratch_.unit;
+}
+
+/// Extinction is bounded before it becomes part of a product. What is cut off could not be seen but at the
+/// rim: of a blob that is thicker still, half of the light passes at 0.991 radii, not beyond.
+template <class V, int kDegree, bool kProduct>
+template <class Shared>
+void IntervalWalk<V, kDegree, kProduct>::weigh(const GroupInput<T>& input, const Shared* shared)
+{
+    chooseUnits(input.largest, input.brightest);
     const T unit = scratch_.unit;
-    scale_ = T(1) / unit;
+    const T perLight = T(1) / scratch_.lightUnit;
+    const T deepest = Range<T>::power(Range<T>::kDeepest);
+    const T brightest = Range<T>::power(Range<T>::kBrightest);
     weights_ = scratch_.weights.room(size_t(count_) * 4);
     for (uint32_t i = 0; i < count_; ++i) {
         const T radius = shared[i].radius * scale_;
@@ -199,9 +236,12 @@ void IntervalWalk<V, kDegree, kProduct>::weigh(T largest, const Shared* shared)
         T kernel = perRadius2;
         for (int k = 1; k < kDegree; ++k)
             kernel = kernel * perRadius2;
-        w[0] = isThere ? shared[i].extinction * unit * kernel : T(0);
+        const T extinction = std::min(shared[i].extinction, deepest / shared[i].radius);
+        w[0] = isThere ? extinction * unit * kernel : T(0);
         for (int c = 0; c < 3; ++c)
-            w[c + 1] = isThere ? (kProduct ? kernel : w[0]) * shared[i].source[c] : T(0);
+            w[c + 1] =
+                isThere ? (kProduct ? kernel : w[0]) * (std::min(shared[i].source[c], brightest) * perLight)
+                        : T(0);
     }
 }
 
@@ -234,7 +274,7 @@ V IntervalWalk<V, kDegree, kProduct>::begin(const GroupInput<T>& input, const Sh
         __builtin_prefetch(input.center + size_t(i) * input.stride);
         __builtin_prefetch(input.chord2 + size_t(i) * input.stride);
     }
-    weigh(input.largest, shared);
+    weigh(input, shared);
     const size_t lanes = size_t(count_) * kWidth;
     center_ = scratch_.center.room(lanes);
     chord2_ = scratch_.chord2.room(lanes);
@@ -254,13 +294,15 @@ V IntervalWalk<V, kDegree, kProduct>::begin(const GroupInput<T>& input, const Sh
     const V scale = Lanes<V>::all(scale_);
     const V scale2 = Lanes<V>::all(scale_ * scale_);
     const V zero = Lanes<V>::all(T(0));
+    const V far = Lanes<V>::all(Range<T>::power(Range<T>::kFarthest));
     const V nearest = Lanes<V>::load(input.nearest) * scale;
     const V farthest = larger(nearest, Lanes<V>::load(input.farthest) * scale);
     V front = Lanes<V>::all(std::numeric_limits<float>::max());
     V back = zero - front;
     V missing = zero;
     for (uint32_t i = 0; i < count_; ++i) {
-        const V center = Lanes<V>::load(input.center + size_t(i) * input.stride) * scale;
+        const V center = smaller(
+            larger(Lanes<V>::load(input.center + size_t(i) * input.stride) * scale, zero - far), far);
         const V chord2 = larger(zero, Lanes<V>::load(input.chord2 + size_t(i) * input.stride) * scale2);
         const V half = root(chord2);
         const V first = smaller(larger(center - half, nearest), farthest);

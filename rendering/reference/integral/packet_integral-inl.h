@@ -72,8 +72,9 @@ void integratePacket(const PacketJob<T>& job)
 #else
     using V = Pack<T>;
     const T largest = largestRadius(job.packet);
+    const T brightest = brightestSource(job.packet);
     for (uint32_t lane = 0; lane < kPacketRays; lane += V::kWidth) {
-        GroupInput<T> input = inputOf(job, lane, largest);
+        GroupInput<T> input = inputOf(job, lane, largest, brightest);
         const auto* const shared = keepMet<V>(job, input);
         integrateAny<V>(job.rules, job.scratch, input, shared, job.work, outputOf(job, lane));
     }

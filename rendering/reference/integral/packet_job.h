@@ -36,14 +36,25 @@ T largestRadius(const RayPacket<T>& packet)
     return largest;
 }
 
+template <class T>
+T brightestSource(const RayPacket<T>& packet)
+{
+    T brightest = T(0);
+    for (const typename RayPacket<T>::Shared& blob : packet.shared)
+        for (const T source : blob.source)
+            brightest = brightest < source ? source : brightest;
+    return brightest;
+}
+
 /// Lanes from `lane` on.
 template <class T>
-GroupInput<T> inputOf(const PacketJob<T>& job, uint32_t lane, T largest)
+GroupInput<T> inputOf(const PacketJob<T>& job, uint32_t lane, T largest, T brightest)
 {
     const PacketRays<T>& rays = job.rays;
     return {uint32_t(job.packet.shared.size()),
             kPacketRays,
             largest,
+            brightest,
             job.packet.center.data() + lane,
             job.packet.chord2.data() + lane,
             rays.nearest + lane,

@@ -45,11 +45,13 @@ public:
         if (!isValid(window))
             return {{T(0), T(0), T(0)}, T(0), T(0), kRayInvalid};
         met_.clear();
-        T largest = T(0);
+        T largest = T(0), brightest = T(0);
         for (const RayBlob<T>& blob : blobs) {
             if (!isValid(blob))
                 return {{T(0), T(0), T(0)}, T(0), T(0), kRayInvalid};
             largest = largest < blob.radius ? blob.radius : largest;
+            for (const T source : blob.source)
+                brightest = brightest < source ? source : brightest;
             if (blob.chord2 > T(0))
                 met_.push_back(blob);
         }
@@ -65,6 +67,7 @@ public:
         const integral::GroupInput<T> input{uint32_t(met_.size()),
                                             1,
                                             largest,
+                                            brightest,
                                             center_.data(),
                                             chord2_.data(),
                                             &window.nearest,

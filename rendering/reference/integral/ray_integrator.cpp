@@ -9,9 +9,10 @@ template <class T>
 void integrateOneByOne(const PacketJob<T>& job)
 {
     const T largest = largestRadius(job.packet);
+    const T brightest = brightestSource(job.packet);
     for (uint32_t lane = 0; lane < kPacketRays; ++lane)
-        integrateAny<T>(job.rules, job.scratch, inputOf(job, lane, largest), job.packet.shared.data(),
-                        job.work, outputOf(job, lane));
+        integrateAny<T>(job.rules, job.scratch, inputOf(job, lane, largest, brightest),
+                        job.packet.shared.data(), job.work, outputOf(job, lane));
 }
 
 template void integrateOneByOne(const PacketJob<float>&);

@@ -226,6 +226,7 @@ void integrateGroup(const GroupRules<typename Lanes<V>::Scalar>& rules,
     Gathered<V> io;
     io.clear();
     V missing = zero;
+    T lightUnit = T(1);
     V background[3];
     for (int c = 0; c < 3; ++c)
         background[c] = Lanes<V>::load(input.background[c]);
@@ -234,12 +235,15 @@ void integrateGroup(const GroupRules<typename Lanes<V>::Scalar>& rules,
     if (input.count > 0) {
         IntervalWalk<V, kDegree, kProduct> walk(scratch, work);
         missing = walk.begin(input, shared);
+        lightUnit = walk.lightUnit();
         const V brightest = larger(larger(background[0], background[1]), background[2]);
-        runScheme<V, kDegree, kProduct>(walk, rules, scratch, brightest, io);
+        runScheme<V, kDegree, kProduct>(walk, rules, scratch, brightest * Lanes<V>::all(T(1) / lightUnit),
+                                        io);
     }
     const V transmittance = expOfMinus(io.depth);
     for (int c = 0; c < 3; ++c)
-        Lanes<V>::store(out.radiance[c], larger(io.light[c], zero) + transmittance * background[c]);
+        Lanes<V>::store(out.radiance[c], larger(io.light[c], zero) * Lanes<V>::all(lightUnit) +
+                                             transmittance * background[c]);
     Lanes<V>::store(out.opticalDepth, io.depth);
     Lanes<V>::store(out.transmittance, transmittance);
     T fallback[kWidth], left[kWidth];

@@ -18,7 +18,8 @@ struct BlobChord
         peak = blob.extinction * q2 * q2;
     }
 
-    double place(double t) const { return std::clamp((t - nearest) / half, -1.0, 1.0); }
+    /// Of chords that rounding leaves no length: behind them.
+    double place(double t) const { return half > 0.0 ? std::clamp((t - nearest) / half, -1.0, 1.0) : 1.0; }
     /// Integral of (1 - u^2)^2 from 0 to place(t).
     double bracket(double t) const
     {

@@ -11,14 +11,18 @@ namespace fx::render {
 
 namespace {
 
-constexpr uint32_t kPart = 4096; ///< blobs that one task handles at least
+constexpr uint32_t kPart = 4096;   ///< blobs that one task handles at least
+constexpr double kThickest = 1e30; ///< [1] optical depth of a radius
+constexpr double kDensest = 1e300; ///< [1/m]
 
 BallBlob<double> ballOf(const MediumBlob& blob, const glm::dvec3& eye)
 {
     const glm::dvec3 c = blob.center - eye;
     const double r = blob.radius;
     const double extinction = blob.crossSection / r / r / r * (105.0 / (32.0 * std::numbers::pi));
-    return {{c.x, c.y, c.z}, r, extinction, {blob.source.x, blob.source.y, blob.source.z}};
+    // Opaque is enough: what is thicker would leave the range of numbers further on.
+    const double most = std::min(kThickest / r, kDensest);
+    return {{c.x, c.y, c.z}, r, std::min(extinction, most), {blob.source.x, blob.source.y, blob.source.z}};
 }
 
 std::array<double, 3> coverageOf(const MediumBlob& blob)

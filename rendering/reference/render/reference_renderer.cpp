@@ -13,7 +13,7 @@ namespace fx::render {
 namespace {
 
 constexpr uint64_t kVersion =
-    2; ///< of the arithmetic: another picture from the same input gets another number
+    3; ///< of the arithmetic: another picture from the same input gets another number
 constexpr int kMaxSize = 16384; ///< [pixel]
 constexpr int kMaxSamples = 16;
 

@@ -32,6 +32,8 @@ MediumDepth SeenDepth::along(const MediumView& medium, const RayHits& hits, doub
     if (!(b > a))
         return {none, 0.0};
     const double step = (b - a) / kSteps;
+    if (!(step > 0.0)) // less than the least number
+        return {none, 0.0};
     depth_.fill(0.0);
     passed_.fill(0.0);
     double whole = 0.0;

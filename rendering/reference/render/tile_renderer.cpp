@@ -1,5 +1,6 @@
 #include "rendering/reference/render/tile_renderer.h"
 
+#include "foundation/math/bits.h"
 #include "foundation/simd/floating_point_scope.h"
 
 #include <glm/common.hpp>
@@ -27,6 +28,7 @@ ReferenceWork& ReferenceWork::operator+=(const ReferenceWork& other)
 {
     rays += other.rays;
     hits += other.hits;
+    nonFinite += other.nonFinite;
     return *this;
 }
 
@@ -150,8 +152,32 @@ void TileRenderer::addScattered(std::span<Sample* const> samples)
     }
 }
 
+namespace {
+
+/// Numbers for what is none, so that a filter does not spread it: no light, opaque medium of no known place.
+/// @return how many values were replaced
+uint32_t replaceNonFinite(float* io)
+{
+    namespace channel = reference_channel;
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    uint32_t count = 0;
+    for (uint32_t c = 0; c < channel::Count; ++c) {
+        if (base::isFinite(io[c]) || (c == channel::Depth && io[c] == kInfinity))
+            continue;
+        const bool isAlpha = c < channel::Depth && c % 4 == 3;
+        io[c] = c == channel::Depth          ? kInfinity
+                : c == channel::OpticalDepth ? std::numeric_limits<float>::max()
+                : isAlpha                    ? 1.0f
+                                             : 0.0f;
+        ++count;
+    }
+    return count;
+}
+
+} // namespace
+
 /// The mean over the rays of a pixel; depths are weighted by opacity.
-void TileRenderer::writePixel(const PixelBlock& rays, int x, int y, float* out) const
+void TileRenderer::writePixel(const PixelBlock& rays, int x, int y, float* out)
 {
     namespace channel = reference_channel;
     const int n = picture_.settings.samples;
@@ -191,6 +217,7 @@ void TileRenderer::writePixel(const PixelBlock& rays, int x, int y, float* out) 
     out[channel::Background + 3] = hasBackground ? 1.0f : 0.0f;
     out[channel::Depth] = opacity > 0.0 ? float(depth / opacity) : std::numeric_limits<float>::infinity();
     out[channel::OpticalDepth] = float(opticalDepth);
+    work_.nonFinite += replaceNonFinite(out);
 }
 
 } // namespace fx::render

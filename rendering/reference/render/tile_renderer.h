@@ -61,7 +61,8 @@ struct ReferencePicture
 struct ReferenceWork
 {
     uint64_t rays = 0;
-    uint64_t hits = 0; ///< blobs that rays met
+    uint64_t hits = 0;      ///< blobs that rays met
+    uint64_t nonFinite = 0; ///< values of pixels that were no numbers, and were replaced
 
     ReferenceWork& operator+=(const ReferenceWork& other);
 };
@@ -85,7 +86,7 @@ private:
     void addScattered(std::span<Sample* const> samples);
     void renderBundle(const PixelBlock& rays, const PixelBlock& part, const TileCandidates& candidates);
     Sample& sampleAt(const PixelBlock& rays, int x, int y);
-    void writePixel(const PixelBlock& rays, int x, int y, float* out) const;
+    void writePixel(const PixelBlock& rays, int x, int y, float* out);
 
     const ReferencePicture& picture_;
     RayGrid grid_;

@@ -210,6 +210,27 @@ TEST(ReferenceRenderer, refusesBlobsAndSizesOutsideTheirRange)
     EXPECT_TRUE(refused([](ReferenceScene&, ReferenceSettings& s) { s.samples = 17; }));
 }
 
+TEST(ReferenceRenderer, countsValuesThatAreNoNumbersAndReplacesThem)
+{
+    ReferenceScene scene = test::blobScene(30, 2.0);
+    EXPECT_EQ(test::Rendered(scene).renderer.work().nonFinite, 0u);
+    for (MediumBlob& blob : scene.blobs)
+        blob.source = glm::dvec3(1e60); // beyond the floats of the picture
+    const test::Rendered picture(scene);
+    uint64_t covered = 0;
+    for (size_t i = 0; i < picture[0].size(); ++i) {
+        for (uint32_t c = 0; c < channel::Count; ++c)
+            EXPECT_TRUE(std::isfinite(picture[c][i]) || c == channel::Depth);
+        EXPECT_FALSE(std::isnan(picture[channel::Depth][i]));
+        if (picture[channel::Color + 3][i] > 1e-6f) {
+            EXPECT_EQ(picture[channel::Color][i], 0.0f);
+            ++covered;
+        }
+    }
+    EXPECT_GE(picture.renderer.work().nonFinite, 6 * covered); // color and fire
+    EXPECT_GT(covered, 100u);
+}
+
 TEST(ReferenceRenderer, theKeyChangesWithEverythingThatThePictureDependsOn)
 {
     const auto tasks = base::makeSerialRunner();
