@@ -43,9 +43,7 @@ struct GasParticle
     double energy = 0;        ///< [J/kg] specific internal energy, >= 0, cold curve included
 };
 
-/// The numbers for shocks are fitted to the point blast and the spherical implosion of `fx verify` together:
-/// less viscosity or conduction lets the front run ahead along the axes of a lattice, more of it widens the
-/// front.
+/// The numbers for shocks were chosen on the point blast of `fx verify sedov`, see docs/verification.md.
 struct ViscosityRules
 {
     double alphaMin = 0.05;     ///< [1]

@@ -25,8 +25,8 @@
 ///            in [PHA18]; (4) [BAL95]
 /// @deviation d' by difference of the divergences instead of the gradient of accelerations; (5) is ours;
 ///            the factor 10 in (4) leaves the disorder behind a shock, where d and w are alike, its
-///            viscosity: without it the error of the density of a point blast in 64^3 particles is 0.21
-///            instead of 0.15, without (4) shear waves grow at half their rate
+///            viscosity: with 1 in its place the error of the density of a point blast in 64^3 particles is
+///            0.21 instead of 0.15
 /// @valid     any finite input; c = 0 with convergence gives a_max
 /// @accuracy  evaluated in the particles' own precision
 /// @tests     tests/simulation/dynamics/test_viscosity_switch.cpp
