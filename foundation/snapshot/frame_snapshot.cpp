@@ -7,15 +7,55 @@
 
 namespace fx::base {
 
-void SnapshotGroup::prepare(const SnapshotSchema& schema, KindId kind, size_t capacity)
+namespace {
+
+constexpr size_t kRowsPerLine = 16; // floats in 64 bytes
+
+/// Floats from the beginning of a column to that of the next.
+size_t columnFloats(ColumnType type, size_t capacity)
+{
+    const size_t rows = (capacity + kRowsPerLine - 1) / kRowsPerLine * kRowsPerLine;
+    return rows * columnElementSize(type) / sizeof(float);
+}
+
+bool isIn(ColumnSet present, size_t column)
+{
+    return (present >> column & 1) != 0;
+}
+
+size_t floatsFor(const KindDesc& kind, size_t capacity, ColumnSet present)
+{
+    size_t floats = 0;
+    for (size_t c = 0; c < kind.columns.size(); ++c)
+        floats += isIn(present, c) ? columnFloats(kind.columns[c].type, capacity) : 0;
+    return floats;
+}
+
+} // namespace
+
+bool SnapshotGroup::fits(const KindDesc& kind, size_t capacity, ColumnSet present) const
+{
+    return floatsFor(kind, capacity, present) <= storage_.capacity() &&
+           (!kind.hasIds || capacity <= ids_.size());
+}
+
+void SnapshotGroup::prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present)
 {
     const KindDesc& desc = schema.kind(kind);
-    if (storage_.size() < desc.columns.size() * capacity)
-        storage_.resize(desc.columns.size() * capacity);
-    if (ids_.size() < capacity)
+    const size_t floats = floatsFor(desc, capacity, present);
+    if (storage_.capacity() < floats)
+        storage_ = Column<float>(memory_, floats);
+    if (desc.hasIds && ids_.size() < capacity)
         ids_.resize(capacity);
+    columns_.resize(desc.columns.size());
+    size_t offset = 0;
+    for (size_t c = 0; c < desc.columns.size(); ++c) {
+        columns_[c] = {offset, isIn(present, c)};
+        offset += columns_[c].present ? columnFloats(desc.columns[c].type, capacity) : 0;
+    }
     constants_.assign(desc.constants.size(), 0.0f);
     capacity_ = capacity;
+    hasIds_ = desc.hasIds;
     info_ = GroupInfo{};
     info_.kind = kind;
 }
@@ -31,20 +71,19 @@ void FrameSnapshot::begin(Ticks tick, uint64_t sequence)
     groupCount_ = 0;
 }
 
-SnapshotGroup& FrameSnapshot::addGroup(KindId kind, size_t capacity)
+SnapshotGroup& FrameSnapshot::addGroup(KindId kind, size_t capacity, ColumnSet present)
 {
-    const size_t columns = schema_->kind(kind).columns.size();
+    const KindDesc& desc = schema_->kind(kind);
     size_t best = groups_.size();
-    for (size_t i = groupCount_; i < groups_.size(); ++i) { // the smallest spare that is large enough
-        const size_t room = groups_[i].room(columns);
-        if (room >= capacity && (best == groups_.size() || room < groups_[best].room(columns)))
+    for (size_t i = groupCount_; i < groups_.size(); ++i) // the smallest spare that is large enough
+        if (groups_[i].fits(desc, capacity, present) &&
+            (best == groups_.size() || groups_[i].bytes() < groups_[best].bytes()))
             best = i;
-    }
     if (best == groups_.size())
         groups_.emplace_back(memory_);
     std::swap(groups_[groupCount_], groups_[best]);
     SnapshotGroup& group = groups_[groupCount_];
-    group.prepare(*schema_, kind, capacity);
+    group.prepare(*schema_, kind, capacity, present);
     ++groupCount_;
     return group;
 }
@@ -63,8 +102,10 @@ uint64_t FrameSnapshot::hash() const
         h = hashBytes(h, &info.placement.scale, sizeof info.placement.scale);
         h = hashBytes(h, group.constants().data(), group.constants().size_bytes());
         h = hashBytes(h, group.ids().data(), group.ids().size_bytes());
-        for (size_t c = 0; c < schema_->kind(info.kind).columns.size(); ++c)
-            h = hashBytes(h, group.column(c).data(), group.column(c).size_bytes());
+        const std::span<const ColumnDesc> columns = schema_->kind(info.kind).columns;
+        for (size_t c = 0; c < columns.size(); ++c)
+            h = hashBytes(h, group.column(c).data(),
+                          group.column(c).size() * columnElementSize(columns[c].type));
     }
     return h;
 }

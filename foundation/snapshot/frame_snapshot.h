@@ -8,6 +8,7 @@
 #pragma once
 
 #include "foundation/math/geometry.h"
+#include "foundation/memory/column.h"
 #include "foundation/snapshot/snapshot_schema.h"
 #include "foundation/time/ticks.h"
 
@@ -31,39 +32,65 @@ struct GroupInfo
     Bounds bounds;         ///< local; every element with its radius lies inside
 };
 
-/// One group: column-wise elements sorted by ascending id.
+/// One group: column-wise elements, sorted by ascending id where the kind has ids. Columns begin at multiples
+/// of 64 bytes.
 class SnapshotGroup
 {
 public:
-    SnapshotGroup(std::pmr::memory_resource* memory) : storage_(memory), ids_(memory), constants_(memory) {}
+    SnapshotGroup(std::pmr::memory_resource* memory)
+        : memory_(memory), columns_(memory), ids_(memory), constants_(memory)
+    {}
 
     const GroupInfo& info() const { return info_; }
     uint32_t count() const { return info_.count; }
-    std::span<const uint64_t> ids() const { return {ids_.data(), info_.count}; }
-    /// Column `index` of the kind, F32.
+    /// Empty when the kind has none.
+    std::span<const uint64_t> ids() const { return {ids_.data(), hasIds_ ? info_.count : 0}; }
+    /// Column `index` of the kind, which is F32; empty when the group lacks it.
     std::span<const float> column(size_t index) const
     {
-        return {storage_.data() + index * capacity_, info_.count};
+        return {storage_.data() + columns_[index].offset, columns_[index].present ? info_.count : 0};
     }
+    /// Column `index` of the kind, which is U64; empty when the group lacks it.
+    std::span<const uint64_t> column64(size_t index) const
+    {
+        return {reinterpret_cast<const uint64_t*>(storage_.data() + columns_[index].offset),
+                columns_[index].present ? info_.count : 0};
+    }
+    bool has(size_t index) const { return columns_[index].present; }
     std::span<const float> constants() const { return constants_; }
 
     // ---- for the writer, before publication ----
     GroupInfo& editInfo() { return info_; }
-    std::span<uint64_t> editIds() { return {ids_.data(), capacity_}; }
-    std::span<float> editColumn(size_t index) { return {storage_.data() + index * capacity_, capacity_}; }
-    std::span<float> editConstants() { return constants_; }
-    /// Elements of a kind with that many columns for which there is memory already.
-    size_t room(size_t columns) const
+    std::span<uint64_t> editIds() { return {ids_.data(), hasIds_ ? capacity_ : 0}; }
+    std::span<float> editColumn(size_t index)
     {
-        return std::min(ids_.size(), columns > 0 ? storage_.size() / columns : ids_.size());
+        return {storage_.data() + columns_[index].offset, columns_[index].present ? capacity_ : 0};
     }
+    std::span<uint64_t> editColumn64(size_t index)
+    {
+        return {reinterpret_cast<uint64_t*>(storage_.data() + columns_[index].offset),
+                columns_[index].present ? capacity_ : 0};
+    }
+    std::span<float> editConstants() { return constants_; }
+    /// True when its memory is enough for `capacity` elements with the columns `present` of `kind`.
+    bool fits(const KindDesc& kind, size_t capacity, ColumnSet present) const;
+    size_t bytes() const { return storage_.capacity() * sizeof(float) + ids_.capacity() * sizeof(uint64_t); }
     /// Makes room for `capacity` elements of `kind`; keeps its memory when that is enough.
-    void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity);
+    void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present = kAllColumns);
 
 private:
+    struct Place
+    {
+        size_t offset = 0; ///< in floats
+        bool present = false;
+    };
+
     GroupInfo info_;
     size_t capacity_ = 0;
-    std::pmr::vector<float> storage_;
+    bool hasIds_ = true;
+    std::pmr::memory_resource* memory_;
+    Column<float> storage_;
+    std::pmr::vector<Place> columns_;
     std::pmr::vector<uint64_t> ids_;
     std::pmr::vector<float> constants_;
 };
@@ -87,7 +114,8 @@ public:
     void begin(Ticks tick, uint64_t sequence);
     /// A group with room for `capacity` elements; fill it and set its info (count, bounds). The memory of a
     /// group of an earlier snapshot is reused when one is large enough, whatever its position was.
-    SnapshotGroup& addGroup(KindId kind, size_t capacity);
+    /// @param present columns of the kind that the group is to have
+    SnapshotGroup& addGroup(KindId kind, size_t capacity, ColumnSet present = kAllColumns);
 
 private:
     const SnapshotSchema* schema_;

@@ -36,10 +36,16 @@ struct KindDesc
     std::string_view name;
     std::span<const ColumnDesc> columns;   ///< per element
     std::span<const ColumnDesc> constants; ///< per group, F32 only
+    bool hasIds = true; ///< elements are sorted by ids; false: the kind says how else one is
+                        ///< found again
 };
 
 using KindId = uint32_t;
 constexpr KindId kNoKind = ~0u;
+
+/// Which columns of a kind a group has: bit i for column i.
+using ColumnSet = uint64_t;
+constexpr ColumnSet kAllColumns = ~ColumnSet(0);
 
 /// The kinds of one context. Filled while the context is made, constant afterwards.
 class SnapshotSchema

@@ -57,10 +57,13 @@ Status describeColumn(const SnapshotGroup& group, const KindDesc& kind, uint32_t
 {
     const fx::base::ColumnDesc& desc = kind.columns[index];
     FxSnapshotColumn column{};
-    column.count = group.count();
+    column.count = group.has(index) ? group.count() : 0;
     column.name = desc.name.data(); // a string literal
     column.unit = desc.unit.data();
-    column.values = group.column(index).data();
+    if (group.has(index) && desc.type == fx::base::ColumnType::F32)
+        column.values = group.column(index).data();
+    if (group.has(index) && desc.type == fx::base::ColumnType::U64)
+        column.values64 = group.column64(index).data();
     return fx::api::writeStruct(column, ioColumn, "ioColumn");
 }
 
@@ -79,7 +82,7 @@ FxSnapshotGroup describeGroup(const FxScene& scene, const SnapshotGroup& group, 
     std::copy_n(xyzw, 4, out.rotation);
     std::copy_n(glm::value_ptr(info.bounds.min), 3, out.boundsMin);
     std::copy_n(glm::value_ptr(info.bounds.max), 3, out.boundsMax);
-    out.ids = group.ids().data();
+    out.ids = kind.hasIds ? group.ids().data() : nullptr;
     out.constants = group.constants().data();
     out.constantCount = uint32_t(group.constants().size());
     out.columnCount = uint32_t(kind.columns.size());

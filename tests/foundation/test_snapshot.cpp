@@ -1,6 +1,7 @@
 #include "foundation/memory/host_memory.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/frame_snapshot.h"
+#include "foundation/snapshot/particle_kind.h"
 
 #include <gtest/gtest.h>
 
@@ -94,4 +95,61 @@ TEST(FrameSnapshot, reusesTheMemoryOfGroupsWhateverTheirOrderWas)
         snapshot.addGroup(kind, capacity);
     EXPECT_EQ(memory.allocationCount(), before);
     EXPECT_EQ(snapshot.groupCount(), 2u);
+}
+
+namespace {
+
+namespace particle = fx::base::particle_column;
+
+/// A group of three particles of the kind that has columns of both types.
+fx::base::SnapshotGroup& addParticles(fx::base::FrameSnapshot& snapshot, fx::base::KindId kind,
+                                      fx::base::ColumnSet present)
+{
+    snapshot.begin(7, 1);
+    auto& group = snapshot.addGroup(kind, 3, present);
+    group.editInfo().count = 3;
+    for (size_t c = 0; c < particle::Count; ++c) {
+        std::ranges::fill(fx::base::kParticleColumns[c].type == fx::base::ColumnType::F32
+                              ? group.editColumn(c)
+                              : std::span<float>(),
+                          float(c));
+        if (fx::base::kParticleColumns[c].type == fx::base::ColumnType::U64)
+            std::ranges::fill(group.editColumn64(c), uint64_t(c) << 40);
+    }
+    return group;
+}
+
+} // namespace
+
+TEST(FrameSnapshot, keepsColumnsOf64BitsAndLeavesOutThoseThatAreNotWanted)
+{
+    fx::base::HostMemory memory;
+    fx::base::SnapshotSchema schema;
+    const auto kind = schema.add(fx::base::kParticleKind);
+    fx::base::FrameSnapshot snapshot(&schema, &memory);
+    const auto& group = addParticles(snapshot, kind, particle::kAlways | particle::kIndex);
+
+    EXPECT_TRUE(group.ids().empty());
+    EXPECT_FALSE(group.has(particle::Angle));
+    EXPECT_TRUE(group.column(particle::Angle).empty());
+    ASSERT_EQ(group.column64(particle::Color).size(), 3u);
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(group.column(particle::Radius)[i], float(particle::Radius));
+        EXPECT_EQ(group.column64(particle::Color)[i], uint64_t(particle::Color) << 40);
+        EXPECT_EQ(group.column64(particle::Index)[i], uint64_t(particle::Index) << 40);
+    }
+    for (size_t c = 0; c < particle::Count; ++c)
+        EXPECT_EQ(reinterpret_cast<uintptr_t>(group.column(c).data()) % 64, 0u);
+}
+
+TEST(FrameSnapshot, itsHashHeedsColumnsOf64Bits)
+{
+    fx::base::HostMemory memory;
+    fx::base::SnapshotSchema schema;
+    const auto kind = schema.add(fx::base::kParticleKind);
+    fx::base::FrameSnapshot snapshot(&schema, &memory);
+    auto& group = addParticles(snapshot, kind, particle::kAlways);
+    const uint64_t before = snapshot.hash();
+    group.editColumn64(particle::Color)[2] ^= uint64_t(1) << 63;
+    EXPECT_NE(snapshot.hash(), before);
 }

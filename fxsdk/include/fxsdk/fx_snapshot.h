@@ -49,7 +49,7 @@ typedef struct FxSnapshotGroup
     float rotation[4];      ///< unit quaternion x, y, z, w, of the placement
     float boundsMin[3];     ///< [m] local; every element with its radius lies inside; min > max when empty
     float boundsMax[3];     ///< [m] local
-    const uint64_t* ids;    ///< count ids, ascending
+    const uint64_t* ids;    ///< count ids, ascending; null when the kind has none (see docs/conventions.md)
     const float* constants; ///< constantCount values shared by all elements, see docs/conventions.md
     uint32_t constantCount; ///< number of constants of the kind
     uint32_t columnCount;   ///< number of columns of the kind
@@ -62,7 +62,8 @@ typedef struct FxSnapshotColumn
     uint32_t count;      ///< elements
     const char* name;    ///< such as "radius"; constant string
     const char* unit;    ///< SI unit such as "m", "1" for none; constant string
-    const float* values; ///< count values
+    const float* values; ///< count values; null when the column is one of 64 bits, or absent (count is 0)
+    const uint64_t* values64; ///< count values of 64 bits; null when the column holds floats, or is absent
 } FxSnapshotColumn;
 
 /// Holds on to the newest two steps of a scene. Release it soon: every held snapshot keeps its memory. [any]

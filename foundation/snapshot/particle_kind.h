@@ -1,0 +1,182 @@
+/// @file particle_kind.h
+/// The kinds "particle", "ribbon" and "light": what emitters publish besides media. Vocabulary of the
+/// technique that writes them and of the passes and hosts that draw them; the snapshot container does not
+/// include this.
+///
+/// A particle keeps its row for life: row i of two successive snapshots is the same particle when it lives in
+/// both and its age in the newer one is at least the time between them. A row of radius 0 is empty. Rows of a
+/// ribbon that follow each other and name the same strip are joined.
+///
+/// A color is four binary16 numbers, red in the lowest 16 bits, then green, blue, opacity. Red, green and
+/// blue are linear Rec. 709 and not multiplied by the opacity. What is seen is
+/// color * (luminance + lit * light that falls on the particle / pi).
+#pragma once
+
+#include "foundation/snapshot/snapshot_schema.h"
+
+namespace fx::base {
+
+/// Columns of the kind "particle", in order. Those after Color exist only where an emitter needs them.
+namespace particle_column {
+enum : size_t
+{
+    PositionX,
+    PositionY,
+    PositionZ,
+    Age,
+    Radius,
+    Color,
+    VelocityX,
+    VelocityY,
+    VelocityZ,
+    Angle,
+    Frame,
+    OrientationX,
+    OrientationY,
+    OrientationZ,
+    OrientationW,
+    Index,
+    Count
+};
+
+/// The columns that every group of the kind has.
+constexpr uint64_t kAlways = (uint64_t(1) << VelocityX) - 1;
+constexpr uint64_t kVelocity = uint64_t(7) << VelocityX;
+constexpr uint64_t kAngle = uint64_t(1) << Angle;
+constexpr uint64_t kFrame = uint64_t(1) << Frame;
+constexpr uint64_t kOrientation = uint64_t(15) << OrientationX;
+constexpr uint64_t kIndex = uint64_t(1) << Index;
+} // namespace particle_column
+
+/// Columns of the kind "ribbon", in order: points along strips, newest first in each strip.
+namespace ribbon_column {
+enum : size_t
+{
+    PositionX,
+    PositionY,
+    PositionZ,
+    HalfWidth,
+    Arc,
+    Color,
+    Strip,
+    Count
+};
+}
+
+/// Columns of the kind "light", in order.
+namespace light_column {
+enum : size_t
+{
+    PositionX,
+    PositionY,
+    PositionZ,
+    IntensityR,
+    IntensityG,
+    IntensityB,
+    Count
+};
+}
+
+/// How a particle is drawn.
+enum class ParticleShape : uint32_t
+{
+    Sprite, ///< a textured square
+    Mesh,   ///< an instanced mesh
+};
+
+/// How what is drawn meets what is behind it.
+enum class ParticleBlend : uint32_t
+{
+    Alpha,    ///< covers with its opacity
+    Additive, ///< adds its light times its opacity
+    Opaque,   ///< hides where its opacity is at least one half; writes depth
+};
+
+/// How the square of a sprite stands.
+enum class SpriteAlignment : uint32_t
+{
+    Camera,   ///< faces the camera
+    Velocity, ///< faces the camera as far as it can with its vertical along the velocity
+    Axis,     ///< the same with a fixed axis
+    Plane,    ///< lies in the plane that the axis is normal to
+};
+
+/// In which order the rows of a group are drawn.
+enum class ParticleOrder : uint32_t
+{
+    None,     ///< rows as they are
+    Depth,    ///< far to near
+    Oldest,   ///< oldest first
+    Youngest, ///< youngest first
+};
+
+/// Constants of a group of kinds "particle" and "ribbon", in order.
+namespace particle_constant {
+enum : size_t
+{
+    Shape,     ///< ParticleShape
+    Layer,     ///< MediaLayer that the light and opacity are accounted to
+    Blend,     ///< ParticleBlend
+    Order,     ///< ParticleOrder
+    OrderBias, ///< [m] > 0 draws the group as if it were so much nearer to the camera
+    Alignment, ///< SpriteAlignment
+    AxisX,     ///< [1] local unit vector of the alignments Axis and Plane
+    AxisY,     ///< [1]
+    AxisZ,     ///< [1]
+    Aspect,    ///< [1] width over height of a sprite, > 0; radius is half the height
+    Stretch,   ///< [s] with alignment Velocity the sprite is longer by velocity times this; the texture's v,
+               ///< or the length of a ribbon, runs along it
+    Luminance, ///< [cd/m2] that color 1 emits
+    Lit,       ///< [1] share of the scene's light that color 1 scatters, 0..1
+    Softness,  ///< [m] depth over which a particle fades into what it cuts, 0: hard
+    Texture,   ///< id in the AssetTable, 0: a round spot that fades to its edge
+    TileColumns, ///< [1] frames of the texture side by side, >= 1
+    TileRows,    ///< [1] frames of the texture above each other, >= 1
+    FrameBlend,  ///< 1: neighboring frames are mixed by the fraction of Frame; 0: the nearest below
+    Motion,      ///< id in the AssetTable of the motion vectors (red, green: 0.5 none), 0: none
+    MotionScale, ///< [1] of the frame's width that a vector of 1 means
+    Mesh,        ///< id in the AssetTable, 0: none
+    ArcPerTile,  ///< [m] length of a ribbon that one width of texture covers
+    Count
+};
+}
+
+inline constexpr ColumnDesc kParticleColumns[particle_column::Count] = {
+    {"x", "m"},      {"y", "m"},
+    {"z", "m"},      {"age", "s"},
+    {"radius", "m"}, {"color", "1", ColumnType::U64},
+    {"vx", "m/s"},   {"vy", "m/s"},
+    {"vz", "m/s"},   {"angle", "rad"},
+    {"frame", "1"},  {"qx", "1"},
+    {"qy", "1"},     {"qz", "1"},
+    {"qw", "1"},     {"index", "1", ColumnType::U64},
+};
+
+inline constexpr ColumnDesc kRibbonColumns[ribbon_column::Count] = {
+    {"x", "m"},
+    {"y", "m"},
+    {"z", "m"},
+    {"halfWidth", "m"},
+    {"arc", "m"},
+    {"color", "1", ColumnType::U64},
+    {"strip", "1", ColumnType::U64},
+};
+
+inline constexpr ColumnDesc kLightColumns[light_column::Count] = {
+    {"x", "m"}, {"y", "m"}, {"z", "m"}, {"intensityR", "cd"}, {"intensityG", "cd"}, {"intensityB", "cd"},
+};
+
+inline constexpr ColumnDesc kParticleConstants[particle_constant::Count] = {
+    {"shape", "1"},     {"layer", "1"},      {"blend", "1"},   {"order", "1"},
+    {"orderBias", "m"}, {"alignment", "1"},  {"axisX", "1"},   {"axisY", "1"},
+    {"axisZ", "1"},     {"aspect", "1"},     {"stretch", "s"}, {"luminance", "cd/m2"},
+    {"lit", "1"},       {"softness", "m"},   {"texture", "1"}, {"tileColumns", "1"},
+    {"tileRows", "1"},  {"frameBlend", "1"}, {"motion", "1"},  {"motionScale", "1"},
+    {"mesh", "1"},      {"arcPerTile", "m"},
+};
+
+inline constexpr KindDesc kParticleKind{"particle", kParticleColumns, kParticleConstants, false};
+inline constexpr KindDesc kRibbonKind{"ribbon", kRibbonColumns, kParticleConstants, false};
+inline constexpr KindDesc kLightKind{"light", kLightColumns, {}, false};
+
+} // namespace fx::base
