@@ -4,7 +4,9 @@
 #include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/heat_offset_pass.h"
 #include "rendering/passes/heat_shimmer_pass.h"
+#include "rendering/passes/layer_distance_pass.h"
 #include "rendering/passes/layer_resolve_pass.h"
+#include "rendering/passes/layer_upsample_pass.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/passes/present_pass.h"
@@ -20,10 +22,11 @@ namespace fx::render {
 namespace {
 
 constexpr const ProgramDesc* kSinglePrograms[] = {
-    &kSceneDistanceProgram, &kLayerResolveProgram, &kCompositeBlendProgram, &kCompositeProgram,
-    &kOverdrawProgram,      &kHeatOffsetProgram,   &kHeatShimmerProgram,    &kDazzleSumProgram,
-    &kDazzleBudgetProgram,  &kDazzleDealProgram,   &kToneMapProgram,        &kToneMapDitherProgram,
-    &kPresentProgram,
+    &kSceneDistanceProgram, &kLayerResolveProgram,  &kCompositeBlendProgram, &kCompositeProgram,
+    &kOverdrawProgram,      &kHeatOffsetProgram,    &kHeatShimmerProgram,    &kDazzleSumProgram,
+    &kDazzleBudgetProgram,  &kDazzleDealProgram,    &kToneMapProgram,        &kToneMapDitherProgram,
+    &kPresentProgram,       &kLayerDistanceProgram, &kLayerUpsampleProgram,  &kLayerSpreadProgram,
+    &kOverdrawSmallProgram,
 };
 
 } // namespace

@@ -4,12 +4,15 @@
 #include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/heat_offset_pass.h"
 #include "rendering/passes/heat_shimmer_pass.h"
+#include "rendering/passes/layer_distance_pass.h"
 #include "rendering/passes/layer_resolve_pass.h"
+#include "rendering/passes/layer_upsample_pass.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/passes/present_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
 #include "rendering/passes/tone_map_pass.h"
+#include "rendering/view/layer_grid.h"
 
 #include <bit>
 
@@ -24,10 +27,13 @@ public:
     ViewGraph(FrameGraph& graph, const ViewGraphInputs& in)
         : graph_(graph), in_(in), request_(*in.request), settings_(*in.settings),
           width_(request_.targets.width), height_(request_.targets.height),
-          view_(makeViewBlock(request_.camera, width_, height_))
+          view_(makeViewBlock(request_.camera, width_, height_)),
+          grid_(makeLayerGrid(request_.camera, width_, height_, in.layerDivisor))
     {
-        view_.forward.w = settings_.detail ? 1.0f : 0.0f;
-        view_.sunDirection = {settings_.lighting.sunDirection, view_.sunDirection.w};
+        for (ViewBlock* view : {&view_, &grid_.view}) {
+            view->forward.w = settings_.detail ? 1.0f : 0.0f;
+            view->sunDirection = {settings_.lighting.sunDirection, view->sunDirection.w};
+        }
     }
 
     ViewGraphOutputs build()
@@ -86,9 +92,9 @@ private:
                 graph_.importTexture({"host depth", width_, height_, Format::R32F}, request_.targets.depth);
         distance_ = SceneDistancePass::addTo(graph_, {depth, width_, height_, view_}).distance;
         uploadBlobs();
-        const auto drawn = MediaPass::addTo(
-            graph_, {blobs_, distance_, uint32_t(in_.blobs.size()), width_, height_, view_, settings_.form,
-                     settings_.detail && in_.anyDetail, settings_.layerOutputs});
+        layerDistance_ = distance_;
+        const auto drawn =
+            grid_.divisor == 1 ? drawLayers(distance_) : drawSmallLayers(request_.targets.depth != 0);
         media_ = drawn.media;
         if (settings_.layerOutputs) {
             const auto layers = LayerResolvePass::addTo(graph_, {drawn.layers, width_, height_});
@@ -104,11 +110,50 @@ private:
                 graph_.keep(kept);
         }
         if (settings_.countOverdraw) {
-            out_.overdraw = OverdrawPass::addTo(graph_, {blobs_, distance_, uint32_t(in_.blobs.size()),
-                                                         width_, height_, view_})
-                                .count;
+            out_.overdraw =
+                OverdrawPass::addTo(graph_, {blobs_, layerDistance_, uint32_t(in_.blobs.size()), grid_.width,
+                                             grid_.height, grid_.view, grid_.divisor > 1})
+                    .count;
             graph_.keep(out_.overdraw);
         }
+        out_.layerWidth = grid_.width;
+        out_.layerHeight = grid_.height;
+    }
+
+    /// All that belongs into the layers, at their size, as far as `distance` lets it be seen.
+    MediaPass::Outputs drawLayers(ResourceId distance)
+    {
+        return MediaPass::addTo(graph_,
+                                {blobs_, distance, uint32_t(in_.blobs.size()), grid_.width, grid_.height,
+                                 grid_.view, settings_.form, settings_.detail && in_.anyDetail,
+                                 settings_.layerOutputs, grid_.divisor > 1});
+    }
+
+    /// Layers smaller than the picture: drawn up to the far end of each block and, where a block shows more
+    /// than one surface, up to the near end as well; brought to the picture's size between the two.
+    MediaPass::Outputs drawSmallLayers(bool hasDepth)
+    {
+        const auto ends =
+            LayerDistancePass::addTo(graph_, {distance_, hasDepth, grid_.width, grid_.height, grid_.divisor});
+        layerDistance_ = ends.far;
+        const auto far = drawLayers(ends.far);
+        const auto near = hasDepth ? drawLayers(ends.near) : MediaPass::Outputs();
+        const auto upsampled = [&](ResourceId farLight, ResourceId nearLight, std::string_view name,
+                                   Format format) {
+            return LayerUpsamplePass::addTo(graph_, {distance_, ends.far, ends.near, farLight, nearLight,
+                                                     width_, height_, grid_.divisor, format, name})
+                .light;
+        };
+        MediaPass::Outputs out;
+        if (!settings_.layerOutputs) {
+            out.media = upsampled(far.media, near.media, "media", Format::RGBA32F);
+            return out;
+        }
+        for (size_t i = 0; i < MediaPass::LayerTargets; ++i) {
+            const FrameGraph::Resource& small = graph_.resource(far.layers[i]);
+            out.layers[i] = upsampled(far.layers[i], near.layers[i], small.name, small.format);
+        }
+        return out;
     }
 
     void uploadBlobs()
@@ -172,11 +217,13 @@ private:
     int width_;
     int height_;
     ViewBlock view_;
+    LayerGrid grid_;
     bool readable_ = false;
     bool separateTarget_ = false;
     ResourceId picture_; ///< the frame so far
     ResourceId target_;  ///< where the result goes
     ResourceId distance_;
+    ResourceId layerDistance_; ///< at the layers' size
     ResourceId blobs_;
     ResourceId media_;
     ViewGraphOutputs out_;

@@ -9,7 +9,9 @@
 #include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/programs.h"
 #include "rendering/passes/view_block.h"
+#include "rendering/view/fragment_estimate.h"
 #include "rendering/view/frame_builder.h"
+#include "rendering/view/layer_scale_control.h"
 #include "rendering/view/view_graph.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -26,12 +28,13 @@ struct ViewRenderer::Impl
     {}
 
     base::Status ensureHistory();
-    void readBack(int width, int height, FrameStatistics& statistics); ///< waits for the GPU
+    void readBack(FrameStatistics& statistics); ///< waits for the GPU
 
     GlDevice* device;
     FrameGraph graph;
     GlBackend backend;
     FrameBuilder builder;
+    LayerScaleControl layerScale;
     GlBuffer dazzleHistory;
     bool historyFresh = false; ///< nothing has been adapted to yet
     ViewGraphOutputs outputs;
@@ -75,11 +78,12 @@ base::Status ViewRenderer::Impl::ensureHistory()
     return {};
 }
 
-void ViewRenderer::Impl::readBack(int width, int height, FrameStatistics& statistics)
+void ViewRenderer::Impl::readBack(FrameStatistics& statistics)
 {
     if (outputs.overdraw.valid()) {
-        for (const float count :
-             readTexture(*device, backend.textureName(outputs.overdraw), width, height, 1)) {
+        for (const float count : readTexture(*device, backend.textureName(outputs.overdraw),
+                                             outputs.layerWidth, outputs.layerHeight, 1))
+        {
             statistics.coveredPixels += count > 0.0f ? 1 : 0;
             statistics.shadedFragments += uint64_t(count);
         }
@@ -119,10 +123,15 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     FrameRequest request = asked;
     request.resetHistory = asked.resetHistory || s.historyFresh;
 
-    s.builder.build(snapshots, request, settings_, cameraGeometry(request.camera));
+    const CameraGeometry camera = cameraGeometry(request.camera);
+    s.builder.build(snapshots, request, settings_, camera);
+    const auto fragments =
+        estimateFragments(s.builder.blobs(), camera, request.targets.width, request.targets.height);
+    const int divisor =
+        s.layerScale.choose(fragments, settings_.layerDivisor, settings_.fragmentBudget, asked.resetHistory);
     s.graph.begin();
     s.outputs = buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.builder.anyHeat(),
-                                         s.builder.anyDetail(), s.dazzleHistory.name()});
+                                         s.builder.anyDetail(), s.dazzleHistory.name(), divisor});
     base::Status status;
     if (s.outputs.anyPass) {
         s.graph.compile();
@@ -144,8 +153,10 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     statistics_.drawCalls = s.outputs.anyPass ? s.backend.drawCalls() : 0;
     statistics_.programsCompiled = s.device->programsCompiled() - compiledBefore;
     statistics_.textureBytes = s.backend.pooledBytes();
+    statistics_.estimatedFragments = fragments[layerDivisorIndex(divisor)];
+    statistics_.layerDivisor = divisor;
     if (status && settings_.countOverdraw)
-        s.readBack(request.targets.width, request.targets.height, statistics_);
+        s.readBack(statistics_);
     return status;
 }
 

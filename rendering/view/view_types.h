@@ -80,6 +80,8 @@ struct ViewSettings
     bool layerOutputs = false; ///< keep fire, smoke, dust, depth and optical depth as textures of their own
     bool countOverdraw =
         false; ///< count contributing fragments and read statistics back: costs a pass and waits for the GPU
+    int layerDivisor = 1; ///< 1, 2, 4: media are drawn at 1, 1/2, 1/4 of the width and height, at the most
+    uint64_t fragmentBudget = 0; ///< estimated fragments a frame above which they are drawn smaller; 0: never
 };
 
 /// GL names of the host's targets for one frame; 0 means absent.
@@ -115,10 +117,12 @@ struct FrameStatistics
     uint32_t passes = 0;         ///< executed
     uint64_t glCalls = 0;
     uint32_t drawCalls = 0;
-    uint32_t programsCompiled = 0; ///< during this frame; 0 after warm-up
-    uint64_t textureBytes = 0;     ///< [byte] held by the view
-    uint64_t coveredPixels = 0;    ///< with countOverdraw
-    uint64_t shadedFragments = 0;  ///< with countOverdraw
+    uint32_t programsCompiled = 0;   ///< during this frame; 0 after warm-up
+    uint64_t textureBytes = 0;       ///< [byte] held by the view
+    uint64_t coveredPixels = 0;      ///< texels of the media's layers; with countOverdraw
+    uint64_t shadedFragments = 0;    ///< at the layers' scale; with countOverdraw
+    uint64_t estimatedFragments = 0; ///< of the blobs' rectangles, at the layers' scale
+    int layerDivisor = 1;            ///< of this frame: what was asked for, or more to keep the budget
     double overflow[3] = {0, 0,
                           0}; ///< with countOverdraw and dazzle: mean overflow per pixel, units of white
 };

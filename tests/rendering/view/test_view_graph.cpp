@@ -100,3 +100,21 @@ TEST_F(ViewGraphTest, everyBlobIsAnInstanceOfOneDraw)
     graph_.execute(backend);
     EXPECT_EQ(graph_.executedPasses().size(), 4u);
 }
+
+TEST_F(ViewGraphTest, smallLayersAreDrawnToBothEndsOfTheDepthAndEnlarged)
+{
+    blobs_.assign(3, BlobInstance{});
+    const auto passesOf = [&](uint32_t depth) {
+        request_.targets.depth = depth;
+        graph_.begin();
+        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, false, false, 7, 2});
+        graph_.compile();
+        EXPECT_TRUE(graph_.status().ok()) << graph_.status().message();
+        return Names(graph_.executedPasses().begin(), graph_.executedPasses().end());
+    };
+    EXPECT_EQ(passesOf(2), (Names{"scene distance", "blob upload", "layer distance", "layer spread", "media",
+                                  "media", "layer upsample", "composite"}));
+    EXPECT_EQ(outputs_.layerWidth, 48);
+    EXPECT_EQ(passesOf(0), (Names{"scene distance", "blob upload", "layer distance", "media",
+                                  "layer upsample", "composite"}));
+}
