@@ -53,6 +53,17 @@ struct StepCounters
     }
 };
 
+/// Geometry that only the host knows, asked for each way of a particle that heeds it.
+struct ContactHook
+{
+    void* user = nullptr;
+    /// Whether the straight way from `from` to `to` [m, local] meets something: 0 when it is free; otherwise
+    /// the free share of it, 0..1, and the normal there, of any length. Called by several threads at once; the
+    /// same question has to get the same answer through a whole step.
+    int (*meet)(void* user, const float from[3], const float to[3], float* outShare,
+                float outNormal[3]) = nullptr;
+};
+
 /// What a solver gets for one step.
 struct StepContext
 {
@@ -68,6 +79,7 @@ struct StepContext
     base::TaskRunner* tasks;
     base::Arena* scratch; ///< forgotten after the step
     StepCounters* counters;
+    const ContactHook* contactHook = nullptr; ///< null for none
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };
@@ -81,6 +93,10 @@ public:
     /// Advances by one fixed step. Equal calls give equal bits for any number of threads. Allocates nothing
     /// but scratch.
     virtual void step(const StepContext& context) = 0;
+    /// Goes to local time context.tick at once: the state is the one that steps from 0 to there under the same
+    /// conditions lead to, bit for bit. stepTicks is ignored.
+    /// @return false where only stepping leads there; then nothing has changed
+    virtual bool seek(const StepContext&) { return false; }
     /// Adds what is to be seen to `snapshot`. `base` carries instance, solver and placement to copy into each
     /// group.
     /// A solver that holds nothing still adds its group: the memory is then there before the first element

@@ -57,6 +57,10 @@ enum class RandomPurpose : uint32_t
     Attributes,
     Noise,
     Gas,
+    Spin,
+    Axis,
+    Bursts,
+    Gusts,
 };
 
 /// Four numbers in [0, 1) for particle `index` of emitter `emitter` in the instance with this `seed`.

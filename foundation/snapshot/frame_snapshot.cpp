@@ -74,8 +74,12 @@ void FrameSnapshot::begin(Ticks tick, uint64_t sequence)
 SnapshotGroup& FrameSnapshot::addGroup(KindId kind, size_t capacity, ColumnSet present)
 {
     const KindDesc& desc = schema_->kind(kind);
+    const size_t ids = desc.hasIds ? capacity * sizeof(uint64_t) : 0;
+    const size_t least = floatsFor(desc, capacity, present) * sizeof(float) + ids;
     size_t best = groups_.size();
-    for (size_t i = groupCount_; i < groups_.size(); ++i) // the smallest spare that is large enough
+    // The smallest spare that is large enough; mostly the next one, which held the same group before.
+    for (size_t i = groupCount_;
+         i < groups_.size() && (best == groups_.size() || groups_[best].bytes() > least); ++i)
         if (groups_[i].fits(desc, capacity, present) &&
             (best == groups_.size() || groups_[i].bytes() < groups_[best].bytes()))
             best = i;

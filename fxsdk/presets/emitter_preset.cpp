@@ -1,21 +1,15 @@
 #include "fxsdk/presets/emitter_preset.h"
 
-#include "simulation/emitters/emitter_def.h"
+#include "fxsdk/presets/emitter_parts_preset.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace fx::preset {
 
 namespace {
-
-constexpr std::array<std::pair<std::string_view, sim::EmitterShape>, 4> kShapes{{
-    {"point", sim::EmitterShape::Point},
-    {"sphere", sim::EmitterShape::Sphere},
-    {"box", sim::EmitterShape::Box},
-    {"cone", sim::EmitterShape::Cone},
-}};
 
 constexpr std::array<std::pair<std::string_view, base::MediaLayer>, 3> kLayers{{
     {"fire", base::MediaLayer::Fire},
@@ -23,49 +17,22 @@ constexpr std::array<std::pair<std::string_view, base::MediaLayer>, 3> kLayers{{
     {"dust", base::MediaLayer::Dust},
 }};
 
-void readShape(const PresetValue& element, sim::EmitterDef& emitter)
+/// Reads one burst. @return births of it that can be alive at once
+double readBurst(const PresetValue& element, float longestLife, sim::Burst& out)
 {
-    element.read("shape", std::span<const std::pair<std::string_view, sim::EmitterShape>>(kShapes),
-                 emitter.shape);
-    element.read("position", emitter.position);
-    element.read("size", emitter.size);
-    float degrees = 0;
-    element.read("angleDegrees", degrees);
-    emitter.angle = degrees * (std::numbers::pi_v<float> / 180.0f);
-}
-
-/// @return births that can be alive at once, by rate times the longest life and bursts
-double readEmission(const PresetValue& emission, float longestLife, sim::Emission& out)
-{
-    out.duration = std::numeric_limits<float>::infinity();
-    emission.read("rate", out.rate);
-    emission.read("start", out.start);
-    emission.read("duration", out.duration);
-    double alive = double(out.rate) * double(std::min(longestLife, out.duration));
-    for (size_t i = 0; i < emission.size("bursts"); ++i) {
-        const PresetValue element = emission.element("bursts", i);
-        sim::Burst burst;
-        element.read("time", burst.time);
-        element.read("count", burst.count);
-        alive += burst.count;
-        out.bursts.push_back(burst);
+    element.read("time", out.time);
+    element.read("count", out.count);
+    element.read("cycles", out.cycles);
+    element.read("interval", out.interval);
+    element.read("probability", out.probability);
+    if (out.cycles == 1)
+        return out.count;
+    if (out.interval <= 0.0f) {
+        element.error("interval", "found no interval; a burst of several cycles needs one");
+        return out.count;
     }
-    if (out.rate <= 0 && out.bursts.empty())
-        emission.error("", "found neither a rate above 0 nor bursts: nothing would ever be born");
-    return alive;
-}
-
-void readForces(const PresetValue& forces, sim::EmitterForces& out)
-{
-    forces.read("gravity", out.gravity);
-    forces.read("drag", out.drag);
-    forces.read("buoyancy", out.buoyancy);
-    forces.read("wind", out.wind);
-    forces.read("curlStrength", out.curlStrength);
-    forces.read("curlScale", out.curlScale);
-    forces.read("curlRate", out.curlRate);
-    forces.read("bounce", out.bounce);
-    forces.read("friction", out.friction);
+    const double within = std::floor(double(longestLife) / double(out.interval)) + 1.0;
+    return double(out.count) * (out.cycles == 0 ? within : std::min(within, double(out.cycles)));
 }
 
 void readMedium(const PresetValue& element, sim::EmitterDef& emitter)
@@ -93,7 +60,37 @@ void readCurves(const PresetValue& element, sim::EmitterDef& emitter)
     element.read("emissionOverLife", emitter.emissionOverLife);
 }
 
+/// The largest value of a curve.
+float peakOf(const base::ScalarCurve& curve)
+{
+    float peak = 0.0f;
+    for (size_t i = 0; i <= base::kCurveSamples; ++i)
+        peak = std::max(peak, curve.at(float(i) / float(base::kCurveSamples))[0]);
+    return peak;
+}
+
 } // namespace
+
+double readEmitterEmission(const PresetValue& emission, float longestLife, sim::Emission& out)
+{
+    out.duration = std::numeric_limits<float>::infinity();
+    emission.read("rate", out.rate);
+    emission.read("start", out.start);
+    emission.read("duration", out.duration);
+    emission.read("rateOverTime", out.rateOverTime);
+    if (emission.child("rateOverTime").has("keys") && !emission.has("duration"))
+        emission.error("rateOverTime",
+                       "found a rate that changes over a duration that is not given; add a duration");
+    double alive =
+        double(out.rate) * double(peakOf(out.rateOverTime)) * double(std::min(longestLife, out.duration));
+    for (size_t i = 0; i < emission.size("bursts"); ++i) {
+        out.bursts.emplace_back();
+        alive += readBurst(emission.element("bursts", i), longestLife, out.bursts.back());
+    }
+    if (out.rate <= 0 && out.bursts.empty())
+        emission.error("", "found neither a rate above 0 nor bursts: nothing would ever be born");
+    return alive;
+}
 
 void buildEmitter(const PresetValue& element, sim::EffectDef& effect)
 {
@@ -105,11 +102,13 @@ void buildEmitter(const PresetValue& element, sim::EffectDef& effect)
     element.read("lifetime", emitter->lifetime);
     element.read("speed", emitter->speed);
     element.read("radius", emitter->radius);
-    readShape(element, *emitter);
+    readEmitterShape(element, *emitter);
     readMedium(element, *emitter);
-    readForces(element.child("forces"), emitter->forces);
+    readEmitterForces(element, *emitter);
     readCurves(element, *emitter);
-    const double alive = readEmission(element.child("emission"), emitter->lifetime.max, emitter->emission);
+    readEmitterLook(element.child("appearance"), emitter->look);
+    const double alive =
+        readEmitterEmission(element.child("emission"), emitter->lifetime.max, emitter->emission);
     if (alive > double(emitter->maxParticles))
         element.warning("maxParticles", "up to " + std::to_string(uint64_t(alive)) +
                                             " particles can be alive, but " +

@@ -6,9 +6,14 @@
 #include "fxsdk/presets/diagnostic.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace fx::asset {
+class AssetResolver;
+}
 
 namespace fx::preset {
 
@@ -35,6 +40,13 @@ struct Renaming
 class Findings
 {
 public:
+    /// @param assets where files that the document names come from; null: from nowhere
+    explicit Findings(const asset::AssetResolver* assets = nullptr) : assets_(assets) {}
+    const asset::AssetResolver* assets() const { return assets_; }
+    /// What the document says also depends on the files that it names.
+    void addAssetHash(uint64_t hash) { assetHash_ = assetHash_ * 0x9E3779B97F4A7C15u + hash; }
+    uint64_t assetHash() const { return assetHash_; } ///< 0 when none was read
+
     void error(std::string pointer, std::string message, base::Code code = base::Code::Schema);
     void errorAtKey(std::string pointer, std::string message);
     void errorAtOffset(std::string pointer, std::string message, base::Code code, size_t offset);
@@ -57,6 +69,8 @@ public:
 private:
     void add(Finding finding);
 
+    const asset::AssetResolver* assets_;
+    uint64_t assetHash_ = 0;
     std::vector<Finding> list_;
     std::vector<Renaming> renamings_;
     base::Code firstCode_ = base::Code::Ok;

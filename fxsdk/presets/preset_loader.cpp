@@ -43,6 +43,8 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
         for (size_t i = 0; i < root.size(member.c_str()); ++i)
             technique.build(root.element(member.c_str(), i), *effect);
     }
+    if (findings.assetHash() != 0)
+        effect->fingerprint = base::hashWord(effect->fingerprint, findings.assetHash());
     if (effect->solvers.empty() && !findings.hasErrors())
         findings.warning("", "the preset has no emitters and no gas: there will be nothing to see");
     return effect;
@@ -80,9 +82,10 @@ std::span<const base::EmbeddedText> presetLibrary()
 }
 
 base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::string& displayName,
-                                          std::vector<Diagnostic>* outDiagnostics)
+                                          std::vector<Diagnostic>* outDiagnostics,
+                                          const asset::AssetResolver* assets)
 {
-    Findings findings;
+    Findings findings(assets);
     std::shared_ptr<const sim::EffectDef> effect = readPreset(text, displayName, findings);
     std::vector<Diagnostic> diagnostics = findings.locate(text, displayName);
     if (outDiagnostics)
@@ -98,7 +101,7 @@ base::Result<LoadedPreset> loadPresetAsset(std::string_view name, const asset::A
     const base::Result<std::string> text = resolver.read(name, kPresetBytes);
     if (!text)
         return unreadable(text.status(), std::string(name), outDiagnostics);
-    return loadPresetText(*text, std::string(name), outDiagnostics);
+    return loadPresetText(*text, std::string(name), outDiagnostics, &resolver);
 }
 
 base::Result<LoadedPreset> loadPresetFile(const std::string& path, std::vector<Diagnostic>* outDiagnostics)
@@ -106,7 +109,10 @@ base::Result<LoadedPreset> loadPresetFile(const std::string& path, std::vector<D
     const base::Result<std::string> text = asset::readFile(path, kPresetBytes);
     if (!text)
         return unreadable(text.status(), path, outDiagnostics);
-    return loadPresetText(*text, path, outDiagnostics);
+    const size_t slash = path.find_last_of('/');
+    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    const asset::AssetResolver assets(folder, presetLibrary());
+    return loadPresetText(*text, path, outDiagnostics, &assets);
 }
 
 } // namespace fx::preset

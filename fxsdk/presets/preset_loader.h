@@ -32,9 +32,11 @@ std::span<const base::EmbeddedText> presetLibrary();
 /// Parses, migrates, validates and builds. The status of a failure holds the first findings.
 /// @param displayName names the text in messages
 /// @param outDiagnostics receives every finding, warnings included, whether it fails or not; may be null
+/// @param assets where files that the preset names come from; null: naming one is an error
 /// @return Parse, TooLarge, Version, Schema
 base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::string& displayName,
-                                          std::vector<Diagnostic>* outDiagnostics = nullptr);
+                                          std::vector<Diagnostic>* outDiagnostics = nullptr,
+                                          const asset::AssetResolver* assets = nullptr);
 
 /// The same for an asset: `library:NAME`, or a name relative to the resolver's folder.
 base::Result<LoadedPreset> loadPresetAsset(std::string_view name, const asset::AssetResolver& resolver,

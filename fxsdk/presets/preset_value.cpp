@@ -1,5 +1,8 @@
 #include "fxsdk/presets/preset_value.h"
 
+#include "foundation/math/hash.h"
+#include "fxsdk/assets/asset_resolver.h"
+
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -152,6 +155,27 @@ size_t PresetValue::size(const char* member) const
 PresetValue PresetValue::element(const char* member, size_t index) const
 {
     return {&(*find(member))[index], pointer_ + "/" + member + "/" + std::to_string(index), findings_};
+}
+
+void PresetValue::readElement(const char* member, size_t index, glm::vec3& out) const
+{
+    const std::array<float, 3> xyz = components<3>((*find(member))[index]);
+    out = {xyz[0], xyz[1], xyz[2]};
+}
+
+base::Result<std::string> PresetValue::readAsset(const char* member, uint64_t maxBytes) const
+{
+    std::string name;
+    read(member, name);
+    if (name.empty())
+        return base::Status(base::Code::NotFound, "found no file; this needs one");
+    if (!findings_.assets())
+        return base::Status(base::Code::NotFound,
+                            "cannot read " + name + ": a preset that is given as text has no folder");
+    base::Result<std::string> bytes = findings_.assets()->read(name, maxBytes);
+    if (bytes)
+        findings_.addAssetHash(base::hashBytes(0, bytes->data(), bytes->size()));
+    return bytes;
 }
 
 void PresetValue::error(const char* member, std::string message) const

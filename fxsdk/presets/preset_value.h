@@ -59,6 +59,12 @@ public:
     size_t size(const char* member) const;
     PresetValue element(const char* member, size_t index) const;
 
+    /// Reads element `index` of an array of vectors.
+    void readElement(const char* member, size_t index, glm::vec3& out) const;
+    /// The bytes of the asset that the member names.
+    /// @return what the resolver failed with, NotFound when the member is absent or there is no resolver
+    base::Result<std::string> readAsset(const char* member, uint64_t maxBytes) const;
+
     const std::string& pointer() const { return pointer_; }
     void error(const char* member, std::string message) const;
     void warning(const char* member, std::string message) const;

@@ -1,16 +1,24 @@
 #include "simulation/emitters/birth_schedule.h"
 
+#include "foundation/random/philox.h"
+
 #include <algorithm>
+#include <cmath>
 
 namespace fx::sim {
 
 namespace {
 
+using base::Ticks;
+
 constexpr uint64_t kMostBirths = uint64_t(1) << 62;
-constexpr WideInt kParticle = WideInt(base::kTicksPerSecond) << 32; // D
+constexpr WideInt kParticle = WideInt(base::kTicksPerSecond) << 32; // D of a constant rate
+constexpr int kFineBits = 16;                                       // more in D of a rate that changes
+constexpr Ticks kLongestCurve = 1'000'000 * base::kTicksPerSecond;
+constexpr Ticks kSegments = Ticks(base::kCurveSamples);
 
 /// Ticks of a time that may be anything a float can be: NaN and negative become 0, too long becomes kForever.
-base::Ticks boundedTicks(double seconds)
+Ticks boundedTicks(double seconds)
 {
     if (!(seconds > 0.0))
         return 0;
@@ -34,93 +42,257 @@ uint32_t scaledCount(uint32_t count, double intensity)
     return uint32_t(std::min(scaled + 0.5, 4294967295.0));
 }
 
+bool isConstant(const base::ScalarCurve& curve)
+{
+    for (size_t i = 0; i <= base::kCurveSamples; ++i)
+        if (curve.at(float(i) / float(base::kCurveSamples))[0] != curve.at(0.0f)[0])
+            return false;
+    return true;
+}
+
 } // namespace
 
 /// Numbers births and keeps those there is room for.
 struct BirthSchedule::Writer
 {
-    std::span<Birth> out;
+    const Outlet& outlet;
     uint64_t& nextIndex;
-    BirthCount count;
+    BirthCount count{};
+    size_t waiting = 0; ///< births in the room
 
-    template <class TickOf>
-    void add(uint64_t births, TickOf tickOf)
+    /// @param nextTick called once for each birth that is wanted, in order
+    template <class NextTick>
+    void add(uint64_t births, NextTick nextTick)
     {
-        for (uint64_t j = 0; j < births && count.stored < out.size(); ++j)
-            out[count.stored++] = {nextIndex + j, tickOf(j)};
+        const uint64_t wanted = std::min(births, outlet.most - count.stored);
+        for (uint64_t j = 0; j < wanted; ++j) {
+            outlet.room[waiting++] = {nextIndex + j, nextTick()};
+            if (waiting == outlet.room.size() && outlet.take)
+                flush();
+        }
+        count.stored += wanted;
         nextIndex += births;
         count.total += births;
     }
+    void flush()
+    {
+        if (outlet.take && waiting > 0)
+            outlet.take(outlet.user, outlet.room.first(waiting));
+        waiting = 0;
+    }
 };
+
+namespace {
+
+/// The ticks of births at a constant rate, one after another: a quotient that grows by a constant, kept as
+/// whole and rest, so that nothing is divided.
+class EvenTicks
+{
+public:
+    /// Tick j is floor((first + j * step) / rate).
+    EvenTicks(WideInt first, WideInt step, WideInt rate)
+        : tick_(Ticks(first / rate)), rest_(first % rate), stride_(Ticks(step / rate)), more_(step % rate),
+          rate_(rate)
+    {}
+    Ticks next()
+    {
+        const Ticks tick = tick_;
+        tick_ += stride_;
+        rest_ += more_;
+        if (rest_ >= rate_) {
+            rest_ -= rate_;
+            ++tick_;
+        }
+        return tick;
+    }
+
+private:
+    Ticks tick_;
+    WideInt rest_;
+    Ticks stride_;
+    WideInt more_;
+    WideInt rate_;
+};
+
+} // namespace
+
+WideInt BirthSchedule::Piece::sum(Ticks n) const
+{
+    return rate * n + slope * n * (n - 1) / 2; // (3)
+}
+
+Ticks BirthSchedule::Piece::tickOf(WideInt wanted) const
+{
+    if (slope == 0)
+        return Ticks(wanted / rate);
+    // A guess by doubles, which only says where the search for the largest n with S(n) <= wanted begins.
+    const double q = double(rate) - 0.5 * double(slope), m = double(slope), s = double(wanted);
+    const double divisor = q + std::sqrt(std::max(q * q + 2.0 * m * s, 0.0));
+    const Ticks last = end - begin - 1;
+    const double guess = divisor > 0.0 ? 2.0 * s / divisor : 0.0;
+    Ticks low = Ticks(std::clamp(guess, 0.0, double(last)));
+    Ticks high = low + 1;
+    for (Ticks step = 1; low > 0 && sum(low) > wanted; step *= 2) {
+        high = low;
+        low = std::max<Ticks>(low - step, 0);
+    }
+    for (Ticks step = 1; high <= last && sum(high) <= wanted; step *= 2) {
+        low = high;
+        high = std::min(high + step, last + 1);
+    }
+    while (high - low > 1) {
+        const Ticks middle = low + (high - low) / 2;
+        (sum(middle) <= wanted ? low : high) = middle;
+    }
+    return low;
+}
 
 BirthSchedule::BirthSchedule(const Emission& emission, std::pmr::memory_resource* memory)
     : rate_(emission.rate), start_(boundedTicks(emission.start)),
-      end_(start_ + boundedTicks(emission.duration)), bursts_(memory)
+      end_(start_ + boundedTicks(emission.duration)), shape_(emission.rateOverTime),
+      curved_(end_ - start_ <= kLongestCurve && !isConstant(emission.rateOverTime)), bursts_(memory)
 {
     bursts_.reserve(emission.bursts.size());
     for (const Burst& burst : emission.bursts) {
-        const ScheduledBurst scheduled{start_ + boundedTicks(burst.time), burst.count};
-        const auto later = std::upper_bound(
-            bursts_.begin(), bursts_.end(), scheduled,
-            [](const ScheduledBurst& a, const ScheduledBurst& b) { return a.tick < b.tick; });
-        bursts_.insert(later, scheduled);
+        const Ticks interval = boundedTicks(burst.interval);
+        const Ticks first = start_ + boundedTicks(burst.time);
+        uint64_t cycles = interval > 0 ? burst.cycles : std::min(burst.cycles, 1u);
+        if (burst.cycles == 0) // for ever
+            cycles = interval > 0 && end_ > first ? uint64_t((end_ - first - 1) / interval) + 1 : 1;
+        if (interval > 0) // never later than kForever
+            cycles = std::min(cycles, uint64_t((kForever - std::min(first, kForever)) / interval) + 1);
+        bursts_.push_back({first, interval, cycles, burst.count, burst.probability});
     }
+}
+
+WideInt BirthSchedule::particle() const
+{
+    return curved_ ? kParticle << kFineBits : kParticle;
 }
 
 void BirthSchedule::setPhase(float phase)
 {
-    progress_ = -(WideInt(int64_t(double(phase) * 16777216.0)) * (kParticle >> 24));
+    progress_ = -(WideInt(int64_t(double(phase) * 16777216.0)) * (particle() >> 24));
+}
+
+void BirthSchedule::setSeed(uint64_t seed, uint32_t solverIndex)
+{
+    seed_ = seed;
+    solverIndex_ = solverIndex;
+}
+
+/// The rate from `tick` on, until it bends or `end` comes.
+BirthSchedule::Piece BirthSchedule::pieceAt(Ticks tick, Ticks end, const BirthWindow& window) const
+{
+    const double rate = window.emitting ? double(rate_) * window.intensity : 0.0;
+    if (!curved_)
+        return {tick, end, ratePerTick(rate * double(shape_.at(0.0f)[0])), 0};
+    const Ticks duration = end_ - start_;
+    const auto borderOf = [&](Ticks i) { return start_ + Ticks(WideInt(duration) * i / kSegments); };
+    Ticks segment = std::min(Ticks(WideInt(tick - start_) * kSegments / duration), kSegments - 1);
+    while (segment + 1 < kSegments && borderOf(segment + 1) <= tick)
+        ++segment;
+    const Ticks from = borderOf(segment), to = borderOf(segment + 1);
+    const auto rateAt = [&](Ticks i) {
+        return ratePerTick(rate * double(shape_.at(float(i) / float(kSegments))[0])) << kFineBits;
+    };
+    const WideInt slope = (rateAt(segment + 1) - rateAt(segment)) / (to - from);
+    return {tick, std::min(to, end), rateAt(segment) + slope * (tick - from), slope}; // (5)
+}
+
+void BirthSchedule::giveRate(Ticks from, Ticks to, const BirthWindow& window, Writer& writer)
+{
+    const WideInt one = particle();
+    while (from < to) {
+        const Piece piece = pieceAt(from, to, window);
+        const WideInt sum = piece.sum(piece.end - piece.begin);
+        const uint64_t due = uint64_t(ceilDivide(progress_ + sum, one));
+        const WideInt before = progress_;
+        if (due > 0 && piece.slope == 0) {
+            EvenTicks ticks(-before, one, piece.rate); // (4)
+            writer.add(due, [&] { return piece.begin + ticks.next(); });
+        } else {
+            WideInt sought = -before;
+            writer.add(due, [&] {
+                const Ticks tick = piece.begin + piece.tickOf(sought);
+                sought += one;
+                return tick;
+            });
+        }
+        progress_ += sum - WideInt(due) * one;
+        from = piece.end;
+    }
+}
+
+/// The burst whose next cycle comes first, before `end`; null when there is none.
+BirthSchedule::ScheduledBurst* BirthSchedule::nextBurst(Ticks end)
+{
+    ScheduledBurst* first = nullptr;
+    for (ScheduledBurst& burst : bursts_)
+        if (burst.nextTick() < end && (!first || burst.nextTick() < first->nextTick()))
+            first = &burst;
+    return first;
+}
+
+bool BirthSchedule::happens(const ScheduledBurst& burst) const
+{
+    if (burst.probability >= 1.0f)
+        return true;
+    const uint64_t number = uint64_t(&burst - bursts_.data());
+    const uint64_t event = (number << 48) ^ burst.next;
+    return base::randomUnit4(seed_, solverIndex_, event, base::RandomPurpose::Bursts)[0] < burst.probability;
 }
 
 BirthCount BirthSchedule::advance(const BirthWindow& window, std::span<Birth> out)
 {
-    const WideInt perTick = window.emitting ? ratePerTick(double(rate_) * window.intensity) : 0;
-    const base::Ticks begin = std::clamp(start_, window.begin, window.end);
-    const base::Ticks end = std::clamp(end_, begin, window.end);
-    uint64_t given = 0; // rate births of this window so far
-    Writer writer{out, nextIndex_, {}};
+    return advanceTo(window, {out, out.size(), nullptr, nullptr});
+}
 
-    const auto giveRateUntil = [&](base::Ticks tick) {
-        const WideInt ticks = std::clamp(tick, begin, end) - begin;
-        const uint64_t due = uint64_t(ceilDivide(progress_ + perTick * ticks, kParticle)); // (3)
-        if (due <= given)
-            return;
-        const uint64_t first = given;
-        writer.add(due - first, [&](uint64_t j) {
-            return begin + base::Ticks((WideInt(first + j) * kParticle - progress_) / perTick); // (4)
-        });
-        given = due;
-    };
-
-    for (; nextBurst_ < bursts_.size() && bursts_[nextBurst_].tick < window.end; ++nextBurst_) {
-        const ScheduledBurst& burst = bursts_[nextBurst_];
-        giveRateUntil(burst.tick);
-        if (window.emitting)
-            writer.add(scaledCount(burst.count, window.intensity), [&](uint64_t) { return burst.tick; });
+BirthCount BirthSchedule::advanceTo(const BirthWindow& window, const Outlet& outlet)
+{
+    Ticks at = std::clamp(start_, window.begin, window.end);
+    const Ticks end = std::clamp(end_, at, window.end);
+    Writer writer{outlet, nextIndex_};
+    while (ScheduledBurst* const burst = nextBurst(window.end)) {
+        const Ticks tick = burst->nextTick();
+        const Ticks until = std::clamp(tick, at, end);
+        giveRate(at, until, window, writer);
+        at = until;
+        if (window.emitting && happens(*burst))
+            writer.add(scaledCount(burst->count, window.intensity), [&] { return tick; });
+        ++burst->next;
     }
-    giveRateUntil(end);
-    progress_ += perTick * (end - begin) - WideInt(given) * kParticle;
+    giveRate(at, end, window, writer);
+    writer.flush();
     return writer.count;
 }
 
 void BirthSchedule::save(StateWriter& writer) const
 {
-    const WideInt waiting = -progress_; // 0 <= -R < D < 2^62
-    writer.value(uint64_t(nextBurst_));
-    writer.value(uint64_t(waiting));
+    const WideInt waiting = -progress_; // 0 <= -R < D < 2^78
+    writer.value(uint64_t(waiting >> 32));
+    writer.value(uint64_t(waiting & 0xFFFFFFFF));
     writer.value(nextIndex_);
+    for (const ScheduledBurst& burst : bursts_)
+        writer.value(burst.next);
 }
 
 void BirthSchedule::restore(StateReader& reader)
 {
-    nextBurst_ = size_t(reader.value<uint64_t>(0, bursts_.size(), "an emitter has fewer bursts"));
-    progress_ = -WideInt(reader.value<uint64_t>(0, uint64_t(kParticle) - 1, "a birth is overdue"));
+    const uint64_t most = uint64_t((particle() - 1) >> 32);
+    const uint64_t high = reader.value<uint64_t>(0, most, "a birth is overdue");
+    const uint64_t low = reader.value<uint64_t>(0, 0xFFFFFFFFu, "a birth is overdue");
+    progress_ = -((WideInt(high) << 32) + WideInt(low));
     nextIndex_ = reader.value<uint64_t>(0, kMostBirths, "an emitter's births are out of range");
+    for (ScheduledBurst& burst : bursts_)
+        burst.next = reader.value<uint64_t>(0, burst.cycles, "a burst has fewer cycles");
 }
 
-bool BirthSchedule::exhausted(base::Ticks tick) const
+bool BirthSchedule::exhausted(Ticks tick) const
 {
-    return nextBurst_ == bursts_.size() && (!(rate_ > 0.0f) || tick >= end_);
+    const bool noBursts = std::all_of(bursts_.begin(), bursts_.end(),
+                                      [](const ScheduledBurst& b) { return b.next == b.cycles; });
+    return noBursts && (!(rate_ > 0.0f) || tick >= end_);
 }
 
 } // namespace fx::sim

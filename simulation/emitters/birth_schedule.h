@@ -8,21 +8,31 @@
 ///   r       1/s      birth rate, a whole multiple of 2^-32
 ///   F       1/s      ticks per second
 ///   psi     1        phase in [0, 1), a whole multiple of 2^-24, drawn from the instance's seed
-///   D       1        2^32 F: one particle
-///   q       1        2^32 r: what one tick adds
-///   R       1        progress at the beginning of a step minus what has been born, -D < R <= 0
+///   D       1        one particle: 2^32 F, or 2^48 F where the rate changes
+///   q       1        what the first tick of a piece of time adds
+///   m       1        by how much each tick adds more than the one before it, 0 for a constant rate
+///   R       1        progress at the beginning of a piece minus what has been born, -D < R <= 0
+///   L       1        ticks of a 64th of the duration
 /// @derivation
 ///   Particle i is born at the tick floor((i + psi) F / r), which lies in [0, T) when i + psi < r T / F (1)
-///   so ceil(r T / F - psi) particles are born before tick T (2) In integers, with progress P(0) = -psi D and
-///   P(T + n) = P(T) + q n:
-///       births in a step of n ticks = ceil((R + q n) / D) (3) birth j of the step happens floor((j D - R) /
-///       q) ticks after its beginning                          (4)
-///   Progress is a sum of integers: any partition of time into steps gives the same total.
+///   so ceil(r T / F - psi) particles are born before tick T (2) In integers, with progress P(0) = -psi D,
+///   and n ticks of a piece adding
+///       S(n) = q n + m n (n - 1) / 2,   q = 2^32 r                                              (3)
+///   births of the piece before its tick n = ceil((R + S(n)) / D), and its birth j happens at the largest n
+///   with
+///       S(n) <= j D - R,   for m = 0 that is floor((j D - R) / q)                               (4)
+///   Where the rate runs straight from ra to rb over L ticks, with D = 2^48 F,
+///       q = 2^48 ra + m k at tick k of it,   m = 2^48 (rb - ra) / L rounded towards 0           (5)
+///   Progress is a sum of integers, and S(k + n) = S(k) + S(n) of the piece that begins at k: any partition
+///   of time into steps gives the same births.
 /// @source    elementary
 /// @deviation none
-/// @valid     r <= 1e9 /s (larger is taken as that; NaN and negative as 0); 128-bit products below 2^126
-/// @accuracy  exact for the rounded rate, whose relative error is <= 2^-33 / r
+/// @valid     r <= 1e9 /s (larger is taken as that; NaN and negative as 0); a rate that changes over more
+/// than
+///            1e6 s is taken as constant; 128-bit products below 2^126
+/// @accuracy  exact for the rounded rate, whose relative error is <= 2^-33 / r; (5) loses up to L 2^-48 /s
 /// @tests     tests/simulation/test_birth_schedule.cpp
+///            tests/simulation/particles/modules/test_birth_rates.cpp
 #pragma once
 
 #include "simulation/emitters/emitter_def.h"
@@ -31,6 +41,7 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace fx::sim {
@@ -50,7 +61,7 @@ struct Birth
 struct BirthCount
 {
     uint64_t total = 0;
-    uint32_t stored = 0;
+    uint64_t stored = 0;
 };
 
 /// An interval of local time and what the host wants of it.
@@ -67,13 +78,25 @@ struct BirthWindow
 class BirthSchedule
 {
 public:
-    /// @param emission its `start` delays rate and bursts alike
+    /// @param emission its `start` delays rate and bursts alike; bursts for ever end with its duration
     BirthSchedule(const Emission& emission, std::pmr::memory_resource* memory);
 
     /// Draws the phase. Before the first advance.
     void setPhase(float phase);
+    /// What decides about bursts of a probability below 1. Before the first advance.
+    void setSeed(uint64_t seed, uint32_t solverIndex);
     /// All births of the window in order; those that do not fit into `out` are counted and keep their index.
     BirthCount advance(const BirthWindow& window, std::span<Birth> out);
+    /// The same, but births are handed over whenever `room` is full and at the end, up to `most` of them.
+    /// @param take called as take(std::span<const Birth>)
+    template <class Take>
+    BirthCount advance(const BirthWindow& window, std::span<Birth> room, uint64_t most, Take&& take)
+    {
+        const auto call = [](void* user, std::span<const Birth> births) {
+            (*static_cast<std::remove_reference_t<Take>*>(user))(births);
+        };
+        return advanceTo(window, {room, most, call, &take});
+    }
     /// True when nothing can be born from `tick` on.
     bool exhausted(base::Ticks tick) const;
 
@@ -84,16 +107,53 @@ public:
 private:
     struct ScheduledBurst
     {
-        base::Ticks tick;
+        base::Ticks tick;     ///< of the first cycle
+        base::Ticks interval; ///< between cycles
+        uint64_t cycles;
         uint32_t count;
+        float probability;
+        uint64_t next = 0; ///< cycle
+
+        base::Ticks nextTick() const
+        {
+            return next < cycles ? tick + base::Ticks(next) * interval : kForever;
+        }
+    };
+    /// A stretch of time over which the rate runs straight.
+    struct Piece
+    {
+        base::Ticks begin, end;
+        WideInt rate;  ///< q
+        WideInt slope; ///< m
+
+        WideInt sum(base::Ticks n) const; ///< S
+        base::Ticks tickOf(WideInt sum) const;
+    };
+    /// Where births go.
+    struct Outlet
+    {
+        std::span<Birth> room;
+        uint64_t most;                                    ///< births that are wanted
+        void (*take)(void* user, std::span<const Birth>); ///< null: they stay in `room`
+        void* user;
     };
     struct Writer;
+
+    BirthCount advanceTo(const BirthWindow& window, const Outlet& outlet);
+    WideInt particle() const; ///< D
+    Piece pieceAt(base::Ticks tick, base::Ticks end, const BirthWindow& window) const;
+    void giveRate(base::Ticks from, base::Ticks to, const BirthWindow& window, Writer& writer);
+    ScheduledBurst* nextBurst(base::Ticks end);
+    bool happens(const ScheduledBurst& burst) const;
 
     float rate_;
     base::Ticks start_;
     base::Ticks end_;
-    std::pmr::vector<ScheduledBurst> bursts_; ///< by tick, then by declaration
-    size_t nextBurst_ = 0;
+    base::ScalarCurve shape_;
+    bool curved_;
+    std::pmr::vector<ScheduledBurst> bursts_; ///< by declaration
+    uint64_t seed_ = 0;
+    uint32_t solverIndex_ = 0;
     WideInt progress_ = 0; ///< R
     uint64_t nextIndex_ = 0;
 };

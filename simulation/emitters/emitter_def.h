@@ -4,6 +4,8 @@
 
 #include "foundation/math/curve.h"
 #include "foundation/snapshot/blob_kind.h"
+#include "simulation/emitters/emitter_look.h"
+#include "simulation/particles/tile.h"
 #include "simulation/solver.h"
 
 #include <glm/vec3.hpp>
@@ -22,20 +24,27 @@ enum class EmitterShape : uint8_t
     Cone,   ///< on the disc of radius size.x, moving within `angle` of the axis +Y
 };
 
-/// So many births at one moment.
+/// So many births at one moment, or at several with the same time between them.
 struct Burst
 {
     float time = 0; ///< [s] after the start, >= 0
     uint32_t count = 0;
+    uint32_t cycles = 1;   ///< how often it happens, 0: for ever
+    float interval = 0;    ///< [s] between two cycles, > 0 unless there is one
+    float probability = 1; ///< [1] 0..1 that a cycle happens at all, drawn for each
 };
 
-/// A constant birth rate over an interval of local time.
+/// A birth rate over an interval of local time.
 struct Emission
 {
     float rate = 0;            ///< [1/s] >= 0
     float start = 0;           ///< [s]
     float duration = 0;        ///< [s], +infinity for ever
     std::vector<Burst> bursts; ///< in declaration order
+
+    /// Multiplies the rate, t in [0, 1] from the start to the end of a finite duration. The rate runs
+    /// straight between the curve's samples.
+    base::ScalarCurve rateOverTime{std::array{1.0f}};
 };
 
 /// Forces on each particle; the sum of accelerations, with drag and buoyancy relative to the moving air.
@@ -51,6 +60,7 @@ struct EmitterForces
     float bounce = -1.0f;      ///< [1] restitution at the ground and at the host's geometry, 0..1; negative:
                                ///< particles pass
     float friction = 0.0f;     ///< [1] tangential velocity lost at a bounce, 0..1
+    uint32_t curlOctaves = 1;  ///< each next one has half the strength and scale and twice the rate, 1..8
 };
 
 struct EmitterDef final : SolverDef
@@ -65,7 +75,8 @@ struct EmitterDef final : SolverDef
     float angle = 0.0f;       ///< [rad] half angle of the cone, 0..pi
     Emission emission;
 
-    base::Range lifetime{1, 1}; ///< [s] > 0
+    base::Range lifetime{1, 1};            ///< [s] > 0
+    std::shared_ptr<const ShapeOp> births; ///< where and whereto particles are born, instead of `shape`
     base::Range speed{0, 0}; ///< [m/s] along the shape's direction: radially for sphere and point, +Y for box
     base::Range radius{0.5f, 0.5f}; ///< [m] > 0
     base::Range crossSection{
@@ -73,6 +84,9 @@ struct EmitterDef final : SolverDef
     bool opticalDepthGiven = true; ///< `crossSection` holds the optical depth along a diameter at birth size
     base::Range temperature{293, 293}; ///< [K]
     EmitterForces forces;
+    /// Run after the forces above, in order within their phase. None: with gravity, drag and wind alone
+    /// motion has a closed form.
+    std::vector<std::shared_ptr<const TileOp>> modules;
 
     // Over life, t in [0, 1]; multiply the values drawn at birth.
     base::ScalarCurve sizeOverLife{std::array{1.0f}};
@@ -81,6 +95,7 @@ struct EmitterDef final : SolverDef
     base::ColorCurve albedoOverLife{std::array{0.0f, 0.0f, 0.0f}};   ///< [0, 1] single scattering albedo
     base::ColorCurve emissionOverLife{std::array{0.0f, 0.0f, 0.0f}}; ///< [cd/m2] besides the black body
 
+    EmitterLook look;          ///< how particles are drawn; the members below are those of a medium
     float fireShare = 0.0f;    ///< [0, 1] part of the medium accounted to the fire layer
     float heat = 0.0f;         ///< [1] how strongly the excess temperature bends light (shimmer), 0 none
     float detailAmount = 0.0f; ///< see blob_constant
@@ -91,7 +106,7 @@ struct EmitterDef final : SolverDef
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return maxParticles; }
-    bool collides() const override { return forces.bounce >= 0.0f; }
+    bool collides() const override;
 };
 
 constexpr float kAirTemperature = 293.15f; ///< [K] of the ambient air

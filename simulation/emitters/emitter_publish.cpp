@@ -1,80 +1,112 @@
 #include "simulation/emitters/emitter_solver.h"
 
-#include "simulation/blob_writer.h"
+#include "simulation/parallel.h"
 
 #include <algorithm>
+#include <mutex>
 
 namespace fx::sim {
 
 namespace {
 
-namespace blob = base::blob_column;
-namespace column = emitter_column;
+namespace column = base::particle_column;
 
-void writeConstants(const EmitterDef& def, BlobWriter& writer)
+constexpr uint32_t kChunk = 1024;        // rows that are handed to a thread together
+constexpr uint32_t kMinChunks = 8;       // fewer cost less than handing them to another thread
+constexpr size_t kBeyondCache = 8 << 20; // [byte] of a group that is not kept in the cache of a core
+
+void writeConstants(const EmitterDef& def, std::span<float> constants)
 {
-    writer.constant(base::blob_constant::Layer) = float(uint32_t(def.layer));
-    writer.constant(base::blob_constant::DetailAmount) = def.detailAmount;
-    writer.constant(base::blob_constant::DetailScale) = def.detailScale;
-    writer.constant(base::blob_constant::Anisotropy) = def.anisotropy;
-    writer.constant(base::blob_constant::Shutter) = def.shutter;
+    namespace constant = base::particle_constant;
+    const EmitterLook& look = def.look;
+    const auto shape =
+        look.kind == Appearance::Mesh ? base::ParticleShape::Mesh : base::ParticleShape::Sprite;
+    constants[constant::Shape] = float(uint32_t(shape));
+    constants[constant::Layer] = float(uint32_t(def.layer));
+    constants[constant::Blend] = float(uint32_t(look.blend));
+    constants[constant::Order] = float(uint32_t(look.order));
+    constants[constant::OrderBias] = look.orderBias;
+    constants[constant::Alignment] = float(uint32_t(look.alignment));
+    constants[constant::AxisX] = look.axis.x;
+    constants[constant::AxisY] = look.axis.y;
+    constants[constant::AxisZ] = look.axis.z;
+    constants[constant::Aspect] = look.aspect;
+    constants[constant::Stretch] = look.stretch;
+    constants[constant::Luminance] = look.luminance;
+    constants[constant::Lit] = look.lit;
+    constants[constant::Softness] = look.softness;
+    constants[constant::Texture] = float(look.texture);
+    constants[constant::TileColumns] = float(look.tileColumns);
+    constants[constant::TileRows] = float(look.tileRows);
+    constants[constant::FrameBlend] = look.frameBlend ? 1.0f : 0.0f;
+    constants[constant::Motion] = float(look.motion);
+    constants[constant::MotionScale] = look.motionScale;
+    constants[constant::Mesh] = float(look.mesh);
+    constants[constant::ArcPerTile] = 1.0f;
 }
 
-void writeMotion(const EmitterStore& store, BlobWriter& writer)
+/// The columns of a group, null where it lacks one.
+LookColumns columnsOf(base::SnapshotGroup& group)
 {
-    writer.copy(blob::PositionX, store.at(column::X));
-    writer.copy(blob::PositionY, store.at(column::Y));
-    writer.copy(blob::PositionZ, store.at(column::Z));
-    writer.copy(blob::VelocityX, store.at(column::VelocityX));
-    writer.copy(blob::VelocityY, store.at(column::VelocityY));
-    writer.copy(blob::VelocityZ, store.at(column::VelocityZ));
-}
-
-/// Everything that changes over life by a curve; `life` is where each particle is in its own.
-void writeLooks(const EmitterDef& def, const EmitterStore& store, const float* life, BlobWriter& writer)
-{
-    float* const radius = writer.column(blob::Radius);
-    float* const crossSection = writer.column(blob::CrossSection);
-    float* const temperature = writer.column(blob::Temperature);
-    float* const heat = writer.column(blob::Heat);
-    for (uint32_t i = 0; i < store.count; ++i) {
-        const float t = life[i];
-        const float excess = store.at(column::Excess)[i] * def.temperatureOverLife.at(t)[0];
-        radius[i] = store.at(column::Radius)[i] * std::max(def.sizeOverLife.at(t)[0], 1e-4f);
-        crossSection[i] = store.at(column::CrossSection)[i] * std::max(def.opacityOverLife.at(t)[0], 0.0f);
-        temperature[i] = std::max(kAirTemperature + excess, 0.0f);
-        heat[i] = def.heat * std::max(excess, 0.0f);
-    }
-    for (size_t k = 0; k < 3; ++k) {
-        float* const albedo = writer.column(blob::AlbedoR + k);
-        float* const emission = writer.column(blob::EmissionR + k);
-        for (uint32_t i = 0; i < store.count; ++i) {
-            albedo[i] = def.albedoOverLife.at(life[i])[k];
-            emission[i] = def.emissionOverLife.at(life[i])[k];
-        }
-    }
+    const auto floats = [&group](size_t c) { return group.has(c) ? group.editColumn(c).data() : nullptr; };
+    LookColumns out{};
+    out.x = floats(column::PositionX);
+    out.y = floats(column::PositionY);
+    out.z = floats(column::PositionZ);
+    out.age = floats(column::Age);
+    out.radius = floats(column::Radius);
+    out.color = group.editColumn64(column::Color).data();
+    for (size_t a = 0; a < 3; ++a)
+        out.velocity[a] = floats(column::VelocityX + a);
+    out.angle = floats(column::Angle);
+    out.frame = floats(column::Frame);
+    for (size_t a = 0; a < 4; ++a)
+        out.orientation[a] = floats(column::OrientationX + a);
+    out.stream = group.bytes() > kBeyondCache;
+    return out;
 }
 
 } // namespace
 
+LookJob EmitterSolver::lookJob() const
+{
+    return {&program_, &store_, store_.window(), now_, motionBegin_, pull_};
+}
+
 void EmitterSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
 {
-    if (kind_ == base::kNoKind)
-        return;
-    BlobWriter writer(snapshot, base, kind_, store_.count, uint32_t(store_.capacity()));
-    writeConstants(def_, writer);
-    writeMotion(store_, writer);
-    writer.fill(blob::FireShare, def_.fireShare);
+    if (def_.look.kind == Appearance::Medium)
+        publishMedium(base, snapshot);
+    else if (def_.look.kind != Appearance::None)
+        publishParticles(base, snapshot);
+}
 
-    float* const age = writer.column(blob::Age); // first as a fraction of life, then in seconds
-    for (uint32_t i = 0; i < store_.count; ++i)
-        age[i] = lifeFraction(store_, i, now_);
-    writeLooks(def_, store_, age, writer);
-    for (uint32_t i = 0; i < store_.count; ++i) {
-        age[i] = float(base::toSeconds(now_ - store_.born[i]));
-        writer.ids()[i] = blobId(base.solver, store_.index[i]);
-    }
-    writer.closeBounds();
+void EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+{
+    if (kinds_.particle == base::kNoKind)
+        return;
+    base::SnapshotGroup& group = snapshot.addGroup(kinds_.particle, store_.capacity(), program_.published);
+    const LookJob job = lookJob();
+    base::GroupInfo& info = group.editInfo();
+    info = base;
+    info.kind = kinds_.particle;
+    info.count = job.rows.count;
+    writeConstants(def_, group.editConstants());
+
+    const LookColumns out = columnsOf(group);
+    LookBounds bounds;
+    std::mutex mutex; // guards bounds, which do not depend on the order of what is added
+    const auto write = [&](uint32_t begin, uint32_t end) {
+        const LookBounds found = writeLooks(job, out, begin * kChunk, std::min(end * kChunk, job.rows.count));
+        const std::lock_guard lock(mutex);
+        bounds.add(found);
+    };
+    const uint32_t chunks = (job.rows.count + kChunk - 1) / kChunk;
+    if (tasks_)
+        parallelRows(*tasks_, chunks, kMinChunks, write);
+    else if (chunks > 0)
+        write(0, chunks);
+    group.editInfo().bounds = bounds.box();
 }
 
 } // namespace fx::sim

@@ -2,91 +2,194 @@
 
 #include "foundation/random/philox.h"
 #include "simulation/parallel.h"
+#include "simulation/particles/birth_kernel.h"
+#include "simulation/particles/tile_step.h"
+
+#include <algorithm>
+#include <atomic>
 
 namespace fx::sim {
 
 namespace {
-constexpr uint32_t kMinBatch = 512; // particles; fewer cost less than handing them to another thread
+
+constexpr uint32_t kBirthBatch = 4096;   // births that are made at once
+constexpr uint32_t kMinBirths = 512;     // fewer cost less than handing them to another thread
+constexpr uint32_t kMinSteppedTiles = 4; // likewise
+constexpr uint64_t kMostLapsPerStep = 4; // of the ring; more births in a step cannot be told apart anyway
+
+glm::vec3 pullOf(const EmitterDef& def, const StepContext& context)
+{
+    const float drag = def.forces.drag > 0.0f ? std::min(def.forces.drag, 1e6f) : 0.0f;
+    return def.forces.gravity * context.gravity + drag * (context.wind + def.forces.wind);
+}
+
+} // namespace
+
+bool EmitterDef::collides() const
+{
+    return forces.bounce >= 0.0f ||
+           std::any_of(modules.begin(), modules.end(), [](const auto& op) { return op->collides(); });
 }
 
 std::unique_ptr<Solver> EmitterDef::create(const base::SnapshotSchema& schema, const Quality&,
                                            std::pmr::memory_resource* memory) const
 {
-    return std::make_unique<EmitterSolver>(*this, schema.find(base::kBlobKind.name), memory);
+    const EmitterKinds kinds{schema.find(base::kBlobKind.name), schema.find(base::kParticleKind.name)};
+    return std::make_unique<EmitterSolver>(*this, kinds, memory);
 }
 
-EmitterSolver::EmitterSolver(const EmitterDef& def, base::KindId kind, std::pmr::memory_resource* memory)
-    : def_(def), kind_(kind), schedule_(def.emission, memory), store_(memory, def.maxParticles)
-{}
+EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
+                             std::pmr::memory_resource* memory)
+    : def_(def), kinds_(kinds), program_(def), schedule_(def.emission, memory), store_(program_, memory),
+      rowsByBirth_(memory)
+{
+    if (def.look.kind == Appearance::Medium)
+        rowsByBirth_.resize(store_.capacity());
+}
+
+void EmitterSolver::begin(const StepContext& context)
+{
+    schedule_.setPhase(
+        base::randomUnit4(context.seed, context.solverIndex, 0, base::RandomPurpose::BirthPhase)[0]);
+    pull_ = pullOf(def_, context);
+    motionBegin_ = 0;
+    started_ = true;
+}
+
+/// When gravity or wind change, motion goes on from where it has come to.
+void EmitterSolver::heedConditions(const StepContext& context)
+{
+    const glm::vec3 pull = pullOf(def_, context);
+    if (!program_.ballistic || pull == pull_)
+        return;
+    const LookJob job = lookJob();
+    MotionTile motion;
+    for (uint32_t row = 0; row < job.rows.count; row += kTileRows) {
+        const uint32_t count = std::min(job.rows.count - row, kTileRows);
+        readMotion(job, row, count, motion);
+        for (size_t a = 0; a < 3; ++a) {
+            std::copy_n(motion.position[a], count, store_.values[stored::X + a].data() + row);
+            std::copy_n(motion.velocity[a], count, store_.values[stored::VelocityX + a].data() + row);
+        }
+    }
+    store_.placed = true;
+    motionBegin_ = context.tick;
+    pull_ = pull;
+}
 
 void EmitterSolver::step(const StepContext& context)
 {
-    if (!started_) {
-        schedule_.setPhase(
-            base::randomUnit4(context.seed, context.solverIndex, 0, base::RandomPurpose::BirthPhase)[0]);
-        started_ = true;
-    }
-    // Scratch is sized by the capacity, so that after the first step the arena never grows.
-    const size_t capacity = store_.capacity();
-    const EmitterScratch scratch{context.scratch->allocate<glm::vec3>(capacity),
-                                 context.scratch->allocate<float>(capacity)};
-    const std::span<uint32_t> kept = context.scratch->allocate<uint32_t>(capacity);
-    const std::span<Birth> births = context.scratch->allocate<Birth>(capacity);
-
-    const EmitterStep step(def_, context);
-    move(step, scratch, 0, store_.count);
-    store_.removeDead(0, step.end, kept);
-    const uint32_t firstBorn = store_.count;
-    giveBirth(step, births.first(capacity - firstBorn));
-    move(step, scratch, firstBorn, store_.count);
-    store_.removeDead(firstBorn, step.end, kept);
-    now_ = step.end;
+    tasks_ = context.tasks;
+    if (!started_)
+        begin(context);
+    schedule_.setSeed(context.seed, context.solverIndex);
+    heedConditions(context);
+    const base::Ticks end = context.tick + context.stepTicks;
+    giveBirth(context, context.tick, end);
+    if (!program_.ballistic)
+        move(context);
+    now_ = end;
+    store_.retire(now_);
+    const uint64_t window = std::min<uint64_t>(store_.next() - store_.front(), store_.capacity());
+    context.counters->particleSteps += window;
+    highWater_ = std::max(highWater_, uint32_t(window));
 }
 
-void EmitterSolver::giveBirth(const EmitterStep& step, std::span<Birth> births)
+void EmitterSolver::giveBirth(const StepContext& context, base::Ticks from, base::Ticks to)
 {
-    const StepContext& context = step.step;
-    const uint32_t first = store_.count;
-    const BirthWindow window{context.tick, step.end, double(context.parameters->intensity),
-                             context.parameters->emitting};
-    const BirthCount count = schedule_.advance(window, births);
+    const std::span<Birth> room = context.scratch->allocate<Birth>(std::min(kBirthBatch, store_.capacity()));
+    const BirthWindow window{from, to, double(context.parameters->intensity), context.parameters->emitting};
+    uint64_t left = kMostLapsPerStep * std::max(store_.capacity(), kBirthBatch);
+    const BirthCount count = schedule_.advance(
+        window, room, left, [&](std::span<const Birth> births) { storeBatch(context, births); });
     context.counters->born += count.total;
     context.counters->dropped += count.total - count.stored;
-    for (uint32_t i = 0; i < count.stored; ++i) {
-        store_.index[first + i] = births[i].index;
-        store_.born[first + i] = births[i].tick;
-    }
-    parallelRows(*context.tasks, count.stored, kMinBatch, [&](uint32_t begin, uint32_t end) {
-        createParticles(step, store_, first + begin, first + end);
-    });
-    store_.count = first + count.stored;
+    dropped_ += count.total - count.stored;
+    store_.advance(count.total - count.stored);
 }
 
-void EmitterSolver::move(const EmitterStep& step, const EmitterScratch& scratch, uint32_t begin, uint32_t end)
+void EmitterSolver::storeBatch(const StepContext& context, std::span<const Birth> births)
 {
-    parallelRows(*step.step.tasks, end - begin, kMinBatch, [&](uint32_t first, uint32_t last) {
-        moveParticles(step, store_, scratch, begin + first, begin + last);
+    std::atomic<uint32_t> living{0};
+    parallelRows(*context.tasks, uint32_t(births.size()), kMinBirths, [&](uint32_t begin, uint32_t end) {
+        living += storeBirths(program_, {context.seed, context.solverIndex},
+                              births.subspan(begin, end - begin), store_);
     });
-    step.step.counters->particleSteps += end - begin;
+    const uint64_t refused = births.size() - living;
+    context.counters->dropped += refused;
+    dropped_ += refused;
+    store_.advance(births.size());
+}
+
+void EmitterSolver::move(const StepContext& context)
+{
+    const TileStep step(program_, context);
+    const RowWindow rows = store_.window();
+    const uint32_t tiles = (rows.count + kTileRows - 1) / kTileRows;
+    parallelRows(*context.tasks, tiles, kMinSteppedTiles, [&](uint32_t begin, uint32_t end) {
+        step.run(store_, begin * kTileRows, std::min(end * kTileRows, rows.count));
+    });
 }
 
 bool EmitterSolver::finished(base::Ticks tick) const
 {
-    return store_.count == 0 && schedule_.exhausted(tick);
+    return store_.empty() && schedule_.exhausted(tick);
+}
+
+/// True when the ring is so large that no birth can ever find its row taken.
+bool EmitterSolver::neverDrops(double intensity) const
+{
+    const Emission& emission = def_.emission;
+    if (!emission.bursts.empty())
+        return false;
+    double most = 0;
+    for (size_t i = 0; i <= base::kCurveSamples; ++i)
+        most = std::max(most, double(emission.rateOverTime.at(float(i) / float(base::kCurveSamples))[0]));
+    const double born = double(emission.rate) * most * intensity * base::toSeconds(program_.longestLife);
+    return born * 1.001 + 2.0 < double(store_.capacity());
+}
+
+bool EmitterSolver::seek(const StepContext& context)
+{
+    if (!program_.ballistic)
+        return false;
+    tasks_ = context.tasks;
+    schedule_ = BirthSchedule(def_.emission, rowsByBirth_.get_allocator().resource());
+    store_.clear(0);
+    store_.placed = program_.stores[stored::X];
+    begin(context);
+    schedule_.setSeed(context.seed, context.solverIndex);
+    const base::Ticks to = context.tick;
+    base::Ticks from = 0;
+    if (neverDrops(double(context.parameters->intensity))) {
+        // Whoever was born earlier is dead.
+        from = std::max<base::Ticks>(to - program_.longestLife - base::kTicksPerSecond, 0);
+        const BirthWindow past{0, from, double(context.parameters->intensity), context.parameters->emitting};
+        store_.clear(schedule_.advance(past, {}).total);
+    }
+    for (const base::Ticks part = base::kTicksPerSecond / 60; from < to; from += part)
+        giveBirth(context, from, std::min(from + part, to));
+    now_ = to;
+    store_.retire(now_);
+    return true;
 }
 
 void EmitterSolver::save(StateWriter& writer) const
 {
     writer.value(now_);
     writer.flag(started_);
+    writer.value(motionBegin_);
+    writer.vector(pull_);
     schedule_.save(writer);
-    store_.save(writer);
+    store_.save(writer, now_);
 }
 
 void EmitterSolver::restore(StateReader& reader)
 {
     now_ = reader.value<base::Ticks>(0, kForever, "an emitter's clock is out of range");
     started_ = reader.flag();
+    motionBegin_ = reader.value<base::Ticks>(0, now_, "an emitter's clock is out of range");
+    pull_ = reader.vector();
     schedule_.restore(reader);
     store_.restore(reader, now_);
 }

@@ -4,37 +4,64 @@
 
 #include "simulation/emitters/birth_schedule.h"
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/emitters/emitter_motion.h"
-#include "simulation/emitters/emitter_store.h"
+#include "simulation/particles/look_kernel.h"
+#include "simulation/particles/particle_store.h"
 
 namespace fx::sim {
 
-/// Steps particles that do not feel each other. The set of particles and their birth ticks depend only on the
-/// seed and on what the host asked for, never on how time is cut into steps.
+/// The kinds of groups that emitters publish; kNoKind where the schema lacks one.
+struct EmitterKinds
+{
+    base::KindId blob;
+    base::KindId particle;
+};
+
+/// Steps particles that do not feel each other. The set of particles, their birth ticks and their rows depend
+/// only on the seed and on what the host asked for, never on how time is cut into steps.
 class EmitterSolver final : public Solver
 {
 public:
     /// @param def outlives the solver
-    /// @param kind of the groups it publishes
-    EmitterSolver(const EmitterDef& def, base::KindId kind, std::pmr::memory_resource* memory);
+    EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds, std::pmr::memory_resource* memory);
 
     void step(const StepContext& context) override;
+    /// Spread over the threads of the last step; before it on the calling thread.
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
     bool finished(base::Ticks tick) const override;
-    uint32_t elementCount() const override { return store_.count; }
+    uint32_t elementCount() const override { return store_.countAlive(now_); }
+    /// Where motion has a closed form: as if stepped from local time 0 under the same conditions.
+    bool seek(const StepContext& context) override;
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
 
+    uint32_t highWater() const { return highWater_; } ///< the most rows that were in use after a step
+    uint64_t dropped() const { return dropped_; }     ///< births that found their row taken
+
 private:
-    void giveBirth(const EmitterStep& step, std::span<Birth> births);
-    void move(const EmitterStep& step, const EmitterScratch& scratch, uint32_t begin, uint32_t end);
+    void begin(const StepContext& context);
+    void heedConditions(const StepContext& context);
+    void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to);
+    void storeBatch(const StepContext& context, std::span<const Birth> births);
+    void move(const StepContext& context);
+    bool neverDrops(double intensity) const;
+    LookJob lookJob() const;
+    void publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
+    uint32_t sortLiving() const;
+    void publishMedium(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
 
     const EmitterDef& def_;
-    base::KindId kind_;
+    EmitterKinds kinds_;
+    ParticleProgram program_;
     BirthSchedule schedule_;
-    EmitterStore store_;
-    base::Ticks now_ = 0; ///< end of the last step
+    ParticleStore store_;
+    base::Ticks now_ = 0;         ///< end of the last step
+    base::Ticks motionBegin_ = 0; ///< see LookJob
+    glm::vec3 pull_{0.0f};        ///< [m/s2] see LookJob
     bool started_ = false;
+    uint32_t highWater_ = 0;
+    uint64_t dropped_ = 0;
+    base::TaskRunner* tasks_ = nullptr;              ///< of the last step
+    mutable std::pmr::vector<uint32_t> rowsByBirth_; ///< room to sort what a medium publishes
 };
 
 } // namespace fx::sim

@@ -72,6 +72,11 @@ CurlNoise::CurlNoise(uint32_t seed, float strength, float scale, double turns)
     }
 }
 
+CurlNoise::Parts CurlNoise::parts() const
+{
+    return {seed_, kNormalization * strength_, perScale_, cosine_.data(), sine_.data()};
+}
+
 glm::vec3 CurlNoise::velocity(const glm::vec3& position) const
 {
     const Axis x = makeAxis(position.x * perScale_);

@@ -50,9 +50,24 @@ public:
     bool active() const { return strength_ > 0.0f; }
     /// Velocity [m/s] at `position` [m].
     glm::vec3 velocity(const glm::vec3& position) const;
+    /// Adds the velocity at each of `count` places, the same bits as velocity(); counts are rounded up to a
+    /// multiple of 16. Columns begin at multiples of 64 bytes.
+    void addTo(const std::array<const float*, 3>& position, const std::array<float*, 3>& velocity,
+               uint32_t count) const;
+
+    /// What a field is made of, for its kernels.
+    struct Parts
+    {
+        uint32_t seed;
+        float gain;          ///< [m/s] of the field with mean square speed of about 1
+        float perScale;      ///< [1/m]
+        const float* cosine; ///< of kPhases phases
+        const float* sine;
+    };
 
 private:
     static constexpr uint32_t kPhases = 16;
+    Parts parts() const;
 
     uint32_t seed_;
     float strength_;

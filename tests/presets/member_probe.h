@@ -37,6 +37,8 @@ inline Json otherValue(const Json& member)
 {
     if (member.contains("enum"))
         return member["enum"].back() == member["default"] ? member["enum"].front() : member["enum"].back();
+    if (member.value("type", "") == "boolean")
+        return !member["default"].get<bool>();
     const Json number = member.value("x-number", member);
     const double low = number["minimum"].get<double>();
     const double high = number["maximum"].get<double>();

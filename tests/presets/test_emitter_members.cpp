@@ -1,8 +1,9 @@
 #include "simulation/emitters/emitter_def.h"
-#include "tests/presets/member_probe.h"
+#include "tests/presets/module_probe.h"
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 using namespace fx::test;
 using fx::sim::EmitterDef;
@@ -11,9 +12,27 @@ namespace {
 
 void addForces(Fields& fields, const fx::sim::EmitterForces& forces)
 {
-    fields.insert(fields.end(), {forces.gravity, forces.drag, forces.buoyancy, forces.curlStrength,
-                                 forces.curlScale, forces.curlRate, forces.bounce, forces.friction});
+    fields.insert(fields.end(),
+                  {forces.gravity, forces.drag, forces.buoyancy, forces.curlStrength, forces.curlScale,
+                   forces.curlRate, forces.bounce, forces.friction, double(forces.curlOctaves)});
     add(fields, forces.wind);
+}
+
+void addLook(Fields& fields, const fx::sim::EmitterLook& look)
+{
+    fields.insert(fields.end(),
+                  {double(look.kind), double(look.blend), double(look.order), look.orderBias,
+                   double(look.alignment), look.aspect, look.stretch, look.luminance, look.lit, look.softness,
+                   double(look.tileColumns), double(look.tileRows), double(look.frameBlend), look.motionScale,
+                   double(look.frames), look.framesPerSecond, look.fastest});
+    add(fields, look.axis);
+    for (const fx::base::Range& range :
+         {look.opacity, look.brightness, look.angle, look.spin, look.firstFrame})
+        add(fields, range);
+    for (const fx::base::ColorCurve& curve : {look.colorOverLife, look.colorOverSpeed})
+        add(fields, curve);
+    for (const fx::base::ScalarCurve& curve : {look.sizeOverSpeed, look.opacityOverSpeed})
+        add(fields, curve);
 }
 
 Fields fieldsOf(const fx::sim::SolverDef& solver)
@@ -36,7 +55,12 @@ Fields fieldsOf(const fx::sim::SolverDef& solver)
     for (const fx::base::ColorCurve& curve : {e.albedoOverLife, e.emissionOverLife})
         add(fields, curve);
     for (const fx::sim::Burst& burst : e.emission.bursts)
-        fields.insert(fields.end(), {burst.time, double(burst.count)});
+        fields.insert(fields.end(), {burst.time, double(burst.count), double(burst.cycles), burst.interval,
+                                     burst.probability});
+    add(fields, e.emission.rateOverTime);
+    addLook(fields, e.look);
+    addBirths(fields, e.births.get());
+    addModules(fields, e.modules);
     return fields;
 }
 
@@ -67,19 +91,134 @@ EmitterDef emitterWith(const Json& members, const Json& emission = {{"rate", 1}}
     copy.sizeOverLife = e.sizeOverLife;
     copy.albedoOverLife = e.albedoOverLife;
     copy.lifetime = e.lifetime;
+    copy.modules = e.modules;
+    copy.forces = e.forces;
     return copy;
+}
+
+/// Those properties of `object` whose names are in `names`, or are not.
+Json only(const Json& object, const std::set<std::string>& names, bool areWanted = true)
+{
+    Json part{{"properties", Json::object()}};
+    for (const auto& [name, member] : object["properties"].items())
+        if ((names.count(name) == 1) == areWanted)
+            part["properties"][name] = member;
+    return part;
+}
+
+Json with(const Json& element, const Json& more)
+{
+    Json all = element;
+    all.update(more);
+    return all;
+}
+
+/// Tests each member of the elements of an array, the first of which is `first`.
+void probeArray(const Json& object, const std::string& array, const Json& first,
+                const std::set<std::string>& left = {})
+{
+    const Json::json_pointer pointer(array);
+    Json element = kLeast;
+    element[pointer] = Json::array({first});
+    const Json items = object[pointer.back()]["items"];
+    probeMembers("emitters", only(items, left, false), element, array + "/0", fieldsOf);
 }
 
 } // namespace
 
 TEST(EmitterMembers, eachIsReadAndHasTheDefaultThatItsSchemaDocuments)
 {
-    probeMembers("emitters", emitterSchema(), kLeast, "", fieldsOf);
+    const std::set<std::string> ofShapes{"inner", "surface", "height", "tube", "closed"};
+    const Json schema = emitterSchema();
+    Json plain = only(schema, ofShapes, false);
+    plain["properties"]["shape"]["enum"] = {"point", "disc"}; // others need more than their name
+    probeMembers("emitters", plain, kLeast, "", fieldsOf);
+    const Json torus = with(kLeast, {{"shape", "torus"}, {"size", 8000}});
+    probeMembers("emitters", only(schema, {"tube"}), torus, "", fieldsOf);
+    probeMembers("emitters", only(schema, {"inner", "surface"}), with(torus, {{"tube", 1000}}), "", fieldsOf);
+    probeMembers("emitters", only(schema, {"height"}), with(kLeast, {{"shape", "cone"}, {"size", 1}}), "",
+                 fieldsOf);
+    const Json points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+    probeMembers("emitters", only(schema, {"closed"}),
+                 with(kLeast, {{"shape", "spline"}, {"points", points}}), "", fieldsOf);
 }
 
 TEST(EmitterMembers, eachForceIsReadAndHasTheDefaultThatItsSchemaDocuments)
 {
-    probeMembers("emitters", emitterSchema()["properties"]["forces"], kLeast, "/forces", fieldsOf);
+    const Json forces = emitterSchema()["properties"]["forces"];
+    probeMembers("emitters", only(forces, {"gustPeriod"}, false), kLeast, "/forces", fieldsOf);
+    probeMembers("emitters", only(forces, {"gustPeriod"}), with(kLeast, {{"forces", {{"gust", {1, 2, 3}}}}}),
+                 "/forces", fieldsOf);
+    const Json members = forces["properties"];
+    probeArray(members, "/forces/vortices", {{"radius", 2}, {"speed", 3}, {"pull", 1}}, {"speed", "pull"});
+    probeArray(members, "/forces/vortices", {{"radius", 2}}, {"position", "axis"});
+    probeArray(members, "/forces/attractors", {{"strength", 5}}, {"reach"});
+    probeArray(members, "/forces/conform", {{"stiffness", 9}}, {"cellSize", "shape", "reach"});
+    for (const char* where : {"/forces/attractors", "/forces/conform"}) { // nothing of the cloud is that far
+        Json near = kLeast;
+        near[Json::json_pointer(where)] = {{{"strength", 5}, {"reach", 1}}};
+        if (std::string(where) == "/forces/conform")
+            near[Json::json_pointer(where)] = {{{"stiffness", 9}, {"reach", 1}}};
+        Json far = near;
+        far[Json::json_pointer(where)][0]["reach"] = 0;
+        EXPECT_NE(load("emitters", near, fieldsOf), load("emitters", far, fieldsOf)) << where;
+    }
+}
+
+TEST(EmitterMembers, eachMemberOfObstaclesAndOfTheAppearanceIsRead)
+{
+    const Json members = emitterSchema()["properties"];
+    probeArray(members, "/collisions", {{"shape", "plane"}}, {"shape", "size", "hollow", "cellSize"});
+    probeArray(members, "/collisions", {{"shape", "box"}, {"size", 2.5}}, {"shape", "size", "cellSize"});
+    probeArray(
+        members, "/collisions", {{"shape", "box"}, {"position", {0, -1, 0}}},
+        {"shape", "position", "axis", "hollow", "margin", "cellSize", "response", "bounce", "friction"});
+    for (const char* shape : {"plane", "sphere", "box", "ground", "scene", "hook"})
+        EXPECT_EQ(emitterWith({{"collisions", {{{"shape", shape}}}}}).modules.size(), 1u) << shape;
+    probeMembers("emitters", members["appearance"], kLeast, "/appearance", fieldsOf);
+}
+
+TEST(EmitterMembers, bounceJoinsTheOtherObstacles)
+{
+    const EmitterDef e = emitterWith({{"collisions", {{{"shape", "plane"}}}}, {"forces", {{"bounce", 0.5}}}});
+    ASSERT_EQ(e.modules.size(), 1u);
+    EXPECT_TRUE(e.modules[0]->collides());
+    EXPECT_LT(e.forces.bounce, 0.0f);
+    EXPECT_TRUE(emitterWith({{"forces", {{"bounce", 0.5}}}}).modules.empty());
+}
+
+TEST(EmitterMembers, whatASchemaCannotForbidIsAnErrorWithItsPlace)
+{
+    const auto messageOf = [](const Json& members, const Json& emission) {
+        Json element = members;
+        element["emission"] = emission;
+        const Json document{{"version", 1}, {"emitters", Json::array({element})}};
+        const auto loaded = fx::preset::loadPresetText(document.dump(), "t");
+        return loaded.ok() ? std::string("none") : loaded.status().message();
+    };
+    const Json rate{{"rate", 1}};
+    const auto expectError = [&](const Json& members, const Json& emission, const char* where) {
+        EXPECT_NE(messageOf(members, emission).find(where), std::string::npos)
+            << messageOf(members, emission);
+    };
+    expectError({{"axis", {0, 0, 0}}}, rate, "axis");
+    expectError({{"shape", "torus"}, {"size", 1}, {"tube", 2}}, rate, "tube");
+    expectError({{"shape", "spline"}}, rate, "points");
+    expectError({{"shape", "mesh"}}, rate, "file");
+    expectError({{"shape", "volume"}, {"file", "a.fxgrid"}}, rate, "no folder");
+    expectError(Json::object(), {{"rate", 1}, {"rateOverTime", {{"keys", {{0, 1}, {1, 2}}}}}}, "duration");
+    expectError(Json::object(), {{"bursts", {{{"time", 0}, {"count", 1}, {"cycles", 2}}}}}, "interval");
+    expectError({{"collisions", {{{"shape", "heights"}}}}}, rate, "file");
+    expectError({{"forces", {{"vectorFields", {{{"file", "x"}}}}}}}, rate, "no folder");
+}
+
+TEST(EmitterMembers, burstsRepeatAndCountTowardsTheCapacity)
+{
+    const Json burst{{"time", 0}, {"count", 4}, {"cycles", 5}, {"interval", 0.25}, {"probability", 0.5}};
+    const EmitterDef e = emitterWith({}, {{"bursts", {burst}}});
+    EXPECT_EQ(e.emission.bursts.at(0).cycles, 5u);
+    EXPECT_FLOAT_EQ(e.emission.bursts[0].interval, 0.25f);
+    EXPECT_FLOAT_EQ(e.emission.bursts[0].probability, 0.5f);
 }
 
 TEST(EmitterMembers, emissionHoldsForEverUnlessADurationIsGiven)

@@ -117,7 +117,7 @@ TEST(SchemaExplainer, saysWhatIsAllowedInWords)
 {
     const Json emitter = presetSchema()["properties"]["emitters"]["items"]["properties"];
     EXPECT_EQ(allowedText(emitter["angleDegrees"]), "a number from 0 to 180 [degree]");
-    EXPECT_EQ(allowedText(emitter["maxParticles"]), "a whole number from 1 to 200000");
+    EXPECT_EQ(allowedText(emitter["maxParticles"]), "a whole number from 1 to 16777216");
     EXPECT_EQ(allowedText(emitter["layer"]), "one of \"fire\", \"smoke\", \"dust\"");
     EXPECT_EQ(allowedText(emitter["position"]), "[x, y, z] with numbers from -10000 to 10000 [m]");
     EXPECT_EQ(allowedText(emitter["lifetime"]),

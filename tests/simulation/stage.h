@@ -5,6 +5,7 @@
 #include "foundation/memory/host_memory.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/frame_snapshot.h"
+#include "foundation/snapshot/particle_kind.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/world.h"
 
@@ -71,14 +72,15 @@ public:
     const sim::StepCounters& counters() const { return counters_; }
 
 private:
-    static base::SnapshotSchema blobs()
+    static base::SnapshotSchema kinds()
     {
         base::SnapshotSchema schema;
         schema.add(base::kBlobKind);
+        schema.add(base::kParticleKind);
         return schema;
     }
 
-    base::SnapshotSchema schema_ = blobs();
+    base::SnapshotSchema schema_ = kinds();
     base::HostMemory memory_;
     std::unique_ptr<base::TaskRunner> tasks_;
     sim::World world_;

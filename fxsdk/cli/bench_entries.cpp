@@ -1,0 +1,67 @@
+#include "fxsdk/cli/bench_entry.h"
+
+#include "fxsdk/cli/bench_rows.h"
+
+#include <array>
+#include <cstdio>
+
+namespace fx::cli {
+namespace {
+
+constexpr std::array<std::string_view, 3> kParticleVariants{"lean", "typical", "heavy"};
+constexpr std::array<std::string_view, 2> kManySmallVariants{"many", "few"};
+
+constexpr std::array<BenchEntry, 2> kEntries{{
+    {"particles", "One emitter: step it, publish the snapshot", kParticleVariants, benchParticles},
+    {"many-small", "The same number of particles in many small effects and in few", kManySmallVariants,
+     benchManySmall},
+}};
+
+std::string hexadecimal(uint64_t hash)
+{
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+} // namespace
+
+std::span<const BenchEntry> benchEntries()
+{
+    return kEntries;
+}
+
+const BenchEntry* findBenchEntry(std::string_view name)
+{
+    for (const BenchEntry& entry : kEntries)
+        if (entry.name == name)
+            return &entry;
+    return nullptr;
+}
+
+nlohmann::json toJson(const BenchRow& row)
+{
+    nlohmann::json json = row.more.is_object() ? row.more : nlohmann::json::object();
+    json["name"] = row.name;
+    json["variant"] = row.variant;
+    json["count"] = row.count;
+    json["ns_per_particle_median"] = row.medianNanoseconds;
+    json["ns_per_particle_p95"] = row.p95Nanoseconds;
+    json["bytes_per_particle"] = row.bytesPerParticle;
+    json["bandwidth_fraction"] = row.bandwidthFraction;
+    json["hash"] = hexadecimal(row.hash);
+    return json;
+}
+
+std::string toText(const BenchRow& row)
+{
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "%-10s %-8s %9llu particles  %8.3f ns (95 %%: %8.3f)  %5.1f bytes  %4.0f %% of a copy  %s",
+                  row.name.c_str(), row.variant.c_str(), static_cast<unsigned long long>(row.count),
+                  row.medianNanoseconds, row.p95Nanoseconds, row.bytesPerParticle,
+                  100.0 * row.bandwidthFraction, hexadecimal(row.hash).c_str());
+    return text;
+}
+
+} // namespace fx::cli

@@ -1,0 +1,56 @@
+/// @file bench_entry.h
+/// What fx bench can measure: one entry a name, each in a file of its own, listed in bench_entries.cpp.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fx::cli {
+
+/// What the command line asked for.
+struct BenchSettings
+{
+    uint64_t count = 0;   ///< elements, 0: what the entry is usually measured with
+    uint32_t threads = 1; ///< 0: as many as the machine has
+    uint32_t steps = 0;   ///< that are timed, 0: as many as take about a second
+    std::string variant;  ///< empty: all of the entry
+};
+
+/// One measurement.
+struct BenchRow
+{
+    std::string name;
+    std::string variant;
+    uint64_t count = 0;
+    double medianNanoseconds = 0; ///< [ns] a particle and step
+    double p95Nanoseconds = 0;    ///< [ns] 19 of 20 steps are not slower
+    double bytesPerParticle = 0;  ///< [byte] that have to be moved between memory and processor
+    double bandwidthFraction = 0; ///< [1] of what a copy reaches in the same run with as many threads
+    uint64_t hash = 0;            ///< of everything that was published
+    nlohmann::json more;          ///< other members of the line
+};
+
+struct BenchEntry
+{
+    std::string_view name;
+    std::string_view summary;
+    std::span<const std::string_view> variants;
+    /// @return one row a variant asked for; Interrupted after a signal
+    base::Result<std::vector<BenchRow>> (*run)(const BenchSettings& settings);
+};
+
+std::span<const BenchEntry> benchEntries();
+/// Null for an unknown name.
+const BenchEntry* findBenchEntry(std::string_view name);
+
+nlohmann::json toJson(const BenchRow& row);
+std::string toText(const BenchRow& row);
+
+} // namespace fx::cli

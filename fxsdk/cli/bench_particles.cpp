@@ -1,0 +1,77 @@
+#include "fxsdk/cli/bench_emitters.h"
+#include "fxsdk/cli/bench_rows.h"
+#include "fxsdk/cli/bench_stage.h"
+#include "fxsdk/cli/interrupt.h"
+
+#include <algorithm>
+
+namespace fx::cli {
+namespace {
+
+constexpr uint64_t kUsualCount = 40000;
+constexpr uint64_t kMostCount = 50'000'000;
+constexpr uint32_t kWarmSteps = uint32_t(kSteadyAfter * 60.0);
+
+uint32_t stepsFor(const BenchSettings& settings)
+{
+    if (settings.steps > 0)
+        return settings.steps;
+    return uint32_t(std::clamp<uint64_t>(200'000'000 / std::max<uint64_t>(settings.count, 1), 60, 2000));
+}
+
+base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view variant)
+{
+    const std::shared_ptr<const sim::EffectDef> effect = benchEffect(variant, uint32_t(settings.count));
+    BenchStage stage(settings.threads);
+    stage.add(effect, 1);
+    stage.play(kWarmSteps);
+    const uint64_t allocations = stage.allocations();
+    const uint32_t steps = stepsFor(settings);
+    for (uint32_t i = 0; i < steps; ++i) {
+        if (interruptRequested())
+            return base::Status{base::Code::Interrupted, "interrupted"};
+        stage.playTimed();
+    }
+    const double alive = double(std::max<uint64_t>(stage.particles(), 1));
+    const double bandwidth = copyGigabytes(stage.tasks());
+    BenchRow row;
+    row.name = "particles";
+    row.variant = variant;
+    row.count = settings.count;
+    row.medianNanoseconds = 1e9 * quantile(stage.times(), 0.5) / alive;
+    row.p95Nanoseconds = 1e9 * quantile(stage.times(), 0.95) / alive;
+    row.bytesPerParticle = bytesPerParticle(*effect);
+    row.bandwidthFraction = row.bytesPerParticle / row.medianNanoseconds / bandwidth;
+    row.hash = stage.hash();
+    row.more = {{"ns_per_particle_min", 1e9 * quantile(stage.times(), 0.0) / alive},
+                {"alive", uint64_t(alive)},
+                {"steps", steps},
+                {"dropped", stage.counters().dropped},
+                {"copy_gb_per_s", bandwidth},
+                {"allocations", stage.allocations() - allocations}};
+    return row;
+}
+
+} // namespace
+
+base::Result<std::vector<BenchRow>> benchParticles(const BenchSettings& asked)
+{
+    BenchSettings settings = asked;
+    if (settings.count == 0)
+        settings.count = kUsualCount;
+    if (settings.count > kMostCount)
+        return base::Status{base::Code::InvalidArgument,
+                            "--count: at most " + std::to_string(kMostCount) + " particles can be measured"};
+    std::vector<BenchRow> rows;
+    for (const std::string_view variant : findBenchEntry("particles")->variants) {
+        if (!settings.variant.empty() && settings.variant != variant)
+            continue;
+        base::Result<BenchRow> row = measure(settings, variant);
+        if (!row)
+            return row.status();
+        rows.push_back(std::move(*row));
+    }
+    return rows;
+}
+
+} // namespace fx::cli

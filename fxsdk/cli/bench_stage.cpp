@@ -1,0 +1,107 @@
+#include "fxsdk/cli/bench_stage.h"
+
+#include "foundation/math/hash.h"
+#include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/particle_kind.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <limits>
+
+namespace fx::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr base::Ticks kFrame = base::kTicksPerSecond / 60;
+constexpr size_t kCopyBytes = size_t(128) << 20;
+constexpr uint32_t kCopyParts = 64;
+
+base::SnapshotSchema allKinds()
+{
+    base::SnapshotSchema schema;
+    schema.add(base::kBlobKind);
+    schema.add(base::kParticleKind);
+    return schema;
+}
+
+double secondsSince(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+} // namespace
+
+BenchStage::BenchStage(uint32_t threads)
+    : schema_(allKinds()), tasks_(threads == 1 ? base::makeSerialRunner() : base::makeTbbRunner(threads)),
+      world_(&schema_, tasks_.get(), &memory_), ring_(&schema_, &memory_)
+{}
+
+void BenchStage::add(std::shared_ptr<const sim::EffectDef> effect, uint64_t seed)
+{
+    sim::InstanceStart start;
+    start.instance = slots_.size() + 1;
+    start.seed = seed;
+    slots_.push_back(world_.add(std::move(effect), start));
+}
+
+const base::FrameSnapshot& BenchStage::frame()
+{
+    counters_ += world_.step(slots_, now_, kFrame);
+    now_ += kFrame;
+    base::FrameSnapshot& snapshot = ring_.beginWrite(now_);
+    world_.publish(slots_, snapshot);
+    ring_.publish();
+    return snapshot;
+}
+
+void BenchStage::play(uint32_t steps)
+{
+    for (uint32_t i = 0; i < steps; ++i)
+        frame();
+}
+
+void BenchStage::playTimed()
+{
+    const Clock::time_point start = Clock::now();
+    const base::FrameSnapshot& snapshot = frame();
+    times_.push_back(secondsSince(start));
+    hash_ = base::hashWord(hash_, snapshot.hash());
+}
+
+uint64_t BenchStage::particles() const
+{
+    uint64_t count = 0;
+    for (const sim::Slot slot : slots_)
+        count += world_.elementCount(slot);
+    return count;
+}
+
+double copyGigabytes(base::TaskRunner& tasks)
+{
+    std::vector<char> from(kCopyBytes, 1);
+    std::vector<char> to(kCopyBytes, 2);
+    constexpr size_t kPart = kCopyBytes / kCopyParts;
+    double best = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 5; ++i) {
+        const Clock::time_point start = Clock::now();
+        tasks.parallelFor(kCopyParts, 1, [&](uint32_t begin, uint32_t end) {
+            std::memcpy(to.data() + begin * kPart, from.data() + begin * kPart, (end - begin) * kPart);
+        });
+        best = std::min(best, secondsSince(start));
+        from[size_t(i)] = to[kCopyBytes - 1];
+    }
+    return 2e-9 * double(kCopyBytes) / best;
+}
+
+double quantile(std::vector<double> times, double part)
+{
+    if (times.empty())
+        return 0;
+    const size_t place = std::min(size_t(part * double(times.size())), times.size() - 1);
+    std::nth_element(times.begin(), times.begin() + std::ptrdiff_t(place), times.end());
+    return times[place];
+}
+
+} // namespace fx::cli

@@ -1,0 +1,56 @@
+/// @file bench_stage.h
+/// A world that is stepped and published as a scene does it, with the time each frame took.
+#pragma once
+
+#include "foundation/memory/host_memory.h"
+#include "foundation/snapshot/snapshot_ring.h"
+#include "simulation/emitters/emitter_def.h"
+#include "simulation/world.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace fx::cli {
+
+/// Steps of 1/60 s into a ring of snapshots.
+class BenchStage
+{
+public:
+    explicit BenchStage(uint32_t threads);
+
+    void add(std::shared_ptr<const sim::EffectDef> effect, uint64_t seed);
+    /// Steps and publishes without a look at the clock.
+    void play(uint32_t steps);
+    /// The same, one frame: what it took is added to times(), and what was published to hash().
+    void playTimed();
+
+    const std::vector<double>& times() const { return times_; } ///< [s] of the timed frames
+    uint64_t hash() const { return hash_; }
+    uint64_t particles() const; ///< alive now
+    uint64_t allocations() const { return memory_.allocationCount(); }
+    base::TaskRunner& tasks() { return *tasks_; }
+    const sim::StepCounters& counters() const { return counters_; }
+
+private:
+    const base::FrameSnapshot& frame();
+
+    base::SnapshotSchema schema_;
+    base::HostMemory memory_;
+    std::unique_ptr<base::TaskRunner> tasks_;
+    sim::World world_;
+    base::SnapshotRing ring_;
+    std::vector<sim::Slot> slots_;
+    sim::StepCounters counters_;
+    base::Ticks now_ = 0;
+    std::vector<double> times_;
+    uint64_t hash_ = 0;
+};
+
+/// [GB/s] read and written by a copy far beyond the caches, with the threads of `tasks`.
+double copyGigabytes(base::TaskRunner& tasks);
+
+/// The value below which the share `part` of `times` lies.
+double quantile(std::vector<double> times, double part);
+
+} // namespace fx::cli

@@ -1,0 +1,95 @@
+#include "fxsdk/presets/emitter_parts_preset.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace fx::preset {
+
+namespace {
+
+template <class E, size_t N>
+using Names = std::array<std::pair<std::string_view, E>, N>;
+
+constexpr Names<sim::Appearance, 4> kKinds{{{"medium", sim::Appearance::Medium},
+                                            {"sprite", sim::Appearance::Sprite},
+                                            {"mesh", sim::Appearance::Mesh},
+                                            {"none", sim::Appearance::None}}};
+constexpr Names<base::ParticleBlend, 3> kBlends{{{"alpha", base::ParticleBlend::Alpha},
+                                                 {"additive", base::ParticleBlend::Additive},
+                                                 {"opaque", base::ParticleBlend::Opaque}}};
+constexpr Names<base::ParticleOrder, 4> kOrders{{{"none", base::ParticleOrder::None},
+                                                 {"depth", base::ParticleOrder::Depth},
+                                                 {"oldest", base::ParticleOrder::Oldest},
+                                                 {"youngest", base::ParticleOrder::Youngest}}};
+constexpr Names<base::SpriteAlignment, 4> kAlignments{{{"camera", base::SpriteAlignment::Camera},
+                                                       {"velocity", base::SpriteAlignment::Velocity},
+                                                       {"axis", base::SpriteAlignment::Axis},
+                                                       {"plane", base::SpriteAlignment::Plane}}};
+constexpr Names<sim::FrameClock, 3> kClocks{{{"none", sim::FrameClock::None},
+                                             {"over-life", sim::FrameClock::OverLife},
+                                             {"per-second", sim::FrameClock::PerSecond}}};
+
+template <class E, size_t N>
+void readName(const PresetValue& value, const char* member, const Names<E, N>& names, E& out)
+{
+    value.read(member, std::span<const std::pair<std::string_view, E>>(names), out);
+}
+
+void readDegrees(const PresetValue& value, const char* member, base::Range& out)
+{
+    constexpr float kRadians = std::numbers::pi_v<float> / 180.0f;
+    base::Range degrees;
+    value.read(member, degrees);
+    out = {degrees.min * kRadians, degrees.max * kRadians};
+}
+
+void readFrames(const PresetValue& value, sim::EmitterLook& out)
+{
+    value.read("tileColumns", out.tileColumns);
+    value.read("tileRows", out.tileRows);
+    value.read("frameBlend", out.frameBlend);
+    value.read("motionScale", out.motionScale);
+    readName(value, "frames", kClocks, out.frames);
+    value.read("framesPerSecond", out.framesPerSecond);
+    value.read("firstFrame", out.firstFrame);
+}
+
+void readColors(const PresetValue& value, sim::EmitterLook& out)
+{
+    value.read("colorOverLife", out.colorOverLife);
+    value.read("opacity", out.opacity);
+    value.read("brightness", out.brightness);
+    value.read("fastest", out.fastest);
+    value.read("colorOverSpeed", out.colorOverSpeed);
+    value.read("sizeOverSpeed", out.sizeOverSpeed);
+    value.read("opacityOverSpeed", out.opacityOverSpeed);
+}
+
+} // namespace
+
+void readEmitterLook(const PresetValue& appearance, sim::EmitterLook& out)
+{
+    readName(appearance, "kind", kKinds, out.kind);
+    readName(appearance, "blend", kBlends, out.blend);
+    readName(appearance, "order", kOrders, out.order);
+    appearance.read("orderBias", out.orderBias);
+    readName(appearance, "alignment", kAlignments, out.alignment);
+    appearance.read("axis", out.axis);
+    const float size = std::sqrt(out.axis.x * out.axis.x + out.axis.y * out.axis.y + out.axis.z * out.axis.z);
+    if (size > 0.0f)
+        out.axis /= size;
+    else
+        appearance.error("axis", "found an axis without length; any other direction is allowed");
+    appearance.read("aspect", out.aspect);
+    appearance.read("stretch", out.stretch);
+    appearance.read("luminance", out.luminance);
+    appearance.read("lit", out.lit);
+    appearance.read("softness", out.softness);
+    readFrames(appearance, out);
+    readColors(appearance, out);
+    readDegrees(appearance, "angleDegrees", out.angle);
+    readDegrees(appearance, "spinDegrees", out.spin);
+}
+
+} // namespace fx::preset

@@ -1,0 +1,31 @@
+/// @file emitter_parts_preset.h
+/// Reads the parts of one element of a preset's "emitters". Each adds findings for what its schema cannot
+/// forbid; what a finding is about is then left out of the emitter.
+#pragma once
+
+#include "fxsdk/presets/preset_value.h"
+#include "simulation/collision/distance_field.h"
+#include "simulation/emitters/emitter_def.h"
+#include "simulation/particles/fields/field_grid.h"
+
+#include <memory>
+
+namespace fx::preset {
+
+/// shape, position, size, ...: EmitterDef::shape and its fellows, or EmitterDef::births for what those lack.
+void readEmitterShape(const PresetValue& element, sim::EmitterDef& emitter);
+/// rate, bursts, ... @return births that can be alive at once
+double readEmitterEmission(const PresetValue& emission, float longestLife, sim::Emission& out);
+/// forces and collisions; modules in the order gusts, drag, vortices, attractors, fields, surfaces,
+/// obstacles.
+void readEmitterForces(const PresetValue& element, sim::EmitterDef& emitter);
+/// appearance
+void readEmitterLook(const PresetValue& appearance, sim::EmitterLook& out);
+
+// Assets that members name; null after a finding.
+std::shared_ptr<const sim::FieldGrid> readGrid(const PresetValue& value, const char* member,
+                                               uint32_t channels);
+/// Distances to the mesh of `file`, in cells of `cellSize`.
+std::shared_ptr<const sim::DistanceField> readMeshField(const PresetValue& value);
+
+} // namespace fx::preset

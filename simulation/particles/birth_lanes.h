@@ -1,0 +1,57 @@
+/// @file birth_lanes.h
+/// Random numbers and places of a tile of births, once for each instruction set.
+///
+/// @formula birth-lanes
+/// birth-shapes for ball, disc and cone of directions, in single precision, lane by lane.
+///
+/// symbol   unit   meaning
+///   u1..u4  1      independent uniform numbers in [0, 1)
+///   y       1      approximation of u3^(1/3)
+/// @derivation
+///   direction and radius as in birth-shapes; sine and cosine of the azimuth from u2 turns         (1)
+///   A third of the bit pattern of u3 is a guess of its cube root within 6 %, which two steps of
+///   Halley's iteration y (y^3 + 2 u) / (2 y^3 + u) bring to float rounding                       (2)
+/// @source    elementary; [MUL16] for bit-pattern guesses
+/// @deviation none
+/// @valid     u3 = 0 gives the center
+/// @accuracy  4e-7 of the size of the shape; directions have unit length within 4e-7
+/// @tests     tests/simulation/particles/core/test_birth_kernel.cpp
+#pragma once
+
+#include "simulation/particles/tile.h"
+
+#include <cstdint>
+
+namespace fx::sim {
+
+/// Working columns of up to kTileRows births; rows up to the next multiple of kTilePadding are written too.
+struct alignas(64) BirthTile
+{
+    float u[4][kTileRows];       ///< [1] the last random numbers that were drawn
+    float heading[4][kTileRows]; ///< [1] random numbers for directions
+    float position[3][kTileRows];
+    float direction[3][kTileRows];
+    float value[kTileRows];
+    uint32_t indexLow[kTileRows];
+    uint32_t indexHigh[kTileRows];
+    uint32_t count;
+};
+
+/// Four uniform numbers for each birth, as base::randomUnit4.
+void drawUnits(const BirthTile& tile, uint64_t seed, uint32_t solver, uint32_t purpose,
+               float (*out)[kTileRows]);
+
+enum class LaneShape : uint8_t
+{
+    Point,
+    Ball,
+    Box,
+    Cone
+};
+
+/// Fills position (relative to the shape's center) and direction from u and heading.
+/// @param size as EmitterDef::size
+/// @param cosLimit cosine of the cone's half angle
+void sampleShape(LaneShape shape, const glm::vec3& size, float cosLimit, BirthTile& tile);
+
+} // namespace fx::sim

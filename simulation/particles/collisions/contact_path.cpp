@@ -1,0 +1,169 @@
+#include "simulation/particles/collisions/contact_path.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fx::sim {
+
+namespace {
+
+constexpr int kMostPushes = 4;
+constexpr float kSlowShare = 1.0f / 1024; ///< of the speed that the rest of the step takes away
+
+/// [m] how far above an obstacle a particle goes on, so that rounding does not put it inside.
+float liftAt(const glm::vec3& p)
+{
+    const glm::vec3 size = glm::abs(p);
+    return std::max(std::max(size.x, std::max(size.y, size.z)) * 0x1p-20f, 1e-6f);
+}
+
+void removeInward(glm::vec3& io, const glm::vec3& n)
+{
+    io -= std::min(glm::dot(io, n), 0.0f) * n;
+}
+
+/// Follows one particle from contact to contact.
+class Follower
+{
+public:
+    Follower(std::span<const ObstacleEntry> obstacles, const StepContext& step, const glm::vec3& from,
+             const ContactState& state, float seconds)
+        : obstacles_(obstacles), step_(step), state_(state), total_(seconds)
+    {
+        const glm::vec3 mean = (state.position - from) / seconds;
+        leg_ = {from, state.position, 2.0f * mean - state.velocity, {}, seconds};
+        leg_.acceleration = (state.velocity - leg_.velocity) / seconds; // (1)
+    }
+
+    ContactState follow()
+    {
+        pushOut(leg_.from);
+        for (int contacts = 0; contacts <= kMostContacts; ++contacts) {
+            const ObstacleEntry* met = nullptr;
+            const LegContact contact = firstContact(met);
+            if (!met)
+                return finish();
+            touch(contact);
+            if (answer(*met, contact, contacts))
+                return state_;
+        }
+        return stop(leg_.from);
+    }
+
+private:
+    LegContact firstContact(const ObstacleEntry*& outMet) const
+    {
+        LegContact first;
+        for (const ObstacleEntry& entry : obstacles_) {
+            if (!entry.obstacle->isThere(step_))
+                continue;
+            const LegContact contact = entry.obstacle->meet(step_, leg_);
+            if (contact.found && (!outMet || contact.share < first.share)) {
+                first = contact;
+                outMet = &entry;
+            }
+        }
+        return first;
+    }
+
+    void touch(const LegContact& contact)
+    {
+        const float spent = total_ - leg_.seconds + contact.share * leg_.seconds;
+        if (!state_.isHit)
+            state_.contact = std::clamp(spent / total_, 0.0f, 1.0f);
+        state_.isHit = true;
+    }
+
+    /// @return true when the way ends here
+    bool answer(const ObstacleEntry& met, const LegContact& contact, int contacts)
+    {
+        const float spent = contact.share * leg_.seconds;
+        glm::vec3 velocity = leg_.velocity + spent * leg_.acceleration;
+        const glm::vec3 place = contact.place + liftAt(contact.place) * contact.normal;
+        if (met.response != ContactResponse::Bounce) {
+            state_.isKilled = met.response == ContactResponse::Kill;
+            state_.isStuck = met.response == ContactResponse::Stick;
+            stop(contact.place);
+            if (state_.isKilled)
+                state_.velocity = velocity;
+            return true;
+        }
+        const float approach = glm::dot(velocity, contact.normal);
+        if (approach < 0.0f)
+            velocity = (1.0f - met.friction) * (velocity - approach * contact.normal) -
+                       met.restitution * approach * contact.normal; // (2)
+        leg_.seconds -= spent;
+        const float sinking = -glm::dot(leg_.acceleration, contact.normal) * leg_.seconds;
+        const float leaving = glm::dot(velocity, contact.normal);
+        if (contacts + 2 >= kMostContacts || kSlowShare * sinking > leaving) { // (3)
+            velocity -= leaving * contact.normal;
+            removeInward(leg_.acceleration, contact.normal);
+        }
+        leg_.from = place;
+        leg_.velocity = velocity;
+        leg_.to = leg_.at(leg_.seconds);
+        if (leg_.seconds > 0.0f)
+            return false;
+        finish();
+        return true;
+    }
+
+    ContactState stop(const glm::vec3& place)
+    {
+        state_.position = place;
+        state_.velocity = glm::vec3(0.0f);
+        return state_;
+    }
+
+    ContactState finish()
+    {
+        state_.position = leg_.to;
+        state_.velocity = leg_.velocity + leg_.seconds * leg_.acceleration;
+        if (!pushOut(state_.position))
+            state_.position = leg_.from; // (4)
+        return state_;
+    }
+
+    /// Moves a place out of matter. @return false when it is still inside
+    bool pushOut(glm::vec3& io) const
+    {
+        bool isOut = false;
+        for (int k = 0; k < kMostPushes && !isOut; ++k) {
+            isOut = true;
+            for (const ObstacleEntry& entry : obstacles_) {
+                if (!entry.obstacle->isThere(step_))
+                    continue;
+                const Clearance c = entry.obstacle->clearance(step_, io);
+                if (!(c.distance < 0.0f))
+                    continue;
+                io += (liftAt(io) - c.distance) * c.normal;
+                isOut = false;
+            }
+        }
+        return isOut || !isInside(io);
+    }
+    bool isInside(const glm::vec3& p) const
+    {
+        return std::any_of(obstacles_.begin(), obstacles_.end(), [&](const ObstacleEntry& entry) {
+            return entry.obstacle->isThere(step_) && entry.obstacle->clearance(step_, p).distance < 0.0f;
+        });
+    }
+
+    std::span<const ObstacleEntry> obstacles_;
+    const StepContext& step_;
+    ContactState state_;
+    ContactLeg leg_{};
+    float total_;
+};
+
+} // namespace
+
+ContactState followPath(std::span<const ObstacleEntry> obstacles, const StepContext& step,
+                        const glm::vec3& from, const ContactState& state, float seconds)
+{
+    return Follower(obstacles, step, from, state, seconds).follow();
+}
+
+} // namespace fx::sim

@@ -1,0 +1,88 @@
+/// @file color_lanes-inl.h
+/// Four floats a particle to four binary16 in 64 bits. Included once for each instruction set.
+///
+/// @formula half-floats
+/// A float in [0, 65504] to binary16, to nearest, ties to even, as the conversion instruction does it.
+///
+/// symbol   unit   meaning
+///   b       1      bit pattern of the float
+///   h       1      bit pattern of the binary16
+/// @derivation
+///   For normal results the exponent is rebased and 13 bits of the mantissa are rounded away:
+///       h = (b - (112 << 23) + 0xFFF + ((b >> 13) & 1)) >> 13                               (1)
+///   Below 2^-14 the addition of 1/2 rounds to a multiple of 2^-24, which ends up in the low bits:
+///       h = bits(x + 1/2) - bits(1/2)                                                        (2)
+/// @source    elementary
+/// @deviation none
+/// @valid     other values are clamped to the interval; NaN becomes 0
+/// @accuracy  correctly rounded; equal bits with and without the instruction
+/// @tests     tests/simulation/particles/core/test_look_kernel.cpp
+#if defined(FX_PARTICLE_COLOR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef FX_PARTICLE_COLOR_LANES_INL
+#undef FX_PARTICLE_COLOR_LANES_INL
+#else
+#define FX_PARTICLE_COLOR_LANES_INL
+#endif
+
+#include "simulation/particles/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fx::sim::particles::HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+using WideTag = hn::CappedTag<uint64_t, 1>;
+#else
+using WideTag = hn::RepartitionToWide<WordTag>;
+#endif
+constexpr WideTag kWides;
+
+/// The binary16 of each lane in the low half of a word.
+HWY_INLINE Words halfWords(Floats x)
+{
+    const Floats bounded = hn::Min(hn::Max(x, hn::Zero(kFloats)), all(65504.0f));
+#if HWY_TARGET <= HWY_AVX2
+    const hn::Rebind<hwy::float16_t, FloatTag> halves;
+    const hn::Rebind<uint16_t, FloatTag> shorts;
+    return hn::PromoteTo(kWords, hn::BitCast(shorts, hn::DemoteTo(halves, bounded)));
+#else
+    const Words bits = hn::BitCast(kWords, bounded);
+    const Words even = hn::And(hn::ShiftRight<13>(bits), hn::Set(kWords, 1u));
+    const Words normal = hn::ShiftRight<13>(
+        hn::Add(hn::Add(hn::Sub(bits, hn::Set(kWords, 112u << 23)), hn::Set(kWords, 0xFFFu)), even));   // (1)
+    const Words small = hn::Sub(hn::BitCast(kWords, bounded + all(0.5f)), hn::Set(kWords, 126u << 23)); // (2)
+    return hn::IfThenElse(hn::RebindMask(kWords, hn::Lt(bounded, all(0x1p-14f))), small, normal);
+#endif
+}
+
+/// The colors of kWidth particles; with one lane all of them in `low`.
+struct ColorLanes
+{
+    hn::Vec<WideTag> low;
+    hn::Vec<WideTag> high;
+};
+
+HWY_INLINE ColorLanes packColor(Which alive, const Floats* rgb, Floats opacity)
+{
+    Words redGreen = hn::Or(halfWords(rgb[0]), hn::ShiftLeft<16>(halfWords(rgb[1])));
+    Words blueOpacity = hn::Or(halfWords(rgb[2]), hn::ShiftLeft<16>(halfWords(opacity)));
+    const auto which = hn::RebindMask(kWords, alive);
+    redGreen = hn::IfThenElseZero(which, redGreen);
+    blueOpacity = hn::IfThenElseZero(which, blueOpacity);
+#if HWY_TARGET == HWY_SCALAR
+    const auto color =
+        hn::Set(kWides, uint64_t(hn::GetLane(redGreen)) | uint64_t(hn::GetLane(blueOpacity)) << 32);
+    return {color, color};
+#else
+    const hn::Half<WordTag> half;
+    const auto join = [&](auto rg, auto ba) HWY_ATTR {
+        return hn::Or(hn::PromoteTo(kWides, rg), hn::ShiftLeft<32>(hn::PromoteTo(kWides, ba)));
+    };
+    return {join(hn::LowerHalf(half, redGreen), hn::LowerHalf(half, blueOpacity)),
+            join(hn::UpperHalf(half, redGreen), hn::UpperHalf(half, blueOpacity))};
+#endif
+}
+
+} // namespace fx::sim::particles::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,74 @@
+/// @file field_grid.h
+/// Numbers on the nodes of a regular grid: densities, heights and velocities that files bring.
+///
+/// A file `*.fxgrid` is a text header and the numbers behind it:
+///     fxgrid 1
+///     nodes NX NY NZ      1..4096 each, at most 2^24 together
+///     channels C          1 or 3 numbers a node
+///     low X Y Z           [m] the first node
+///     cell X Y Z          [m] between neighboring nodes, > 0
+///     data                and a line feed
+///     NX * NY * NZ * C binary32 numbers, little endian; channels run fastest, then x, y, z
+/// The members stand in this order, separated by blanks, each on a line that ends with a line feed.
+///
+/// @formula trilinear-vectors
+/// Numbers between the nodes of a grid.
+///
+/// symbol   unit   meaning
+///   p        m      place
+///   o, h     m      first node and distance of nodes, along each axis
+///   g        1      place in cells
+///   u        1      place within the cell, 0..1
+///   fi, wi   any, 1 numbers at the eight corners and their weights
+/// @derivation
+///   g = (p - o) / h, the cell is floor(g), at most the last one; u = g - floor(g)           (1)
+///   wi is the product of u or 1 - u over the axes; f = sum of wi fi                         (2)
+/// @source    elementary
+/// @deviation none
+/// @valid     0 <= g <= n - 1 on each axis; an axis of one node has no extent and is constant
+/// @accuracy  fields that are linear in space come out within float rounding
+/// @tests     tests/simulation/particles/modules/test_field_grid.cpp
+#pragma once
+
+#include "foundation/math/geometry.h"
+#include "foundation/result/status.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fx::sim {
+
+constexpr uint32_t kMostGridNodesOfAxis = 4096;
+constexpr size_t kMostGridNodes = size_t(1) << 24;
+constexpr uint64_t kMostGridBytes = uint64_t(kMostGridNodes) * 12 + 1024; ///< of a file
+
+/// Immutable once it is shared. Any thread.
+struct FieldGrid
+{
+    glm::uvec3 nodes{1u};
+    uint32_t channels = 1;
+    glm::vec3 low{0.0f};  ///< [m] first node
+    glm::vec3 cell{1.0f}; ///< [m] > 0
+    std::vector<float> values;
+
+    size_t count() const { return size_t(nodes.x) * nodes.y * nodes.z; }
+    size_t index(uint32_t x, uint32_t y, uint32_t z) const
+    {
+        return channels * (x + size_t(nodes.x) * (y + size_t(nodes.y) * z));
+    }
+    glm::vec3 high() const { return low + cell * glm::vec3(nodes - 1u); } ///< [m] last node
+};
+
+/// @return Parse (with the place in bytes), TooLarge, InvalidArgument (a number is not finite)
+base::Result<std::shared_ptr<const FieldGrid>> parseFieldGrid(std::string_view bytes);
+
+/// The bytes of a file that parseFieldGrid() reads as `grid`.
+std::string writeFieldGrid(const FieldGrid& grid);
+
+} // namespace fx::sim

@@ -1,0 +1,114 @@
+/// @formula attraction
+/// Acceleration towards a point.
+///
+/// symbol   unit   meaning
+///   d       m      way from the particle to the point
+///   e       m      softening
+///   S, R    m/s2, m strength, and the distance that has it
+///   n       1      -1 spring, 0 constant, 1 inverse, 2 inverse square
+/// @derivation
+///   s = (d^2 + e^2)^(1/2), a = S R^n d / s^(n+1)                                            (1)
+///   which is the gradient of a potential, so that energy is kept where steps are short.
+/// @source    elementary
+/// @deviation none
+/// @valid     R > 0; at the point itself a = 0
+/// @accuracy  float rounding
+/// @tests     tests/simulation/particles/modules/test_forces.cpp
+#include "simulation/particles/forces/force_ops.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simulation/particles/forces/attractor_op.cpp"
+#include <hwy/foreach_target.h> // before everything that is compiled for each target
+
+#include "foundation/simd/instruction_set.h"
+#include "simulation/particles/forces/tile_lanes-inl.h"
+
+#include <algorithm>
+#include <limits>
+
+HWY_BEFORE_NAMESPACE();
+namespace fx::sim::modules::HWY_NAMESPACE {
+namespace {
+
+/// 1 / s^(n+1)
+template <Falloff F>
+HWY_INLINE Float slope(Float squared)
+{
+    if constexpr (F == Falloff::Spring)
+        return all(1.0f);
+    if constexpr (F == Falloff::Constant)
+        return hn::Div(all(1.0f), hn::Sqrt(squared));
+    if constexpr (F == Falloff::Inverse)
+        return hn::Div(all(1.0f), squared);
+    return hn::Div(all(1.0f), hn::Mul(squared, hn::Sqrt(squared)));
+}
+
+template <Falloff F>
+void attract(const AttractorDef& def, float factor, Tile& tile)
+{
+    const Float3 center = all(def.position);
+    const Float softening = all(std::max(def.softening * def.softening, 1e-12f));
+    const float reach = def.reach > 0.0f ? def.reach * def.reach : std::numeric_limits<float>::max();
+    for (uint32_t i = 0; i < tile.padded; i += uint32_t(hn::Lanes(Floats()))) {
+        const Float3 d = minus(center, loadPosition(tile, i));
+        const Float dd = dot(d, d);
+        const Float share = hn::Mul(all(factor), slope<F>(hn::Add(dd, softening))); // (1)
+        addAcceleration(tile, i, times(d, hn::IfThenElseZero(hn::Le(dd, all(reach)), share)));
+    }
+}
+
+void runAttractor(const AttractorDef& def, Tile& tile)
+{
+    const float s = def.strength, r = def.radius;
+    switch (def.falloff) {
+    case Falloff::Spring:
+        return attract<Falloff::Spring>(def, s / r, tile);
+    case Falloff::Constant:
+        return attract<Falloff::Constant>(def, s, tile);
+    case Falloff::Inverse:
+        return attract<Falloff::Inverse>(def, s * r, tile);
+    case Falloff::InverseSquare:
+        return attract<Falloff::InverseSquare>(def, s * r * r, tile);
+    }
+}
+
+} // namespace
+} // namespace fx::sim::modules::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fx::sim {
+
+namespace modules {
+namespace {
+HWY_EXPORT(runAttractor);
+}
+} // namespace modules
+
+namespace {
+
+class AttractorOp final : public TileOp
+{
+public:
+    explicit AttractorOp(const AttractorDef& def) : def_(def) { def_.radius = std::max(def.radius, 1e-4f); }
+    TilePhase phase() const override { return TilePhase::Force; }
+    void run(const TileContext&, const void*, Tile& tile) const override
+    {
+        base::applyInstructionSetLimit();
+        using namespace modules;
+        HWY_DYNAMIC_DISPATCH(runAttractor)(def_, tile);
+    }
+
+private:
+    AttractorDef def_;
+};
+
+} // namespace
+
+std::unique_ptr<TileOp> makeAttractorOp(const AttractorDef& def)
+{
+    return std::make_unique<AttractorOp>(def);
+}
+
+} // namespace fx::sim
+#endif

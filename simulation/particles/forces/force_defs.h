@@ -1,0 +1,85 @@
+/// @file force_defs.h
+/// What moves particles besides gravity, drag, wind and turbulence. All lengths in the instance's local
+/// space.
+#pragma once
+
+#include "simulation/collision/distance_field.h"
+#include "simulation/particles/fields/field_grid.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <memory>
+
+namespace fx::sim {
+
+/// Wind that comes and goes.
+struct GustDef
+{
+    glm::vec3 strength{0.0f}; ///< [m/s] most that each component gains or loses
+    float period = 1.0f;      ///< [s] between two turns, > 0
+};
+
+/// Air that turns around an axis: fastest at `radius`, like a rigid body inside and as 1 / r outside.
+struct VortexDef
+{
+    glm::vec3 position{0.0f};         ///< [m] a point of the axis
+    glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< of any length > 0; right-handed turning
+    float radius = 1.0f;              ///< [m] > 0
+    float speed = 0.0f;               ///< [m/s] of the air at `radius`
+    float lift = 0.0f;                ///< [m/s] along the axis, at the axis
+    float pull = 0.0f;                ///< [m/s] towards the axis, at `radius`
+    float hold = 0.0f; ///< [1] 0..1 share of the acceleration that keeps a particle on its circle
+};
+
+/// How an attraction changes with distance.
+enum class Falloff : uint8_t
+{
+    Spring,        ///< grows as r
+    Constant,      ///< everywhere the same
+    Inverse,       ///< falls as 1 / r
+    InverseSquare, ///< falls as 1 / r^2
+};
+
+struct AttractorDef
+{
+    glm::vec3 position{0.0f}; ///< [m]
+    float strength = 0.0f;    ///< [m/s2] at the distance `radius`; negative repels
+    float radius = 1.0f;      ///< [m] > 0
+    Falloff falloff = Falloff::InverseSquare;
+    float softening = 0.0f;  ///< [m] >= 0, keeps the acceleration finite at the center
+    float reach = 0.0f;      ///< [m] nothing happens farther away; 0: everywhere
+    float killRadius = 0.0f; ///< [m] particles that come as near as that die; 0: none
+};
+
+struct VectorFieldDef
+{
+    std::shared_ptr<const FieldGrid> grid; ///< of three channels
+    glm::vec3 position{0.0f};              ///< [m] of the grid's own origin
+    float scale = 1.0f;                    ///< [1] > 0, of the grid's lengths
+    float strength = 1.0f;                 ///< [1] multiplies the vectors
+    bool isAcceleration = false;           ///< vectors are [m/s2]; otherwise velocities of the air [m/s]
+};
+
+/// What a distance is measured to.
+enum class SurfaceKind : uint8_t
+{
+    Sphere,
+    Box,
+    Mesh,
+};
+
+/// Particles are drawn to a surface as by a damped spring.
+struct ConformDef
+{
+    SurfaceKind kind = SurfaceKind::Sphere;
+    glm::vec3 position{0.0f};                   ///< [m] center, or of the mesh's own origin
+    glm::vec3 size{1.0f};                       ///< [m] radius (x) or half extents
+    std::shared_ptr<const DistanceField> field; ///< of the mesh
+    float distance = 0.0f;                      ///< [m] kept from the surface, negative inside
+    float stiffness = 0.0f;                     ///< [1/s2] >= 0
+    float damping = 0.0f;                       ///< [1/s] >= 0, of the velocity along the normal
+    float reach = 0.0f;                         ///< [m] nothing happens farther away; 0: everywhere
+};
+
+} // namespace fx::sim

@@ -1,0 +1,24 @@
+/// @file force_ops.h
+/// The forces of force_defs.h as modules of a tile. Each file of this folder has the formula of its own.
+#pragma once
+
+#include "simulation/particles/forces/force_defs.h"
+#include "simulation/particles/tile.h"
+
+#include <memory>
+
+namespace fx::sim {
+
+std::unique_ptr<TileOp> makeGustOp(const GustDef& def);
+/// @param coefficient [1/m] >= 0: acceleration -q |v - u| (v - u) against the air
+std::unique_ptr<TileOp> makeQuadraticDragOp(float coefficient);
+std::unique_ptr<TileOp> makeVortexOp(const VortexDef& def);
+/// Its kill radius is a sphere for makeCollisionOp() to kill at.
+std::unique_ptr<TileOp> makeAttractorOp(const AttractorDef& def);
+std::unique_ptr<TileOp> makeVectorFieldOp(const VectorFieldDef& def);
+std::unique_ptr<TileOp> makeConformOp(const ConformDef& def);
+
+/// Between -1 and 1, smooth in `phase`, 0 on average; `axis` 0..2 are independent of each other.
+float gustNoise(uint64_t seed, uint32_t solverIndex, double phase, int axis);
+
+} // namespace fx::sim

@@ -1,0 +1,147 @@
+/// @file motion_lanes-inl.h
+/// Where particles are at a moment, and curves over their lives. Included once for each instruction set.
+#if defined(FX_PARTICLE_MOTION_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef FX_PARTICLE_MOTION_LANES_INL
+#undef FX_PARTICLE_MOTION_LANES_INL
+#else
+#define FX_PARTICLE_MOTION_LANES_INL
+#endif
+
+#include "simulation/particles/lanes-inl.h"
+#include "simulation/particles/look_kernel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fx::sim::particles::HWY_NAMESPACE {
+
+/// An attribute that is stored, or is the same for all.
+struct Source
+{
+    const float* rows;
+    float constant;
+
+    HWY_INLINE Source(const ParticleStore& store, size_t column)
+        : rows(store.values[column].data()), constant(store.constant[column])
+    {}
+    HWY_INLINE Floats at(uint32_t row) const { return rows ? hn::Load(kFloats, rows + row) : all(constant); }
+};
+
+struct MotionLanes
+{
+    Floats position[3];
+    Floats velocity[3]; ///< only when asked for
+    Floats age;
+    Floats life; ///< [1] age / lifetime
+};
+
+/// Reads kWidth rows at a time.
+template <bool kBallistic, bool kBrief>
+class MotionReader
+{
+public:
+    explicit MotionReader(const LookJob& job)
+        : store_(*job.store), perLife_(store_, stored::PerLife), x_{{store_, stored::X},
+                                                                    {store_, stored::Y},
+                                                                    {store_, stored::Z}},
+          v_{store_.values[stored::VelocityX].data(), store_.values[stored::VelocityY].data(),
+             store_.values[stored::VelocityZ].data()},
+          now_(job.now), drag_(dragOf(job)), hasDrag_(drag_ > 0.0f), perDrag_(hasDrag_ ? 1.0f / drag_ : 0.0f),
+          pull_(job.pull), longest_(float(base::toSeconds(job.now - job.motionBegin)))
+    {
+        if (!store_.placed)
+            for (Source& source : x_)
+                source.rows = nullptr;
+    }
+
+    template <bool kVelocity>
+    HWY_INLINE MotionLanes read(uint32_t row) const
+    {
+        MotionLanes m;
+        if constexpr (kBrief)
+            m.age = secondsOf(store_.bornShort.data() + row, uint32_t(now_));
+        else
+            m.age = secondsOf(store_.born.data() + row, now_);
+        m.life = m.age * perLife_.at(row);
+        if constexpr (kBallistic) {
+            const Floats t = hn::Min(m.age, all(longest_));
+            const DragLanes step = hasDrag_ ? dragLanes(all(drag_), all(perDrag_), t) : freeLanes(t);
+            for (int a = 0; a < 3; ++a) {
+                const Floats v = hn::Load(kFloats, v_[a] + row);
+                m.position[a] = x_[a].at(row) + step.gain * v + step.ramp * all(pull_[a]); // (1)
+                if constexpr (kVelocity)
+                    m.velocity[a] = step.decay * v + step.gain * all(pull_[a]); // (2)
+            }
+        } else {
+            for (int a = 0; a < 3; ++a) {
+                m.position[a] = hn::Load(kFloats, x_[a].rows + row);
+                if constexpr (kVelocity)
+                    m.velocity[a] = hn::Load(kFloats, v_[a] + row);
+            }
+        }
+        return m;
+    }
+
+private:
+    static float dragOf(const LookJob& job)
+    {
+        const float drag = job.program->def.forces.drag;
+        return drag > 0.0f ? std::min(drag, 1e6f) : 0.0f;
+    }
+    static HWY_INLINE DragLanes freeLanes(Floats t) { return {all(1.0f), t, all(0.5f) * t * t}; }
+
+    const ParticleStore& store_;
+    Source perLife_;
+    Source x_[3];
+    const float* v_[3];
+    base::Ticks now_;
+    float drag_;
+    bool hasDrag_;
+    float perDrag_; ///< [s]
+    glm::vec3 pull_;
+    float longest_; ///< [s] that any particle has been moving
+};
+
+/// ramp-curves for the channels of one RampCurves at one place.
+class CurveLanes
+{
+public:
+    HWY_INLINE CurveLanes(const RampCurves& curves, Floats t) : curves_(curves), t_(t)
+    {
+        if (curves_.byTable) {
+            const Floats s = hn::Min(hn::Max(t, hn::Zero(kFloats)), all(1.0f)) * all(float(kLast));
+            const auto i = hn::Min(hn::ConvertTo(kInts, s), hn::Set(kInts, int32_t(kLast) - 1));
+            fraction_ = s - hn::ConvertTo(kFloats, i);
+            place_ = i;
+            return;
+        }
+        for (uint32_t k = 0; k < curves_.ramps; ++k)
+            ramp_[k] = hn::Max(t - all(curves_.at[k]), hn::Zero(kFloats));
+    }
+    HWY_INLINE Floats value(uint32_t channel) const
+    {
+        if (curves_.isConstant(channel))
+            return all(curves_.start[channel]);
+        if (curves_.byTable) {
+            const float* table = curves_.table[channel].data();
+            const Floats low = hn::GatherIndex(kFloats, table, place_);
+            return low + fraction_ * (hn::GatherIndex(kFloats, table + 1, place_) - low); // (2)
+        }
+        Floats sum = all(curves_.start[channel]) + all(curves_.slope[channel]) * t_; // (1)
+        for (uint32_t k = 0; k < curves_.ramps; ++k)
+            sum = sum + all(curves_.bend[channel][k]) * ramp_[k];
+        return sum;
+    }
+
+private:
+    static constexpr size_t kLast = base::kCurveSamples;
+
+    const RampCurves& curves_;
+    Floats t_;
+    Floats fraction_ = hn::Zero(kFloats);
+    hn::Vec<IntTag> place_ = hn::Zero(kInts);
+    Floats ramp_[kMostRamps];
+};
+
+} // namespace fx::sim::particles::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

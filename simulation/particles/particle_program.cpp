@@ -1,0 +1,129 @@
+#include "simulation/particles/particle_program.h"
+
+#include "simulation/particles/builtin_ops.h"
+
+#include <algorithm>
+
+namespace fx::sim {
+
+namespace {
+
+constexpr float kLongestLife = 1e9f;
+constexpr float kBrief = 3.0f; // [s] twice of it fits into 2^32 ticks
+
+bool varies(const base::Range& range)
+{
+    return range.max > range.min;
+}
+
+float longestLife(const EmitterDef& def)
+{
+    const float longest = varies(def.lifetime) ? def.lifetime.max : def.lifetime.min;
+    return longest > 0.0f ? std::min(longest, kLongestLife) : 0.0f;
+}
+
+bool isBallistic(const EmitterDef& def)
+{
+    return def.modules.empty() && def.forces.buoyancy == 0.0f && !(def.forces.curlStrength > 0.0f) &&
+           def.forces.bounce < 0.0f;
+}
+
+RampCurves lookCurves(const EmitterDef& def)
+{
+    const auto& color = def.look.colorOverLife;
+    return RampCurves(std::array{samplesOf(color, 0), samplesOf(color, 1), samplesOf(color, 2),
+                                 samplesOf(def.opacityOverLife, 0), samplesOf(def.sizeOverLife, 0)});
+}
+
+std::unique_ptr<RampCurves> speedCurves(const EmitterLook& look)
+{
+    if (!(look.fastest > 0.0f))
+        return nullptr;
+    const auto& color = look.colorOverSpeed;
+    return std::make_unique<RampCurves>(std::array{samplesOf(color, 0), samplesOf(color, 1),
+                                                   samplesOf(color, 2), samplesOf(look.opacityOverSpeed, 0),
+                                                   samplesOf(look.sizeOverSpeed, 0)});
+}
+
+base::ColumnSet publishedColumns(const EmitterLook& look)
+{
+    namespace column = base::particle_column;
+    base::ColumnSet set = column::kAlways;
+    const bool turns = look.angle.min != 0 || varies(look.angle) || look.spin.min != 0 || varies(look.spin);
+    if (look.kind == Appearance::Mesh)
+        set |= column::kOrientation;
+    else if (turns)
+        set |= column::kAngle;
+    if (look.alignment == base::SpriteAlignment::Velocity || look.stretch > 0.0f)
+        set |= column::kVelocity;
+    if (look.frames != FrameClock::None || look.firstFrame.min != 0 || varies(look.firstFrame))
+        set |= column::kFrame;
+    return set;
+}
+
+/// Decides attribute by attribute whether it is the same for all.
+void chooseColumns(ParticleProgram& program)
+{
+    const EmitterDef& def = program.def;
+    const auto choose = [&program](size_t column, const base::Range& range) {
+        program.stores[column] = varies(range);
+        program.constant[column] = range.min;
+    };
+    const bool medium = def.look.kind == Appearance::Medium;
+    const bool fixed = def.shape == EmitterShape::Point && !def.births && program.ballistic;
+    for (size_t a = 0; a < 3; ++a) {
+        program.stores[stored::X + a] = !fixed;
+        program.constant[stored::X + a] = def.position[int(a)];
+        program.stores[stored::VelocityX + a] = true;
+        program.stores[stored::AxisX + a] = def.look.kind == Appearance::Mesh;
+    }
+    choose(stored::PerLife, def.lifetime);
+    program.constant[stored::PerLife] = perLifeOf(def.lifetime.min);
+    program.stores[stored::PerLife] = program.stores[stored::PerLife] || program.mortal;
+    choose(stored::Radius, def.radius);
+    choose(stored::Amount, medium ? base::Range{0, 1} : def.look.opacity);
+    choose(stored::Excess, medium || def.forces.buoyancy != 0.0f ? base::Range{0, 1} : base::Range{});
+    choose(stored::Angle, def.look.angle);
+    choose(stored::Spin, def.look.spin);
+    choose(stored::Frame, def.look.firstFrame);
+    choose(stored::Brightness, def.look.brightness);
+}
+
+} // namespace
+
+float perLifeOf(float seconds)
+{
+    return seconds > 0.0f ? 1.0f / std::clamp(seconds, 1.0f / kNoLife, kLongestLife) : kNoLife;
+}
+
+size_t bytesMoved(const ParticleProgram& program)
+{
+    size_t bytes = program.brief ? sizeof(uint32_t) : sizeof(base::Ticks);
+    for (const bool isStored : program.stores)
+        bytes += isStored ? sizeof(float) : 0;
+    for (size_t c = 0; c < base::particle_column::Count; ++c)
+        if ((program.published >> c & 1) != 0)
+            bytes += base::columnElementSize(base::kParticleColumns[c].type);
+    if (!program.ballistic) // place and velocity back and forth, birth tick and index
+        bytes += 6 * 2 * sizeof(float) + sizeof(base::Ticks) + sizeof(uint64_t);
+    return bytes;
+}
+
+ParticleProgram::ParticleProgram(const EmitterDef& definition)
+    : def(definition), ballistic(isBallistic(definition)), brief(sim::longestLife(definition) <= kBrief),
+      mortal(!definition.modules.empty()), longestLife(base::toTicks(double(sim::longestLife(definition)))),
+      published(publishedColumns(definition.look)), looks(lookCurves(definition)),
+      bySpeed(speedCurves(definition.look))
+{
+    if (!ballistic) {
+        addBuiltinOps(definition, ops);
+        ops.insert(ops.end(), definition.modules.begin(), definition.modules.end());
+        std::stable_sort(ops.begin(), ops.end(),
+                         [](const auto& a, const auto& b) { return a->phase() < b->phase(); });
+    }
+    for (const std::shared_ptr<const TileOp>& op : ops)
+        keepsFlags = keepsFlags || op->keepsFlags();
+    chooseColumns(*this);
+}
+
+} // namespace fx::sim

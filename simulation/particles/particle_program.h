@@ -1,0 +1,81 @@
+/// @file particle_program.h
+/// What an emitter's definition comes to: which attributes its particles have, how they move, what is
+/// published. Made once, shared by all steps.
+#pragma once
+
+#include "simulation/emitters/emitter_def.h"
+#include "simulation/particles/ramp_curves.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace fx::sim {
+
+/// Attributes that a particle may carry. What all particles of an emitter share is not stored.
+namespace stored {
+enum : size_t
+{
+    X, ///< [m] local; ballistic: where motion began
+    Y,
+    Z,
+    VelocityX, ///< [m/s] likewise
+    VelocityY,
+    VelocityZ,
+    PerLife,    ///< [1/s] one over the lifetime
+    Radius,     ///< [m] at birth
+    Amount,     ///< [m2] cross section of a medium, or [1] opacity, at birth
+    Excess,     ///< [K] temperature above the air's at birth
+    Angle,      ///< [rad] at birth
+    Spin,       ///< [rad/s]
+    Frame,      ///< [1] of the texture at birth
+    Brightness, ///< [1]
+    AxisX,      ///< [1] unit axis that a mesh turns about
+    AxisY,
+    AxisZ,
+    Count
+};
+}
+
+constexpr float kNoLife = 1e30f; ///< [1/s] PerLife of what dies at once
+
+/// Channels of ParticleProgram::looks.
+namespace look_channel {
+enum : uint32_t
+{
+    Red,
+    Green,
+    Blue,
+    Opacity,
+    Size,
+    Count
+};
+}
+
+struct ParticleProgram
+{
+    explicit ParticleProgram(const EmitterDef& definition);
+
+    const EmitterDef& def;
+    bool ballistic; ///< motion has a closed form: gravity, linear drag, wind
+    bool brief;     ///< no life exceeds 3 s: ages fit into 32 bits of ticks
+    bool mortal;    ///< a module may end lives
+    std::array<bool, stored::Count> stores{};
+    std::array<float, stored::Count> constant{}; ///< the value of what is not stored
+    base::Ticks longestLife;
+
+    std::vector<std::shared_ptr<const TileOp>> ops; ///< in order of phase; empty when ballistic
+    bool keepsFlags = false;
+
+    base::ColumnSet published = 0;       ///< columns of the kind "particle"
+    RampCurves looks;                    ///< over life
+    std::unique_ptr<RampCurves> bySpeed; ///< over speed, null when not used
+};
+
+/// [byte] that a step and a publication read and write of each row, births left out.
+size_t bytesMoved(const ParticleProgram& program);
+
+/// [1/s] one over a lifetime in seconds; NaN and negative ones are none, infinite ones are 1e9 s.
+float perLifeOf(float seconds);
+
+} // namespace fx::sim

@@ -1,0 +1,80 @@
+/// @file particle_store.h
+/// The particles of one emitter of one instance: a ring of rows.
+///
+/// The particle with birth index i lives in row i mod capacity and keeps it for life; where it lives depends
+/// on nothing else, so any way of cutting time into steps, and any jump in time, gives the same rows. A birth
+/// whose row is still taken is dropped. Columns are filled in order of birth and never moved.
+#pragma once
+
+#include "foundation/memory/column.h"
+#include "simulation/particles/particle_program.h"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+
+namespace fx::sim {
+
+constexpr uint64_t kNobody = ~uint64_t(0); ///< birth index of a row that nobody has lived in
+
+/// Rows that may hold living particles: those below `count` outside of [gapBegin, gapEnd).
+struct RowWindow
+{
+    uint32_t count = 0;
+    uint32_t gapBegin = 0;
+    uint32_t gapEnd = 0;
+};
+
+class ParticleStore
+{
+public:
+    ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory);
+
+    uint32_t capacity() const { return capacity_; }
+    uint32_t rowOf(uint64_t particle) const { return uint32_t(particle % capacity_); }
+    RowWindow window() const;
+    bool empty() const { return front_ == next_; }
+
+    /// The value of an attribute in `row`, stored or not.
+    float value(size_t column, uint32_t row) const
+    {
+        return values[column].data() ? values[column][row] : constant[column];
+    }
+    /// The same comparison that the kernels make.
+    bool isAlive(uint32_t row, base::Ticks now) const;
+    /// [s] the same age that the kernels compute.
+    float ageOf(uint32_t row, base::Ticks now) const;
+
+    /// The next indices [next(), next() + count) have been given out.
+    void advance(uint64_t count) { next_ += count; }
+    uint64_t next() const { return next_; }
+    uint64_t front() const { return front_; } ///< the oldest index that may live; next() when none does
+    /// Forgets rows at the old end of the window that hold nobody any more.
+    void retire(base::Ticks now);
+    uint32_t countAlive(base::Ticks now) const;
+    /// Empties all rows; the next birth has index `next`.
+    void clear(uint64_t next);
+
+    void save(StateWriter& writer, base::Ticks now) const;
+    /// @param now [tick] local time of the state: what is alive was born before it and dies after it
+    void restore(StateReader& reader, base::Ticks now);
+
+    base::Column<uint64_t> index;                          ///< of the particle that lives or lived in the row
+    base::Column<base::Ticks> born;                        ///< local time
+    base::Column<uint32_t> bornShort;                      ///< its low 32 bits, where lives are brief
+    base::Column<uint32_t> flags;                          ///< tile_flag, where modules keep any
+    std::array<base::Column<float>, stored::Count> values; ///< empty when not stored
+    std::array<float, stored::Count> constant;
+    bool placed; ///< false: all motion began at one place, X, Y, Z are not in use yet
+
+private:
+    void restoreRow(StateReader& reader, base::Ticks now);
+    void searchFront(base::Ticks now);
+
+    uint32_t capacity_;
+    bool brief_;
+    uint64_t front_ = 0; ///< the oldest index that may live
+    uint64_t next_ = 0;
+};
+
+} // namespace fx::sim

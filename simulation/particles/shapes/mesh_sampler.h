@@ -1,0 +1,61 @@
+/// @file mesh_sampler.h
+/// Places on triangles and in grids, drawn in proportion to area and to density.
+///
+/// @formula mesh-and-volume-samples
+/// Even samples of a surface and of a density.
+///
+/// symbol   unit   meaning
+///   a, b, c  m      corners of the triangle that is drawn
+///   s, t     1      uniform numbers
+///   i        1      the node that is drawn
+///   h        m      distance of nodes
+/// @derivation
+///   A triangle is drawn with a probability proportional to its area, and in it, even by the square root,
+///   p = a + r (1 - t) (b - a) + r t (c - a), r = s^(1/2)                                      (1)
+///   A node is drawn in proportion to its density, which fills the box of size h around the node:
+///   p = node i + h (s - 1/2, t - 1/2, v - 1/2)                                                (2)
+/// @source    elementary; the draw is alias-method
+/// @deviation none
+/// @valid     at least one triangle with an area, one node with a density; negative densities count as 0
+/// @accuracy  float rounding
+/// @tests     tests/simulation/particles/modules/test_shapes.cpp
+#pragma once
+
+#include "foundation/result/status.h"
+#include "simulation/collision/triangle_mesh.h"
+#include "simulation/particles/fields/alias_table.h"
+#include "simulation/particles/fields/field_grid.h"
+
+#include <glm/vec3.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace fx::sim {
+
+struct MeshSampler
+{
+    struct Triangle
+    {
+        glm::vec3 corner;  ///< [m] a
+        glm::vec3 side[2]; ///< [m] b - a, c - a
+        glm::vec3 normal;  ///< unit
+    };
+    std::vector<Triangle> triangles;
+    AliasTable table;
+};
+
+struct VolumeSampler
+{
+    glm::vec3 low{0.0f};          ///< [m] the first node
+    glm::vec3 cell{1.0f};         ///< [m]
+    std::vector<glm::vec3> nodes; ///< [1] in cells from the first node; those with a density only
+    AliasTable table;
+};
+
+/// @return what checkMesh() fails with, InvalidArgument (no triangle with an area)
+base::Result<std::shared_ptr<const MeshSampler>> makeMeshSampler(const TriangleMesh& mesh);
+/// @return InvalidArgument (not one channel, no density above 0)
+base::Result<std::shared_ptr<const VolumeSampler>> makeVolumeSampler(const FieldGrid& density);
+
+} // namespace fx::sim

@@ -1,0 +1,126 @@
+/// @file tile.h
+/// What the modules of an emitter work on: a tile of particles whose working columns lie in the first cache.
+///
+/// An emitter whose motion has no closed form is stepped tile by tile: the tile is loaded from the store, all
+/// modules run on it in order of phase, and it is stored. Memory is read and written once, however many
+/// modules there are. Rows that hold no living particle are loaded too: they have seconds 0 and the flag
+/// Empty, and what is written to them is forgotten. Arithmetic is by multiplication and addition in a fixed
+/// order (no fused multiply-add, no sums across rows), so that every vector width gives the same bits.
+///
+/// Threads: tiles of one step are run by several threads at once; a module keeps no state of its own.
+#pragma once
+
+#include "foundation/time/ticks.h"
+#include "simulation/solver.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace fx::sim {
+
+constexpr uint32_t kTileRows = 256;
+constexpr uint32_t kTilePadding = 16; ///< modules may work on rows up to the next multiple of this
+
+/// Bits of Tile::flags. Stuck and Collided stay with the particle; the others tell what happens in this step.
+namespace tile_flag {
+enum : uint32_t
+{
+    Stuck = 1,    ///< does not move any more
+    Collided = 2, ///< has touched something in its life
+    Empty = 4,    ///< no particle lives here
+    Hit = 8,      ///< touches something in this step, at `contact` of its way
+    Killed = 16,  ///< dies in this step by what a module did, at `contact` of its way
+};
+}
+
+/// Working columns. Arrays begin at multiples of 64 bytes; rows [count, kTileRows) hold finite numbers.
+struct alignas(64) Tile
+{
+    float x[kTileRows]; ///< [m] local; before Integrate at the step's begin, after it at its end
+    float y[kTileRows];
+    float z[kTileRows];
+    float vx[kTileRows]; ///< [m/s] likewise
+    float vy[kTileRows];
+    float vz[kTileRows];
+    float fromX[kTileRows]; ///< [m] where the row was when its part of the step began
+    float fromY[kTileRows];
+    float fromZ[kTileRows];
+    float fromVX[kTileRows]; ///< [m/s] its velocity then
+    float fromVY[kTileRows];
+    float fromVZ[kTileRows];
+    float ax[kTileRows]; ///< [m/s2] sum of accelerations; forces add
+    float ay[kTileRows];
+    float az[kTileRows];
+    float ux[kTileRows]; ///< [m/s] velocity of the air; forces add
+    float uy[kTileRows];
+    float uz[kTileRows];
+    float drag[kTileRows];      ///< [1/s] linear drag rate towards the air, >= 0; forces add
+    float quadratic[kTileRows]; ///< [1/m] quadratic drag: acceleration -q |v - u| (v - u), >= 0; forces add
+    float age[kTileRows];       ///< [s] when its part of the step begins; 0 for a row born within the step
+    float seconds[kTileRows]; ///< [s] length of its part of the step; shorter when born within it, 0 if Empty
+    float life[kTileRows];    ///< [1] age / lifetime when its part of the step begins, 0..1
+    float excess[kTileRows];  ///< [K] temperature above the air's
+    float contact[kTileRows]; ///< [1] 0..1 of its part of the step, set together with Hit or Killed
+    uint32_t indexLow[kTileRows]; ///< birth index: counter words 0 and 1 of base::philox
+    uint32_t indexHigh[kTileRows];
+    uint32_t flags[kTileRows]; ///< tile_flag
+    uint32_t count;            ///< rows in use
+    uint32_t padded;           ///< count rounded up to kTilePadding
+    uint32_t firstRow;         ///< of the store
+};
+
+/// What all tiles of a step have in common.
+struct TileContext
+{
+    const StepContext& step;
+    base::Ticks end; ///< local time at which the step ends
+    glm::vec3 wind;  ///< [m/s] effect's, host's and emitter's
+    double begin;    ///< [s] local time at which the step begins
+    float seconds;   ///< [s] its length
+};
+
+/// When a module runs within the step of a tile.
+enum class TilePhase : uint8_t
+{
+    Force,     ///< adds to acceleration, air velocity and drag; reads position and velocity at the begin
+    Integrate, ///< the core's own: moves every row by its seconds
+    Contact,   ///< corrects the way from `from` to x, y, z: collisions, kill volumes
+    Event,     ///< looks at flags and contacts
+};
+
+/// One module, compiled. Immutable: shared by all instances and threads.
+class TileOp
+{
+public:
+    virtual ~TileOp() = default;
+    virtual TilePhase phase() const = 0;
+    /// Bytes that prepare() fills once a step and all tiles of the step read; 64-byte aligned.
+    virtual size_t scratchBytes() const { return 0; }
+    virtual void prepare(const TileContext&, void* /*scratch*/) const {}
+    virtual void run(const TileContext& context, const void* scratch, Tile& tile) const = 0;
+    /// True when the tile flags Stuck or Collided must survive the step.
+    virtual bool keepsFlags() const { return false; }
+    /// True when it heeds StepContext::collider.
+    virtual bool collides() const { return false; }
+};
+
+/// Places and directions of births from uniform numbers, many at once.
+class ShapeOp
+{
+public:
+    virtual ~ShapeOp() = default;
+
+    struct Births
+    {
+        const float* place[4];   ///< [1] uniform in [0, 1), one array a number
+        const float* heading[4]; ///< [1]
+        float* position[3];      ///< [m] out, local
+        float* direction[3];     ///< [1] out, unit vectors
+        uint32_t count;
+    };
+    virtual void sample(const Births& births) const = 0;
+};
+
+} // namespace fx::sim

@@ -1,0 +1,38 @@
+/// @file tile_step.h
+/// Steps particles whose motion has no closed form: from the store into a tile, through all modules, and
+/// back.
+#pragma once
+
+#include "simulation/particles/particle_store.h"
+
+#include <span>
+
+namespace fx::sim {
+
+/// The modules of an emitter and what they prepared for this step.
+struct PreparedOp
+{
+    const TileOp* op;
+    const void* scratch;
+};
+
+/// One step of one emitter. Rows may be stepped by several threads at once.
+class TileStep
+{
+public:
+    /// Runs prepare() of all modules.
+    TileStep(const ParticleProgram& program, const StepContext& step);
+
+    /// Steps the rows [begin, end) of `store` that are in its window; begin is a multiple of kTilePadding.
+    void run(ParticleStore& store, uint32_t begin, uint32_t end) const;
+
+private:
+    void load(const ParticleStore& store, uint32_t row, Tile& tile) const;
+    void save(const Tile& tile, ParticleStore& store) const;
+
+    const ParticleProgram& program_;
+    TileContext context_;
+    std::span<PreparedOp> ops_;
+};
+
+} // namespace fx::sim
