@@ -10,12 +10,14 @@
 #include "foundation/snapshot/frame_snapshot.h"
 #include "foundation/tasks/task_runner.h"
 #include "foundation/time/ticks.h"
+#include "simulation/catch_up.h"
 #include "simulation/collision/collider.h"
 #include "simulation/quality.h"
 #include "simulation/state/state_reader.h"
 #include "simulation/state/state_writer.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <memory_resource>
 
@@ -81,6 +83,12 @@ public:
     /// Advances by one fixed step. Equal calls give equal bits for any number of threads. Allocates nothing
     /// but scratch.
     virtual void step(const StepContext& context) = 0;
+    /// Jumps to local time `tick` when the state is a pure function of time and what the host asked for;
+    /// false: not possible, nothing changed.
+    virtual bool seek(const StepContext& /*context*/, base::Ticks /*tick*/) { return false; }
+    /// Local time, at least `tick`, up to which steps from `tick` on change nothing that is seen. seek() must
+    /// reach any tick up to it.
+    virtual base::Ticks restsUntil(base::Ticks tick) const { return tick; }
     /// Adds what is to be seen to `snapshot`. `base` carries instance, solver and placement to copy into each
     /// group.
     /// A solver that holds nothing still adds its group: the memory is then there before the first element
@@ -110,6 +118,15 @@ public:
     virtual uint32_t capacity() const = 0;
     /// True when its solvers heed StepContext::collider.
     virtual bool collides() const { return false; }
+    /// What becomes of it out of sight, unless the preset says.
+    virtual CatchUp catchUp() const { return CatchUp::Replay; }
+    /// [m] distance from the instance's origin that no element passes within `seconds` after the start, with
+    /// its radius; infinite when it cannot be told.
+    /// @param gravity [m/s2] magnitude @param wind [m/s] magnitude
+    virtual float reach(float /*gravity*/, float /*wind*/, float /*seconds*/) const
+    {
+        return std::numeric_limits<float>::infinity();
+    }
 };
 
 } // namespace fx::sim

@@ -1,0 +1,59 @@
+/// @file bench_command.cpp
+/// fx bench: what instances cost, and what they do not.
+
+#include "fxsdk/cli/bench_city.h"
+#include "fxsdk/cli/bench_idle.h"
+#include "fxsdk/cli/commands.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+namespace fx::cli {
+namespace {
+
+void addIdle(CLI::App& bench, int& outExitCode)
+{
+    auto options = std::make_shared<BenchIdleOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "idle", "Instructions, time, GL calls and allocations of frames in which nothing is to be seen; "
+                "counts instructions with valgrind when it is installed");
+    command->add_option("--dormant", options->dormant, "Instances before their start")
+        ->check(CLI::Range(0, 1000000));
+    command->add_option("--hidden", options->hidden, "Instances behind the camera")
+        ->check(CLI::Range(0, 1000000));
+    command->add_flag("--gl", options->gl, "A view draws each frame as well");
+    command->add_flag("--turn", options->turn, "The camera moves each frame");
+    command->add_flag("--visit-all", options->visitAll,
+                      "Ask every instance for its state: the gates' control");
+    command->add_flag("--check", options->check,
+                      "Compare an empty scene, a thousand and many with the gates; fail beyond them");
+    command->add_flag("--json", options->json, "One object a line");
+    command->add_flag("--count-work", options->countWork)->group(""); // for callgrind
+    command->callback([options, &outExitCode] { outExitCode = runBenchIdle(*options); });
+}
+
+void addCity(CLI::App& bench, int& outExitCode)
+{
+    auto options = std::make_shared<BenchCityOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "city", "Update and render time of many effects, few in sight, over that of only those in sight");
+    command->add_option("--instances", options->instances, "Effects in the city")
+        ->check(CLI::Range(100, 1000000));
+    command->add_option("--frames", options->frames, "Frames to measure")->check(CLI::Range(1, 100000));
+    command->add_flag("--gl", options->gl, "A view draws each frame as well");
+    command->add_flag("--json", options->json, "One object a line");
+    command->callback([options, &outExitCode] { outExitCode = runBenchCity(*options); });
+}
+
+} // namespace
+
+void addBenchCommand(CLI::App& app, int& outExitCode)
+{
+    CLI::App* bench = app.add_subcommand("bench", "Measure what effects cost");
+    bench->require_subcommand(1);
+    addIdle(*bench, outExitCode);
+    addCity(*bench, outExitCode);
+}
+
+} // namespace fx::cli
