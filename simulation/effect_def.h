@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,12 +23,46 @@ struct EffectDef
     uint32_t subSteps = 1;    ///< steps of the effect per step of the scene, 1..16
     glm::vec3 wind{0.0f};     ///< [m/s] local
     bool hasGround = true;    ///< particles stay above the instance's y = 0
+    std::optional<CatchUp> offscreen; ///< what becomes of it out of sight; none: what its solvers ask for
+    float bound = 0; ///< [m] local distance from the origin that nothing passes; 0: as its solvers estimate
     std::vector<std::unique_ptr<const SolverDef>> solvers;
 
     /// True when the host's geometry changes what it does.
     bool collides() const
     {
         return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->collides(); });
+    }
+
+    /// The preset's choice, or the most careful one that a solver asks for.
+    CatchUp catchUp() const
+    {
+        if (offscreen)
+            return *offscreen;
+        CatchUp most = CatchUp::Analytic;
+        for (const auto& def : solvers)
+            most = std::max(most, def->catchUp());
+        return most;
+    }
+
+    /// [m] local radius about the origin in which everything stays; infinite when unknown.
+    float reach(float gravity, float windSpeed) const
+    {
+        if (bound > 0)
+            return bound;
+        const float seconds = duration > 0 ? float(base::toSeconds(duration)) : 1e6f;
+        float most = 0;
+        for (const auto& def : solvers)
+            most = std::max(most, def->reach(gravity, windSpeed, seconds));
+        return most;
+    }
+
+    /// Most elements alive at once, at medium quality.
+    uint64_t capacity() const
+    {
+        uint64_t sum = 0;
+        for (const auto& def : solvers)
+            sum += def->capacity();
+        return sum;
     }
 };
 

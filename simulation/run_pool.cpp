@@ -57,6 +57,8 @@ uint64_t RunConditions::hash() const
 
 void Run::save(StateWriter& writer) const
 {
+    if (kept)
+        kept->copyTo(writer);
     for (const std::unique_ptr<Solver>& solver : solvers)
         solver->save(writer);
 }
@@ -72,27 +74,33 @@ RunPool::RunPool(const base::SnapshotSchema* schema, std::pmr::memory_resource* 
     : schema_(schema), memory_(memory), share_(share)
 {
     chains_.fill(kNoRun);
+    spares_.reserve(kMostSpares); // putting aside must not fail
 }
 
-RunIndex RunPool::enter(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions)
+RunIndex RunPool::enter(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions,
+                        bool released)
 {
     RunIndex index = findFresh(effect.get(), conditions);
     if (index == kNoRun) {
-        index = create(effect, conditions);
+        index = create(effect, conditions, released);
         welcome(index);
+    } else if (!released) {
+        materialize(index);
     }
     ++runs_[index].users;
     return index;
 }
 
-RunIndex RunPool::create(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions)
+RunIndex RunPool::create(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions,
+                         bool released)
 {
     Run run;
-    run.solvers.reserve(effect->solvers.size());
-    for (const std::unique_ptr<const SolverDef>& def : effect->solvers)
-        run.solvers.push_back(def->create(*schema_, conditions.quality, memory_));
     run.effect = effect;
     run.conditions = conditions;
+    run.simulated = conditions.startTick;
+    run.released = released;
+    if (!released)
+        makeSolvers(run);
     run.fresh = true;
     run.nextFresh = kNoRun;
     if (free_.empty()) {
@@ -113,10 +121,21 @@ RunIndex RunPool::copy(RunIndex index)
     StateBuffer state(memory_);
     runs_[index].save(state);
     const std::shared_ptr<const EffectDef> effect = runs_[index].effect;
-    const RunIndex made = create(effect, runs_[index].conditions);
+    std::vector<Run::Change> changes = runs_[index].changes;
+    const RunIndex made = create(effect, runs_[index].conditions, runs_[index].released);
+    const Run& from = runs_[index];
     Run& run = runs_[made];
     run.users = 1;
-    run.fresh = runs_[index].fresh;
+    run.fresh = from.fresh;
+    run.simulated = from.simulated;
+    run.changes = std::move(changes);
+    run.field = from.field;
+    if (run.released) {
+        run.pristine = from.pristine;
+        if (from.kept)
+            run.kept.emplace(std::move(state));
+        return made;
+    }
     StateReader reader(state.bytes());
     run.restore(reader);
     if (reader.ok() && reader.left() == 0)
@@ -139,7 +158,7 @@ RunIndex RunPool::change(RunIndex index, const RunConditions& conditions)
     const bool isAlone = runs_[index].users == 1;
     if (runs_[index].fresh && (!isAlone || findFresh(runs_[index].effect.get(), conditions) != kNoRun)) {
         const std::shared_ptr<const EffectDef> effect = runs_[index].effect;
-        const RunIndex other = enter(effect, conditions); // without a past there is nothing to copy
+        const RunIndex other = enter(effect, conditions, runs_[index].released); // there is no past to copy
         leave(index);
         return other;
     }

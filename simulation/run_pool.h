@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
+#include <optional>
 #include <vector>
 
 namespace fx::sim {
@@ -36,10 +37,27 @@ struct RunConditions
 /// The solvers of one effect and what they are told.
 struct Run
 {
+    /// What a paused run is to be told from a time on that it has not reached.
+    struct Change
+    {
+        base::Ticks tick; ///< scene time
+        RunConditions conditions;
+        std::shared_ptr<const DistanceField> field; ///< keeps that of the conditions
+    };
+
     std::shared_ptr<const EffectDef> effect;
     RunConditions conditions;
-    std::vector<std::unique_ptr<Solver>> solvers;
-    uint32_t users = 0;     ///< instances that it stands for; 0: unused
+    std::vector<std::unique_ptr<Solver>> solvers; ///< none while released
+    uint32_t users = 0;                           ///< instances that it stands for; 0: unused
+    uint32_t hidden = 0; ///< users that are out of sight; when all are, the run is paused
+    bool released =
+        false; ///< its solvers are gone; `kept`, or nothing when it has not begun, says how it was
+    base::Ticks simulated = 0;                   ///< scene time that the state has reached
+    base::Ticks restUntil = 0;                   ///< scene time up to which steps would change nothing
+    std::vector<Change> changes;                 ///< of a paused run, by tick
+    std::shared_ptr<const DistanceField> field;  ///< keeps that of the conditions of a paused run
+    std::shared_ptr<const StateBuffer> pristine; ///< of the solvers before their first step
+    std::optional<StateBuffer> kept;
     bool fresh = false;     ///< no step has touched it: another instance may still join
     uint32_t nextFresh = 0; ///< see RunPool
 
@@ -50,6 +68,7 @@ struct Run
     uint32_t visits = 0;    ///< users in the list of that step
     uint32_t division = 0;  ///< run of those users
 
+    bool isPaused() const { return hidden == users; }
     void save(StateWriter& writer) const;
     void restore(StateReader& reader);
 };
@@ -71,9 +90,19 @@ public:
     // What makes solvers may throw std::bad_alloc; then nothing has changed.
 
     /// One more instance: joins a fresh run that is equal, or starts one.
-    RunIndex enter(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions);
+    /// @param released start it without solvers
+    RunIndex enter(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions,
+                   bool released = false);
     /// A run with no users yet, which nobody joins before welcome().
-    RunIndex create(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions);
+    RunIndex create(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions,
+                    bool released = false);
+    /// Gives a released run its solvers back.
+    void materialize(RunIndex index);
+    /// Puts the solvers of a run aside for others of its kind and keeps its state as bytes.
+    void release(RunIndex index, base::Ticks now);
+    /// Frees the solvers that were put aside before `tick`.
+    void trimSpares(base::Ticks tick);
+    size_t spares() const { return spares_.size(); }
     /// A copy of a run, with its state and one user.
     RunIndex copy(RunIndex index);
     /// All users of a run are to have other conditions from now on. Never fails.
@@ -82,6 +111,8 @@ public:
     RunIndex change(RunIndex index, const RunConditions& conditions);
     /// One user fewer; the last one takes the solvers with it.
     void leave(RunIndex index);
+    /// The same, but the solvers are put aside for others of their kind.
+    void retire(RunIndex index, base::Ticks now);
     /// The run is stepped: it is no longer fresh.
     void touch(RunIndex index);
     /// A fresh run may be joined from now on.
@@ -90,7 +121,19 @@ public:
     void swap(RunPool& other) noexcept;
 
 private:
+    /// Solvers without a run.
+    struct Spare
+    {
+        std::shared_ptr<const EffectDef> effect;
+        QualityLevel level;
+        std::vector<std::unique_ptr<Solver>> solvers;
+        std::shared_ptr<const StateBuffer> pristine;
+        base::Ticks since; ///< scene time
+    };
     static constexpr size_t kChains = 256;
+    static constexpr size_t kMostSpares = 256;
+    void makeSolvers(Run& run);
+    void putAside(Run& run, base::Ticks now);
     uint32_t& chainOf(const Run& run) { return chains_[run.conditions.hash() % kChains]; }
     RunIndex findFresh(const EffectDef* effect, const RunConditions& conditions) const;
     void unlink(RunIndex index);
@@ -100,6 +143,7 @@ private:
     bool share_;
     std::vector<Run> runs_;
     std::vector<RunIndex> free_;
+    std::vector<Spare> spares_;            ///< by time
     std::array<RunIndex, kChains> chains_; ///< first fresh run of each hash; Run::nextFresh is the next
     uint32_t count_ = 0;
 };

@@ -10,12 +10,14 @@
 #include "foundation/snapshot/frame_snapshot.h"
 #include "foundation/tasks/task_runner.h"
 #include "foundation/time/ticks.h"
+#include "simulation/catch_up.h"
 #include "simulation/collision/collider.h"
 #include "simulation/quality.h"
 #include "simulation/state/state_reader.h"
 #include "simulation/state/state_writer.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <memory_resource>
 
@@ -93,10 +95,15 @@ public:
     /// Advances by one fixed step. Equal calls give equal bits for any number of threads. Allocates nothing
     /// but scratch.
     virtual void step(const StepContext& context) = 0;
-    /// Goes to local time context.tick at once: the state is the one that steps from 0 to there under the same
-    /// conditions lead to, bit for bit. stepTicks is ignored.
-    /// @return false where only stepping leads there; then nothing has changed
-    virtual bool seek(const StepContext&) { return false; }
+    /// Whether seek() can take it from where it is to local time `tick`.
+    virtual bool canSeek(const StepContext&, base::Ticks) const { return false; }
+    /// Goes to local time `tick` at once, under the conditions of `context`: forwards as steps from where it is
+    /// would, bit for bit, backwards as steps from 0 would. Only where canSeek() holds; the context's own tick
+    /// and stepTicks are ignored.
+    virtual void seek(const StepContext&, base::Ticks) {}
+    /// Local time, at least `tick`, up to which steps from `tick` on change nothing that is seen. canSeek()
+    /// holds for any tick up to it.
+    virtual base::Ticks restsUntil(base::Ticks tick) const { return tick; }
     /// Adds what is to be seen to `snapshot`. `base` carries instance, solver and placement to copy into each
     /// group.
     /// A solver that holds nothing still adds its group: the memory is then there before the first element
@@ -126,6 +133,15 @@ public:
     virtual uint32_t capacity() const = 0;
     /// True when its solvers heed StepContext::collider.
     virtual bool collides() const { return false; }
+    /// What becomes of it out of sight, unless the preset says.
+    virtual CatchUp catchUp() const { return CatchUp::Replay; }
+    /// [m] distance from the instance's origin that no element passes within `seconds` after the start, with
+    /// its radius; infinite when it cannot be told.
+    /// @param gravity [m/s2] magnitude @param wind [m/s] magnitude
+    virtual float reach(float /*gravity*/, float /*wind*/, float /*seconds*/) const
+    {
+        return std::numeric_limits<float>::infinity();
+    }
 };
 
 } // namespace fx::sim

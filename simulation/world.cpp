@@ -27,11 +27,14 @@ World::World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::p
       scratch_(memory), runs_(schema, memory, share)
 {}
 
-Slot World::add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start)
+Slot World::add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden)
 {
-    const RunIndex run = runs_.enter(effect, conditionsOf(*effect, start));
+    const RunIndex run = runs_.enter(effect, conditionsOf(*effect, start), hidden);
     try {
-        return takeSlot(start, run);
+        const Slot slot = takeSlot(start, run);
+        if (hidden)
+            hide(slot);
+        return slot;
     } catch (...) {
         runs_.leave(run);
         throw;
@@ -53,6 +56,8 @@ Slot World::takeSlot(const InstanceStart& start, RunIndex run)
 
 void World::remove(Slot slot)
 {
+    if (instances_[slot].hidden)
+        --runs_.at(instances_[slot].run).hidden;
     runs_.leave(instances_[slot].run);
     instances_[slot] = Instance{};
     free_.push_back(slot);
@@ -75,9 +80,16 @@ void World::setParameters(Slot slot, const InstanceParameters& parameters)
 void World::change(Slot slot, const InstanceStart& start)
 {
     Instance& instance = instances_[slot];
-    const EffectDef& effect = *runs_.at(instance.run).effect;
-    instance.run = runs_.change(instance.run, conditionsOf(effect, start));
+    const RunIndex before = instance.run;
+    endRest(before, now_);
+    const RunConditions wanted = conditionsOf(*runs_.at(before).effect, start);
+    const uint32_t hiddenBefore = runs_.at(before).hidden;
+    instance.run = isLagging(runs_.at(before)) ? changeLater(before, wanted) : runs_.change(before, wanted);
     instance.start = start;
+    if (instance.run == before || !instance.hidden)
+        return;
+    runs_.at(before).hidden = runs_.at(before).users == 0 ? 0 : hiddenBefore - 1;
+    ++runs_.at(instance.run).hidden;
 }
 
 /// What an instance is stepped with. It is scaled with everything its preset says, gravity included, so that
@@ -117,6 +129,10 @@ void World::divideByPlacement()
             continue;
         const RunIndex shared = instance.run;
         instance.run = runs_.copy(shared);
+        if (instance.hidden) {
+            --runs_.at(shared).hidden;
+            ++runs_.at(instance.run).hidden;
+        }
         runs_.leave(shared);
         places.resize(runs_.size(), nullptr);
         places[instance.run] = &here;
@@ -125,23 +141,40 @@ void World::divideByPlacement()
 
 void World::setField(std::shared_ptr<const DistanceField> field)
 {
+    endRests();
     if (field)
         divideByPlacement();
+    for (const Instance& instance : instances_) // paused runs still have to meet the old one
+        if (instance.run != kNoRun && isLagging(runs_.at(instance.run)) && !runs_.at(instance.run).field)
+            runs_.at(instance.run).field = environment_.field;
     std::swap(environment_.field, field); // the old one lives on until no run names it
-    for (const Instance& instance : instances_)
-        if (instance.run != kNoRun)
-            runs_.reset(instance.run, conditionsOf(*runs_.at(instance.run).effect, instance.start));
+    for (const Instance& instance : instances_) {
+        if (instance.run == kNoRun)
+            continue;
+        const RunConditions wanted = conditionsOf(*runs_.at(instance.run).effect, instance.start);
+        if (isLagging(runs_.at(instance.run)))
+            runs_.at(instance.run).changes.push_back({now_, wanted, environment_.field});
+        else
+            runs_.reset(instance.run, wanted);
+    }
 }
 
 bool World::finished(Slot slot, base::Ticks sceneTick) const
 {
-    const Run& run = runs_.at(instances_[slot].run);
+    return isFinished(runs_.at(instances_[slot].run), sceneTick);
+}
+
+bool World::isFinished(const Run& run, base::Ticks sceneTick) const
+{
     const base::Ticks local = sceneTick - run.conditions.startTick;
     if (local < 0)
         return false;
     if (run.effect->duration > 0 && local >= run.effect->duration)
         return true;
-    if (!run.conditions.parameters.emitting && elementCount(slot) == 0)
+    const auto isEmpty = [](const std::unique_ptr<Solver>& solver) { return solver->elementCount() == 0; };
+    if (run.released)
+        return false; // nobody knows before it is simulated
+    if (!run.conditions.parameters.emitting && std::all_of(run.solvers.begin(), run.solvers.end(), isEmpty))
         return true;
     return std::all_of(run.solvers.begin(), run.solvers.end(),
                        [local](const std::unique_ptr<Solver>& solver) { return solver->finished(local); });
@@ -166,6 +199,10 @@ StepCounters World::step(std::span<const Slot> active, base::Ticks tick, base::T
     StepCounters counters;
     if (stepTicks <= 0)
         return counters;
+    now_ = tick + stepTicks;
+    resting_ = 0;
+    if (active.empty())
+        return counters;
     const base::FloatingPointScope floatingPoint;
     ++stepNumber_;
     divideRuns(active);
@@ -174,8 +211,15 @@ StepCounters World::step(std::span<const Slot> active, base::Ticks tick, base::T
         Run& run = runs_.at(index);
         if (run.steppedIn == stepNumber_)
             continue;
+        if (run.restUntil >= now_) {
+            ++resting_;
+            continue;
+        }
         run.steppedIn = stepNumber_;
+        endRest(index, tick);
         stepRun(index, tick, stepTicks, counters);
+        const base::Ticks rest = mayRest_ ? restOf(run) : 0;
+        run.restUntil = rest > now_ ? rest : 0;
     }
     return counters;
 }
@@ -190,7 +234,8 @@ void World::divideRuns(std::span<const Slot> active)
     }
     for (const Slot slot : active) {
         const RunIndex index = instances_[slot].run;
-        if (const Run& run = runs_.at(index); run.dividedIn != stepNumber_ && run.visits == run.users)
+        if (const Run& run = runs_.at(index);
+            run.dividedIn != stepNumber_ && run.visits + run.hidden == run.users)
             continue;
         RunIndex division;
         if (runs_.at(index).dividedIn != stepNumber_) {
@@ -209,7 +254,9 @@ void World::divideRuns(std::span<const Slot> active)
     }
 }
 
-void World::stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters)
+/// Calls body(context, run) with everything but the time filled in.
+template <class F>
+void World::withContext(RunIndex index, StepCounters& counters, F&& body)
 {
     const Run& run = runs_.at(index);
     StepContext context{};
@@ -225,21 +272,60 @@ void World::stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, Ste
     context.tasks = tasks_;
     context.scratch = &scratch_;
     context.counters = &counters;
-    const base::Ticks parts = std::clamp<base::Ticks>(run.effect->subSteps, 1, 16);
-    for (base::Ticks part = 0; part < parts; ++part) {
-        const base::Ticks from = tick + stepTicks * part / parts - run.conditions.startTick;
-        const base::Ticks to = tick + stepTicks * (part + 1) / parts - run.conditions.startTick;
-        context.tick = std::max<base::Ticks>(from, 0);
-        context.stepTicks = to - context.tick;
-        if (context.stepTicks <= 0)
-            continue;
+    body(context, run);
+}
+
+void World::stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters)
+{
+    withContext(index, counters, [&](StepContext& context, const Run& run) {
+        const base::Ticks parts = std::clamp<base::Ticks>(run.effect->subSteps, 1, 16);
+        for (base::Ticks part = 0; part < parts; ++part) {
+            const base::Ticks from = tick + stepTicks * part / parts - run.conditions.startTick;
+            const base::Ticks to = tick + stepTicks * (part + 1) / parts - run.conditions.startTick;
+            context.tick = std::max<base::Ticks>(from, 0);
+            context.stepTicks = to - context.tick;
+            if (context.stepTicks <= 0)
+                continue;
+            runs_.touch(index);
+            for (uint32_t i = 0; i < run.solvers.size(); ++i) {
+                context.solverIndex = i;
+                run.solvers[i]->step(context);
+                scratch_.reset();
+            }
+        }
+    });
+    runs_.at(index).simulated = std::max(tick + stepTicks, runs_.at(index).conditions.startTick);
+}
+
+/// Jumps to scene time `to`. False, and nothing has changed, when a solver cannot.
+bool World::seek(RunIndex index, base::Ticks to, StepCounters& counters)
+{
+    const Run& run = runs_.at(index);
+    const base::Ticks from = run.simulated - run.conditions.startTick;
+    const base::Ticks local = to - run.conditions.startTick;
+    if (local <= from)
+        return true;
+    bool canSeek = true;
+    withContext(index, counters, [&](StepContext& context, const Run&) {
+        context.tick = from;
+        context.stepTicks = local - from;
+        for (uint32_t i = 0; i < run.solvers.size() && canSeek; ++i) {
+            context.solverIndex = i;
+            canSeek = run.solvers[i]->canSeek(context, local);
+        }
+        if (!canSeek)
+            return;
         runs_.touch(index);
         for (uint32_t i = 0; i < run.solvers.size(); ++i) {
             context.solverIndex = i;
-            run.solvers[i]->step(context);
+            run.solvers[i]->seek(context, local);
             scratch_.reset();
         }
-    }
+    });
+    if (!canSeek)
+        return false;
+    runs_.at(index).simulated = to;
+    return true;
 }
 
 void World::publish(std::span<const Slot> active, base::FrameSnapshot& snapshot) const

@@ -6,6 +6,9 @@
 /// geometry of the host. Each is published at its own placement.
 /// Nobody can tell from the results: when one of them is changed, its state is copied first.
 ///
+/// A simulation all of whose instances are hidden is paused: it costs nothing until catchUp() takes it to the
+/// present, and what it is told meanwhile waits for the moment at which it was told.
+///
 /// Threads: one thread at a time (the scene thread). Work inside a step is spread over the task runner.
 #pragma once
 
@@ -52,8 +55,47 @@ public:
           const Environment& environment = {}, bool share = true);
 
     /// Creates all solvers of `effect`. Strong guarantee: on an exception nothing has changed.
-    Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start);
+    /// @param hidden begin out of sight: there are no solvers until somebody looks
+    Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden = false);
     void remove(Slot slot);
+    /// The same at the end of an instance's life: its solvers wait for the next instance of their kind.
+    void retire(Slot slot);
+
+    // ---- out of sight; hidden slots are not given to step() and publish() ----
+    void hide(Slot slot);
+    void show(Slot slot); ///< after catchUp() has said true
+    bool isHidden(Slot slot) const { return instances_[slot].hidden; }
+    /// True when the state has not reached the present.
+    bool lags(Slot slot) const;
+    base::Ticks simulated(Slot slot) const { return runs_.at(instances_[slot].run).simulated; }
+    /// True when so much waits to be told to it that it should be caught up.
+    bool crowded(Slot slot) const;
+    /// Takes a hidden instance towards the present, as if it had never been out of sight unless `policy` says
+    /// otherwise. Strong guarantee for each step.
+    /// @param ioBudget [1] particle steps that may be taken; each step costs one more than its particles. The
+    ///                 last one may exceed it.
+    /// @return true when it is at the present, or finished
+    bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget,
+                 StepCounters& counters);
+    /// One step of any length from where the state is to the present, of a hidden instance.
+    void stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counters);
+    /// Puts the solvers of a paused simulation aside and keeps its state as bytes.
+    void release(Slot slot);
+    /// Gives a hidden instance its solvers back.
+    void materialize(Slot slot) { runs_.materialize(instances_[slot].run); }
+    /// Frees solvers that were put aside before `tick`.
+    void trimSpares(base::Ticks tick) { runs_.trimSpares(tick); }
+    size_t spares() const { return runs_.spares(); } ///< solvers put aside, in sets of an instance's
+    /// Scene time, at least the present, up to which steps change nothing that is seen of the instance: they
+    /// are not taken.
+    base::Ticks restsUntil(Slot slot) const;
+    uint32_t resting() const { return resting_; } ///< slots that the last step() let rest
+    /// false: every step is taken.
+    void allowRest(bool allow) { mayRest_ = allow; }
+    /// Takes what rests to the present, so that it can be saved and hashed.
+    void endRests();
+    /// The present, after restore(): all that there is has reached it.
+    void setNow(base::Ticks now);
 
     const Environment& environment() const { return environment_; }
     /// Exchanges the geometry of the host, from the next step on; null for none. Strong guarantee; needs
@@ -74,6 +116,13 @@ public:
     /// slot whose start lies inside the step begins at its own start tick; one that starts later is left
     /// alone.
     StepCounters step(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
+
+    /// A step of nobody: time passes until `now`.
+    void passTime(base::Ticks now)
+    {
+        now_ = now;
+        resting_ = 0;
+    }
 
     /// Writes the groups of each slot of `active`, in the order of the list.
     void publish(std::span<const Slot> active, base::FrameSnapshot& snapshot) const;
@@ -101,12 +150,21 @@ private:
     {
         InstanceStart start;
         RunIndex run = kNoRun;
+        bool hidden = false;
     };
 
     RunConditions conditionsOf(const EffectDef& effect, const InstanceStart& start) const;
     Slot takeSlot(const InstanceStart& start, RunIndex run);
     /// The run of an instance becomes one that has the conditions of `start`.
     void change(Slot slot, const InstanceStart& start);
+    RunIndex changeLater(RunIndex index, const RunConditions& wanted);
+    bool isLagging(const Run& run) const { return run.isPaused() && run.simulated < now_; }
+    base::Ticks restOf(const Run& run) const;
+    void endRest(RunIndex index, base::Ticks tick);
+    bool isFinished(const Run& run, base::Ticks sceneTick) const;
+    bool seek(RunIndex index, base::Ticks to, StepCounters& counters);
+    template <class F>
+    void withContext(RunIndex index, StepCounters& counters, F&& body);
     void divideByPlacement();
     void divideRuns(std::span<const Slot> active);
     void stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters);
@@ -123,6 +181,9 @@ private:
     std::vector<Instance> instances_;
     std::vector<Slot> free_;
     uint64_t stepNumber_ = 0;
+    base::Ticks now_ = 0; ///< end of the last step
+    uint32_t resting_ = 0;
+    bool mayRest_ = true;
 };
 
 } // namespace fx::sim

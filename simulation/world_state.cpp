@@ -92,6 +92,7 @@ void World::swap(World& other) noexcept
     std::swap(instances_, other.instances_);
     std::swap(free_, other.free_);
     std::swap(stepNumber_, other.stepNumber_);
+    std::swap(now_, other.now_);
 }
 
 } // namespace fx::sim

@@ -1,5 +1,6 @@
 #include "fxsdk/activation/wake_queue.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace fx::activation {
@@ -12,6 +13,14 @@ bool earlier(const Sleeper& a, const Sleeper& b)
 }
 
 } // namespace
+
+void WakeQueue::reserve(uint32_t key, size_t count)
+{
+    if (places_.size() <= key)
+        places_.resize(std::max(size_t(key) + 1, places_.size() * 2));
+    if (heap_.capacity() < count)
+        heap_.reserve(std::max(count, heap_.capacity() * 2));
+}
 
 void WakeQueue::add(const Sleeper& sleeper)
 {

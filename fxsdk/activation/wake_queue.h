@@ -24,6 +24,8 @@ class WakeQueue
 public:
     explicit WakeQueue(std::pmr::memory_resource* memory) : heap_(memory), places_(memory) {}
 
+    /// Makes sure that add() of keys up to `key` does not allocate up to a size of `count`.
+    void reserve(uint32_t key, size_t count);
     /// Strong guarantee.
     void add(const Sleeper& sleeper);
     /// The key must be in the queue. Allocates nothing.

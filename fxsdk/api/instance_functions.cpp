@@ -14,6 +14,9 @@ static_assert(int(FX_INSTANCE_DORMANT) == int(fx::scene::InstanceState::Dormant)
 static_assert(int(FX_INSTANCE_ACTIVE) == int(fx::scene::InstanceState::Active));
 static_assert(int(FX_QUALITY_REFERENCE) - int(FX_QUALITY_LOW) == int(fx::sim::QualityLevel::Reference));
 static_assert(int(FX_INSTANCE_FINISHED) == int(fx::scene::InstanceState::Finished));
+static_assert(int(FX_INSTANCE_WAKING) == int(fx::scene::InstanceState::Waking));
+static_assert(int(FX_INSTANCE_RESTING) == int(fx::scene::InstanceState::Resting));
+static_assert(int(FX_INSTANCE_HIDDEN) == int(fx::scene::InstanceState::Hidden));
 
 constexpr double kFarthest = 1e9;       // [m]
 constexpr float kSmallestScale = 1e-3f; // [1]
@@ -60,18 +63,6 @@ Status checkDef(const FxInstanceDef& def)
     return check.status();
 }
 
-/// Looks `id` up and runs body(local identity) inside the scene.
-template <class F>
-FxResult withInstance(const char* function, FxScene* scene, FxInstanceId id, F&& body)
-{
-    return fx::api::insideScene(function, scene, [&]() -> Status {
-        const fx::scene::LocalId local = scene->ids.decode(id.bits, fx::api::kInstanceIdType);
-        if (!scene->scene.contains(local))
-            return {Code::StaleId, "instance names no instance of this scene"};
-        return body(local);
-    });
-}
-
 } // namespace
 
 FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInstanceId* outInstance)
@@ -106,10 +97,11 @@ FxResult fxScene_CreateInstance(FxScene* scene, const FxInstanceDef* def, FxInst
 
 FxResult fxScene_DestroyInstance(FxScene* scene, FxInstanceId instance)
 {
-    return withInstance("fxScene_DestroyInstance", scene, instance, [&](fx::scene::LocalId id) -> Status {
-        scene->scene.remove(id);
-        return {};
-    });
+    return fx::api::withInstance("fxScene_DestroyInstance", scene, instance,
+                                 [&](fx::scene::LocalId id) -> Status {
+                                     scene->scene.remove(id);
+                                     return {};
+                                 });
 }
 
 uint32_t fxScene_IsValid(FxScene* scene, FxInstanceId instance)
@@ -140,43 +132,47 @@ FxResult fxScene_GetInstances(FxScene* scene, FxInstanceId* outInstances, uint32
 FxResult fxScene_GetInstanceState(FxScene* scene, FxInstanceId instance, FxInstanceState* outState,
                                   uint32_t* outParticles)
 {
-    return withInstance("fxScene_GetInstanceState", scene, instance, [&](fx::scene::LocalId id) -> Status {
-        if (outState)
-            *outState = FxInstanceState(scene->scene.state(id));
-        if (outParticles)
-            *outParticles = scene->scene.particles(id);
-        return {};
-    });
+    return fx::api::withInstance(
+        "fxScene_GetInstanceState", scene, instance, [&](fx::scene::LocalId id) -> Status {
+            const fx::scene::InstanceState state = scene->scene.state(id);
+            if (outState)
+                *outState = FxInstanceState(state);
+            if (outParticles)
+                *outParticles = scene->scene.contains(id) ? scene->scene.particles(id) : 0;
+            return {};
+        });
 }
 
 FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, const double position[3],
                               const float rotation[4], float scale)
 {
-    return withInstance("fxScene_SetTransform", scene, instance, [&](fx::scene::LocalId id) -> Status {
-        fx::api::Checks check;
-        check.notNull(position, "position");
-        check.notNull(rotation, "rotation");
-        if (!check.status())
+    return fx::api::withInstance(
+        "fxScene_SetTransform", scene, instance, [&](fx::scene::LocalId id) -> Status {
+            fx::api::Checks check;
+            check.notNull(position, "position");
+            check.notNull(rotation, "rotation");
+            if (!check.status())
+                return check.status();
+            checkPlacement(check, position, rotation, scale);
+            if (check.status())
+                scene->scene.setPlacement(id, toPlacement(position, rotation, scale));
             return check.status();
-        checkPlacement(check, position, rotation, scale);
-        if (check.status())
-            scene->scene.setPlacement(id, toPlacement(position, rotation, scale));
-        return check.status();
-    });
+        });
 }
 
 FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance, const FxInstanceParameters* parameters)
 {
-    return withInstance("fxScene_SetParameters", scene, instance, [&](fx::scene::LocalId id) -> Status {
-        FxInstanceParameters known;
-        if (Status status =
-                fx::api::readStruct(parameters, "parameters", fxDefaultInstanceParameters(), known);
-            !status)
-            return status;
-        fx::api::Checks check;
-        checkParameters(check, known.intensity, known.wind, known.emitting);
-        if (check.status())
-            scene->scene.setParameters(id, toParameters(known.intensity, known.wind, known.emitting));
-        return check.status();
-    });
+    return fx::api::withInstance(
+        "fxScene_SetParameters", scene, instance, [&](fx::scene::LocalId id) -> Status {
+            FxInstanceParameters known;
+            if (Status status =
+                    fx::api::readStruct(parameters, "parameters", fxDefaultInstanceParameters(), known);
+                !status)
+                return status;
+            fx::api::Checks check;
+            checkParameters(check, known.intensity, known.wind, known.emitting);
+            if (check.status())
+                scene->scene.setParameters(id, toParameters(known.intensity, known.wind, known.emitting));
+            return check.status();
+        });
 }

@@ -9,6 +9,8 @@ namespace {
 using fx::base::Code;
 using fx::base::Status;
 
+constexpr int64_t kLongestAbsence = 3600 * FX_TICKS_PER_SECOND;
+
 Status checkDef(const FxSceneDef& def)
 {
     fx::api::Checks check;
@@ -18,6 +20,12 @@ Status checkDef(const FxSceneDef& def)
     check.range3(def.gravity, -1000.0f, 1000.0f, "def.gravity");
     check.flag(def.hasGround, "def.hasGround");
     check.flag(def.shareInstances, "def.shareInstances");
+    check.flag(def.disableCulling, "def.disableCulling");
+    check.flag(def.lockStep, "def.lockStep");
+    check.range(def.releaseAfterTicks, INT64_C(0), kLongestAbsence, "def.releaseAfterTicks");
+    check.range(def.maxCatchUpTicks, INT64_C(0), kLongestAbsence, "def.maxCatchUpTicks");
+    check.range(def.catchUpSteps, 1u, UINT32_MAX, "def.catchUpSteps");
+    check.range(def.reserved, 0u, 0u, "def.reserved");
     fx::api::checkQuality(check, def.quality, "def.quality");
     return check.status();
 }
@@ -47,6 +55,10 @@ FxSceneStatistics gatherStatistics(const FxScene& object)
     statistics.debtTicks = counters.work.debt;
     statistics.subSteps = counters.work.subSteps;
     statistics.simulations = counters.simulations;
+    statistics.instancesWaking = counters.waking;
+    statistics.instancesResting = counters.resting;
+    statistics.instancesHidden = counters.hidden;
+    statistics.catchUpsSkipped = counters.catchUpsSkipped;
     return statistics;
 }
 
@@ -84,7 +96,12 @@ FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene** outS
             known.maxFrameTicks,
             known.maxInstances,
             {{known.gravity[0], known.gravity[1], known.gravity[2]}, known.hasGround != 0},
-            known.shareInstances != 0};
+            known.shareInstances != 0,
+            known.disableCulling == 0,
+            known.lockStep != 0,
+            known.releaseAfterTicks,
+            known.maxCatchUpTicks,
+            known.catchUpSteps};
         FxScene* scene =
             std::pmr::polymorphic_allocator<>(&context->memory).new_object<FxScene>(context, options);
         scene->quality = fx::api::toQuality(known.quality, fx::sim::QualityLevel::Medium);

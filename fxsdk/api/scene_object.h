@@ -10,6 +10,8 @@
 #include "fxsdk/scene/scene.h"
 
 #include <atomic>
+#include <memory_resource>
+#include <vector>
 
 struct FxScene
 {
@@ -21,8 +23,9 @@ struct FxScene
     fx::api::SingleCaller caller; ///< scene thread
     fx::scene::IdCodec ids{this};
     fx::scene::Scene scene;
-    fx::sim::QualityLevel quality = fx::sim::QualityLevel::Medium; ///< of instances that do not choose
-    uint64_t updateAllocations = 0;                                ///< during the last update
+    fx::sim::QualityLevel quality = fx::sim::QualityLevel::Medium;    ///< of instances that do not choose
+    uint64_t updateAllocations = 0;                                   ///< during the last update
+    std::pmr::vector<fx::activation::Frustum> foci{&context->memory}; ///< scratch of fxScene_SetFocus
     fx::api::HeldSnapshots held;
     std::atomic<uint32_t> views{0}; ///< that show this scene
 };
@@ -61,6 +64,18 @@ FxResult insideScene(const char* function, FxScene* scene, F&& body) noexcept
             return invalid("scene is null");
         const SingleCaller::Scope scope(scene->caller, kSceneThreadRule);
         return scope.status() ? body() : scope.status();
+    });
+}
+
+/// Looks `id` up and runs body(local identity) inside the scene.
+template <class F>
+FxResult withInstance(const char* function, FxScene* scene, FxInstanceId id, F&& body)
+{
+    return insideScene(function, scene, [&]() -> base::Status {
+        const scene::LocalId local = scene->ids.decode(id.bits, kInstanceIdType);
+        if (!scene->scene.contains(local))
+            return {base::Code::StaleId, "instance names no instance of this scene"};
+        return body(local);
     });
 }
 

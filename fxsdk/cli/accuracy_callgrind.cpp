@@ -97,8 +97,8 @@ std::vector<double> callgrindTotals(const std::string& text)
     return totals;
 }
 
-base::Result<std::vector<double>> countUnderCallgrind(const std::string& technique, const std::string& scene,
-                                                      size_t settings)
+base::Result<std::vector<double>> countUnderCallgrind(const std::vector<std::string>& arguments,
+                                                      const std::string& function, size_t calls)
 {
     const ScratchFolder folder;
     std::error_code error;
@@ -107,18 +107,29 @@ base::Result<std::vector<double>> countUnderCallgrind(const std::string& techniq
         return base::Status(base::Code::Io,
                             "callgrind: no temporary folder, or the program does not find itself");
     const std::string file = (folder.path() / "out").string();
-    const int exitCode =
-        runSilently({"valgrind", "--tool=callgrind", "--toggle-collect=fxAccuracyWork",
-                     "--dump-after=fxAccuracyWork", "--callgrind-out-file=" + file, self.string(), "accuracy",
-                     technique, "--scene", scene, "--count-work"});
-    std::vector<double> totals = readDumps(folder.path(), settings);
+    std::vector<std::string> words{"valgrind",
+                                   "--tool=callgrind",
+                                   "--toggle-collect=" + function,
+                                   "--dump-after=" + function,
+                                   "--callgrind-out-file=" + file,
+                                   self.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const int exitCode = runSilently(std::move(words));
+    std::vector<double> totals = readDumps(folder.path(), calls);
     const bool isPlausible =
         std::all_of(totals.begin(), totals.end(), [](double count) { return count > 0; });
-    if (exitCode != 0 || totals.size() != settings || !isPlausible)
+    if (exitCode != 0 || totals.size() != calls || !isPlausible)
         return base::Status(base::Code::Internal, "callgrind: gave " + std::to_string(totals.size()) +
-                                                      " of " + std::to_string(settings) +
-                                                      " counts, exit code " + std::to_string(exitCode));
+                                                      " of " + std::to_string(calls) + " counts, exit code " +
+                                                      std::to_string(exitCode));
     return totals;
+}
+
+base::Result<std::vector<double>> countUnderCallgrind(const std::string& technique, const std::string& scene,
+                                                      size_t settings)
+{
+    return countUnderCallgrind({"accuracy", technique, "--scene", scene, "--count-work"}, "fxAccuracyWork",
+                               settings);
 }
 
 } // namespace fx::cli

@@ -12,6 +12,12 @@ namespace fx::cli {
 /// Whether the valgrind program is found in PATH.
 bool hasCallgrind();
 
+/// Runs this program again under callgrind with other arguments.
+/// @param function extern "C", called `calls` times: what happens inside is counted
+/// @return instructions, one for each call; Internal when callgrind's output is not understood
+base::Result<std::vector<double>> countUnderCallgrind(const std::vector<std::string>& arguments,
+                                                      const std::string& function, size_t calls);
+
 /// Runs this program again under callgrind, `fx accuracy TECHNIQUE --scene SCENE --count-work`, which calls
 /// fxAccuracyWork() once for each setting. The simulated processor has AVX2 at most.
 /// @return instructions, one for each setting; Internal when callgrind's output is not understood

@@ -1,127 +1,79 @@
 /// @file bench_command.cpp
-/// fx bench: what particles cost on this machine.
+/// fx bench: measurements of the running product, one subcommand each.
 
-#include "fxsdk/cli/bench_entry.h"
-#include "fxsdk/cli/calibration.h"
+#include "fxsdk/cli/bench_command.h"
+
+#include "fxsdk/cli/bench_budget.h"
+#include "fxsdk/cli/bench_city.h"
+#include "fxsdk/cli/bench_idle.h"
 #include "fxsdk/cli/commands.h"
-#include "fxsdk/cli/exit_code.h"
-#include "fxsdk/cli/json_line.h"
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <charconv>
-#include <cstdio>
 #include <memory>
-#include <optional>
-#include <string>
 
 namespace fx::cli {
 namespace {
 
-struct BenchArguments
+void addIdle(CLI::App& bench, int& outExitCode)
 {
-    std::string name;
-    BenchSettings settings;
-    std::string wantedHash; ///< hexadecimal
-    bool json = false;
-};
-
-int refused(const std::string& what)
-{
-    std::fprintf(stderr, "fx bench: %s\n", what.c_str());
-    return kUsage;
+    auto options = std::make_shared<BenchIdleOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "idle", "Instructions, time, GL calls and allocations of frames in which nothing is to be seen; "
+                "counts instructions with valgrind when it is installed");
+    command->add_option("--dormant", options->dormant, "Instances before their start")
+        ->check(CLI::Range(0, 1000000));
+    command->add_option("--hidden", options->hidden, "Instances behind the camera")
+        ->check(CLI::Range(0, 1000000));
+    command->add_flag("--gl", options->gl, "A view draws each frame as well");
+    command->add_flag("--turn", options->turn, "The camera moves each frame");
+    command->add_flag("--visit-all", options->visitAll,
+                      "Ask every instance for its state: the gates' control");
+    command->add_flag("--check", options->check,
+                      "Compare an empty scene, a thousand and many with the gates; fail beyond them");
+    command->add_flag("--json", options->json, "One object a line");
+    command->add_flag("--count-work", options->countWork)->group(""); // for callgrind
+    command->callback([options, &outExitCode] { outExitCode = runBenchIdle(*options); });
 }
 
-std::optional<uint64_t> parseHash(std::string_view text)
+void addCity(CLI::App& bench, int& outExitCode)
 {
-    if (text.starts_with("0x"))
-        text.remove_prefix(2);
-    uint64_t hash = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
-    if (text.empty() || error != std::errc{} || end != text.data() + text.size())
-        return std::nullopt;
-    return hash;
+    auto options = std::make_shared<BenchCityOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "city", "Update and render time of many effects, few in sight, over that of only those in sight");
+    command->add_option("--instances", options->instances, "Effects in the city")
+        ->check(CLI::Range(100, 1000000));
+    command->add_option("--frames", options->frames, "Frames to measure")->check(CLI::Range(1, 100000));
+    command->add_flag("--gl", options->gl, "A view draws each frame as well");
+    command->add_flag("--json", options->json, "One object a line");
+    command->callback([options, &outExitCode] { outExitCode = runBenchCity(*options); });
 }
 
-void print(const BenchArguments& arguments, const BenchRow& row)
+void addBudget(CLI::App& bench, int& outExitCode)
 {
-    if (!arguments.json) {
-        std::printf("%s\n", toText(row).c_str());
-        return;
-    }
-    nlohmann::json json = toJson(row);
-    json["threads"] = arguments.settings.threads;
-    json["calibration"] = toJson(calibrate());
-    printJsonLine(withMachine(json, readMachine()));
-}
-
-int runBench(const BenchArguments& arguments)
-{
-    const BenchEntry* const entry = findBenchEntry(arguments.name);
-    if (!entry)
-        return refused("'" + arguments.name + "' cannot be measured; see fx bench --help");
-    const auto& variants = entry->variants;
-    const std::string& variant = arguments.settings.variant;
-    if (!variant.empty() && std::find(variants.begin(), variants.end(), variant) == variants.end())
-        return refused("--variant: '" + variant + "' is none of this measurement's; see fx bench --help");
-    std::optional<uint64_t> wanted;
-    if (!arguments.wantedHash.empty()) {
-        wanted = parseHash(arguments.wantedHash);
-        if (!wanted)
-            return refused("--validate-hash: '" + arguments.wantedHash + "' is not a hexadecimal number");
-        if (variant.empty() && variants.size() > 1)
-            return refused("--validate-hash: say with --variant what the hash is of");
-    }
-    const base::Result<std::vector<BenchRow>> rows = entry->run(arguments.settings);
-    if (!rows) {
-        std::fprintf(stderr, "fx bench: %s\n", rows.status().message().c_str());
-        return exitCodeOf(rows.status());
-    }
-    int exitCode = kSuccess;
-    for (const BenchRow& row : *rows) {
-        print(arguments, row);
-        if (wanted && row.hash != *wanted) {
-            std::fprintf(stderr, "fx bench: the hash is not the one that --validate-hash names\n");
-            exitCode = kFailed;
-        }
-    }
-    return exitCode;
-}
-
-std::string entriesText()
-{
-    std::string text = "Measurements and their variants:";
-    for (const BenchEntry& entry : benchEntries()) {
-        text += "\n  " + std::string(entry.name) + std::string(14 - entry.name.size(), ' ') +
-                std::string(entry.summary) + " (";
-        for (size_t i = 0; i < entry.variants.size(); ++i)
-            text += (i > 0 ? ", " : "") + std::string(entry.variants[i]);
-        text += ")";
-    }
-    return text;
+    auto arguments = std::make_shared<BenchBudgetArguments>();
+    CLI::App* command =
+        bench.add_subcommand("budget", "Frames whose load jumps, with quality by budget and without");
+    command->add_option("--size", arguments->size, "Of the frames")->capture_default_str();
+    command->add_option("--clock", arguments->clock, "auto, gpu, wall or processor")->capture_default_str();
+    command->add_option("--calibration", arguments->calibration, "A file of fx calibrate");
+    command->add_option("--budget", arguments->budget,
+                        "[ms] default: 1.5 times a frame of the least load at full quality");
+    command->add_option("--frames", arguments->frames, "Frames of equal load")->capture_default_str();
+    command->add_flag("--json", arguments->json, "One object a way to choose quality");
+    command->callback([arguments, &outExitCode] { outExitCode = runBenchBudget(*arguments); });
 }
 
 } // namespace
 
 void addBenchCommand(CLI::App& app, int& outExitCode)
 {
-    auto arguments = std::make_shared<BenchArguments>();
-    CLI::App* command = app.add_subcommand("bench", "Measure what particles cost on this machine");
-    command->add_option("NAME", arguments->name, "What to measure")->required();
-    BenchSettings& settings = arguments->settings;
-    command->add_option("--count", settings.count, "Particles (default: what is usual for NAME)")
-        ->check(CLI::Range(uint64_t(1), uint64_t(1) << 32));
-    command->add_option("--threads", settings.threads, "Threads, 0 for all of the machine (default 1)")
-        ->check(CLI::Range(0u, 1024u));
-    command->add_option("--steps", settings.steps, "Timed steps (default: about a second's worth)")
-        ->check(CLI::Range(1u, 1'000'000u));
-    command->add_option("--variant", settings.variant, "One variant alone (default: all)");
-    command->add_option("--validate-hash", arguments->wantedHash,
-                        "Exit code 1 when what was published has another hash (hexadecimal)");
-    command->add_flag("--json", arguments->json, "One object a variant with every number");
-    command->footer(entriesText());
-    command->callback([arguments, &outExitCode] { outExitCode = runBench(*arguments); });
+    CLI::App* bench = app.add_subcommand("bench", "Measure what effects cost on this machine");
+    bench->require_subcommand(1);
+    addBenchMeasurements(*bench, outExitCode);
+    addIdle(*bench, outExitCode);
+    addCity(*bench, outExitCode);
+    addBudget(*bench, outExitCode);
 }
 
 } // namespace fx::cli

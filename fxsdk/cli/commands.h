@@ -17,5 +17,6 @@ void addAccuracyCommand(CLI::App& app, int& outExitCode);
 void addStabilityCommand(CLI::App& app, int& outExitCode);
 void addDazzleCommand(CLI::App& app, int& outExitCode);
 void addBenchCommand(CLI::App& app, int& outExitCode);
+void addExplainCommand(CLI::App& app, int& outExitCode);
 
 } // namespace fx::cli

@@ -63,6 +63,7 @@ public:
     base::Result<FrameLayers> read();
 
     const FrameCounters& counters() const { return counters_; }
+    EffectScene& effects() { return *effects_; }
     const std::string& rendererName() const { return device_->limits().renderer; }
 
 private:

@@ -32,6 +32,7 @@ int run(int argumentCount, char** arguments)
     fx::cli::addStabilityCommand(app, exitCode);
     fx::cli::addDazzleCommand(app, exitCode);
     fx::cli::addBenchCommand(app, exitCode);
+    fx::cli::addExplainCommand(app, exitCode);
     try {
         app.parse(argumentCount, arguments);
     } catch (const CLI::ParseError& error) {

@@ -9,6 +9,10 @@
 #include "fxsdk/presets/schema_validator.h"
 #include "fxsdk/techniques.h"
 
+#include <array>
+#include <span>
+#include <utility>
+
 namespace fx::preset {
 
 namespace {
@@ -20,6 +24,23 @@ uint64_t fingerprintOf(const Json& document)
 {
     const std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
     return base::hashBytes(0, text.data(), text.size());
+}
+
+constexpr std::array<std::pair<std::string_view, sim::CatchUp>, 5> kPolicies{{
+    {"analytic", sim::CatchUp::Analytic},
+    {"replay", sim::CatchUp::Replay},
+    {"coarse", sim::CatchUp::Coarse},
+    {"skip", sim::CatchUp::Skip},
+    {"authoritative", sim::CatchUp::Authoritative},
+}};
+
+void readOffscreen(const PresetValue& root, sim::EffectDef& effect)
+{
+    if (!root.has("offscreen"))
+        return;
+    sim::CatchUp policy = sim::CatchUp::Replay;
+    root.read("offscreen", std::span<const std::pair<std::string_view, sim::CatchUp>>(kPolicies), policy);
+    effect.offscreen = policy;
 }
 
 std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const std::string& displayName,
@@ -36,6 +57,8 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     root.read("subSteps", effect->subSteps);
     root.read("wind", effect->wind);
     root.read("ground", effect->hasGround);
+    root.read("bound", effect->bound);
+    readOffscreen(root, *effect);
     for (const Technique& technique : techniques()) {
         if (!technique.build)
             continue;

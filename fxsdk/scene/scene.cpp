@@ -1,6 +1,7 @@
 #include "fxsdk/scene/scene.h"
 
 #include <algorithm>
+#include <chrono>
 #include <new>
 #include <utility>
 
@@ -15,8 +16,11 @@ Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, ba
     : options_(options), schema_(schema), tasks_(tasks), memory_(memory),
       clock_(options.stepTicks, options.maxFrameTicks),
       world_(schema, tasks, memory, options.environment, options.shareInstances),
-      instances_(memory, options.maxInstances), dormant_(memory), active_(memory), ring_(schema, memory)
+      instances_(memory, options.maxInstances), dormant_(memory), active_(memory), waking_(memory),
+      denied_(memory), coarse_(memory), tree_(memory), alarms_(memory), focus_(memory), candidates_(memory),
+      ring_(schema, memory)
 {
+    world_.allowRest(options.culling);
     ring_.beginWrite(0); // so that acquire() always has something to show
     ring_.publish();
 }
@@ -32,6 +36,8 @@ LocalId Scene::add(InstanceSetup setup)
     instance.setup = std::move(setup);
     instance.serial = nextSerial_;
     instance.state = InstanceState::Dormant;
+    instance.policy = instance.setup.effect->catchUp();
+    measure(instance);
     const base::Ticks start = instance.setup.startTick;
     const LocalId id = instances_.add(std::move(instance));
     if (id == 0)
@@ -57,6 +63,9 @@ void Scene::remove(LocalId id)
     if (instance.state == InstanceState::Active) {
         active_.remove(instance.serial);
         world_.remove(instance.slot);
+    } else if (instance.state >= InstanceState::Waking) {
+        takeBack(indexOf(id));
+        world_.remove(instance.slot);
     }
     if (instance.state == InstanceState::Finished)
         --counters_.finished;
@@ -66,23 +75,9 @@ void Scene::remove(LocalId id)
 uint32_t Scene::particles(LocalId id)
 {
     const Instance& instance = *instances_.find(id);
-    return instance.state == InstanceState::Active ? world_.elementCount(instance.slot) : 0;
-}
-
-void Scene::setPlacement(LocalId id, const base::Placement& placement)
-{
-    Instance& instance = *instances_.find(id);
-    if (instance.state == InstanceState::Active)
-        world_.setPlacement(instance.slot, placement); // may throw
-    instance.setup.placement = placement;
-}
-
-void Scene::setParameters(LocalId id, const sim::InstanceParameters& parameters)
-{
-    Instance& instance = *instances_.find(id);
-    if (instance.state == InstanceState::Active)
-        world_.setParameters(instance.slot, parameters); // may throw
-    instance.setup.parameters = parameters;
+    const bool isInWorld =
+        instance.state != InstanceState::Dormant && instance.state != InstanceState::Finished;
+    return isInWorld ? world_.elementCount(instance.slot) : 0;
 }
 
 base::Status Scene::setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize)
@@ -107,7 +102,9 @@ bool Scene::update(double dt)
     }
     counters_.droppedTicks =
         std::min(counters_.droppedTicks, kMostDropped - plan.droppedTicks) + plan.droppedTicks;
-    bool memoryFailed = false; // must not stop the steps that follow: the clock has already counted them
+    memoryFailed_ = false; // must not stop the steps that follow: the clock has already counted them
+    if (plan.steps > 0)
+        reconsider();
     for (uint32_t k = 0; k < plan.steps; ++k) {
         const base::Ticks from = plan.firstStep + base::Ticks(k) * clock_.stepTicks();
         try {
@@ -115,14 +112,14 @@ bool Scene::update(double dt)
             if (k + 2 >= plan.steps)
                 publish(from + clock_.stepTicks(), k + 1 == plan.steps ? clock_.interpolation() : 0.0);
         } catch (const std::bad_alloc&) {
-            memoryFailed = true;
+            memoryFailed_ = true;
         }
     }
     if (plan.steps == 0) {
         std::lock_guard lock(presentation_);
         show(clock_.simulated(), clock_.interpolation());
     }
-    if (memoryFailed)
+    if (memoryFailed_)
         throw std::bad_alloc();
     return true;
 }
@@ -130,10 +127,30 @@ bool Scene::update(double dt)
 void Scene::step(base::Ticks from)
 {
     const base::Ticks to = from + clock_.stepTicks();
-    wake(to);
-    counters_.work += world_.step(active_.slots(), from, clock_.stepTicks());
+    if (!dormant_.empty())
+        wake(to);
+    if (!alarms_.empty())
+        ringAlarms(to);
+    if (active_.size() > 0) {
+        const auto start = std::chrono::steady_clock::now();
+        const sim::StepCounters work = world_.step(active_.slots(), from, clock_.stepTicks());
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        measureTime(took.count(), work.particleSteps);
+        update_.work += work;
+        counters_.work += work;
+    } else {
+        world_.passTime(to);
+    }
+    if (coarse_.size() > 0 && to / clock_.stepTicks() % sim::kCoarseSteps == 0)
+        for (const sim::Slot slot : coarse_.slots())
+            world_.stepCoarsely(slot, clock_.stepTicks(), counters_.work);
     ++counters_.steps;
-    retireFinished(to);
+    if (active_.size() > 0) {
+        retireFinished(to);
+        restOrNot(to);
+    }
+    if (world_.spares() > 0)
+        world_.trimSpares(to - options_.releaseAfter);
 }
 
 void Scene::wake(base::Ticks until)
@@ -153,6 +170,17 @@ void Scene::wake(base::Ticks until)
 void Scene::enterWorld(uint32_t index)
 {
     Instance& instance = instances_.at(index);
+    const Reason reason = mayHide(instance) ? judge(instance, false) : Reason::None;
+    if (reason != Reason::None) {
+        instance.slot = world_.add(instance.setup.effect, startOf(instances_, index), true);
+        try {
+            place(index, reason);
+        } catch (...) {
+            world_.remove(instance.slot);
+            throw;
+        }
+        return;
+    }
     instance.slot = world_.add(instance.setup.effect, startOf(instances_, index));
     instance.state = InstanceState::Active;
     active_.insert(instance.serial, index, instance.slot);
@@ -176,7 +204,7 @@ void Scene::retireFinished(base::Ticks now)
     active_.removeIf([&](uint32_t index, sim::Slot slot) {
         if (!world_.finished(slot, now))
             return false;
-        world_.remove(slot);
+        world_.retire(slot);
         finish(index);
         return true;
     });
@@ -189,11 +217,22 @@ void Scene::finish(uint32_t index)
         return;
     }
     instances_.at(index).state = InstanceState::Finished;
+    instances_.at(index).reason = Reason::Ended;
     ++counters_.finished;
 }
 
 void Scene::publish(base::Ticks tick, double interpolation)
 {
+    if (active_.size() > 0 && emptyPublications_ > 2) { // the step before is what views interpolate from
+        ring_.beginWrite(tick - clock_.stepTicks());
+        ring_.publish();
+    }
+    emptyPublications_ = active_.size() > 0 ? 0 : emptyPublications_ + 1;
+    if (emptyPublications_ > 2) { // what is shown, and what was before it, is as empty as this would be
+        emptyPublications_ = 3;
+        std::lock_guard lock(presentation_);
+        return show(tick, interpolation);
+    }
     base::FrameSnapshot& snapshot = ring_.beginWrite(tick);
     world_.publish(active_.slots(), snapshot);
     std::lock_guard lock(presentation_);
@@ -213,7 +252,10 @@ SceneCounters Scene::counters() const
     SceneCounters now = counters_;
     now.instances = instances_.count();
     now.dormant = uint32_t(dormant_.size());
-    now.active = uint32_t(active_.size());
+    now.resting = resting_ + std::min(world_.resting(), uint32_t(active_.size()));
+    now.active = uint32_t(active_.size()) + resting_ - now.resting;
+    now.waking = uint32_t(waking_.size());
+    now.hidden = hidden_;
     now.simulations = world_.simulations();
     return now;
 }

@@ -7,6 +7,9 @@
 #include "foundation/snapshot/snapshot_ring.h"
 #include "foundation/time/step_clock.h"
 #include "fxsdk/activation/active_list.h"
+#include "fxsdk/activation/budget.h"
+#include "fxsdk/activation/focus.h"
+#include "fxsdk/activation/hidden_tree.h"
 #include "fxsdk/activation/wake_queue.h"
 #include "fxsdk/scene/id_table.h"
 #include "simulation/world.h"
@@ -16,6 +19,8 @@
 #include <memory>
 #include <memory_resource>
 #include <mutex>
+#include <span>
+#include <vector>
 
 namespace fx::scene {
 
@@ -26,15 +31,57 @@ struct SceneOptions
     uint32_t maxInstances = 65'536;
     sim::Environment environment;
     bool shareInstances = true; ///< false: identical instances are simulated one by one
+    bool culling = true;        ///< false: everything is stepped always
+    bool lockStep = false;      ///< what cannot be caught up bit for bit is never out of sight
+    base::Ticks releaseAfter = 5 * base::kTicksPerSecond; ///< out of sight, until memory is given back
+    base::Ticks maxCatchUp = 30 * base::kTicksPerSecond;  ///< longest absence that is replayed
+    uint64_t catchUpSteps = 200'000; ///< particle steps of an update that may be spent on replays
 };
 
-/// Where an instance is in its life. Dormant and finished ones have no slot in the world and are never
-/// visited.
+/// Where an instance is in its life. Dormant, hidden, resting and finished ones are never visited.
 enum class InstanceState : uint32_t
 {
-    Dormant,
-    Active,
-    Finished,
+    Dormant,  ///< before its start; not in the world
+    Active,   ///< stepped and shown
+    Finished, ///< after its end; not in the world
+    Waking,   ///< in sight again, on its way to the present
+    Resting,  ///< has nothing to show and nothing to do before a known time
+    Hidden,   ///< out of sight: paused
+};
+
+/// Why an instance is not active.
+enum class Reason : uint32_t
+{
+    None,
+    NotStarted,
+    Outside, ///< of all frusta
+    TooFar,
+    TooSmall,
+    Occluded,   ///< the host says so
+    Budget,     ///< others matter more
+    CatchingUp, ///< its past is being simulated
+    NothingMoves,
+    Ended,
+};
+
+/// What the host says about how much an instance matters.
+struct ActivationHints
+{
+    float priority = 1;    ///< [1] multiplies the size on the picture
+    float maxDistance = 0; ///< [m] beyond which nobody sees it; 0: none
+    bool occluded = false;
+};
+
+/// Of the last update; exact but for the estimate.
+struct UpdateCounters
+{
+    uint32_t judged = 0;   ///< instances and nodes whose place was compared with the focus
+    uint32_t hidden = 0;   ///< went out of sight
+    uint32_t returned = 0; ///< are at the present again
+    uint32_t denied = 0;   ///< in sight, but beyond the budget: now
+    base::Ticks catchUpTicks = 0;
+    uint64_t catchUpParticleSteps = 0;
+    sim::StepCounters work;
 };
 
 /// How an instance starts, checked by the caller.
@@ -52,14 +99,18 @@ struct InstanceSetup
 /// Exact counts since the scene was created, unless they say "now".
 struct SceneCounters
 {
-    uint32_t instances = 0;   ///< now; the sum of the next three
+    uint32_t instances = 0;   ///< now; the sum of the next six
     uint32_t dormant = 0;     ///< now
     uint32_t active = 0;      ///< now
     uint32_t finished = 0;    ///< now
+    uint32_t waking = 0;      ///< now
+    uint32_t resting = 0;     ///< now
+    uint32_t hidden = 0;      ///< now
     uint32_t simulations = 0; ///< now; at most `active`: identical instances share one
     uint64_t steps = 0;
     uint64_t wakeFailures = 0;
     uint64_t refusedUpdates = 0;
+    uint64_t catchUpsSkipped = 0; ///< absences too long to be replayed
     base::Ticks droppedTicks = 0;
     sim::StepCounters work;
 };
@@ -84,10 +135,30 @@ public:
 
     // The id must name an instance of this scene.
     void remove(LocalId id);
-    InstanceState state(LocalId id) { return instances_.find(id)->state; }
+    /// In lock-step the instance is caught up first, so that no camera decides the answer.
+    InstanceState state(LocalId id);
     uint32_t particles(LocalId id);
     void setPlacement(LocalId id, const base::Placement& placement);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
+    void setHints(LocalId id, const ActivationHints& hints);
+
+    /// What is known about why an instance costs what it costs.
+    struct Activity
+    {
+        InstanceState state = InstanceState::Finished;
+        Reason reason = Reason::None;
+        sim::CatchUp policy = sim::CatchUp::Replay;
+        base::Ticks lag = 0;     ///< time not simulated yet
+        double significance = 0; ///< [pixel] times priority
+        double reach = 0;        ///< [m] world; infinite when unknown
+        uint32_t particles = 0;
+        double milliseconds = 0; ///< of a step, estimated
+    };
+    Activity activity(LocalId id);
+
+    /// Strong guarantee. @param frusta none: everything is in sight
+    void setFocus(std::span<const activation::Frustum> frusta);
+    void setBudget(const activation::Budget& budget);
 
     /// Exchanges the geometry that effects collide with; null for none. Strong guarantee.
     /// @param cellSize see sim::DistanceField::build
@@ -102,14 +173,17 @@ public:
 
     SceneCounters counters() const;
     uint32_t particles() const; ///< of all active instances
+    const UpdateCounters& lastUpdate() const { return update_; }
+    double nanosecondsPerParticle() const; ///< [ns] of a step, given or measured
     const base::StepClock& clock() const { return clock_; }
     uint64_t stateHash(); ///< of what is to be seen of the last step
 
     /// Hash of everything that decides what later steps give; apart from the part of a step that has not been
     /// taken yet, so that it does not depend on the frame rate.
-    uint64_t simulationHash() const;
-    /// Writes all that restore() needs.
-    void save(sim::StateWriter& writer) const;
+    /// What is out of sight is caught up first when that can be done without a trace.
+    uint64_t simulationHash();
+    /// Writes all that restore() needs; what is out of sight is caught up first.
+    void save(sim::StateWriter& writer);
     /// Finds the effect of a fingerprint among those that no instance has any more; null when there is none.
     using FindEffect = std::function<std::shared_ptr<const sim::EffectDef>(uint64_t fingerprint)>;
     /// Takes the state of a scene with the same step, gravity, ground and geometry, identities included, and
@@ -132,8 +206,16 @@ private:
     {
         InstanceSetup setup;
         uint64_t serial = 0; ///< order of creation
-        sim::Slot slot = 0;  ///< in the world, while active
+        sim::Slot slot = 0;  ///< in the world, unless dormant or finished
         InstanceState state = InstanceState::Finished;
+        Reason reason = Reason::None; ///< of being hidden
+        sim::CatchUp policy = sim::CatchUp::Replay;
+        activation::HiddenTree::Leaf leaf = activation::HiddenTree::kNone;
+        bool hasAlarm = false;
+        bool wasResting = false;    ///< before it began to wake
+        uint32_t lastParticles = 0; ///< when it was hidden
+        ActivationHints hints;
+        double reach = 0; ///< [m] world
     };
     struct Restored; ///< a state on its way into the scene
 
@@ -142,6 +224,35 @@ private:
     void step(base::Ticks from);
     void retireFinished(base::Ticks now);
     void finish(uint32_t index);
+
+    // in and out of sight
+    bool mayHide(const Instance& instance) const;
+    activation::Ball ballOf(const Instance& instance) const;
+    double significanceOf(const Instance& instance) const;
+    uint64_t particlesOf(const Instance& instance) const;
+    void measure(Instance& instance) const; ///< how far it reaches
+    Reason judge(const Instance& instance, bool isSeen);
+    void reconsider();
+    void lookAround();
+    void lookAtDenied();
+    void keepBudget();
+    bool sendOut(uint32_t index, Reason reason);
+    void place(uint32_t index, Reason reason);
+    void takeBack(uint32_t index);
+    void comeBack(uint32_t index);
+    void catchUpWaking();
+    bool catchUp(uint32_t index, uint64_t& ioBudget);
+    void becomePresent(uint32_t index);
+    void ringAlarms(base::Ticks until);
+    void setAlarm(uint32_t index, base::Ticks tick);
+    void restOrNot(base::Ticks now);
+    void settle(bool alsoInexact);
+    void forgetSight(); ///< after restore(): everything is active
+    std::vector<sim::Slot> slotsBySerial() const;
+    void settleOne(uint32_t index, bool alsoInexact);
+    base::Ticks endOf(const Instance& instance) const;
+    void measureTime(double seconds, uint64_t particleSteps);
+
     void publish(base::Ticks tick, double interpolation);
     void show(base::Ticks newest, double interpolation); ///< with presentation_ held
     static sim::InstanceStart startOf(const IdTable<Instance>& instances, uint32_t index);
@@ -166,6 +277,21 @@ private:
     IdTable<Instance> instances_;
     activation::WakeQueue dormant_;
     activation::ActiveList active_;
+    activation::ActiveList waking_;
+    activation::ActiveList denied_; ///< in sight, beyond the budget
+    activation::ActiveList coarse_; ///< hidden, stepped coarsely
+    activation::HiddenTree tree_;   ///< hidden for where they are
+    activation::WakeQueue alarms_;  ///< of hidden and resting ones
+    activation::FocusSet focus_;
+    activation::Budget budget_;
+    std::pmr::vector<activation::Candidate> candidates_; ///< scratch
+    bool lookAgain_ = false;                             ///< something moved, or somebody looks elsewhere
+    bool memoryFailed_ = false;
+    UpdateCounters update_;
+    uint32_t emptyPublications_ = 0; ///< one after the other
+    uint32_t hidden_ = 0;
+    uint32_t resting_ = 0;
+    double measuredNanoseconds_ = 100; ///< [ns] of a particle's step; a guess until something is stepped
     base::SnapshotRing ring_;
     SceneCounters counters_;
     uint64_t nextSerial_ = 0;

@@ -122,13 +122,16 @@ void Scene::saveInstances(sim::StateWriter& writer) const
         const auto at = std::find(used.begin(), used.end(), instance.setup.effect);
         writer.value(uint32_t(at - used.begin()));
         writer.value(instance.serial);
-        writer.value(instance.state);
+        const bool isInWorld =
+            instance.state != InstanceState::Dormant && instance.state != InstanceState::Finished;
+        writer.value(isInWorld ? InstanceState::Active : instance.state); // a state knows no cameras
         saveSetup(writer, instance.setup);
     });
 }
 
-void Scene::save(sim::StateWriter& writer) const
+void Scene::save(sim::StateWriter& writer)
 {
+    settle(true);
     saveRules(writer);
     saveInstances(writer);
     const base::ClockState clock = clock_.state();
@@ -136,16 +139,17 @@ void Scene::save(sim::StateWriter& writer) const
     writer.value(clock.now);
     writer.value(clock.remainder);
     saveCounters(writer, counters_);
-    world_.save(active_.slots(), writer);
+    world_.save(slotsBySerial(), writer);
 }
 
-uint64_t Scene::simulationHash() const
+uint64_t Scene::simulationHash()
 {
+    settle(false);
     sim::StateHasher hasher;
     saveRules(hasher);
     saveInstances(hasher);
     hasher.value(clock_.simulated());
-    hasher.value(world_.hash(active_.slots()));
+    hasher.value(world_.hash(slotsBySerial()));
     return hasher.hash();
 }
 
@@ -219,8 +223,11 @@ void Scene::restoreInstances(sim::StateReader& reader, const Effects& effects, R
         instance.setup = restoreSetup(reader);
         reader.require(effect < effects.size(), "an instance has no effect");
         reader.require(instance.serial < state.nextSerial, "an instance is from the future");
-        if (reader.ok())
+        if (reader.ok()) {
             instance.setup.effect = effects[effect];
+            instance.policy = instance.setup.effect->catchUp();
+            measure(instance);
+        }
         return instance;
     });
 }
@@ -261,6 +268,21 @@ void Scene::restoreWorld(sim::StateReader& reader, Restored& state) const
     }
 }
 
+/// Of all that is in the world, in order of creation.
+std::vector<sim::Slot> Scene::slotsBySerial() const
+{
+    std::vector<std::pair<uint64_t, sim::Slot>> found;
+    instances_.forEach([&](uint32_t, const Instance& instance) {
+        if (instance.state != InstanceState::Dormant && instance.state != InstanceState::Finished)
+            found.push_back({instance.serial, instance.slot});
+    });
+    std::sort(found.begin(), found.end());
+    std::vector<sim::Slot> slots;
+    for (const auto& [serial, slot] : found)
+        slots.push_back(slot);
+    return slots;
+}
+
 /// Makes a restored state that of the scene, and shows it. Throws only while nothing has changed.
 void Scene::take(Restored& state)
 {
@@ -273,6 +295,8 @@ void Scene::take(Restored& state)
     std::swap(dormant_, state.dormant);
     std::swap(active_, state.active);
     world_.swap(state.world);
+    world_.setNow(simulated);
+    forgetSight();
     std::lock_guard lock(presentation_);
     ring_.publish();
     ring_.forgetOlder();

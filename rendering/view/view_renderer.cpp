@@ -36,11 +36,14 @@ struct ViewRenderer::Impl
     FrameBuilder builder;
     LayerScaleControl layerScale;
     GlBuffer dazzleHistory;
+    uint32_t idleFrames = 0;   ///< one after the other in which there was nothing to draw
     bool historyFresh = false; ///< nothing has been adapted to yet
     ViewGraphOutputs outputs;
 };
 
 namespace {
+
+constexpr uint32_t kIdleFrames = 300; ///< until textures and buffers are given back
 
 base::Status invalid(std::string message)
 {
@@ -62,6 +65,17 @@ base::Status checkRequest(const FrameRequest& request)
     if (camera.projection[0][0] == 0.0f || camera.projection[1][1] == 0.0f)
         return invalid("frame: the projection has no extent (its first or second diagonal element is 0)");
     return {};
+}
+
+/// Nothing is to be seen, and nothing else would change the host's picture.
+bool leavesPictureAlone(const base::SnapshotPair& snapshots, const FrameRequest& request,
+                        const ViewSettings& settings)
+{
+    const auto isEmpty = [](const base::FrameSnapshot* snapshot) {
+        return !snapshot || snapshot->groupCount() == 0;
+    };
+    return isEmpty(snapshots.newer) && isEmpty(snapshots.older) && !settings.dazzle.enabled &&
+           !settings.toneMap && !request.targets.useFramebuffer;
 }
 
 } // namespace
@@ -116,6 +130,19 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         return status;
     if (base::Status status = checkSensorLaw(settings_.dazzle); !status)
         return status;
+    if (leavesPictureAlone(snapshots, asked, settings_)) {
+        s.outputs = {};
+        s.historyFresh = true; // glare that has paused begins anew
+        statistics_ = {};
+        if (++s.idleFrames >= kIdleFrames && s.backend.pooledBytes() > 0) {
+            const uint64_t before = s.device->callCount();
+            s.backend.releasePool();
+            statistics_.glCalls = s.device->callCount() - before;
+        }
+        statistics_.textureBytes = s.backend.pooledBytes();
+        return {};
+    }
+    s.idleFrames = 0;
     const uint64_t callsBefore = s.device->callCount();
     const uint32_t compiledBefore = s.device->programsCompiled();
     if (base::Status status = settings_.dazzle.enabled ? s.ensureHistory() : base::Status(); !status)

@@ -107,6 +107,7 @@ struct EmitterDef final : SolverDef
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return maxParticles; }
     bool collides() const override;
+    float reach(float gravity, float wind, float seconds) const override;
 };
 
 constexpr float kAirTemperature = 293.15f; ///< [K] of the ambient air

@@ -70,7 +70,7 @@ LookColumns columnsOf(base::SnapshotGroup& group)
 
 LookJob EmitterSolver::lookJob() const
 {
-    return {&program_, &store_, store_.window(), now_, motionBegin_, pull_};
+    return {&program_, &store_, store_.window(), now_, motionBegin_, conditions_.pull};
 }
 
 void EmitterSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const

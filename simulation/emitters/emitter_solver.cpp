@@ -51,16 +51,26 @@ void EmitterSolver::begin(const StepContext& context)
 {
     schedule_.setPhase(
         base::randomUnit4(context.seed, context.solverIndex, 0, base::RandomPurpose::BirthPhase)[0]);
-    pull_ = pullOf(def_, context);
+    conditions_ = conditionsOf(context);
     motionBegin_ = 0;
+    varied_ = false;
     started_ = true;
+}
+
+EmitterSolver::Conditions EmitterSolver::conditionsOf(const StepContext& context) const
+{
+    return {pullOf(def_, context), context.parameters->intensity, context.parameters->emitting};
 }
 
 /// When gravity or wind change, motion goes on from where it has come to.
 void EmitterSolver::heedConditions(const StepContext& context)
 {
-    const glm::vec3 pull = pullOf(def_, context);
-    if (!program_.ballistic || pull == pull_)
+    const Conditions conditions = conditionsOf(context);
+    varied_ = varied_ || !(conditions == conditions_);
+    const bool goesOn = !program_.ballistic || conditions.pull == conditions_.pull;
+    conditions_.intensity = conditions.intensity;
+    conditions_.emitting = conditions.emitting;
+    if (goesOn)
         return;
     const LookJob job = lookJob();
     MotionTile motion;
@@ -73,13 +83,14 @@ void EmitterSolver::heedConditions(const StepContext& context)
         }
     }
     store_.placed = true;
-    motionBegin_ = context.tick;
-    pull_ = pull;
+    motionBegin_ = now_;
+    conditions_ = conditions;
 }
 
 void EmitterSolver::step(const StepContext& context)
 {
     tasks_ = context.tasks;
+    now_ = context.tick;
     if (!started_)
         begin(context);
     schedule_.setSeed(context.seed, context.solverIndex);
@@ -149,29 +160,39 @@ bool EmitterSolver::neverDrops(double intensity) const
     return born * 1.001 + 2.0 < double(store_.capacity());
 }
 
-bool EmitterSolver::seek(const StepContext& context)
+bool EmitterSolver::canSeek(const StepContext& context, base::Ticks tick) const
 {
-    if (!program_.ballistic)
-        return false;
+    const bool isForwards = tick >= now_ || !started_;
+    return program_.ballistic && (isForwards || (!varied_ && conditionsOf(context) == conditions_));
+}
+
+void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
+{
     tasks_ = context.tasks;
-    schedule_ = BirthSchedule(def_.emission, rowsByBirth_.get_allocator().resource());
-    store_.clear(0);
-    store_.placed = program_.stores[stored::X];
-    begin(context);
-    schedule_.setSeed(context.seed, context.solverIndex);
-    const base::Ticks to = context.tick;
-    base::Ticks from = 0;
-    if (neverDrops(double(context.parameters->intensity))) {
-        // Whoever was born earlier is dead.
-        from = std::max<base::Ticks>(to - program_.longestLife - base::kTicksPerSecond, 0);
-        const BirthWindow past{0, from, double(context.parameters->intensity), context.parameters->emitting};
-        store_.clear(schedule_.advance(past, {}).total);
+    if (!started_ || tick < now_) {
+        schedule_ = BirthSchedule(def_.emission, rowsByBirth_.get_allocator().resource());
+        store_.clear(0);
+        store_.placed = program_.stores[stored::X];
+        now_ = 0;
+        begin(context);
     }
-    for (const base::Ticks part = base::kTicksPerSecond / 60; from < to; from += part)
-        giveBirth(context, from, std::min(from + part, to));
-    now_ = to;
+    schedule_.setSeed(context.seed, context.solverIndex);
+    heedConditions(context);
+    base::Ticks from = now_;
+    if (neverDrops(double(context.parameters->intensity))) {
+        // Whoever was born before then is dead.
+        const base::Ticks dead = tick - program_.longestLife - base::kTicksPerSecond;
+        if (dead > from) {
+            const BirthWindow past{from, dead, double(context.parameters->intensity),
+                                   context.parameters->emitting};
+            store_.clear(store_.next() + schedule_.advance(past, {}).total);
+            from = dead;
+        }
+    }
+    for (const base::Ticks part = base::kTicksPerSecond / 60; from < tick; from += part)
+        giveBirth(context, from, std::min(from + part, tick));
+    now_ = tick;
     store_.retire(now_);
-    return true;
 }
 
 void EmitterSolver::save(StateWriter& writer) const
@@ -179,7 +200,10 @@ void EmitterSolver::save(StateWriter& writer) const
     writer.value(now_);
     writer.flag(started_);
     writer.value(motionBegin_);
-    writer.vector(pull_);
+    writer.vector(conditions_.pull);
+    writer.value(conditions_.intensity);
+    writer.flag(conditions_.emitting);
+    writer.flag(varied_);
     schedule_.save(writer);
     store_.save(writer, now_);
 }
@@ -189,7 +213,10 @@ void EmitterSolver::restore(StateReader& reader)
     now_ = reader.value<base::Ticks>(0, kForever, "an emitter's clock is out of range");
     started_ = reader.flag();
     motionBegin_ = reader.value<base::Ticks>(0, now_, "an emitter's clock is out of range");
-    pull_ = reader.vector();
+    conditions_.pull = reader.vector();
+    conditions_.intensity = reader.value<float>();
+    conditions_.emitting = reader.flag();
+    varied_ = reader.flag();
     schedule_.restore(reader);
     store_.restore(reader, now_);
 }

@@ -29,8 +29,9 @@ public:
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
     bool finished(base::Ticks tick) const override;
     uint32_t elementCount() const override { return store_.countAlive(now_); }
-    /// Where motion has a closed form: as if stepped from local time 0 under the same conditions.
-    bool seek(const StepContext& context) override;
+    /// Where motion has a closed form; backwards while the host has changed nothing since local time 0.
+    bool canSeek(const StepContext& context, base::Ticks tick) const override;
+    void seek(const StepContext& context, base::Ticks tick) override;
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
 
@@ -39,6 +40,14 @@ public:
 
 private:
     void begin(const StepContext& context);
+    struct Conditions
+    {
+        glm::vec3 pull{0.0f}; ///< [m/s2] see LookJob
+        float intensity = 1.0f;
+        bool emitting = true;
+        bool operator==(const Conditions&) const = default;
+    };
+    Conditions conditionsOf(const StepContext& context) const;
     void heedConditions(const StepContext& context);
     void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to);
     void storeBatch(const StepContext& context, std::span<const Birth> births);
@@ -56,7 +65,8 @@ private:
     ParticleStore store_;
     base::Ticks now_ = 0;         ///< end of the last step
     base::Ticks motionBegin_ = 0; ///< see LookJob
-    glm::vec3 pull_{0.0f};        ///< [m/s2] see LookJob
+    Conditions conditions_;       ///< of the last step
+    bool varied_ = false;         ///< they were others before
     bool started_ = false;
     uint32_t highWater_ = 0;
     uint64_t dropped_ = 0;

@@ -93,6 +93,7 @@ struct FragmentsDef final : SolverDef
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return count + (trail.spacing > 0.0f ? trail.maxBlobs : 0); }
     bool collides() const override { return true; }
+    float reach(float gravity, float wind, float seconds) const override;
 };
 
 } // namespace fx::sim

@@ -54,6 +54,7 @@ struct GasDef final : SolverDef
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return particles; }
     bool collides() const override { return true; }
+    CatchUp catchUp() const override { return CatchUp::Authoritative; }
 };
 
 } // namespace fx::sim

@@ -75,6 +75,8 @@ class StateBuffer final : public StateWriter
 public:
     explicit StateBuffer(std::pmr::memory_resource* memory) : bytes_(memory) {}
     std::span<const std::byte> bytes() const { return bytes_; }
+    /// Puts the bytes into another writer as if they had been written there.
+    void copyTo(StateWriter& other) const { other.values(std::span<const std::byte>(bytes_)); }
 
 private:
     void put(const void* data, size_t size) override

@@ -167,7 +167,7 @@ TEST_F(SceneApi, aFinishedInstanceIsNoLongerVisitedAndItsMemoryIsBack)
         ASSERT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
         EXPECT_EQ(statistics().particles, 2000u);
         awake = bytesInUse();
-        for (int frame = 0; frame < 30; ++frame)
+        for (int frame = 0; frame < 320; ++frame) // longer than releaseAfterTicks
             ASSERT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
     };
     runBoth();

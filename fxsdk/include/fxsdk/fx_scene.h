@@ -46,13 +46,36 @@ typedef struct FxSceneDef
     uint32_t quality;      ///< FxQuality of instances that do not choose; default FX_QUALITY_DEFAULT
     uint32_t shareInstances; ///< 1 (default): instances that come out alike are simulated once, see
                              ///< fxScene_CreateInstance; 0: one by one. Results are the same.
+    uint32_t disableCulling; ///< 1: every instance is stepped and shown always, for finding out what culling
+                             ///< changes; default 0. See fx_activation.h
+    uint32_t lockStep; ///< 1: no camera changes any state, ever: only instances that can be caught up bit
+                       ///< for bit are out of sight, and absences of any length are replayed; default 0
+    int64_t releaseAfterTicks; ///< [tick] 0..3600 s out of sight, after which memory is given back; default
+                               ///< 5 s
+    int64_t maxCatchUpTicks;   ///< [tick] 0..3600 s, longest absence that is replayed; what is longer is left
+                               ///< out and counted; default 30 s
+    uint32_t catchUpSteps;     ///< particle steps of one update that may be spent on replays, >= 1; default
+                               ///< 200,000
+    uint32_t reserved;         ///< 0
 } FxSceneDef;
 
 /// The definition of a scene that steps 60 times a second.
 static inline FxSceneDef fxDefaultSceneDef(void)
 {
-    FxSceneDef def = {sizeof(FxSceneDef),      65536, FX_TICKS_PER_SECOND / 60, FX_TICKS_PER_SECOND / 15,
-                      {0.0f, -9.80665f, 0.0f}, 1,     FX_QUALITY_DEFAULT,       1};
+    FxSceneDef def = {sizeof(FxSceneDef),
+                      65536,
+                      FX_TICKS_PER_SECOND / 60,
+                      FX_TICKS_PER_SECOND / 15,
+                      {0.0f, -9.80665f, 0.0f},
+                      1,
+                      FX_QUALITY_DEFAULT,
+                      1,
+                      0,
+                      0,
+                      5 * FX_TICKS_PER_SECOND,
+                      30 * FX_TICKS_PER_SECOND,
+                      200000,
+                      0};
     return def;
 }
 
@@ -129,8 +152,11 @@ static inline FxCollisionMesh fxDefaultCollisionMesh(void)
 typedef enum FxInstanceState
 {
     FX_INSTANCE_DORMANT = 0,  ///< waits for its start; has no particles and is never visited
-    FX_INSTANCE_ACTIVE = 1,   ///< is stepped
+    FX_INSTANCE_ACTIVE = 1,   ///< is stepped and shown
     FX_INSTANCE_FINISHED = 2, ///< has ended; has no particles and is never visited
+    FX_INSTANCE_WAKING = 3,   ///< is in sight again and on its way to the present; not shown yet
+    FX_INSTANCE_RESTING = 4,  ///< has neither particles nor anything to do for a while; is never visited
+    FX_INSTANCE_HIDDEN = 5,   ///< is out of sight, see fx_activation.h; is never visited
     FX_INSTANCE_STATE_FORCE_32 =
         0x7fffffff ///< makes the type 32 bits wide with every compiler; never returned
 } FxInstanceState;
@@ -139,9 +165,10 @@ typedef enum FxInstanceState
 typedef struct FxSceneStatistics
 {
     uint32_t structSize;        ///< set by the caller
-    uint32_t instances;         ///< existing, the sum of the next three
+    uint32_t instances;         ///< existing, the sum of dormant, active, finished, waking,
+                                ///< resting and hidden ones
     uint32_t instancesDormant;  ///< waiting for their start
-    uint32_t instancesActive;   ///< being stepped
+    uint32_t instancesActive;   ///< being stepped and shown
     uint32_t instancesFinished; ///< ended and not yet destroyed
     uint32_t particles;         ///< alive after the last step
     uint64_t steps;             ///< steps taken since the scene was created
@@ -160,8 +187,13 @@ typedef struct FxSceneStatistics
     int64_t debtTicks; ///< [tick] time that gases did not simulate because a step would have taken too many
                        ///< sub-steps; the sum over all gases
     uint64_t subSteps; ///< sub-steps of gases
-    uint32_t simulations; ///< existing; fewer than instancesActive when some of those share one
-    uint32_t reserved;    ///< 0
+    uint32_t simulations;      ///< existing; fewer than instances when some of those share one
+    uint32_t reserved;         ///< 0
+    uint32_t instancesWaking;  ///< in sight again, on their way to the present
+    uint32_t instancesResting; ///< with nothing to do for a while
+    uint32_t instancesHidden;  ///< out of sight
+    uint32_t reserved2;        ///< 0
+    uint64_t catchUpsSkipped;  ///< absences too long to be replayed: their time was left out
 } FxSceneStatistics;
 
 /// Creates an empty scene at time 0; the calling thread becomes its scene thread. [any]

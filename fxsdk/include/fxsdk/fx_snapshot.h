@@ -30,7 +30,7 @@ typedef struct FxSnapshotInfo
     uint32_t groupsNewer; ///< groups of the newer step
     uint32_t groupsOlder; ///< groups of the older step; 0 before the second step
     uint32_t reserved;    ///< 0
-    int64_t tickNewer;    ///< [tick] end of the newer step
+    int64_t tickNewer;    ///< [tick] end of the newer step; of an earlier one while nothing is to be seen
     int64_t tickOlder;    ///< [tick] end of the older step
     double interpolation; ///< [0, 1) where scene time lay between the two steps: 0 shows the older, 1 would
                           ///< show the newer

@@ -8,6 +8,7 @@
 #ifndef FXSDK_FXSDK_H
 #define FXSDK_FXSDK_H
 
+#include "fxsdk/fx_activation.h"
 #include "fxsdk/fx_base.h"
 #include "fxsdk/fx_context.h"
 #include "fxsdk/fx_preset.h"

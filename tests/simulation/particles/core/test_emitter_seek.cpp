@@ -19,10 +19,13 @@ public:
     void step(base::Ticks ticks) { solver_.step(context(now_, ticks)), scratch_.reset(), now_ += ticks; }
     bool seek(base::Ticks tick)
     {
+        const sim::StepContext c = context(now_, 0);
+        if (!solver_.canSeek(c, tick))
+            return false;
+        solver_.seek(c, tick);
         now_ = tick;
-        const bool done = solver_.seek(context(tick, 0));
         scratch_.reset();
-        return done;
+        return true;
     }
     uint64_t published()
     {

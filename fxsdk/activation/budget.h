@@ -1,0 +1,41 @@
+/// @file budget.h
+/// Who may be simulated when not everything can be: the most significant, with a reluctance to change.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace fx::activation {
+
+/// What all instances together may take; 0 stands for no limit.
+struct Budget
+{
+    uint64_t particles = 0;
+    double milliseconds = 0;           ///< [ms] of simulation in a step, as estimated
+    uint64_t bytes = 0;                ///< [byte] of particles, as estimated
+    double nanosecondsPerParticle = 0; ///< [ns] of a step; 0: measured
+
+    bool any() const { return particles > 0 || milliseconds > 0 || bytes > 0; }
+};
+
+/// Somebody who would like to be simulated.
+struct Candidate
+{
+    double significance = 0; ///< [1] larger is more important
+    uint64_t serial = 0;     ///< order of creation: decides between equals
+    uint64_t particles = 0;
+    uint64_t bytes = 0; ///< [byte]
+    uint32_t key = 0;
+    bool runs = false;    ///< is simulated now
+    bool must = false;    ///< cannot be turned away
+    bool granted = false; ///< the answer
+};
+
+/// Someone who runs counts this much more, so that two who are alike do not take turns.
+constexpr double kReluctance = 1.25;
+
+/// Sorts `candidates` by significance and grants in that order whatever fits; those who must are served
+/// first. The most significant is always granted. Equal input gives equal answers.
+void share(const Budget& budget, double nanosecondsPerParticle, std::span<Candidate> candidates);
+
+} // namespace fx::activation

@@ -1,0 +1,84 @@
+/// @file focus.h
+/// Where somebody looks: cameras of the host as cones of sight, and what lies in them.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::activation {
+
+/// Where an instance can be seen: a ball that holds all of it.
+struct Ball
+{
+    glm::dvec3 center{0.0}; ///< [m] world
+    double radius = 0;      ///< [m] infinite when nobody knows
+};
+
+/// Why something is out of sight.
+enum class Sight : uint8_t
+{
+    Seen,
+    Outside,  ///< of every frustum
+    TooFar,   ///< beyond its own distance or the focus's
+    TooSmall, ///< fewer pixels than the focus asks for
+};
+
+/// One camera, in world coordinates.
+class Frustum
+{
+public:
+    struct Limits
+    {
+        double maxDistance = std::numeric_limits<double>::infinity(); ///< [m] from the eye
+        double margin = 0;                                            ///< [m] beyond the frustum
+        double minPixels = 0;                                         ///< [pixel] radius on the picture
+        double height = 1080;                                         ///< [pixel] of the picture
+    };
+    /// @param origin [m] world position that the matrices are relative to; the projection is not degenerate
+    Frustum(const glm::dvec3& origin, const glm::mat4& view, const glm::mat4& projection,
+            const Limits& limits);
+
+    /// @param sight [m] how far the ball can be seen
+    Sight judge(const Ball& ball, double sight) const;
+    /// The same, more generous by a tenth of the radius: what is in sight does not flicker at the rim.
+    Sight judgeSeen(const Ball& ball, double sight) const;
+    /// [pixel] radius of the ball on the picture, at most its height.
+    double pixels(const Ball& ball) const;
+
+private:
+    std::array<glm::dvec4, 5> planes_; ///< left, right, bottom, top, behind; distance is dot(xyz, p) + w
+    glm::dvec3 eye_;
+    double pixelsPerMeter_; ///< at a distance of 1 m, or everywhere when orthographic
+    bool orthographic_;
+    Limits limits_;
+};
+
+/// All cameras; none means that everything is in sight.
+class FocusSet
+{
+public:
+    explicit FocusSet(std::pmr::memory_resource* memory) : frusta_(memory) {}
+
+    void reserve(size_t count) { frusta_.reserve(count); }
+    void clear() { frusta_.clear(); }
+    void add(const Frustum& frustum) { frusta_.push_back(frustum); }
+    bool everything() const { return frusta_.empty(); }
+
+    /// Seen when one camera sees it; else what the one that came nearest to it says.
+    /// @param isSeen it was in sight before
+    Sight judge(const Ball& ball, double sight, bool isSeen) const;
+    /// [pixel] the most that a camera shows of it; without cameras, one.
+    double pixels(const Ball& ball) const;
+
+private:
+    std::pmr::vector<Frustum> frusta_;
+};
+
+} // namespace fx::activation

@@ -1,0 +1,62 @@
+/// @file bench_scene.h
+/// Scenes behind the C API for benchmarks of what instances cost, with or without a view that shows them.
+///
+/// Threads: the thread that made it.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "fxsdk/fxsdk.h"
+#include "rendering/gl/gl_device.h"
+#include "rendering/gl/gl_texture.h"
+#include "rendering/platform/gl_context.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+
+class BenchScene
+{
+public:
+    struct Options
+    {
+        bool gl = false;
+        bool culling = true;
+        int pixels = 256; ///< [pixel] width and height of the picture
+    };
+    static base::Result<std::unique_ptr<BenchScene>> create(const Options& options);
+    ~BenchScene();
+    BenchScene(const BenchScene&) = delete;
+    BenchScene& operator=(const BenchScene&) = delete;
+
+    base::Result<FxPresetId> load(const std::string& preset);
+    base::Status add(FxPresetId preset, double x, double z, uint64_t seed, int64_t startTick);
+    /// A camera 2 m above the origin that looks horizontally, with a view of 40 degrees; 0 is along -Z.
+    base::Status look(double radians);
+    base::Status update();
+    base::Status draw(); ///< nothing without GL; waits for the GPU
+
+    FxScene* scene() const { return scene_; }
+    const std::vector<FxInstanceId>& instances() const { return instances_; }
+    FxSceneStatistics statistics() const;
+    FxViewStatistics viewStatistics() const;
+    std::string renderer() const { return device_ ? device_->limits().renderer : ""; }
+
+private:
+    BenchScene() = default;
+    base::Status start(const Options& options);
+    base::Status startGl();
+
+    Options options_;
+    std::unique_ptr<render::GlContext> gl_;
+    std::unique_ptr<render::GlDevice> device_;
+    render::GlTexture color_;
+    FxContext* context_ = nullptr;
+    FxScene* scene_ = nullptr;
+    FxView* view_ = nullptr;
+    FxFrameDef frame_{};
+    std::vector<FxInstanceId> instances_;
+};
+
+} // namespace fx::cli

@@ -1,0 +1,193 @@
+/// @file explain_command.cpp
+/// fx explain: what a moment of a scene costs, and which effect called for it.
+
+#include "fxsdk/cli/api_status.h"
+#include "fxsdk/cli/commands.h"
+#include "fxsdk/cli/default_stage.h"
+#include "fxsdk/cli/exit_code.h"
+#include "fxsdk/cli/frame_renderer.h"
+#include "fxsdk/cli/json_line.h"
+#include "fxsdk/techniques.h"
+
+#include <CLI/CLI.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+struct ExplainOptions
+{
+    std::string input;
+    double time = 1.0; ///< [s]
+    int size = 256;    ///< [pixel]
+    bool everything = false;
+    bool json = false;
+};
+
+constexpr std::array<const char*, 6> kStates{"dormant", "active", "finished", "waking", "resting", "hidden"};
+constexpr std::array<const char*, 10> kReasons{
+    "",         "not started",       "outside of the view", "too far",       "too small",
+    "occluded", "beyond the budget", "catching up",         "nothing moves", "ended"};
+constexpr std::array<const char*, 5> kPolicies{"analytic", "replay", "coarse", "skip", "authoritative"};
+
+/// The scene's camera as the scene's only focus.
+base::Status lookThroughCamera(const scene_file::SceneFile& file, const ExplainOptions& options,
+                               FxScene* scene)
+{
+    FxFocus focus = fxDefaultFocus();
+    focus.height = float(options.size);
+    const glm::dvec3 eye = file.camera.at(options.time).position;
+    std::copy_n(glm::value_ptr(eye), 3, focus.origin);
+    std::copy_n(glm::value_ptr(file.camera.viewRotation(options.time)), 16, focus.view);
+    std::copy_n(glm::value_ptr(file.camera.projection(1.0f)), 16, focus.projection);
+    return toStatus(fxScene_SetFocus(scene, &focus, 1));
+}
+
+Json instancesOf(const scene_file::SceneFile& file, FxScene* scene)
+{
+    std::vector<FxInstanceId> ids(file.instances.size());
+    uint32_t count = 0;
+    Json list = Json::array();
+    if (fxScene_GetInstances(scene, ids.data(), uint32_t(ids.size()), &count) != FX_OK)
+        return list;
+    for (uint32_t i = 0; i < count; ++i) {
+        FxInstanceActivity activity = {};
+        activity.structSize = sizeof activity;
+        if (fxScene_GetInstanceActivity(scene, ids[i], &activity) != FX_OK)
+            continue;
+        list.push_back({{"instance", i},
+                        {"preset", file.presets[file.instances[i].preset].name},
+                        {"state", kStates.at(activity.state)},
+                        {"reason", kReasons.at(activity.reason)},
+                        {"offscreen", kPolicies.at(activity.policy)},
+                        {"particles", activity.particles},
+                        {"lag_s", base::toSeconds(activity.lagTicks)},
+                        {"significance", activity.significance},
+                        {"ms_estimated", activity.milliseconds}});
+    }
+    return list;
+}
+
+/// Presets of active instances that use a technique; of drawing techniques, all of those.
+Json callersOf(const preset::Technique& technique, const scene_file::SceneFile& file, const Json& instances)
+{
+    std::vector<std::string> names;
+    for (const Json& entry : instances) {
+        if (entry["state"] != "active")
+            continue;
+        const auto& used = file.presets[file.instances[entry["instance"].get<size_t>()].preset];
+        const Json text = Json::parse(used.text, nullptr, false);
+        const bool calls =
+            technique.presetMember.empty() || text.contains(std::string(technique.presetMember));
+        if (calls && std::find(names.begin(), names.end(), used.name) == names.end())
+            names.push_back(used.name);
+    }
+    return names;
+}
+
+Json techniquesOf(const scene_file::SceneFile& file, const Json& instances,
+                  const std::vector<std::string>& passes)
+{
+    Json list = Json::array();
+    for (const preset::Technique& technique : preset::techniques()) {
+        Json executed = Json::array();
+        for (const std::string_view pass : technique.passes)
+            if (std::find(passes.begin(), passes.end(), pass) != passes.end())
+                executed.push_back(std::string(pass));
+        const Json callers = callersOf(technique, file, instances);
+        const bool exists = technique.passes.empty() ? !callers.empty() : !executed.empty();
+        list.push_back({{"technique", std::string(technique.name)},
+                        {"exists", exists},
+                        {"passes", executed},
+                        {"called_by", exists ? callers : Json::array()}});
+    }
+    return list;
+}
+
+void print(const Json& report)
+{
+    for (const Json& entry : report["instances"])
+        std::printf("%4d  %-24s %-9s %-20s %6u particles %8.4f ms\n", entry["instance"].get<int>(),
+                    entry["preset"].get<std::string>().c_str(), entry["state"].get<std::string>().c_str(),
+                    entry["reason"].get<std::string>().c_str(), entry["particles"].get<unsigned>(),
+                    entry["ms_estimated"].get<double>());
+    for (const Json& entry : report["techniques"])
+        std::printf("%-22s %s  passes %s  called by %s\n", entry["technique"].get<std::string>().c_str(),
+                    entry["exists"].get<bool>() ? "exists" : "absent", entry["passes"].dump().c_str(),
+                    entry["called_by"].dump().c_str());
+    std::printf("passes %s\n%llu bytes of textures, %.4f ms of simulation a step (estimated)\n",
+                report["passes"].dump().c_str(), report["bytes_textures"].get<unsigned long long>(),
+                report["ms_estimated"].get<double>());
+}
+
+base::Status explain(const ExplainOptions& options)
+{
+    const bool isScene = options.input.ends_with(".scene.json");
+    auto file = isScene ? scene_file::loadSceneFile(options.input) : sceneOfPreset(options.input);
+    if (!file.ok())
+        return file.status();
+    FrameRendererOptions rendererOptions;
+    rendererOptions.width = rendererOptions.height = options.size;
+    rendererOptions.settings = file->view;
+    auto renderer = FrameRenderer::create(*file, rendererOptions);
+    if (!renderer.ok())
+        return renderer.status();
+    FxScene* scene = (*renderer)->effects().scene();
+    if (!options.everything)
+        if (base::Status status = lookThroughCamera(*file, options, scene); !status)
+            return status;
+    if (base::Status status = (*renderer)->render(base::toTicks(options.time)); !status)
+        return status;
+    FxFrameStats stats = {};
+    stats.structSize = sizeof stats;
+    if (base::Status status = toStatus(fxScene_GetFrameStats(scene, &stats)); !status)
+        return status;
+    const FrameCounters& counters = (*renderer)->counters();
+    const Json instances = instancesOf(*file, scene);
+    const Json report = {{"file", options.input},
+                         {"time", options.time},
+                         {"instances", instances},
+                         {"techniques", techniquesOf(*file, instances, counters.passes)},
+                         {"passes", counters.passes},
+                         {"bytes_textures", counters.view.textureBytes},
+                         {"ms_estimated", stats.estimatedMilliseconds}};
+    if (options.json)
+        printJsonLine(withMachine(report, readMachine()));
+    else
+        print(report);
+    return {};
+}
+
+} // namespace
+
+void addExplainCommand(CLI::App& app, int& outExitCode)
+{
+    auto options = std::make_shared<ExplainOptions>();
+    CLI::App* command = app.add_subcommand(
+        "explain",
+        "Which instances of a scene are active and why others are not, and what exists because of them");
+    command->add_option("FILE", options->input, "*.scene.json, *.fx.json or library:NAME")->required();
+    command->add_option("--time", options->time, "[s] Moment to explain; default 1")
+        ->check(CLI::Range(0.0, 86400.0));
+    command->add_option("--size", options->size, "[pixel] Width and height of the picture; default 256")
+        ->check(CLI::Range(16, 4096));
+    command->add_flag("--everything", options->everything, "As if everything were in sight");
+    command->add_flag("--json", options->json, "One object");
+    command->callback([options, &outExitCode] {
+        const base::Status status = explain(*options);
+        if (!status.ok())
+            std::fprintf(stderr, "fx explain: %s\n", status.message().c_str());
+        outExitCode = status.ok() ? kSuccess : kFailed;
+    });
+}
+
+} // namespace fx::cli

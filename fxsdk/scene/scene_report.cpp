@@ -1,0 +1,53 @@
+// What a scene tells about what it does and why.
+#include "fxsdk/scene/scene.h"
+
+#include <algorithm>
+
+namespace fx::scene {
+
+namespace {
+constexpr double kForgetting = 0.05;          ///< share of the last step in the mean cost
+constexpr uint64_t kFewestParticleSteps = 64; ///< fewer say more about overheads than about particles
+} // namespace
+
+InstanceState Scene::state(LocalId id)
+{
+    const uint32_t index = indexOf(id);
+    if (options_.lockStep && instances_.at(index).state >= InstanceState::Waking)
+        settleOne(index, false);
+    const Instance* instance = instances_.find(id); // may have ended and gone
+    return instance ? instance->state : InstanceState::Finished;
+}
+
+Scene::Activity Scene::activity(LocalId id)
+{
+    const Instance& instance = *instances_.find(id);
+    Activity activity;
+    activity.state = instance.state;
+    activity.reason = instance.state == InstanceState::Dormant ? Reason::NotStarted : instance.reason;
+    activity.policy = instance.policy;
+    activity.significance = significanceOf(instance);
+    activity.reach = instance.reach;
+    activity.particles = particles(id);
+    if (instance.state == InstanceState::Active)
+        activity.milliseconds = double(activity.particles) * nanosecondsPerParticle() * 1e-6;
+    if (instance.state >= InstanceState::Waking && world_.lags(instance.slot))
+        activity.lag =
+            clock_.simulated() - std::max(world_.simulated(instance.slot), instance.setup.startTick);
+    return activity;
+}
+
+double Scene::nanosecondsPerParticle() const
+{
+    return budget_.nanosecondsPerParticle > 0 ? budget_.nanosecondsPerParticle : measuredNanoseconds_;
+}
+
+void Scene::measureTime(double seconds, uint64_t particleSteps)
+{
+    if (particleSteps < kFewestParticleSteps)
+        return;
+    const double now = seconds * 1e9 / double(particleSteps);
+    measuredNanoseconds_ += kForgetting * (now - measuredNanoseconds_);
+}
+
+} // namespace fx::scene

@@ -1,0 +1,51 @@
+/// @file flight_bound.h
+/// A distance that nothing in flight passes, whatever the directions of what moves it.
+///
+/// @formula flight-bound
+/// The largest distance from its start of a body under bounded acceleration with drag towards moving air.
+///
+/// symbol   unit   meaning
+///   T       s      time of flight, >= 0
+///   v       m/s    speed at the start, >= 0
+///   a       m/s2   bound of the acceleration, >= 0
+///   u       m/s    bound of the speed of the air, >= 0
+///   k       1/s    drag rate, >= 0
+///   s       m      the bound
+/// @derivation
+///   Without drag |x(T) - x(0)| <= v T + a T^2 / 2, the air does not matter                     (1)
+///   With dv/dt = a + k (u - v) the speed obeys d|v|/dt <= a + k u - k |v|, hence
+///       |v(t)| <= max(v, u + a / k), and |v(t)| <= v + (a + k u) t                             (2)
+///   so that the way is at most the smaller of
+///       s1 = max(v, u + a / k) T,  s2 = v T + (a + k u) T^2 / 2                                (3)
+/// @source    elementary (comparison of differential inequalities)
+/// @deviation none
+/// @valid     all arguments finite and >= 0
+/// @accuracy  an upper bound in exact arithmetic; 1e-6 of it is added for the rounding of what is bounded
+/// @tests     tests/simulation/test_flight_bound.cpp
+#pragma once
+
+#include <algorithm>
+
+namespace fx::sim {
+
+struct FlightBound
+{
+    double seconds = 0;      ///< [s] T
+    double speed = 0;        ///< [m/s] v
+    double acceleration = 0; ///< [m/s2] a
+    double air = 0;          ///< [m/s] u
+    double drag = 0;         ///< [1/s] k
+};
+
+inline double flightBound(const FlightBound& b)
+{
+    const double grown = b.acceleration + b.drag * b.air;
+    double way = b.speed * b.seconds + 0.5 * grown * b.seconds * b.seconds; // (3) s2, and (1)
+    if (b.drag > 0) {
+        const double fastest = std::max(b.speed, b.air + b.acceleration / b.drag); // (2)
+        way = std::min(way, fastest * b.seconds);                                  // (3) s1
+    }
+    return way * (1.0 + 1e-6);
+}
+
+} // namespace fx::sim
