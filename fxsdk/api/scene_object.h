@@ -14,7 +14,8 @@
 struct FxScene
 {
     FxScene(FxContext* owner, const fx::scene::SceneOptions& options)
-        : context(owner), scene(options, &owner->schema, owner->tasks.get(), &owner->memory)
+        : context(owner), scene(options, &owner->schema, owner->tasks.get(), &owner->memory),
+          longestFrame(fx::base::toSeconds(options.maxFrameTicks))
     {}
 
     FxContext* context;
@@ -24,7 +25,9 @@ struct FxScene
     fx::sim::QualityLevel quality = fx::sim::QualityLevel::Medium; ///< of instances that do not choose
     uint64_t updateAllocations = 0;                                ///< during the last update
     fx::api::HeldSnapshots held;
-    std::atomic<uint32_t> views{0}; ///< that show this scene
+    std::atomic<uint32_t> views{0};      ///< that show this scene
+    double longestFrame;                 ///< [s] that one update makes up for
+    std::atomic<bool> catchingUp{false}; ///< the last update had more time to make up for than it may
 };
 
 namespace fx::api {

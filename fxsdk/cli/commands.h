@@ -16,5 +16,7 @@ void addVerifyCommand(CLI::App& app, int& outExitCode);
 void addAccuracyCommand(CLI::App& app, int& outExitCode);
 void addStabilityCommand(CLI::App& app, int& outExitCode);
 void addDazzleCommand(CLI::App& app, int& outExitCode);
+void addCalibrateCommand(CLI::App& app, int& outExitCode);
+void addBenchCommand(CLI::App& app, int& outExitCode);
 
 } // namespace fx::cli

@@ -31,6 +31,8 @@ int run(int argumentCount, char** arguments)
     fx::cli::addAccuracyCommand(app, exitCode);
     fx::cli::addStabilityCommand(app, exitCode);
     fx::cli::addDazzleCommand(app, exitCode);
+    fx::cli::addCalibrateCommand(app, exitCode);
+    fx::cli::addBenchCommand(app, exitCode);
     try {
         app.parse(argumentCount, arguments);
     } catch (const CLI::ParseError& error) {

@@ -22,7 +22,7 @@ namespace fx::render {
 struct ViewRenderer::Impl
 {
     Impl(GlDevice* d, std::pmr::memory_resource* memory)
-        : device(d), graph(memory), backend(*d, memory), builder(memory)
+        : device(d), graph(memory), backend(*d, memory), builder(memory), timer(*d)
     {}
 
     base::Status ensureHistory();
@@ -32,6 +32,9 @@ struct ViewRenderer::Impl
     FrameGraph graph;
     GlBackend backend;
     FrameBuilder builder;
+    GlPassTimer timer;
+    TimingClock clock = TimingClock::Off;
+    uint64_t tag = 0;
     GlBuffer dazzleHistory;
     bool historyFresh = false; ///< nothing has been adapted to yet
     ViewGraphOutputs outputs;
@@ -119,6 +122,8 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     FrameRequest request = asked;
     request.resetHistory = asked.resetHistory || s.historyFresh;
 
+    s.timer.beginFrame(s.clock, s.tag);
+    s.backend.setTimer(s.clock == TimingClock::Off ? nullptr : &s.timer);
     s.builder.build(snapshots, request, settings_, cameraGeometry(request.camera));
     s.graph.begin();
     s.outputs = buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.builder.anyHeat(),
@@ -127,10 +132,14 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     if (s.outputs.anyPass) {
         s.graph.compile();
         GlStateGuard guard(*s.device, settings_.saveState);
+        s.timer.beginPasses();
         if (s.backend.beginFrame(s.graph))
             s.graph.execute(s.backend);
         status = s.backend.endFrame();
     }
+    s.timer.endFrame(status.ok() && s.outputs.anyPass);
+    if (s.clock != TimingClock::Off)
+        covered_ = screenShare(s.builder.blobs(), cameraGeometry(request.camera));
     if (!status)
         s.outputs = {};                              // nothing of this frame can be handed out
     s.historyFresh = !(status && s.outputs.dazzled); // glare that has paused begins anew
@@ -147,6 +156,27 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     if (status && settings_.countOverdraw)
         s.readBack(request.targets.width, request.targets.height, statistics_);
     return status;
+}
+
+void ViewRenderer::setTiming(TimingClock clock, uint64_t tag)
+{
+    impl_->clock = clock;
+    impl_->tag = tag;
+}
+
+bool ViewRenderer::hasGpuClock()
+{
+    return impl_->timer.hasGpuClock();
+}
+
+void ViewRenderer::setHostClock(HostClock clock)
+{
+    impl_->timer.hostClock = clock;
+}
+
+bool ViewRenderer::takeTimes(GroupTimes& out)
+{
+    return impl_->timer.take(out);
 }
 
 LayerTextures ViewRenderer::layers() const

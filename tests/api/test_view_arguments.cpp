@@ -46,6 +46,10 @@ TEST_F(ViewArguments, aSettingOutOfRangeIsRefusedByNameAndTheOldOnesStay)
     refuse("toneMap", [](FxViewSettings& s) { s.toneMap = 2; });
     refuse("layerOutputs", [](FxViewSettings& s) { s.layerOutputs = 2; });
     refuse("countOverdraw", [](FxViewSettings& s) { s.countOverdraw = 2; });
+    refuse("budgetMilliseconds", [](FxViewSettings& s) { s.budgetMilliseconds = -1.0f; });
+    refuse("budgetMilliseconds", [](FxViewSettings& s) { s.budgetMilliseconds = kNan; });
+    refuse("budgetMilliseconds", [](FxViewSettings& s) { s.budgetMilliseconds = 1e5f; });
+    refuse("budgetClock", [](FxViewSettings& s) { s.budgetClock = 2; });
     EXPECT_EQ(fxView_SetSettings(view_, nullptr), FX_ERROR_INVALID_ARGUMENT);
     const FxViewSettings good = fxDefaultViewSettings();
     EXPECT_EQ(fxView_SetSettings(view_, &good), FX_OK) << fxGetLastErrorMessage();
@@ -84,7 +88,7 @@ TEST_F(ViewArguments, aFrameOutOfRangeIsRefusedByNameAndThePictureStays)
     refuse("height", [](FxFrameDef& f) { f.height = 16'385; });
     refuse("deltaTime", [](FxFrameDef& f) { f.deltaTime = -1.0; });
     refuse("deltaTime", [](FxFrameDef& f) { f.deltaTime = double(kNan); });
-    refuse("reserved", [](FxFrameDef& f) { f.reserved = 1; });
+    refuse("holdQuality", [](FxFrameDef& f) { f.holdQuality = 2; });
     refuse("resetHistory", [](FxFrameDef& f) { f.resetHistory = 2; });
     EXPECT_EQ(picture(), before);
 }
