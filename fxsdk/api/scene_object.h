@@ -16,7 +16,8 @@
 struct FxScene
 {
     FxScene(FxContext* owner, const fx::scene::SceneOptions& options)
-        : context(owner), scene(options, &owner->schema, owner->tasks.get(), &owner->memory)
+        : context(owner), scene(options, &owner->schema, owner->tasks.get(), &owner->memory),
+          longestFrame(fx::base::toSeconds(options.maxFrameTicks))
     {}
 
     FxContext* context;
@@ -27,7 +28,9 @@ struct FxScene
     uint64_t updateAllocations = 0;                                   ///< during the last update
     std::pmr::vector<fx::activation::Frustum> foci{&context->memory}; ///< scratch of fxScene_SetFocus
     fx::api::HeldSnapshots held;
-    std::atomic<uint32_t> views{0}; ///< that show this scene
+    std::atomic<uint32_t> views{0};      ///< that show this scene
+    double longestFrame;                 ///< [s] that one update makes up for
+    std::atomic<bool> catchingUp{false}; ///< the last update had more time to make up for than it may
 };
 
 namespace fx::api {

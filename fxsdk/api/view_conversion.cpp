@@ -65,7 +65,7 @@ void checkTarget(fx::api::Checks& check, const FxFrameDef& given)
     check.range(given.target, 0u, uint32_t(FX_TARGET_FRAMEBUFFER), "frame.target");
     check.range(given.width, 1, kWidest, "frame.width");
     check.range(given.height, 1, kWidest, "frame.height");
-    check.range(given.reserved, 0u, 0u, "frame.reserved");
+    check.flag(given.holdQuality, "frame.holdQuality");
     check.range(given.deltaTime, 0.0, 1e6, "frame.deltaTime");
     check.that(given.target != FX_TARGET_TEXTURE || given.colorTexture != 0, "frame.colorTexture is 0");
 }
@@ -99,6 +99,20 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     settings.layerDivisor = int(1.0f / given.layerScale);
     settings.fragmentBudget = given.fragmentBudget;
     outSettings = settings;
+    return {};
+}
+
+fx::base::Status fx::api::convertBudget(const FxViewSettings& given, quality::BudgetOptions& outOptions)
+{
+    Checks check;
+    check.range(given.budgetMilliseconds, 0.0f, 1e4f, "settings.budgetMilliseconds");
+    check.range(given.budgetClock, uint32_t(FX_BUDGET_CLOCK_GPU), uint32_t(FX_BUDGET_CLOCK_CPU),
+                "settings.budgetClock");
+    if (!check.status())
+        return check.status();
+    outOptions.milliseconds = double(given.budgetMilliseconds);
+    outOptions.clock =
+        given.budgetClock == FX_BUDGET_CLOCK_CPU ? render::TimingClock::Host : render::TimingClock::Gpu;
     return {};
 }
 

@@ -5,6 +5,7 @@
 #include "rendering/gl/gl_state_guard.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace {
 
@@ -39,12 +40,38 @@ Status checkCreate(const FxContext* context, const FxScene* scene, FxView** outV
     return scene->context == context ? Status() : fx::api::invalid("scene belongs to another context");
 }
 
-Status readSettings(const FxViewSettings* given, fx::render::ViewSettings& outSettings)
+/// Leaves both outputs as they are on failure.
+Status readSettings(const FxViewSettings* given, fx::render::ViewSettings& outSettings,
+                    fx::quality::BudgetOptions& outBudget)
 {
     FxViewSettings known;
-    Status status = fx::api::readStruct(given, "settings", fxDefaultViewSettings(), known);
-    return status ? fx::api::convertSettings(known, outSettings) : status;
+    if (Status status = fx::api::readStruct(given, "settings", fxDefaultViewSettings(), known); !status)
+        return status;
+    fx::quality::BudgetOptions budget;
+    if (Status status = fx::api::convertBudget(known, budget); !status)
+        return status;
+    if (Status status = fx::api::convertSettings(known, outSettings); !status)
+        return status;
+    outBudget = budget;
+    return {};
 }
+
+/// Settings of one frame by the budget, and the host's again afterwards.
+class FrameQuality
+{
+public:
+    FrameQuality(FxView& view, const FxFrameDef& frame) : view_(view)
+    {
+        view_.quality.begin(view_.renderer, frame.deltaTime,
+                            frame.holdQuality != 0 || view_.scene->catchingUp.load());
+    }
+    ~FrameQuality() { view_.quality.end(view_.renderer); }
+    FrameQuality(const FrameQuality&) = delete;
+    FrameQuality& operator=(const FrameQuality&) = delete;
+
+private:
+    FxView& view_;
+};
 
 FxViewStatistics gatherStatistics(const FxView& view)
 {
@@ -83,7 +110,8 @@ FxResult fxCreateView(FxContext* context, FxScene* scene, const FxViewSettings* 
             return status;
         const FxViewSettings defaults = fxDefaultViewSettings();
         fx::render::ViewSettings known;
-        if (Status status = readSettings(settings ? settings : &defaults, known); !status)
+        fx::quality::BudgetOptions budget;
+        if (Status status = readSettings(settings ? settings : &defaults, known, budget); !status)
             return status;
         const fx::api::SingleCaller::Scope gl(context->gl, fx::api::kGlThreadRule);
         if (!gl.status())
@@ -94,7 +122,11 @@ FxResult fxCreateView(FxContext* context, FxScene* scene, const FxViewSettings* 
         const size_t count = context->views.size() + 1;
         if (context->views.capacity() < count)
             context->views.reserve(std::max(count, 2 * context->views.capacity()));
+        fx::quality::ViewQuality quality;
+        if (Status status = quality.setOptions(budget); !status)
+            return status;
         FxView* view = std::pmr::polymorphic_allocator<>(&context->memory).new_object<FxView>(scene, known);
+        view->quality = std::move(quality);
         context->views.push_back(view);
         *outView = view;
         return {};
@@ -119,8 +151,16 @@ FxResult fxDestroyView(FxView* view)
 
 FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings)
 {
-    return fx::api::insideView("fxView_SetSettings", view,
-                               [&]() -> Status { return readSettings(settings, view->renderer.settings()); });
+    return fx::api::insideView("fxView_SetSettings", view, [&]() -> Status {
+        fx::render::ViewSettings known;
+        fx::quality::BudgetOptions budget;
+        if (Status status = readSettings(settings, known, budget); !status)
+            return status;
+        if (Status status = view->quality.setOptions(budget); !status)
+            return status;
+        view->renderer.settings() = known;
+        return {};
+    });
 }
 
 FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
@@ -136,6 +176,7 @@ FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
         const ShownSnapshots shown(view->scene->scene);
         request.interpolation = shown->interpolation;
         request.time = shown->time;
+        const FrameQuality quality(*view, known);
         Status status = view->renderer.render(shown->snapshots, request);
         view->allocations = view->context->memory.allocationCount() - before;
         return status;

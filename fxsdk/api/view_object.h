@@ -5,6 +5,7 @@
 #include "fxsdk/api/context.h"
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/fx_view.h"
+#include "fxsdk/quality/view_quality.h"
 #include "rendering/view/view_renderer.h"
 
 struct FxView
@@ -23,6 +24,7 @@ struct FxView
     FxContext* context;
     FxScene* scene;
     fx::render::ViewRenderer renderer;
+    fx::quality::ViewQuality quality;
     uint64_t allocations = 0; ///< during the last frame
 };
 
@@ -38,6 +40,7 @@ void destroyView(FxView* view);
 
 /// Checked settings and frames in the renderer's terms; the status names the member that is wrong.
 base::Status convertSettings(const FxViewSettings& given, render::ViewSettings& outSettings);
+base::Status convertBudget(const FxViewSettings& given, quality::BudgetOptions& outOptions);
 base::Status convertFrame(const FxFrameDef& given, render::FrameRequest& outRequest);
 
 /// Runs `body` as a call inside the view, if the thread rules allow it. One at a time in a context, as in GL.

@@ -18,5 +18,6 @@ void addStabilityCommand(CLI::App& app, int& outExitCode);
 void addDazzleCommand(CLI::App& app, int& outExitCode);
 void addBenchCommand(CLI::App& app, int& outExitCode);
 void addExplainCommand(CLI::App& app, int& outExitCode);
+void addCalibrateCommand(CLI::App& app, int& outExitCode);
 
 } // namespace fx::cli

@@ -33,6 +33,7 @@ int run(int argumentCount, char** arguments)
     fx::cli::addDazzleCommand(app, exitCode);
     fx::cli::addBenchCommand(app, exitCode);
     fx::cli::addExplainCommand(app, exitCode);
+    fx::cli::addCalibrateCommand(app, exitCode);
     try {
         app.parse(argumentCount, arguments);
     } catch (const CLI::ParseError& error) {

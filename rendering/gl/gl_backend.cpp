@@ -58,6 +58,8 @@ void GlBackend::releasePool()
 
 void GlBackend::beginPass(std::string_view name)
 {
+    if (timer_)
+        timer_->beginPass(name);
     if (device_.limits().debugContext)
         device_.gl.PushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()),
                                   name.data());

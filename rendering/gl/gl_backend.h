@@ -19,6 +19,7 @@
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_draw_state.h"
 #include "rendering/gl/gl_framebuffer_cache.h"
+#include "rendering/gl/gl_pass_timer.h"
 #include "rendering/gl/gl_resource_pool.h"
 #include "rendering/gl/gl_uniform_ring.h"
 
@@ -56,7 +57,9 @@ public:
 
     uint32_t drawCalls() const { return drawCalls_; }      ///< draws and dispatches of the last frame
     uint64_t pooledBytes() const { return pool_.bytes(); } ///< [byte] of textures and buffers held
-    void releasePool();                                    ///< deletes what is pooled, until the next frame
+    /// Tells `timer` which passes begin; null for none. It must outlive its use.
+    void setTimer(GlPassTimer* timer) { timer_ = timer; }
+    void releasePool(); ///< deletes what is pooled, until the next frame
 
     void beginPass(std::string_view name) override;
     void endPass() override;
@@ -87,6 +90,7 @@ private:
     GlFramebufferCache framebuffers_;
     GlUniformRing uniforms_;
     GlDrawState state_;
+    GlPassTimer* timer_ = nullptr;
     size_t pass_ = 0; ///< index of the running pass among the executed ones
     uint32_t drawCalls_ = 0;
 };

@@ -139,6 +139,13 @@ float seedOf(uint64_t id)
     return float(x >> 40) * 0x1.0p-24f;
 }
 
+/// [0, 1) another number of the id: the particles below a share of 1/2 are among those below 3/4.
+float thinningOf(uint64_t id)
+{
+    const uint64_t x = (id ^ (id >> 31)) * 0x94D049BB133111EBu;
+    return float((x ^ (x >> 29)) * 0xBF58476D1CE4E5B9u >> 40) * 0x1.0p-24f;
+}
+
 bool finite(const GatheredBlob& b, const glm::vec3& velocity)
 {
     const float values[] = {b.center.x, b.center.y, b.center.z, b.radius,     b.crossSection, b.temperature,
@@ -151,11 +158,12 @@ bool finite(const GatheredBlob& b, const glm::vec3& velocity)
 class GroupGather
 {
 public:
-    GroupGather(const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& visible,
-                std::pmr::vector<GridBlob>& medium, GatherCounts& counts)
+    GroupGather(const CameraGeometry& camera, int height, float share,
+                std::pmr::vector<GatheredBlob>& visible, std::pmr::vector<GridBlob>& medium,
+                GatherCounts& counts)
         : camera_(camera), volume_(camera),
-          pixelsPerSlope_(0.5f * float(height) * std::abs(camera.clipScale.y)), visible_(visible),
-          medium_(medium), counts_(counts)
+          pixelsPerSlope_(0.5f * float(height) * std::abs(camera.clipScale.y)), share_(share),
+          visible_(visible), medium_(medium), counts_(counts)
     {}
 
     void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds)
@@ -178,6 +186,9 @@ public:
             if (!(blob.crossSection > 0.0f && blob.radius > 0.0f))
                 continue;
             medium_.push_back({blob.center, blob.radius, blob.crossSection});
+            if (share_ < 1.0f && thinningOf(reader.id()) >= share_)
+                continue;
+            blob.crossSection /= share_;
             add(blob, velocity * constants[constant::Shutter]);
         }
     }
@@ -222,6 +233,7 @@ private:
     const CameraGeometry& camera_;
     ViewVolume volume_;
     float pixelsPerSlope_;
+    float share_;
     std::pmr::vector<GatheredBlob>& visible_;
     std::pmr::vector<GridBlob>& medium_;
     GatherCounts& counts_;
@@ -231,7 +243,8 @@ private:
 
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
-                         std::pmr::vector<GridBlob>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances)
+                         std::pmr::vector<GridBlob>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances,
+                         float share)
 {
     GatherCounts counts;
     if (!snapshots.newer)
@@ -241,7 +254,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
     const float t = float(glm::clamp(interpolation, 0.0, 1.0));
     const float stepSeconds =
         snapshots.older ? float(base::toSeconds(newer.tick() - snapshots.older->tick())) : 0.0f;
-    GroupGather gather(camera, height, outVisible, outMedium, counts);
+    GroupGather gather(camera, height, share, outVisible, outMedium, counts);
     for (size_t g = 0; g < newer.groupCount(); ++g) {
         const base::SnapshotGroup& group = newer.group(g);
         if (group.info().kind != kind)

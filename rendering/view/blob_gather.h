@@ -60,9 +60,12 @@ struct GatherCounts
 /// carried back along its velocity, and left out if it was not yet born. Blobs smaller than a pixel are
 /// widened to it with their cross section kept, so that they neither vanish nor flicker; a shutter draws a
 /// moving blob out into several.
+///
+/// @param share of the particles that is appended to `outVisible`, (0, 1]: their ids decide which, so that a
+/// particle does not come and go; they take over the cross section of the others. All cast shadows.
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
-                         std::pmr::vector<GridBlob>& outMedium,
-                         std::pmr::vector<InstanceBlobs>& outInstances);
+                         std::pmr::vector<GridBlob>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances,
+                         float share = 1.0f);
 
 } // namespace fx::render

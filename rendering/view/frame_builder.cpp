@@ -24,7 +24,7 @@ void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest
     gridBlobs_.clear();
     instances_.clear();
     counts_ = gatherBlobs(snapshots, request.interpolation, camera, request.targets.height, gathered_,
-                          gridBlobs_, instances_);
+                          gridBlobs_, instances_, settings.particleShare);
     shade(snapshots, settings, camera);
     sort(camera);
 }

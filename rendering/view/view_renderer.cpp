@@ -24,7 +24,7 @@ namespace fx::render {
 struct ViewRenderer::Impl
 {
     Impl(GlDevice* d, std::pmr::memory_resource* memory)
-        : device(d), graph(memory), backend(*d, memory), builder(memory)
+        : device(d), graph(memory), backend(*d, memory), builder(memory), timer(*d)
     {}
 
     base::Status ensureHistory();
@@ -35,6 +35,9 @@ struct ViewRenderer::Impl
     GlBackend backend;
     FrameBuilder builder;
     LayerScaleControl layerScale;
+    GlPassTimer timer;
+    TimingClock clock = TimingClock::Off;
+    uint64_t tag = 0;
     GlBuffer dazzleHistory;
     uint32_t idleFrames = 0;   ///< one after the other in which there was nothing to draw
     bool historyFresh = false; ///< nothing has been adapted to yet
@@ -150,6 +153,8 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     FrameRequest request = asked;
     request.resetHistory = asked.resetHistory || s.historyFresh;
 
+    s.timer.beginFrame(s.clock, s.tag);
+    s.backend.setTimer(s.clock == TimingClock::Off ? nullptr : &s.timer);
     const CameraGeometry camera = cameraGeometry(request.camera);
     s.builder.build(snapshots, request, settings_, camera);
     const auto fragments =
@@ -163,10 +168,14 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     if (s.outputs.anyPass) {
         s.graph.compile();
         GlStateGuard guard(*s.device, settings_.saveState);
+        s.timer.beginPasses();
         if (s.backend.beginFrame(s.graph))
             s.graph.execute(s.backend);
         status = s.backend.endFrame();
     }
+    s.timer.endFrame(status.ok() && s.outputs.anyPass);
+    if (s.clock != TimingClock::Off)
+        covered_ = screenShare(s.builder.blobs(), cameraGeometry(request.camera));
     if (!status)
         s.outputs = {};                              // nothing of this frame can be handed out
     s.historyFresh = !(status && s.outputs.dazzled); // glare that has paused begins anew
@@ -185,6 +194,27 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     if (status && settings_.countOverdraw)
         s.readBack(statistics_);
     return status;
+}
+
+void ViewRenderer::setTiming(TimingClock clock, uint64_t tag)
+{
+    impl_->clock = clock;
+    impl_->tag = tag;
+}
+
+bool ViewRenderer::hasGpuClock()
+{
+    return impl_->timer.hasGpuClock();
+}
+
+void ViewRenderer::setHostClock(HostClock clock)
+{
+    impl_->timer.hostClock = clock;
+}
+
+bool ViewRenderer::takeTimes(GroupTimes& out)
+{
+    return impl_->timer.take(out);
 }
 
 LayerTextures ViewRenderer::layers() const

@@ -6,6 +6,8 @@
 
 #include "foundation/result/status.h"
 #include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/gl/gl_pass_timer.h"
+#include "rendering/view/screen_share.h"
 #include "rendering/view/view_types.h"
 
 #include <cstdint>
@@ -49,6 +51,16 @@ public:
     /// it was.
     base::Status render(const base::SnapshotPair& snapshots, const FrameRequest& request);
 
+    /// Measures the next frames; Off is the default and costs nothing. With Gpu where GL has no clock nothing
+    /// is measured.
+    /// @param tag comes back with the times of a frame
+    void setTiming(TimingClock clock, uint64_t tag);
+    bool hasGpuClock();
+    void setHostClock(HostClock clock); ///< of TimingClock::Host
+    bool takeTimes(GroupTimes& out);    ///< see GlPassTimer::take
+    /// Of the last frame; only while frames are measured.
+    const ScreenShare& covered() const { return covered_; }
+
     const FrameStatistics& statistics() const { return statistics_; }
     LayerTextures layers() const;
     /// Names of the passes that the last frame executed, in order.
@@ -58,6 +70,7 @@ private:
     struct Impl;
     ViewSettings settings_;
     FrameStatistics statistics_;
+    ScreenShare covered_;
     std::unique_ptr<Impl> impl_;
 };
 

@@ -74,8 +74,10 @@ struct ViewSettings
     ShimmerSettings shimmer;
     DazzleSettings dazzle;
     BillboardForm form = BillboardForm::Kernel;
-    bool saveState = true;     ///< restore every GL state that is touched; false: the host does
-    bool detail = true;        ///< procedural detail of blobs
+    bool saveState = true; ///< restore every GL state that is touched; false: the host does
+    bool detail = true;    ///< procedural detail of blobs
+    float particleShare =
+        1.0f; ///< [1] (0, 1] of the particles that is drawn; those take over the others' cross section
     bool toneMap = false;      ///< write display-referred values
     bool layerOutputs = false; ///< keep fire, smoke, dust, depth and optical depth as textures of their own
     bool countOverdraw =

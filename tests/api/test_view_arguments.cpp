@@ -49,6 +49,10 @@ TEST_F(ViewArguments, aSettingOutOfRangeIsRefusedByNameAndTheOldOnesStay)
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = 0.3f; });
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = 0.0f; });
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = kNan; });
+    refuse("budgetMilliseconds", [](FxViewSettings& s) { s.budgetMilliseconds = -1.0f; });
+    refuse("budgetMilliseconds", [](FxViewSettings& s) { s.budgetMilliseconds = kNan; });
+    refuse("budgetMilliseconds", [](FxViewSettings& s) { s.budgetMilliseconds = 1e5f; });
+    refuse("budgetClock", [](FxViewSettings& s) { s.budgetClock = 2; });
     EXPECT_EQ(fxView_SetSettings(view_, nullptr), FX_ERROR_INVALID_ARGUMENT);
     const FxViewSettings good = fxDefaultViewSettings();
     EXPECT_EQ(fxView_SetSettings(view_, &good), FX_OK) << fxGetLastErrorMessage();
@@ -87,7 +91,7 @@ TEST_F(ViewArguments, aFrameOutOfRangeIsRefusedByNameAndThePictureStays)
     refuse("height", [](FxFrameDef& f) { f.height = 16'385; });
     refuse("deltaTime", [](FxFrameDef& f) { f.deltaTime = -1.0; });
     refuse("deltaTime", [](FxFrameDef& f) { f.deltaTime = double(kNan); });
-    refuse("reserved", [](FxFrameDef& f) { f.reserved = 1; });
+    refuse("holdQuality", [](FxFrameDef& f) { f.holdQuality = 2; });
     refuse("resetHistory", [](FxFrameDef& f) { f.resetHistory = 2; });
     EXPECT_EQ(picture(), before);
 }

@@ -44,6 +44,24 @@ enum
     FX_BILLBOARD_KERNEL = 2    ///< ball with the gas's own density profile, exact
 };
 
+/// Values of FxViewSettings::budgetClock.
+enum
+{
+    FX_BUDGET_CLOCK_GPU = 0, ///< time of the GPU by timestamps, known some frames later; nothing waits
+    /// Time on the calling thread from the call to the end of all GL work. Waits for the GPU (glFinish) up to
+    /// six times a frame: for tools, software renderers and drivers without timestamps.
+    FX_BUDGET_CLOCK_CPU = 1
+};
+
+/// Values of FxQualityReport::timing.
+enum
+{
+    FX_TIMING_OFF = 0,        ///< there is no budget
+    FX_TIMING_GPU = 1,        ///< FX_BUDGET_CLOCK_GPU
+    FX_TIMING_CPU = 2,        ///< FX_BUDGET_CLOCK_CPU
+    FX_TIMING_UNAVAILABLE = 3 ///< this OpenGL counts no time: quality is what the settings say
+};
+
 /// What stays the same from frame to frame. Fill with fxDefaultViewSettings(), then change what you need.
 typedef struct FxViewSettings
 {
@@ -77,6 +95,10 @@ typedef struct FxViewSettings
                        ///< those of the picture; edges of opaque surfaces stay sharp
     uint32_t fragmentBudget; ///< 0 (default): none; otherwise a frame whose estimated fragments exceed it is
                              ///< drawn at a smaller layerScale, until 30 frames in a row were calm
+    float budgetMilliseconds; ///< [ms] 0..1e4 that a frame of this view may take; 0 (default): quality is
+                              ///< what these settings say. Otherwise it may fall below, never rise above
+                              ///< them; what is simulated does not depend on it.
+    uint32_t budgetClock;     ///< FX_BUDGET_CLOCK_...; default FX_BUDGET_CLOCK_GPU
 } FxViewSettings;
 
 /// Daylight exposure, no lights of its own, everything on.
@@ -126,8 +148,9 @@ typedef struct FxFrameDef
     uint32_t framebuffer;  ///< GL name, with FX_TARGET_FRAMEBUFFER; default 0
     int32_t width;         ///< [pixel] of the target, 1..16384
     int32_t height;        ///< [pixel] of the target, 1..16384
-    uint32_t reserved;     ///< 0
-    double deltaTime; ///< [s] 0..1e6 since the last frame of this view, for adaptation only; default 1/60
+    uint32_t holdQuality; ///< 1: the host is loading, seeking or catching up: with a budget, quality stays as
+                          ///< it is and the frame's time teaches nothing; default 0
+    double deltaTime;     ///< [s] 0..1e6 since the last frame of this view, for adaptation only; default 1/60
 } FxFrameDef;
 
 /// A frame whose camera sits in the origin and whose target is missing.
@@ -179,6 +202,37 @@ typedef struct FxLayerTextures
     uint32_t reserved;     ///< 0
 } FxLayerTextures;
 
+/// What the frame budget led to. Fill structSize with sizeof before the call.
+typedef struct FxQualityReport
+{
+    uint32_t structSize;        ///< set by the caller
+    uint32_t timing;            ///< FX_TIMING_...; OFF and UNAVAILABLE: what follows is 0
+    float budgetMilliseconds;   ///< [ms] as asked for
+    uint32_t hasMeasured;       ///< 1: a frame has finished and measuredMilliseconds is its time; 0: none yet
+    float measuredMilliseconds; ///< [ms] of the last frame that is known to have finished
+    float predictedMilliseconds; ///< [ms] that the last frame was expected to take
+    float estimatedError;        ///< [1] mean error of the picture's light against the highest setting
+    uint32_t saturated;          ///< 1: even the lowest settings are expected to exceed the budget
+    uint32_t held;               ///< 1: the last frame was not to change quality
+    uint32_t techniques;         ///< that fxView_GetQualityChoice() knows
+    uint64_t switches;           ///< frames that changed a setting, since the calibration was set
+} FxQualityReport;
+
+/// What was chosen for one technique in the last frame. Fill structSize with sizeof before the call.
+typedef struct FxQualityChoice
+{
+    uint32_t structSize;         ///< set by the caller
+    uint32_t step;               ///< 0..steps - 1, cheapest first
+    uint32_t steps;              ///< of the technique's ladder
+    float cost;                  ///< [1] of the step, in units of the highest one's
+    float error;                 ///< [1] of the step, against the highest one's picture
+    float weight;                ///< [1] 0..1 about the share of the picture that the technique covers
+    float predictedMilliseconds; ///< [ms] of the step in this scene
+    uint32_t reserved;           ///< 0
+    char technique[32];          ///< "media", "shimmer", or "other" for all that no setting changes
+    char setting[96];            ///< for people, such as "particles 0.5, kernel, detail on"
+} FxQualityChoice;
+
 /// Creates a view of a scene. [GL thread]
 /// @param settings null for the defaults
 /// @param outView  receives the view; untouched on failure
@@ -228,6 +282,30 @@ FX_API FxResult fxView_GetPassCount(FxView* view, uint32_t* outCount);
 /// @param capacity [byte] of buffer, > 0
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetPassName(FxView* view, uint32_t index, char* buffer, size_t capacity);
+
+/// Exchanges what the view knows of costs and errors: the text of a file that `fx calibrate` wrote. Without
+/// it, views with a budget use a calibration that is built in. What was learned is forgotten. [GL thread]
+/// @param text        UTF-8, need not be zero-terminated; not kept; null: the built-in one again
+/// @param length      [byte] of text, 1..64 KiB; 0 with null
+/// @param displayName stands for the file's name in messages; may be null
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_TOO_LARGE, FX_ERROR_PARSE, FX_ERROR_SCHEMA,
+/// FX_ERROR_VERSION (the message names line, place and remedy; nothing has changed), FX_ERROR_WRONG_THREAD,
+///         FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
+FX_API FxResult fxView_SetQualityCalibration(FxView* view, const char* text, size_t length,
+                                             const char* displayName);
+
+/// Reads what the frame budget led to in the last frame. [GL thread]
+/// @param ioReport structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
+/// FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetQualityReport(FxView* view, FxQualityReport* ioReport);
+
+/// Reads what was chosen for one technique in the last frame. [GL thread]
+/// @param index    0..FxQualityReport::techniques - 1
+/// @param ioChoice structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
+/// FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetQualityChoice(FxView* view, uint32_t index, FxQualityChoice* ioChoice);
 
 /// Names a GL state that fxView_Render() may leave changed when saveState is 0; the list is made from the
 /// table that restores them when it is 1. [any]

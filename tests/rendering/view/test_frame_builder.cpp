@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 using namespace fx;
@@ -127,6 +128,37 @@ TEST_F(FrameBuilderTest, aShutterDrawsAFastBlobOutAndKeepsItsMedium)
         sum += blob.crossSection;
     EXPECT_NEAR(sum, 1.0f, 1e-5f);
     EXPECT_LT(blobs.back().center.x, -1.0f);
+}
+
+TEST_F(FrameBuilderTest, aShareOfTheParticlesStandsForAllOfThemAndGrowsByAddition)
+{
+    std::vector<Element> elements;
+    for (uint64_t id = 1; id <= 20'000; ++id)
+        elements.push_back({id * 3, float(id) * 1e-4f});
+    const auto newer = snapshot(0, elements);
+    base::SnapshotPair pair;
+    pair.newer = &newer;
+    const auto camera =
+        render::cameraGeometry(render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f));
+    std::vector<float> before;
+    for (const float share : {0.125f, 0.25f, 0.5f, 1.0f}) {
+        std::pmr::vector<render::GatheredBlob> blobs;
+        std::pmr::vector<render::GridBlob> medium;
+        std::pmr::vector<render::InstanceBlobs> instances;
+        render::gatherBlobs(pair, 1.0, camera, 720, blobs, medium, instances, share);
+        EXPECT_NEAR(float(blobs.size()) / 20'000.0f, share, 0.015f); // 4 standard deviations
+        double crossSection = 0.0;
+        std::vector<float> x;
+        for (const render::GatheredBlob& blob : blobs) {
+            crossSection += double(blob.crossSection);
+            x.push_back(blob.center.x);
+        }
+        EXPECT_NEAR(crossSection / 20'000.0, 1.0, 0.12);
+        EXPECT_EQ(medium.size(), 20'000u) << "all cast shadows";
+        EXPECT_TRUE(std::includes(x.begin(), x.end(), before.begin(), before.end()));
+        before = x;
+    }
+    EXPECT_EQ(before.size(), 20'000u);
 }
 
 TEST_F(FrameBuilderTest, sortsFarthestFirstByDistanceFromTheEye)

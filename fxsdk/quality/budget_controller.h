@@ -1,0 +1,78 @@
+/// @file budget_controller.h
+/// Keeps frames within a time by choosing the quality of each technique. Knows no clock and no GL: it is told
+/// how long frames took and how much time has passed, so that equal input gives equal choices.
+///
+/// Quality falls at once, as far as needed, when the next frame is expected to take more than 0.92 of the
+/// budget; it aims at 0.8. It rises by one step a technique after 45 frames without a change, not within a
+/// second of a fall, and ever more slowly where rising has soon been followed by falling.
+/// Only what is drawn depends on it, never what is simulated.
+#pragma once
+
+#include "fxsdk/quality/ladder_choice.h"
+
+#include <cstdint>
+
+namespace fx::quality {
+
+class BudgetController
+{
+public:
+    static constexpr double kTarget = 0.8;        ///< [budget] what is aimed at
+    static constexpr double kLimit = 0.92;        ///< [budget] expected beyond: fall at once
+    static constexpr uint32_t kCalmFrames = 45;   ///< before a rise
+    static constexpr double kRestSeconds = 1.0;   ///< [s] without a rise after a fall
+    static constexpr double kProbation = 3.0;     ///< [s] a fall this soon after a rise doubles the patience
+    static constexpr uint32_t kMostPatience = 16; ///< times kCalmFrames
+
+    /// Starts with the best of each ladder; throws std::bad_alloc. Everything else allocates nothing.
+    /// @param ladders 1 to kMostLadders, each with costs that rise and errors that fall
+    explicit BudgetController(std::vector<Ladder> ladders);
+
+    /// Learns from a finished frame. Results may come late: they are told with the choice they were made
+    /// with.
+    /// @param milliseconds one a ladder; negative: not known
+    void observe(const Choice& choice, std::span<const double> milliseconds);
+
+    struct Frame
+    {
+        double budget = 0;               ///< [ms] > 0
+        double deltaTime = 0;            ///< [s] since the last call, >= 0
+        bool hold = false;               ///< something is caught up with: nothing changes
+        std::span<const double> weights; ///< [1] >= 0, one a ladder
+    };
+    /// Chooses for the next frame.
+    const Choice& choose(const Frame& frame);
+
+    std::span<const Ladder> ladders() const { return ladders_; }
+    const Choice& choice() const { return choice_; }
+    const CostModel& costs() const { return costs_; }
+    double predicted() const { return predicted_; } ///< [ms] of the last choice
+    double error() const { return error_; }         ///< [1] of the last choice
+    bool isSaturated() const { return saturated_; } ///< even the lowest settings are expected to be too slow
+    uint64_t switches() const { return switches_; } ///< frames that changed a choice
+    void reset();                                   ///< forgets all, starts at the top
+
+private:
+    struct Memory ///< of one ladder
+    {
+        double sinceFall = 1e9; ///< [s]
+        double sinceRise = 1e9; ///< [s]
+        uint32_t patience = 1;
+    };
+    void pass(double seconds);
+    void fall(const ChoiceInputs& in, double target);
+    void rise(const ChoiceInputs& in, double target);
+    void take(const Choice& choice);
+
+    std::vector<Ladder> ladders_;
+    CostModel costs_;
+    Choice choice_{};
+    std::array<Memory, kMostLadders> memory_{};
+    uint32_t calm_ = 0; ///< frames since the last change
+    double predicted_ = 0;
+    double error_ = 0;
+    bool saturated_ = false;
+    uint64_t switches_ = 0;
+};
+
+} // namespace fx::quality

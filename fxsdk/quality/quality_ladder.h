@@ -1,0 +1,57 @@
+/// @file quality_ladder.h
+/// What a technique costs and how wrong it is, setting by setting: the data that quality is chosen from.
+#pragma once
+
+#include "rendering/view/view_types.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fx::quality {
+
+constexpr size_t kMostLadders = 8; ///< techniques that are chosen at once
+constexpr size_t kMostSteps = 16;  ///< of one ladder
+
+/// The switches of the renderer that a step sets; what is absent stays as the host has it.
+struct Knobs
+{
+    std::optional<render::BillboardForm> billboards;
+    std::optional<bool> detail;
+    std::optional<float> particles; ///< [1] share that is drawn, (0, 1]
+    std::optional<bool> shimmer;
+};
+
+/// One setting of a technique.
+struct LadderStep
+{
+    double cost = 0;  ///< [1] time in units of the last step's, >= 0
+    double error = 0; ///< [1] mean difference from the last step's picture, in units of the light in it
+    Knobs knobs;
+};
+
+/// The settings of one technique worth having: each costs more than the one before and is less wrong.
+struct Ladder
+{
+    std::string technique;
+    std::vector<LadderStep> steps; ///< 1 to kMostSteps
+};
+
+struct Calibration
+{
+    std::string origin; ///< machine and version that measured it
+    std::vector<Ladder> ladders;
+};
+
+/// What `first` sets, and what `second` sets besides.
+Knobs merged(const Knobs& first, const Knobs& second);
+
+/// Index of the step of each ladder.
+using Choice = std::array<uint8_t, kMostLadders>;
+
+/// Lowers `ioSettings` to what the knobs say. Never above what the host asked for.
+void apply(const Knobs& knobs, render::ViewSettings& ioSettings);
+
+} // namespace fx::quality

@@ -1,0 +1,119 @@
+#include "rendering/gl/gl_pass_timer.h"
+
+#include <chrono>
+
+namespace fx::render {
+
+PassGroup passGroupOf(std::string_view passName)
+{
+    if (passName.starts_with("media") || passName == "blob upload" || passName == "layer resolve")
+        return PassGroup::Media;
+    return passName.starts_with("heat") ? PassGroup::Shimmer : PassGroup::Other;
+}
+
+double steadyMilliseconds()
+{
+    using namespace std::chrono;
+    return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+GlPassTimer::~GlPassTimer()
+{
+    for (Frame& frame : frames_)
+        if (frame.queries[0] != 0)
+            device_.gl.DeleteQueries(GLsizei(kStamps), frame.queries.data());
+}
+
+bool GlPassTimer::hasGpuClock()
+{
+    if (counterBits_ < 0) {
+        GLint bits = 0;
+        device_.gl.GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+        counterBits_ = bits;
+    }
+    return counterBits_ > 0;
+}
+
+void GlPassTimer::beginFrame(TimingClock clock, uint64_t tag)
+{
+    open_ = nullptr;
+    if (clock == TimingClock::Off || waiting_ == kFrames || (clock == TimingClock::Gpu && !hasGpuClock()))
+        return; // not measured
+    Frame& frame = frames_[(first_ + waiting_) % kFrames];
+    if (clock == TimingClock::Gpu && frame.queries[0] == 0)
+        device_.gl.CreateQueries(GL_TIMESTAMP, GLsizei(kStamps), frame.queries.data());
+    frame.stamps = 0;
+    frame.tag = tag;
+    frame.clock = clock;
+    open_ = &frame;
+    group_ = PassGroup::Other;
+    if (clock == TimingClock::Host)
+        stamp(PassGroup::Other); // what the processor prepares counts
+}
+
+void GlPassTimer::beginPasses()
+{
+    if (open_ && open_->clock == TimingClock::Gpu)
+        stamp(PassGroup::Other);
+}
+
+void GlPassTimer::beginPass(std::string_view name)
+{
+    const PassGroup group = passGroupOf(name);
+    if (open_ && group != group_ && open_->stamps + 1 < kStamps)
+        stamp(group);
+}
+
+void GlPassTimer::endFrame(bool succeeded)
+{
+    if (open_ && open_->stamps > 0 && succeeded) {
+        stamp(PassGroup::Other);
+        ++waiting_;
+    }
+    open_ = nullptr;
+}
+
+void GlPassTimer::stamp(PassGroup next)
+{
+    Frame& frame = *open_;
+    if (frame.clock == TimingClock::Gpu) {
+        device_.gl.QueryCounter(frame.queries[frame.stamps], GL_TIMESTAMP);
+    } else {
+        if (frame.stamps > 0)
+            device_.gl.Finish();
+        frame.host[frame.stamps] = hostClock();
+    }
+    frame.groups[frame.stamps++] = next;
+    group_ = next;
+}
+
+bool GlPassTimer::isAvailable(const Frame& frame)
+{
+    if (frame.clock == TimingClock::Host)
+        return true;
+    GLuint available = 0; // the last stamp is the last to come
+    device_.gl.GetQueryObjectuiv(frame.queries[frame.stamps - 1], GL_QUERY_RESULT_AVAILABLE, &available);
+    return available != 0;
+}
+
+bool GlPassTimer::take(GroupTimes& out)
+{
+    if (waiting_ == 0 || !isAvailable(frames_[first_]))
+        return false;
+    const Frame& frame = frames_[first_];
+    std::array<double, kStamps> at = frame.host;
+    if (frame.clock == TimingClock::Gpu)
+        for (size_t i = 0; i < frame.stamps; ++i) {
+            GLuint64 nanoseconds = 0;
+            device_.gl.GetQueryObjectui64v(frame.queries[i], GL_QUERY_RESULT, &nanoseconds);
+            at[i] = double(nanoseconds) * 1e-6;
+        }
+    out = {frame.tag, {}};
+    for (size_t i = 0; i + 1 < frame.stamps; ++i)
+        out.milliseconds[size_t(frame.groups[i])] += at[i + 1] - at[i];
+    first_ = (first_ + 1) % kFrames;
+    --waiting_;
+    return true;
+}
+
+} // namespace fx::render

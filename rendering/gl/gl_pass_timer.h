@@ -1,0 +1,92 @@
+/// @file gl_pass_timer.h
+/// How long groups of passes take: by timestamps of the GPU, read frames later without waiting, or by a clock
+/// of the host around work that is waited for.
+///
+/// Threads: [GL thread]. Allocates nothing after construction.
+#pragma once
+
+#include "rendering/gl/gl_device.h"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace fx::render {
+
+/// What passes are summed up by.
+enum class PassGroup : uint8_t
+{
+    Other,
+    Media,   ///< all blobs of fire, smoke and dust
+    Shimmer, ///< heat
+};
+constexpr size_t kPassGroups = 3;
+PassGroup passGroupOf(std::string_view passName);
+
+enum class TimingClock : uint8_t
+{
+    Off,
+    Gpu,  ///< GL timestamps; nothing waits
+    Host, ///< a clock of the host, with glFinish() wherever the group changes
+};
+
+/// One finished frame.
+struct GroupTimes
+{
+    uint64_t tag = 0; ///< what beginFrame() was given
+    std::array<double, kPassGroups> milliseconds{};
+    double total() const { return milliseconds[0] + milliseconds[1] + milliseconds[2]; } ///< [ms]
+};
+
+/// A clock of the host. [ms] from any origin.
+using HostClock = double (*)();
+double steadyMilliseconds();
+
+class GlPassTimer
+{
+public:
+    static constexpr size_t kFrames = 6;  ///< that may wait for their results
+    static constexpr size_t kStamps = 12; ///< of one frame; groups that change more often are not told apart
+
+    explicit GlPassTimer(GlDevice& device) : device_(device) {}
+    ~GlPassTimer();
+    GlPassTimer(const GlPassTimer&) = delete;
+    GlPassTimer& operator=(const GlPassTimer&) = delete;
+
+    /// Whether GL counts time: with 0 bits it does not, and its times would all be 0.
+    bool hasGpuClock();
+
+    /// @param tag comes back with the result
+    void beginFrame(TimingClock clock, uint64_t tag);
+    void beginPasses(); ///< the commands of the frame begin
+    void beginPass(std::string_view name);
+    void endFrame(bool succeeded); ///< a frame that failed gives no result
+
+    /// The oldest frame that is finished and not yet taken. Does not wait.
+    bool take(GroupTimes& out);
+
+    HostClock hostClock = steadyMilliseconds;
+
+private:
+    struct Frame
+    {
+        std::array<uint32_t, kStamps> queries{};
+        std::array<PassGroup, kStamps> groups{}; ///< of what follows stamp i
+        std::array<double, kStamps> host{};      ///< [ms]
+        size_t stamps = 0;
+        uint64_t tag = 0;
+        TimingClock clock = TimingClock::Off;
+    };
+    void stamp(PassGroup next);
+    bool isAvailable(const Frame& frame);
+
+    GlDevice& device_;
+    std::array<Frame, kFrames> frames_;
+    size_t first_ = 0;   ///< oldest frame whose result is awaited
+    size_t waiting_ = 0; ///< frames from there
+    Frame* open_ = nullptr;
+    PassGroup group_ = PassGroup::Other;
+    int counterBits_ = -1; ///< -1: not asked yet
+};
+
+} // namespace fx::render

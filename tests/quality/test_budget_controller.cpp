@@ -1,0 +1,226 @@
+// The controller against written-down loads: numbers that must hold, and two controllers for which they do
+// not.
+#include "tests/quality/scripted_load.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace fx::quality::test {
+
+namespace {
+
+constexpr double kMostOver = 0.05;     ///< share of frames
+constexpr double kMostSwitches = 0.03; ///< share of frames
+constexpr int kMostRecovery = 10;      ///< [frame]
+constexpr std::array<double, kTechniques> kWeights = {1, 1, 1, 1, 1, 1};
+
+double share(int frames)
+{
+    return double(frames) / kFrames;
+}
+
+/// What measured frames take when the load is `load` everywhere.
+std::vector<double> timesOf(const BudgetController& controller, double load)
+{
+    std::vector<double> times;
+    for (size_t i = 0; i < kTechniques; ++i)
+        times.push_back(load * controller.ladders()[i].steps[controller.choice()[i]].cost);
+    return times;
+}
+
+/// Plays `frames` frames without noise and delay.
+void play(BudgetController& controller, int frames, double load, bool hold = false)
+{
+    for (int k = 0; k < frames; ++k) {
+        if (!hold)
+            controller.observe(controller.choice(), timesOf(controller, load));
+        controller.choose({kBudget, kFrameTime, hold, kWeights});
+    }
+}
+
+int stepSum(const Choice& choice)
+{
+    int sum = 0;
+    for (const uint8_t step : choice)
+        sum += step;
+    return sum;
+}
+
+} // namespace
+
+class ScriptedLoad : public ::testing::TestWithParam<int>
+{};
+
+TEST_P(ScriptedLoad, theControllerStaysWithinTheBudgetAndCalm)
+{
+    for (uint64_t seed = 1; seed <= 8; ++seed) {
+        const Outcome outcome = playController({GetParam(), seed, {}});
+        EXPECT_LE(share(outcome.over), kMostOver) << "seed " << seed;
+        EXPECT_LE(share(outcome.switches), kMostSwitches) << "seed " << seed;
+        EXPECT_LE(outcome.worstRecovery, kMostRecovery) << "seed " << seed;
+        EXPECT_EQ(outcome.returns, 0) << "seed " << seed;
+        EXPECT_EQ(outcome.flickers, 0) << "seed " << seed;
+        EXPECT_LT(outcome.meanError, 1.5) << "seed " << seed; // all at the bottom would have 6
+        if (seed == 1)
+            std::printf("delay %d: over %.2f %%, switches %d, recovery %d, error %.2f\n", GetParam(),
+                        100 * share(outcome.over), outcome.switches, outcome.worstRecovery,
+                        outcome.meanError);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(ResultsComeLate, ScriptedLoad, ::testing::Values(1, 3, 5));
+
+TEST(FixedQuality, isOverTheBudgetSoThatTheGateCanFail)
+{
+    const Outcome outcome = playFixed({});
+    EXPECT_GT(share(outcome.over), kMostOver);
+    EXPECT_GT(outcome.worstRecovery, kMostRecovery);
+}
+
+TEST(NaiveProportional, isOverTheBudgetAndFlickersSoThatTheGatesCanFail)
+{
+    const Outcome outcome = playNaive({});
+    EXPECT_GT(share(outcome.over), kMostOver);
+    EXPECT_GT(share(outcome.switches), kMostSwitches);
+    EXPECT_GT(outcome.returns, 0);
+    EXPECT_GT(outcome.flickers, 0);
+}
+
+TEST(BudgetController, startsAtTheBestAndFallsAsFarAsNeededAtOnce)
+{
+    BudgetController controller(sixLadders());
+    EXPECT_EQ(stepSum(controller.choice()), 5 * int(kTechniques));
+    play(controller, 1, 10.0); // the best would take 60 ms
+    EXPECT_LE(controller.predicted(), BudgetController::kTarget * kBudget);
+    EXPECT_EQ(controller.switches(), 1u);
+    EXPECT_FALSE(controller.isSaturated());
+}
+
+TEST(BudgetController, risesByOneStepAfterCalmFramesAndNotBefore)
+{
+    BudgetController controller(sixLadders());
+    play(controller, 1, 10.0);
+    const Choice low = controller.choice();
+    play(controller, 200, 10.0);
+    EXPECT_EQ(controller.choice(), low); // nothing more fits
+    for (int k = 0; k < 400; ++k) {
+        const Choice before = controller.choice();
+        play(controller, 1, 0.1);
+        for (size_t i = 0; i < kTechniques; ++i)
+            EXPECT_LE(controller.choice()[i], before[i] + 1);
+    }
+    EXPECT_EQ(stepSum(controller.choice()), 5 * int(kTechniques));
+    EXPECT_LE(controller.switches(), 1u + 400u / BudgetController::kCalmFrames + 1u);
+}
+
+TEST(BudgetController, doesNotRiseWithinASecondOfAFallHoweverShortTheFrames)
+{
+    constexpr double kShort = 1e-3; // [s]
+    BudgetController controller(sixLadders());
+    controller.observe(controller.choice(), timesOf(controller, 10.0));
+    const Choice low = controller.choose({kBudget, kShort, false, kWeights});
+    for (int frame = 1; frame < 1300; ++frame) {
+        controller.observe(controller.choice(), timesOf(controller, 0.1));
+        const Choice now = controller.choose({kBudget, kShort, false, kWeights});
+        if (frame < 999) {
+            EXPECT_EQ(now, low) << frame;
+        }
+    }
+    EXPECT_GT(stepSum(controller.choice()), stepSum(low));
+}
+
+TEST(BudgetController, changesNothingWhileSomethingIsCaughtUpWith)
+{
+    BudgetController controller(sixLadders());
+    play(controller, 10, 0.1);
+    const Choice before = controller.choice();
+    play(controller, 5, 50.0, true);
+    for (int k = 0; k < 3; ++k)
+        controller.observe(before, timesOf(controller, 50.0)); // even when it has learned of a load
+    controller.choose({kBudget, kFrameTime, true, kWeights});
+    EXPECT_EQ(controller.choice(), before);
+    controller.choose({kBudget, kFrameTime, false, kWeights});
+    EXPECT_LT(stepSum(controller.choice()), stepSum(before));
+
+    const Outcome outcome = playController({3, 1, [](int frame) { return frame >= 1000 && frame < 3000; }});
+    EXPECT_GT(share(outcome.over), kMostOver); // the price, which shows that it was held
+}
+
+TEST(BudgetController, twoSlowFramesDoNotChangeQualityButThreeDo)
+{
+    BudgetController controller(sixLadders());
+    play(controller, 400, 0.5);
+    const Choice before = controller.choice();
+    play(controller, 2, 5.0);
+    play(controller, 100, 0.5);
+    EXPECT_EQ(controller.choice(), before);
+    play(controller, 3, 5.0);
+    EXPECT_LT(stepSum(controller.choice()), stepSum(before));
+}
+
+TEST(BudgetController, saysWhenEvenTheLowestIsTooSlow)
+{
+    std::vector<Ladder> ladders = {{"a", {{0.5, 1.0, {}}, {1.0, 0.0, {}}}}};
+    BudgetController controller(ladders);
+    const std::vector<double> slow = {100.0};
+    controller.observe(controller.choice(), slow);
+    controller.choose({kBudget, kFrameTime, false, kWeights});
+    EXPECT_TRUE(controller.isSaturated());
+    EXPECT_EQ(controller.choice()[0], 0);
+    EXPECT_DOUBLE_EQ(controller.predicted(), 50.0);
+}
+
+TEST(BudgetController, errorIsTakenAwayWhereItIsSeenMost)
+{
+    BudgetController controller(sixLadders());
+    constexpr std::array<double, kTechniques> kFirstFills = {1.0, 0.01, 0.01, 0.01, 0.01, 0.01};
+    controller.observe(controller.choice(), timesOf(controller, 5.0));
+    controller.choose({kBudget, kFrameTime, false, kFirstFills});
+    for (size_t i = 1; i < kTechniques; ++i)
+        EXPECT_GT(controller.choice()[0], controller.choice()[i]);
+}
+
+TEST(BudgetController, aLadderThatPromisesTooMuchIsTriedEverMoreRarely)
+{
+    // the upper step costs four times what the ladder says: it never fits, which only trying shows
+    std::vector<Ladder> ladders = {{"a", {{0.5, 1.0, {}}, {1.0, 0.0, {}}}}};
+    BudgetController controller(ladders);
+    std::vector<int> rises;
+    uint8_t before = controller.choice()[0];
+    for (int frame = 0; frame < 6000; ++frame) {
+        const std::vector<double> times = {controller.choice()[0] == 0 ? 1.5 : 12.0};
+        controller.observe(controller.choice(), times);
+        const uint8_t now = controller.choose({kBudget, kFrameTime, false, kWeights})[0];
+        if (now > before)
+            rises.push_back(frame);
+        before = now;
+    }
+    ASSERT_GE(rises.size(), 2u);
+    EXPECT_LE(rises.size(), 20u); // 45 frames each would be over 100
+    EXPECT_GT(rises.back() - rises[rises.size() - 2], 4 * int(BudgetController::kCalmFrames));
+}
+
+TEST(CostModel, leavesOutWhatCannotBeATime)
+{
+    CostModel costs;
+    costs.observe(0, 1.0, std::numeric_limits<double>::quiet_NaN());
+    costs.observe(0, 1.0, std::numeric_limits<double>::infinity());
+    costs.observe(0, 1.0, -1.0);
+    costs.observe(0, 0.0, 1.0); // nor does a step that costs nothing tell one
+    EXPECT_FALSE(costs.isKnown(0));
+    costs.observe(0, 0.5, 1.0);
+    EXPECT_EQ(costs.scale(0), 2.0);
+}
+
+TEST(CostModel, takesWhatIsSwitchedOffForCheaperByAndBySoThatItIsTriedAgain)
+{
+    CostModel costs;
+    costs.observe(0, 1.0, 8.0);
+    for (int frame = 0; frame < 700; ++frame)
+        costs.observe(0, 0.0, 0.0);
+    EXPECT_GT(costs.scale(0), 3.0);
+    EXPECT_LT(costs.scale(0), 4.5);
+}
+
+} // namespace fx::quality::test

@@ -1,0 +1,102 @@
+// Calibrations as text: what is accepted comes back, what is refused says where and why.
+#include "fxsdk/quality/calibration_file.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace fx::quality {
+
+namespace {
+
+using base::Code;
+
+/// A file of one technique, `steps` inside.
+std::string fileWith(const std::string& steps, const std::string& name = "media")
+{
+    return "{\"version\": 1, \"techniques\": [\n  {\"name\": \"" + name + "\", \"steps\": [\n" + steps +
+           "\n]}]}";
+}
+
+const std::string kLow = R"({"cost": 0.2, "error": 0.5, "setting": {"particles": 0.25}})";
+const std::string kTop = R"({"cost": 1, "error": 0, "setting": {"particles": 1}})";
+
+void expectRefused(const std::string& text, Code code, const std::vector<std::string>& parts)
+{
+    const auto read = readCalibration(text, "my.json");
+    ASSERT_FALSE(read.ok()) << text;
+    EXPECT_EQ(read.status().code(), code) << read.status().message();
+    EXPECT_NE(read.status().message().find("my.json"), std::string::npos) << read.status().message();
+    for (const std::string& part : parts)
+        EXPECT_NE(read.status().message().find(part), std::string::npos) << read.status().message();
+}
+
+} // namespace
+
+TEST(BuiltInCalibration, isReadAndItsLaddersRise)
+{
+    const auto calibration = builtInCalibration();
+    ASSERT_TRUE(calibration.ok()) << calibration.status().message();
+    ASSERT_EQ(calibration->ladders.size(), 2u);
+    for (const Ladder& ladder : calibration->ladders) {
+        EXPECT_GE(ladder.steps.size(), 2u) << ladder.technique;
+        for (size_t k = 1; k < ladder.steps.size(); ++k) {
+            EXPECT_GT(ladder.steps[k].cost, ladder.steps[k - 1].cost);
+            EXPECT_LT(ladder.steps[k].error, ladder.steps[k - 1].error);
+        }
+    }
+    EXPECT_FALSE(calibration->origin.empty());
+}
+
+TEST(CalibrationFile, comesBackAsItWasWritten)
+{
+    const auto calibration = builtInCalibration();
+    ASSERT_TRUE(calibration.ok());
+    const std::string text = calibrationText(*calibration);
+    const auto again = readCalibration(text, "again");
+    ASSERT_TRUE(again.ok()) << again.status().message();
+    EXPECT_EQ(toJson(*again), toJson(*calibration));
+    EXPECT_EQ(calibrationText(*again), text);
+}
+
+TEST(CalibrationFile, everyTruncationIsRefused)
+{
+    const std::string text = fileWith(kLow + ",\n" + kTop);
+    ASSERT_TRUE(readCalibration(text, "my.json").ok());
+    for (size_t length = 0; length < text.size(); ++length)
+        EXPECT_FALSE(readCalibration(text.substr(0, length), "my.json").ok()) << length;
+}
+
+TEST(CalibrationFile, refusesWhatItIsNotAndNamesThePlace)
+{
+    expectRefused("[]", Code::Schema, {"version"});
+    expectRefused(R"({"version": 2, "techniques": []})", Code::Version, {"/version"});
+    expectRefused(fileWith(kTop, "medium"), Code::Schema, {":2:", "/techniques/0/name", "media"});
+    expectRefused(fileWith(R"({"cost": 1, "error": 0, "setting": {"detial": true}})"), Code::Schema,
+                  {":3:", "detail"});
+    expectRefused(fileWith(R"({"cost": -1, "error": 0, "setting": {}})"), Code::Schema, {"/cost"});
+    expectRefused(fileWith(R"({"cost": 1e999, "error": 0, "setting": {}})"), Code::Parse, {":3:"});
+    expectRefused(fileWith(R"({"cost": 1, "error": 0, "setting": {"particles": 0}})"), Code::Schema,
+                  {"/particles"});
+}
+
+TEST(CalibrationFile, refusesLaddersThatDoNotRise)
+{
+    const std::string same = R"({"cost": 0.2, "error": 0.1, "setting": {}})";
+    expectRefused(fileWith(kLow + ",\n" + same + ",\n" + kTop), Code::Schema,
+                  {":4:", "/techniques/0/steps/1/cost", "remove"});
+    const std::string worse = R"({"cost": 0.3, "error": 0.6, "setting": {}})";
+    expectRefused(fileWith(kLow + ",\n" + worse + ",\n" + kTop), Code::Schema,
+                  {":4:", "/techniques/0/steps/1/error", "remove"});
+    expectRefused(fileWith(kLow), Code::Schema, {"/steps/0/error", "/steps/0/cost", "unit"});
+    const std::string technique = "{\"name\": \"media\", \"steps\": [" + kTop + "]}";
+    expectRefused("{\"version\": 1, \"techniques\": [" + technique + ", " + technique + "]}", Code::Schema,
+                  {"/techniques/1/name", "twice"});
+}
+
+TEST(CalibrationFile, isNeverReadWhenItIsTooLarge)
+{
+    expectRefused(std::string(kCalibrationBytes + 1, ' '), Code::TooLarge, {});
+}
+
+} // namespace fx::quality
