@@ -60,8 +60,8 @@ struct ContactHook
 {
     void* user = nullptr;
     /// Whether the straight way from `from` to `to` [m, local] meets something: 0 when it is free; otherwise
-    /// the free share of it, 0..1, and the normal there, of any length. Called by several threads at once; the
-    /// same question has to get the same answer through a whole step.
+    /// the free share of it, 0..1, and the normal there, of any length. Called by several threads at once;
+    /// the same question has to get the same answer through a whole step.
     int (*meet)(void* user, const float from[3], const float to[3], float* outShare,
                 float outNormal[3]) = nullptr;
 };
@@ -97,9 +97,9 @@ public:
     virtual void step(const StepContext& context) = 0;
     /// Whether seek() can take it from where it is to local time `tick`.
     virtual bool canSeek(const StepContext&, base::Ticks) const { return false; }
-    /// Goes to local time `tick` at once, under the conditions of `context`: forwards as steps from where it is
-    /// would, bit for bit, backwards as steps from 0 would. Only where canSeek() holds; the context's own tick
-    /// and stepTicks are ignored.
+    /// Goes to local time `tick` at once, under the conditions of `context`: forwards as steps from where it
+    /// is would, bit for bit, backwards as steps from 0 would. Only where canSeek() holds; the context's own
+    /// tick and stepTicks are ignored.
     virtual void seek(const StepContext&, base::Ticks) {}
     /// Local time, at least `tick`, up to which steps from `tick` on change nothing that is seen. canSeek()
     /// holds for any tick up to it.

@@ -6,7 +6,7 @@ namespace fx::render {
 
 PassGroup passGroupOf(std::string_view passName)
 {
-    if (passName.starts_with("media") || passName == "blob upload" || passName == "layer resolve")
+    if (passName.starts_with("media") || passName == "blob upload" || passName.starts_with("layer"))
         return PassGroup::Media;
     return passName.starts_with("heat") ? PassGroup::Shimmer : PassGroup::Other;
 }
