@@ -9,6 +9,7 @@
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/passes/present_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
+#include "rendering/passes/small_media_pass.h"
 #include "rendering/passes/tone_map_pass.h"
 
 #include <algorithm>
@@ -20,10 +21,10 @@ namespace fx::render {
 namespace {
 
 constexpr const ProgramDesc* kSinglePrograms[] = {
-    &kSceneDistanceProgram, &kLayerResolveProgram, &kCompositeBlendProgram, &kCompositeProgram,
-    &kOverdrawProgram,      &kHeatOffsetProgram,   &kHeatShimmerProgram,    &kDazzleSumProgram,
-    &kDazzleBudgetProgram,  &kDazzleDealProgram,   &kToneMapProgram,        &kToneMapDitherProgram,
-    &kPresentProgram,
+    &kSceneDistanceProgram, &kLayerResolveProgram,   &kCompositeBlendProgram, &kCompositeProgram,
+    &kOverdrawProgram,      &kHeatOffsetProgram,     &kHeatShimmerProgram,    &kDazzleSumProgram,
+    &kDazzleBudgetProgram,  &kDazzleDealProgram,     &kToneMapProgram,        &kToneMapDitherProgram,
+    &kPresentProgram,       &kReduceDistanceProgram, &kEnlargeMediaProgram,
 };
 
 } // namespace
@@ -31,10 +32,12 @@ constexpr const ProgramDesc* kSinglePrograms[] = {
 std::span<const ProgramDesc* const> allPrograms()
 {
     static const auto programs = [] {
-        std::array<const ProgramDesc*, std::size(kSinglePrograms) + kMediaPrograms> all{};
+        std::array<const ProgramDesc*, std::size(kSinglePrograms) + kMediaPrograms + kParticlePrograms> all{};
         std::copy(std::begin(kSinglePrograms), std::end(kSinglePrograms), all.begin());
         for (size_t i = 0; i < kMediaPrograms; ++i)
             all[std::size(kSinglePrograms) + i] = &mediaProgramAt(i);
+        for (size_t i = 0; i < kParticlePrograms; ++i)
+            all[std::size(kSinglePrograms) + kMediaPrograms + i] = &particleProgramAt(i);
         return all;
     }();
     return programs;

@@ -9,6 +9,8 @@
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/passes/present_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
+#include "rendering/passes/small_media_pass.h"
+#include "rendering/passes/solid_pass.h"
 #include "rendering/passes/tone_map_pass.h"
 
 #include <bit>
@@ -33,7 +35,7 @@ public:
     ViewGraphOutputs build()
     {
         importTargets();
-        const bool media = !in_.blobs.empty();
+        const bool media = !in_.blobs.empty() || !in_.batches.empty();
         if (media)
             addMedia();
         if (!readable_)
@@ -85,10 +87,14 @@ private:
             depth =
                 graph_.importTexture({"host depth", width_, height_, Format::R32F}, request_.targets.depth);
         distance_ = SceneDistancePass::addTo(graph_, {depth, width_, height_, view_}).distance;
-        uploadBlobs();
-        const auto drawn = MediaPass::addTo(
-            graph_, {blobs_, distance_, uint32_t(in_.blobs.size()), width_, height_, view_, settings_.form,
-                     settings_.detail && in_.anyDetail, settings_.layerOutputs});
+        if (!in_.blobs.empty())
+            uploadBlobs();
+        importBatches();
+        const auto solid = SolidPass::addTo(
+            graph_, {in_.batches, distance_, width_, height_, view_, settings_.layerOutputs});
+        distance_ = solid.distance;
+        const MediaPass::Outputs drawn =
+            in_.mediaDivisor > 1 ? drawSmall(solid.under) : drawMedia(solid.under);
         media_ = drawn.media;
         if (settings_.layerOutputs) {
             const auto layers = LayerResolvePass::addTo(graph_, {drawn.layers, width_, height_});
@@ -103,11 +109,54 @@ private:
                  {out_.fire, out_.smoke, out_.dust, out_.media, out_.depth, out_.opticalDepth})
                 graph_.keep(kept);
         }
-        if (settings_.countOverdraw) {
+        if (settings_.countOverdraw && !in_.blobs.empty()) {
             out_.overdraw = OverdrawPass::addTo(graph_, {blobs_, distance_, uint32_t(in_.blobs.size()),
                                                          width_, height_, view_})
                                 .count;
             graph_.keep(out_.overdraw);
+        }
+    }
+
+    MediaPass::Outputs drawMedia(const MediaPass::Outputs& under)
+    {
+        return MediaPass::addTo(graph_,
+                                {blobs_, in_.batches, in_.runs, distance_, width_, height_, view_,
+                                 settings_.form, settings_.detail && in_.anyDetail, settings_.layerOutputs},
+                                under);
+    }
+
+    /// Media a few times smaller, enlarged, and put over what hides.
+    MediaPass::Outputs drawSmall(const MediaPass::Outputs& under)
+    {
+        if (in_.runs.empty())
+            return under;
+        const int divisor = in_.mediaDivisor;
+        const int width = reducedSide(width_, divisor);
+        const int height = reducedSide(height_, divisor);
+        const ViewBlock view = makeSmallView(view_, width_, height_, divisor);
+        const ResourceId small = ReduceDistancePass::addTo(graph_, {distance_, width_, height_, divisor});
+        const auto drawn = MediaPass::addTo(graph_,
+                                            {blobs_, in_.batches, in_.runs, small, width, height, view,
+                                             settings_.form, settings_.detail && in_.anyDetail, false},
+                                            {});
+        MediaPass::Outputs out;
+        out.media =
+            EnlargeMediaPass::addTo(graph_, {drawn.media, small, distance_, width_, height_, divisor});
+        if (under.media.valid())
+            out.media = CompositePass::addTo(graph_, {out.media, under.media, width_, height_, true}).color;
+        return out;
+    }
+
+    /// Names of GL objects to resources of this graph.
+    void importBatches()
+    {
+        for (ParticleBatch& batch : in_.batches) {
+            for (BufferPart* part : {&batch.newer, &batch.older, &batch.order, &batch.mesh})
+                if (part->bytes > 0)
+                    part->id =
+                        graph_.importBuffer({"particles", size_t(part->offset + part->bytes)}, part->name);
+            batch.textureId = graph_.importTexture({"particle frames", 1, 1, Format::RGBA8}, batch.texture);
+            batch.motionId = graph_.importTexture({"particle motion", 1, 1, Format::RGBA8}, batch.motion);
         }
     }
 

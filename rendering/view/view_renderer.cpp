@@ -9,7 +9,10 @@
 #include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/programs.h"
 #include "rendering/passes/view_block.h"
+#include "rendering/view/fragment_budget.h"
 #include "rendering/view/frame_builder.h"
+#include "rendering/view/particle_buffers.h"
+#include "rendering/view/particle_frame.h"
 #include "rendering/view/view_graph.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -22,16 +25,25 @@ namespace fx::render {
 struct ViewRenderer::Impl
 {
     Impl(GlDevice* d, std::pmr::memory_resource* memory)
-        : device(d), graph(memory), backend(*d, memory), builder(memory)
+        : device(d), graph(memory), backend(*d, memory), builder(memory), particles(memory),
+          buffers(*d, memory), runs(memory), streams(memory)
     {}
 
     base::Status ensureHistory();
+    base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
+                        const ViewSettings& settings);                 ///< everything that is to be drawn
     void readBack(int width, int height, FrameStatistics& statistics); ///< waits for the GPU
 
     GlDevice* device;
     FrameGraph graph;
     GlBackend backend;
     FrameBuilder builder;
+    ParticleFrame particles;
+    ParticleBuffers buffers;
+    DrawRuns runs;
+    std::pmr::vector<DrawStream> streams;
+    const base::AssetTable* assets = nullptr;
+    FragmentBudget budget;
     GlBuffer dazzleHistory;
     bool historyFresh = false; ///< nothing has been adapted to yet
     ViewGraphOutputs outputs;
@@ -75,6 +87,25 @@ base::Status ViewRenderer::Impl::ensureHistory()
     return {};
 }
 
+base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
+                                        const ViewSettings& settings)
+{
+    const CameraGeometry camera = cameraGeometry(request.camera);
+    builder.build(snapshots, request, settings, camera);
+    particles.build({&snapshots, &request, &settings, &camera, builder.lights()});
+    if (base::Status status = buffers.prepare(snapshots, particles, assets); !status)
+        return status;
+    streams.clear();
+    if (builder.stream().count > 0)
+        streams.push_back(builder.stream());
+    streams.insert(streams.end(), particles.streams().begin(), particles.streams().end());
+    const double fragments =
+        particles.coveredPixels() + coveredPixels(builder.blobs(), request.camera, request.targets);
+    budget.decide(fragments, settings.fragmentBudget, settings.layerOutputs ? 1 : settings.mediaDivisor,
+                  settings.layerOutputs);
+    return {};
+}
+
 void ViewRenderer::Impl::readBack(int width, int height, FrameStatistics& statistics)
 {
     if (outputs.overdraw.valid()) {
@@ -96,6 +127,11 @@ ViewRenderer::ViewRenderer(GlDevice* device, const base::SnapshotSchema*, std::p
 {}
 
 ViewRenderer::~ViewRenderer() = default;
+
+void ViewRenderer::setAssets(const base::AssetTable* assets)
+{
+    impl_->assets = assets;
+}
 
 base::Status ViewRenderer::warmUp()
 {
@@ -119,16 +155,20 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     FrameRequest request = asked;
     request.resetHistory = asked.resetHistory || s.historyFresh;
 
-    s.builder.build(snapshots, request, settings_, cameraGeometry(request.camera));
+    if (base::Status status = s.gather(snapshots, request, settings_); !status)
+        return status;
+    const std::span<const MediaRun> runs = s.runs.build(s.streams);
     s.graph.begin();
-    s.outputs = buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.builder.anyHeat(),
-                                         s.builder.anyDetail(), s.dazzleHistory.name()});
+    s.outputs = buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.particles.batches(), runs,
+                                         s.budget.divisor(), s.builder.anyHeat(), s.builder.anyDetail(),
+                                         s.dazzleHistory.name()});
     base::Status status;
     if (s.outputs.anyPass) {
         s.graph.compile();
         GlStateGuard guard(*s.device, settings_.saveState);
         if (s.backend.beginFrame(s.graph))
             s.graph.execute(s.backend);
+        s.buffers.fence();
         status = s.backend.endFrame();
     }
     if (!status)
@@ -139,11 +179,16 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     statistics_.blobs = uint32_t(s.builder.blobs().size());
     statistics_.blobsCulled = s.builder.counts().culled;
     statistics_.blobsNonFinite = s.builder.counts().nonFinite;
+    statistics_.particles = s.particles.rows();
+    statistics_.particlesOrdered = s.particles.orderedRows();
+    statistics_.uploadedBytes = s.buffers.uploadedBytes();
+    statistics_.expectedFragments = s.budget.expected();
+    statistics_.mediaDivisor = s.budget.divisor();
     statistics_.passes = s.outputs.anyPass ? uint32_t(s.graph.executedPasses().size()) : 0;
     statistics_.glCalls = s.device->callCount() - callsBefore;
     statistics_.drawCalls = s.outputs.anyPass ? s.backend.drawCalls() : 0;
     statistics_.programsCompiled = s.device->programsCompiled() - compiledBefore;
-    statistics_.textureBytes = s.backend.pooledBytes();
+    statistics_.textureBytes = s.backend.pooledBytes() + s.buffers.bytes();
     if (status && settings_.countOverdraw)
         s.readBack(request.targets.width, request.targets.height, statistics_);
     return status;

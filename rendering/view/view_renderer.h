@@ -4,6 +4,7 @@
 /// Threads: [GL thread], the thread on which the GL context is current.
 #pragma once
 
+#include "foundation/assets/asset_table.h"
 #include "foundation/result/status.h"
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/view/view_types.h"
@@ -48,6 +49,9 @@ public:
     /// Draws `snapshots` over the host's picture. On failure the picture is what the host left, and GL is as
     /// it was.
     base::Status render(const base::SnapshotPair& snapshots, const FrameRequest& request);
+
+    /// Images and meshes that particles name; must outlive the view or the next call. Null: plain particles.
+    void setAssets(const base::AssetTable* assets);
 
     const FrameStatistics& statistics() const { return statistics_; }
     LayerTextures layers() const;

@@ -78,6 +78,10 @@ struct ViewSettings
     bool detail = true;        ///< procedural detail of blobs
     bool toneMap = false;      ///< write display-referred values
     bool layerOutputs = false; ///< keep fire, smoke, dust, depth and optical depth as textures of their own
+    int mediaDivisor = 1;      ///< 1, 2 or 4: media and particles are drawn at full, half or quarter size and
+                          ///< brought to full size along the edges of solid things; not with layerOutputs
+    uint64_t fragmentBudget = 0; ///< fragments of media and particles a frame may cost: when more are
+                                 ///< expected the divisor rises; 0: it never does
     bool countOverdraw =
         false; ///< count contributing fragments and read statistics back: costs a pass and waits for the GPU
 };
@@ -109,10 +113,15 @@ struct FrameRequest
 /// Counters of one rendered frame; exact counts except for the times.
 struct FrameStatistics
 {
-    uint32_t blobs = 0;          ///< drawn after culling
-    uint32_t blobsCulled = 0;    ///< outside the view
-    uint32_t blobsNonFinite = 0; ///< dropped because a value was not finite
-    uint32_t passes = 0;         ///< executed
+    uint32_t blobs = 0;            ///< drawn after culling
+    uint32_t blobsCulled = 0;      ///< outside the view
+    uint32_t blobsNonFinite = 0;   ///< dropped because a value was not finite
+    uint64_t particles = 0;        ///< rows and pieces of ribbons that were drawn
+    uint64_t particlesOrdered = 0; ///< of those, in an order of depth or age
+    uint64_t uploadedBytes = 0;    ///< [byte] of particles, written for this frame
+    double expectedFragments = 0;  ///< of blobs and particles at full size, estimated from their sizes
+    int mediaDivisor = 1;          ///< how many times smaller media and particles were drawn
+    uint32_t passes = 0;           ///< executed
     uint64_t glCalls = 0;
     uint32_t drawCalls = 0;
     uint32_t programsCompiled = 0; ///< during this frame; 0 after warm-up

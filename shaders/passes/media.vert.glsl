@@ -21,7 +21,7 @@ mat3 detailAxes(float seed, float periods)
 
 void main()
 {
-    BlobInstance blob = blobs[gl_InstanceID];
+    BlobInstance blob = blobs[gl_InstanceID + int(pass.x)]; // a draw may begin in the middle of the order
     blobCenterRadius = blob.centerRadius;
     blobMedium = blob.medium;
     if (rayOrigin.w < 0.5) // one sample of the detail stands for a whole path: from inside it would darken all at once
