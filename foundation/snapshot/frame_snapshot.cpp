@@ -3,7 +3,6 @@
 #include "foundation/math/hash.h"
 
 #include <algorithm>
-#include <atomic>
 #include <utility>
 
 namespace fx::base {
@@ -67,8 +66,6 @@ FrameSnapshot::FrameSnapshot(const SnapshotSchema* schema, std::pmr::memory_reso
 
 void FrameSnapshot::begin(Ticks tick, uint64_t sequence)
 {
-    static std::atomic<uint64_t> contents{0};
-    content_ = ++contents;
     tick_ = tick;
     sequence_ = sequence;
     groupCount_ = 0;

@@ -104,8 +104,6 @@ public:
     const SnapshotSchema& schema() const { return *schema_; }
     Ticks tick() const { return tick_; }
     uint64_t sequence() const { return sequence_; } ///< 1 for the first published, then rising by 1; 0: never
-    /// Names what is in it within the process: another number after every begin(). For those who keep copies.
-    uint64_t content() const { return content_; }
     size_t groupCount() const { return groupCount_; }
     const SnapshotGroup& group(size_t index) const { return groups_[index]; }
 
@@ -124,7 +122,6 @@ private:
     std::pmr::memory_resource* memory_;
     Ticks tick_ = 0;
     uint64_t sequence_ = 0;
-    uint64_t content_ = 0;
     size_t groupCount_ = 0;
     std::pmr::vector<SnapshotGroup>
         groups_; ///< the first groupCount_ are valid, the rest keep memory for later

@@ -52,6 +52,8 @@ void checkSwitches(fx::api::Checks& check, const FxViewSettings& given)
     check.flag(given.toneMap, "settings.toneMap");
     check.flag(given.layerOutputs, "settings.layerOutputs");
     check.flag(given.countOverdraw, "settings.countOverdraw");
+    check.that(given.layerScale == 1.0f || given.layerScale == 0.5f || given.layerScale == 0.25f,
+               "settings.layerScale is not 1, 0.5 or 0.25");
 }
 
 void checkTarget(fx::api::Checks& check, const FxFrameDef& given)
@@ -94,6 +96,8 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     settings.toneMap = given.toneMap != 0;
     settings.layerOutputs = given.layerOutputs != 0;
     settings.countOverdraw = given.countOverdraw != 0;
+    settings.layerDivisor = int(1.0f / given.layerScale);
+    settings.fragmentBudget = given.fragmentBudget;
     outSettings = settings;
     return {};
 }

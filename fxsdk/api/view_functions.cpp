@@ -62,6 +62,8 @@ FxViewStatistics gatherStatistics(const FxView& view)
     statistics.shadedFragments = frame.shadedFragments;
     std::copy_n(frame.overflow, 3, statistics.overflow);
     statistics.allocations = view.allocations;
+    statistics.estimatedFragments = frame.estimatedFragments;
+    statistics.layerScale = 1.0f / float(frame.layerDivisor);
     return statistics;
 }
 

@@ -1,5 +1,8 @@
 /// @file obj_reader.h
 /// Triangles of Wavefront OBJ files, for mesh particles. Materials, groups and curves are left aside.
+///
+/// Not by tinyobjloader, which reads stages for tools: it takes a coordinate that is missing or no number for
+/// 0 without a word, and allocates before a limit could be checked.
 #pragma once
 
 #include "foundation/assets/asset_table.h"

@@ -1,6 +1,6 @@
 /// @file png_reader.h
-/// PNG files (W3C PNG, second edition) to eight bits a channel, without any library: libfxsdk depends on
-/// none.
+/// PNG files (W3C PNG, second edition) to eight bits a channel. stb_image unpacks them; it is a header, so
+/// libfxsdk needs no other library. What it leaves out is checked here: sizes, check sums, the palette.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -20,7 +20,8 @@ struct PngPicture
 };
 
 /// Every color type, depth and interlacing of the standard; 16 bits are rounded to 8. Color profiles and
-/// gamma chunks are not looked at. Sizes are checked before anything is unpacked.
+/// gamma chunks are not looked at. Sizes are checked before anything is unpacked, and unpacking takes no
+/// more memory than they call for. Colors that a palette lacks are black.
 /// @return TooLarge (more than 8192 texels a side, or than the bytes can hold), Parse with the reason
 base::Result<PngPicture> readPng(std::span<const uint8_t> file);
 

@@ -123,6 +123,9 @@ int runAccuracy(const AccuracyArguments& arguments)
         return failed(status, kUsage);
     if (arguments.countWork)
         return countWork(tasks->front()) ? kSuccess : kFailed;
+    for (const std::string& file : {arguments.csv, arguments.svg, arguments.html})
+        if (base::Status status = file.empty() ? base::Status() : checkTarget(file); !status)
+            return failed(status, kFailed);
     const base::Result<std::vector<AccuracyCurve>> curves = measureAll(arguments, *tasks);
     if (!curves)
         return failed(curves.status(), exitCodeOf(curves.status()));

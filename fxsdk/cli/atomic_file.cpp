@@ -75,6 +75,17 @@ base::Status AtomicFile::commit()
     return {};
 }
 
+base::Status checkTarget(const std::filesystem::path& target)
+{
+    const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    std::error_code error;
+    if (std::filesystem::is_directory(target, error))
+        return {base::Code::Io, "cannot create " + target.string() + ": it is a folder"};
+    if (std::filesystem::is_directory(folder, error))
+        return {};
+    return {base::Code::Io, "cannot create " + target.string() + ": there is no folder " + folder.string()};
+}
+
 base::Status writeFileAtomically(const std::filesystem::path& target, std::string_view bytes)
 {
     AtomicFile file(target);

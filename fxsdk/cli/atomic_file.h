@@ -37,6 +37,10 @@ private:
     int descriptor_ = -1;
 };
 
+/// Finds out before long work what would fail at its end.
+/// @return Io when `target` is a folder or lies in none
+base::Status checkTarget(const std::filesystem::path& target);
+
 /// open, write, commit.
 base::Status writeFileAtomically(const std::filesystem::path& target, std::string_view bytes);
 

@@ -216,18 +216,6 @@ base::Status runScene(ReferenceJob& job, const base::Result<scene_file::SceneFil
     return job.runScene(*scene);
 }
 
-/// Finds out before anything is rendered what would fail at the end.
-base::Status checkTarget(const std::filesystem::path& file)
-{
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error))
-        return {base::Code::Io, "cannot create " + file.string() + ": it is a folder"};
-    if (std::filesystem::is_directory(folder, error))
-        return {};
-    return {base::Code::Io, "cannot create " + file.string() + ": there is no folder " + folder.string()};
-}
-
 } // namespace
 
 bool isBlobList(const std::string& input)

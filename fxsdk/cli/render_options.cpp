@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace fx::cli {
 namespace {
@@ -104,6 +105,16 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments)
         ->check(CLI::IsMember({"gl", "reference"}))
         ->capture_default_str();
     command.add_option("--stats", arguments.statistics, "Write one JSON object a frame to this file");
+    command
+        .add_option("--layer-scale", arguments.layerScale,
+                    "Width and height at which particles are drawn, over those of the picture")
+        ->check(CLI::IsMember({"1", "0.5", "0.25"}))
+        ->capture_default_str();
+    command
+        .add_option("--fragment-budget", arguments.fragmentBudget,
+                    "Estimated fragments a frame above which the layer scale falls; 0: never")
+        ->check(CLI::Range(uint32_t(0), std::numeric_limits<uint32_t>::max()))
+        ->capture_default_str();
     command.add_flag("--overdraw", arguments.overdraw,
                      "Count shaded fragments and covered pixels in the statistics");
     command.add_flag("--json", arguments.json, "Print one JSON object a frame");
@@ -157,6 +168,8 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
     settings.toneMap = !linear;
     settings.layerOutputs = linear;
     settings.countOverdraw = arguments.overdraw;
+    settings.layerDivisor = int(std::lround(1.0 / std::stod(arguments.layerScale)));
+    settings.fragmentBudget = arguments.fragmentBudget;
     settings.exposureEv100 = arguments.exposureEv100.value_or(settings.exposureEv100);
 }
 

@@ -35,6 +35,8 @@ struct RenderArguments
     double framesPerSecond = 30.0;
     std::optional<uint64_t> seed;
     std::optional<float> exposureEv100;
+    std::string layerScale = "1";
+    uint32_t fragmentBudget = 0; ///< 0: none
     bool noDazzle = false;
     bool noShimmer = false;
     bool overdraw = false;

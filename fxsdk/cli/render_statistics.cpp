@@ -23,6 +23,8 @@ nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool 
         {"ms_render", counters.millisecondsRender},
         {"allocations", scene.updateAllocations + view.allocations},
         {"nonfinite", view.blobsNonFinite},
+        {"estimated_fragments", view.estimatedFragments},
+        {"layer_scale", view.layerScale},
         {"overflow", {view.overflow[0], view.overflow[1], view.overflow[2]}},
     };
     if (withOverdraw) {

@@ -44,6 +44,8 @@ int runVerify(const VerifyArguments& arguments)
         failed(plan.status());
         return kUsage;
     }
+    if (base::Status status = arguments.csv.empty() ? base::Status() : checkTarget(arguments.csv); !status)
+        return failed(status);
     const base::Result<sim::CaseReport> report = runPlan(*plan, !arguments.json);
     if (!report)
         return failed(report.status());

@@ -9,14 +9,32 @@ constexpr ProgramDesc program(const char* defines)
     return {"media", "passes/media.vert.glsl", "passes/media.frag.glsl", nullptr, defines};
 }
 
-// index = form * 4 + detail * 2 + layers
+// index = small * 12 + form * 4 + detail * 2 + layers
 constexpr ProgramDesc kPrograms[kMediaPrograms] = {
-    program("FX_FORM=0 FX_DETAIL=0 FX_LAYERS=0"), program("FX_FORM=0 FX_DETAIL=0 FX_LAYERS=1"),
-    program("FX_FORM=0 FX_DETAIL=1 FX_LAYERS=0"), program("FX_FORM=0 FX_DETAIL=1 FX_LAYERS=1"),
-    program("FX_FORM=1 FX_DETAIL=0 FX_LAYERS=0"), program("FX_FORM=1 FX_DETAIL=0 FX_LAYERS=1"),
-    program("FX_FORM=1 FX_DETAIL=1 FX_LAYERS=0"), program("FX_FORM=1 FX_DETAIL=1 FX_LAYERS=1"),
-    program("FX_FORM=2 FX_DETAIL=0 FX_LAYERS=0"), program("FX_FORM=2 FX_DETAIL=0 FX_LAYERS=1"),
-    program("FX_FORM=2 FX_DETAIL=1 FX_LAYERS=0"), program("FX_FORM=2 FX_DETAIL=1 FX_LAYERS=1"),
+    program("FX_FORM=0 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=0 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=0 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=0 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=1 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=1 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=1 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=1 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=2 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=2 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=2 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=2 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=0 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=0 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=1"),
+    program("FX_FORM=0 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=0 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=1"),
+    program("FX_FORM=1 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=1 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=1"),
+    program("FX_FORM=1 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=1 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=1"),
+    program("FX_FORM=2 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=2 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=1"),
+    program("FX_FORM=2 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=2 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=1"),
 };
 
 } // namespace
@@ -34,9 +52,10 @@ const ProgramDesc& mediaProgramAt(size_t index)
     return kPrograms[index];
 }
 
-const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers)
+const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bool isSmall)
 {
-    return kPrograms[size_t(form) * 4 + (detail ? 2 : 0) + (layers ? 1 : 0)];
+    return kPrograms[(isSmall ? kMediaPrograms / 2 : 0) + size_t(form) * 4 + (detail ? 2 : 0) +
+                     (layers ? 1 : 0)];
 }
 
 namespace {
@@ -45,11 +64,11 @@ void drawBlobs(Backend& backend, const MediaPass::Inputs& in, const MediaRun& ru
                std::span<const ResourceId> targets)
 {
     ViewBlock view = in.view;
-    view.pass.x = float(run.first); // exact up to 2^24
+    view.pass.y = float(run.first); // exact up to 2^24
     const TextureBinding textures[] = {{0, in.distance}};
     const BufferBinding buffers[] = {{0, in.blobs}};
     DrawCall call;
-    call.program = &mediaProgram(in.form, in.detail, in.layers);
+    call.program = &mediaProgram(in.form, in.detail, in.layers, in.isSmall);
     call.targets = targets;
     call.textures = textures;
     call.buffers = buffers;

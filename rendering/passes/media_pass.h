@@ -9,9 +9,10 @@
 
 namespace fx::render {
 
-/// The program of one permutation: form of the billboard, procedural detail, light sorted by layer.
-const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers);
-constexpr size_t kMediaPrograms = 3 * 2 * 2;
+/// The program of one permutation: form of the billboard, procedural detail, light sorted by layer, targets
+/// smaller than the picture.
+const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bool isSmall);
+constexpr size_t kMediaPrograms = 3 * 2 * 2 * 2;
 const ProgramDesc& mediaProgramAt(size_t index);
 
 /// Draws all blobs of fire, smoke and dust as balls of medium and all particles that do not hide, in the
@@ -38,6 +39,7 @@ public:
         BillboardForm form;
         bool detail;
         bool layers;
+        bool isSmall = false; ///< of a layer grid whose texels are larger than pixels
     };
     /// What `layers` asks for, in the order of media.frag.glsl.
     enum LayerTarget : size_t

@@ -14,7 +14,7 @@ OverdrawPass::Outputs OverdrawPass::addTo(FrameGraph& graph, const Inputs& in)
             const TextureBinding textures[] = {{0, in.distance}};
             const BufferBinding buffers[] = {{0, in.blobs}};
             DrawCall call;
-            call.program = &kOverdrawProgram;
+            call.program = in.isSmall ? &kOverdrawSmallProgram : &kOverdrawProgram;
             call.targets = {&target, 1};
             call.textures = textures;
             call.buffers = buffers;

@@ -7,7 +7,10 @@
 namespace fx::render {
 
 inline constexpr ProgramDesc kOverdrawProgram{"overdraw", "passes/media.vert.glsl",
-                                              "passes/overdraw.frag.glsl", nullptr, "FX_FORM=2"};
+                                              "passes/overdraw.frag.glsl", nullptr, "FX_FORM=2 FX_SMALL=0"};
+inline constexpr ProgramDesc kOverdrawSmallProgram{"overdraw (small)", "passes/media.vert.glsl",
+                                                   "passes/overdraw.frag.glsl", nullptr,
+                                                   "FX_FORM=2 FX_SMALL=1"};
 
 /// Counts, for people who tune, how many blobs of the kernel form add something to each pixel.
 ///
@@ -25,6 +28,7 @@ public:
         uint32_t count;
         int width, height;
         ViewBlock view;
+        bool isSmall = false; ///< of a layer grid whose texels are larger than pixels
     };
     struct Outputs
     {

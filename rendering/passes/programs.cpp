@@ -4,12 +4,14 @@
 #include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/heat_offset_pass.h"
 #include "rendering/passes/heat_shimmer_pass.h"
+#include "rendering/passes/layer_distance_pass.h"
+#include "rendering/passes/layer_over_pass.h"
 #include "rendering/passes/layer_resolve_pass.h"
+#include "rendering/passes/layer_upsample_pass.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/passes/present_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
-#include "rendering/passes/small_media_pass.h"
 #include "rendering/passes/tone_map_pass.h"
 
 #include <algorithm>
@@ -21,10 +23,11 @@ namespace fx::render {
 namespace {
 
 constexpr const ProgramDesc* kSinglePrograms[] = {
-    &kSceneDistanceProgram, &kLayerResolveProgram,   &kCompositeBlendProgram, &kCompositeProgram,
-    &kOverdrawProgram,      &kHeatOffsetProgram,     &kHeatShimmerProgram,    &kDazzleSumProgram,
-    &kDazzleBudgetProgram,  &kDazzleDealProgram,     &kToneMapProgram,        &kToneMapDitherProgram,
-    &kPresentProgram,       &kReduceDistanceProgram, &kEnlargeMediaProgram,
+    &kSceneDistanceProgram, &kLayerResolveProgram,  &kCompositeBlendProgram, &kCompositeProgram,
+    &kOverdrawProgram,      &kHeatOffsetProgram,    &kHeatShimmerProgram,    &kDazzleSumProgram,
+    &kDazzleBudgetProgram,  &kDazzleDealProgram,    &kToneMapProgram,        &kToneMapDitherProgram,
+    &kPresentProgram,       &kLayerDistanceProgram, &kLayerUpsampleProgram,  &kLayerSpreadProgram,
+    &kOverdrawSmallProgram, &kLayerOverProgram,
 };
 
 } // namespace

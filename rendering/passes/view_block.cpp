@@ -66,22 +66,4 @@ ViewBlock makeViewBlock(const CameraView& camera, int width, int height)
     return b;
 }
 
-ViewBlock makeSmallView(const ViewBlock& full, int width, int height, int divisor)
-{
-    const auto beyond = [&](int side) {
-        return float((side + divisor - 1) / divisor * divisor) / float(side); // 1 or a little more
-    };
-    const float x = beyond(width);
-    const float y = beyond(height);
-    ViewBlock b = full;
-    b.rayDirectionX.w /= float(divisor);
-    b.rayDirectionY.w /= float(divisor);
-    b.right.w /= x;
-    b.up.w /= y;
-    b.clipOffset.x = b.clipOffset.x / x + (1.0f / x - 1.0f);
-    b.clipOffset.y = b.clipOffset.y / y + full.rayOriginY.w * (1.0f / y - 1.0f);
-    b.sunDirection.w /= float(divisor);
-    return b;
-}
-
 } // namespace fx::render

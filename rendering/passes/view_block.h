@@ -44,9 +44,4 @@ CameraGeometry cameraGeometry(const CameraView& camera);
 /// @param width, height of the target [pixel]
 ViewBlock makeViewBlock(const CameraView& camera, int width, int height);
 
-/// The same view drawn `divisor` times smaller: texel i stands for the pixels from i * divisor on, so where
-/// the size is no multiple, the last texels reach beyond the picture.
-/// @param width, height of the full picture [pixel]
-ViewBlock makeSmallView(const ViewBlock& full, int width, int height, int divisor);
-
 } // namespace fx::render

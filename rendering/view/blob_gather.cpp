@@ -19,8 +19,6 @@ namespace {
 namespace column = base::blob_column;
 namespace constant = base::blob_constant;
 
-constexpr float kLeastPixels =
-    1.15f; ///< [pixel] radius of the smallest blob: the pixels then sum its light within 6 %
 constexpr int kMostStreakBlobs = 10;
 
 float mix(float a, float b, float t)

@@ -47,9 +47,9 @@ base::Status ensure(GlDevice& device, GlMappedBuffer& buffer, uint64_t bytes, co
 } // namespace
 
 ParticleBuffers::ParticleBuffers(GlDevice& device, std::pmr::memory_resource* memory)
-    : device_(device), places_{Place{{}, 0, 0, std::pmr::vector<GroupPlace>(memory)},
-                               Place{{}, 0, 0, std::pmr::vector<GroupPlace>(memory)},
-                               Place{{}, 0, 0, std::pmr::vector<GroupPlace>(memory)}},
+    : device_(device), places_{Place{{}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
+                               Place{{}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
+                               Place{{}, {}, 0, std::pmr::vector<GroupPlace>(memory)}},
       assets_(device, memory)
 {}
 
@@ -109,21 +109,22 @@ void ParticleBuffers::write(const base::FrameSnapshot& snapshot, Place& place)
 
 base::Status ParticleBuffers::makeResident(const base::FrameSnapshot& snapshot, Place*& out)
 {
+    const Content content{&snapshot, snapshot.sequence(), snapshot.tick()};
     for (Place& place : places_)
-        if (place.content == snapshot.content() && place.content != 0) {
+        if (place.content == content) {
             place.usedFrame = frame_;
             out = &place;
             return {};
         }
     out = &*std::min_element(places_.begin(), places_.end(),
                              [](const Place& a, const Place& b) { return a.usedFrame < b.usedFrame; });
-    out->content = 0;
+    out->content = {};
     const uint64_t bytes = layOut(snapshot, out->groups);
     if (base::Status status = ensure(device_, out->buffer, std::max<uint64_t>(bytes, 1), "particle rows");
         !status)
         return status;
     write(snapshot, *out);
-    out->content = snapshot.content();
+    out->content = content;
     out->usedFrame = frame_;
     return {};
 }
@@ -217,7 +218,7 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, Parti
 void ParticleBuffers::fence()
 {
     for (Place& place : places_)
-        if (place.usedFrame == frame_ && place.content != 0)
+        if (place.usedFrame == frame_ && place.content.snapshot)
             place.buffer.fence();
     if (orders_[frame_ % orders_.size()].name() != 0)
         orders_[frame_ % orders_.size()].fence();

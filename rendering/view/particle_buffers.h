@@ -41,10 +41,19 @@ private:
         uint64_t offset = 0, bytes = 0;
         std::array<int32_t, 16> columns{}; ///< in words from the offset; -1: not there
     };
+    /// Names what a snapshot holds: those of one ring differ in their number, those of two in their address.
+    struct Content
+    {
+        const base::FrameSnapshot* snapshot = nullptr; ///< never followed; null: none
+        uint64_t sequence = 0;
+        base::Ticks tick = 0;
+
+        bool operator==(const Content&) const = default;
+    };
     struct Place
     {
         GlMappedBuffer buffer;
-        uint64_t content = 0; ///< of the snapshot that is there; 0: none
+        Content content; ///< that is there
         uint64_t usedFrame = 0;
         std::pmr::vector<GroupPlace> groups;
     };

@@ -3,6 +3,7 @@
 #include "foundation/snapshot/particle_bounds.h"
 #include "rendering/view/blob_shading.h"
 #include "rendering/view/depth_keys.h"
+#include "rendering/view/particle_estimate.h"
 #include "rendering/view/snapshot_match.h"
 #include "rendering/view/view_volume.h"
 
@@ -21,8 +22,7 @@ namespace column = base::particle_column;
 namespace constant = base::particle_constant;
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kLeastPixels = 0.5f; ///< [pixel] half the side of the smallest square: it covers one pixel
-constexpr size_t kStride = 61;       ///< rows from one that the estimate looks at to the next
+constexpr float kLeastHalfSide = 0.5f; ///< [pixel] half the side of the smallest square: it covers one pixel
 constexpr uint64_t kFramesKept = 120;
 
 /// Center and radius of local bounds, relative to the eye.
@@ -93,7 +93,7 @@ void ParticleFrame::build(const ParticleFrameInputs& in)
     batches_.clear();
     streams_.clear();
     rows_ = orderedRows_ = 0;
-    coveredPixels_ = 0.0;
+    fragments_ = {};
     if (!in.snapshots->newer)
         return;
     const base::FrameSnapshot& newer = *in.snapshots->newer;
@@ -157,13 +157,16 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
     }
     if (batch.instances == 0)
         return;
-    if (!isRibbon)
-        estimate(in, place, group, batch);
     rows_ += batch.instances;
     groups_.push_back(group);
     batches_.push_back(batch);
-    if (!batch.isSolid)
-        streams_.push_back(stream);
+    if (batch.isSolid)
+        return; // always drawn at full size
+    streams_.push_back(stream);
+    const FragmentCounts counts = estimateParticles(newer, isRibbon, place, *in.camera,
+                                                    in.request->targets.width, in.request->targets.height);
+    for (size_t i = 0; i < counts.size(); ++i)
+        fragments_[i] += counts[i];
 }
 
 void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placement& place,
@@ -186,7 +189,7 @@ void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placeme
     b.look = {c[constant::Aspect], c[constant::Stretch], c[constant::Softness], c[constant::Blend]};
     b.shine = {c[constant::Luminance] * exposure, c[constant::Lit], c[constant::Layer], 0.0f};
     b.moment = {float(glm::clamp(in.request->interpolation, 0.0, 1.0)), seconds, group.older ? 1.0f : 0.0f,
-                kLeastPixels};
+                kLeastHalfSide};
     b.atlas = {float(group.columns * group.rows), c[constant::FrameBlend], c[constant::MotionScale],
                group.texture ? 1.0f : 0.0f};
     b.strip = {group.motion ? 1.0f : 0.0f, c[constant::ArcPerTile], 0.0f, 0.0f};
@@ -263,38 +266,6 @@ void ParticleFrame::orderRows(const ParticleFrameInputs& in, const base::Placeme
         stream.distances = distances;
         stream.order = group.order.data();
     }
-}
-
-void ParticleFrame::estimate(const ParticleFrameInputs& in, const base::Placement& place,
-                             const ParticleGroup& group, const ParticleBatch& batch)
-{
-    const base::SnapshotGroup& rows = *group.newer;
-    const auto c = rows.constants();
-    const bool isStretched = c[constant::Alignment] == float(base::SpriteAlignment::Velocity);
-    const float stretch = isStretched && rows.has(column::VelocityX) ? 0.5f * c[constant::Stretch] : 0.0f;
-    const double screen = double(in.request->targets.width) * double(in.request->targets.height);
-    const float pixelsPerSlope = std::abs(batch.block.view.sunDirection.w);
-    double sum = 0.0;
-    for (size_t i = 0; i < rows.count(); i += kStride) {
-        const float radius = rows.column(column::Radius)[i] * place.scale;
-        const glm::vec3 local(rows.column(column::PositionX)[i], rows.column(column::PositionY)[i],
-                              rows.column(column::PositionZ)[i]);
-        const glm::vec3 center = glm::vec3(place.position) + place.rotation * (local * place.scale);
-        const float depth = in.camera->orthographic ? 1.0f : glm::dot(center, in.camera->forward);
-        if (!(radius > 0.0f) || !(depth > 0.0f))
-            continue;
-        float high = radius;
-        if (stretch > 0.0f)
-            high +=
-                stretch * place.scale *
-                glm::length(glm::vec3(rows.column(column::VelocityX)[i], rows.column(column::VelocityY)[i],
-                                      rows.column(column::VelocityZ)[i]));
-        const double pixels = double(pixelsPerSlope) / double(std::max(depth, in.camera->nearDistance));
-        const double area = 4.0 * double(radius * c[constant::Aspect]) * double(high) * pixels * pixels;
-        if (std::isfinite(area))
-            sum += std::min(std::max(area, 1.0), screen);
-    }
-    coveredPixels_ += sum * double(kStride);
 }
 
 } // namespace fx::render

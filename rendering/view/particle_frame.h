@@ -8,6 +8,7 @@
 #include "rendering/passes/particle_batch.h"
 #include "rendering/view/depth_sort.h"
 #include "rendering/view/draw_runs.h"
+#include "rendering/view/fragment_estimate.h"
 #include "rendering/view/view_types.h"
 
 #include <memory>
@@ -53,8 +54,8 @@ public:
     std::span<const DrawStream> streams() const { return streams_; }
     uint64_t rows() const { return rows_; }               ///< of all groups that are drawn
     uint64_t orderedRows() const { return orderedRows_; } ///< in orders
-    /// [pixel] that the particles would cover one above the other at full size: every 61st row is looked at.
-    double coveredPixels() const { return coveredPixels_; }
+    /// Estimated, of what does not hide.
+    const FragmentCounts& fragments() const { return fragments_; }
 
 private:
     struct Orderer;
@@ -65,8 +66,6 @@ private:
     void fillLights(const ParticleFrameInputs& in, ParticleBlock& block);
     void orderRows(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
                    ParticleBatch& batch, DrawStream& stream);
-    void estimate(const ParticleFrameInputs& in, const base::Placement& place, const ParticleGroup& group,
-                  const ParticleBatch& batch);
     Orderer& ordererOf(const base::GroupInfo& info);
 
     std::pmr::memory_resource* memory_;
@@ -77,7 +76,7 @@ private:
     uint64_t frame_ = 0;
     uint64_t rows_ = 0;
     uint64_t orderedRows_ = 0;
-    double coveredPixels_ = 0.0;
+    FragmentCounts fragments_{};
 };
 
 } // namespace fx::render

@@ -4,14 +4,17 @@
 #include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/heat_offset_pass.h"
 #include "rendering/passes/heat_shimmer_pass.h"
+#include "rendering/passes/layer_distance_pass.h"
+#include "rendering/passes/layer_over_pass.h"
 #include "rendering/passes/layer_resolve_pass.h"
+#include "rendering/passes/layer_upsample_pass.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/passes/present_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
-#include "rendering/passes/small_media_pass.h"
 #include "rendering/passes/solid_pass.h"
 #include "rendering/passes/tone_map_pass.h"
+#include "rendering/view/layer_grid.h"
 
 #include <bit>
 
@@ -26,10 +29,13 @@ public:
     ViewGraph(FrameGraph& graph, const ViewGraphInputs& in)
         : graph_(graph), in_(in), request_(*in.request), settings_(*in.settings),
           width_(request_.targets.width), height_(request_.targets.height),
-          view_(makeViewBlock(request_.camera, width_, height_))
+          view_(makeViewBlock(request_.camera, width_, height_)),
+          grid_(makeLayerGrid(request_.camera, width_, height_, in.layerDivisor))
     {
-        view_.forward.w = settings_.detail ? 1.0f : 0.0f;
-        view_.sunDirection = {settings_.lighting.sunDirection, view_.sunDirection.w};
+        for (ViewBlock* view : {&view_, &grid_.view}) {
+            view->forward.w = settings_.detail ? 1.0f : 0.0f;
+            view->sunDirection = {settings_.lighting.sunDirection, view->sunDirection.w};
+        }
     }
 
     ViewGraphOutputs build()
@@ -93,8 +99,9 @@ private:
         const auto solid = SolidPass::addTo(
             graph_, {in_.batches, distance_, width_, height_, view_, settings_.layerOutputs});
         distance_ = solid.distance;
-        const MediaPass::Outputs drawn =
-            in_.mediaDivisor > 1 ? drawSmall(solid.under) : drawMedia(solid.under);
+        layerDistance_ = distance_;
+        const auto drawn =
+            grid_.divisor == 1 ? drawLayers(distance_, solid.under) : drawSmallLayers(solid.under);
         media_ = drawn.media;
         if (settings_.layerOutputs) {
             const auto layers = LayerResolvePass::addTo(graph_, {drawn.layers, width_, height_});
@@ -110,40 +117,59 @@ private:
                 graph_.keep(kept);
         }
         if (settings_.countOverdraw && !in_.blobs.empty()) {
-            out_.overdraw = OverdrawPass::addTo(graph_, {blobs_, distance_, uint32_t(in_.blobs.size()),
-                                                         width_, height_, view_})
-                                .count;
+            out_.overdraw =
+                OverdrawPass::addTo(graph_, {blobs_, layerDistance_, uint32_t(in_.blobs.size()), grid_.width,
+                                             grid_.height, grid_.view, grid_.divisor > 1})
+                    .count;
             graph_.keep(out_.overdraw);
         }
+        out_.layerWidth = grid_.width;
+        out_.layerHeight = grid_.height;
     }
 
-    MediaPass::Outputs drawMedia(const MediaPass::Outputs& under)
+    /// All that belongs into the layers and does not hide, at their size, as far as `distance` lets it be
+    /// seen.
+    MediaPass::Outputs drawLayers(ResourceId distance, const MediaPass::Outputs& under)
     {
         return MediaPass::addTo(graph_,
-                                {blobs_, in_.batches, in_.runs, distance_, width_, height_, view_,
-                                 settings_.form, settings_.detail && in_.anyDetail, settings_.layerOutputs},
+                                {blobs_, in_.batches, in_.runs, distance, grid_.width, grid_.height,
+                                 grid_.view, settings_.form, settings_.detail && in_.anyDetail,
+                                 settings_.layerOutputs, grid_.divisor > 1},
                                 under);
     }
 
-    /// Media a few times smaller, enlarged, and put over what hides.
-    MediaPass::Outputs drawSmall(const MediaPass::Outputs& under)
+    /// Layers smaller than the picture: drawn up to the far end of each block and, where a block shows more
+    /// than one surface, up to the near end as well; brought to the picture's size between the two, and put
+    /// over `under`, which has that size.
+    MediaPass::Outputs drawSmallLayers(const MediaPass::Outputs& under)
     {
         if (in_.runs.empty())
             return under;
-        const int divisor = in_.mediaDivisor;
-        const int width = reducedSide(width_, divisor);
-        const int height = reducedSide(height_, divisor);
-        const ViewBlock view = makeSmallView(view_, width_, height_, divisor);
-        const ResourceId small = ReduceDistancePass::addTo(graph_, {distance_, width_, height_, divisor});
-        const auto drawn = MediaPass::addTo(graph_,
-                                            {blobs_, in_.batches, in_.runs, small, width, height, view,
-                                             settings_.form, settings_.detail && in_.anyDetail, false},
-                                            {});
+        const bool hasDepth = request_.targets.depth != 0 || under.media.valid() || under.layers[0].valid();
+        const auto ends =
+            LayerDistancePass::addTo(graph_, {distance_, hasDepth, grid_.width, grid_.height, grid_.divisor});
+        layerDistance_ = ends.far;
+        const auto far = drawLayers(ends.far, {});
+        const auto near = hasDepth ? drawLayers(ends.near, {}) : MediaPass::Outputs();
+        const auto upsampled = [&](ResourceId farLight, ResourceId nearLight) {
+            const FrameGraph::Resource small = graph_.resource(farLight);
+            return LayerUpsamplePass::addTo(graph_,
+                                            {distance_, ends.far, ends.near, farLight, nearLight, width_,
+                                             height_, grid_.divisor, small.format, small.name})
+                .light;
+        };
         MediaPass::Outputs out;
-        out.media =
-            EnlargeMediaPass::addTo(graph_, {drawn.media, small, distance_, width_, height_, divisor});
-        if (under.media.valid())
-            out.media = CompositePass::addTo(graph_, {out.media, under.media, width_, height_, true}).color;
+        if (!settings_.layerOutputs) {
+            out.media = upsampled(far.media, near.media);
+            if (under.media.valid())
+                out.media =
+                    CompositePass::addTo(graph_, {out.media, under.media, width_, height_, true}).color;
+            return out;
+        }
+        for (size_t i = 0; i < MediaPass::LayerTargets; ++i)
+            out.layers[i] = upsampled(far.layers[i], near.layers[i]);
+        if (under.layers[0].valid())
+            out.layers = LayerOverPass::addTo(graph_, out.layers, under.layers);
         return out;
     }
 
@@ -221,11 +247,13 @@ private:
     int width_;
     int height_;
     ViewBlock view_;
+    LayerGrid grid_;
     bool readable_ = false;
     bool separateTarget_ = false;
     ResourceId picture_; ///< the frame so far
     ResourceId target_;  ///< where the result goes
     ResourceId distance_;
+    ResourceId layerDistance_; ///< at the layers' size
     ResourceId blobs_;
     ResourceId media_;
     ViewGraphOutputs out_;

@@ -19,18 +19,19 @@ struct ViewGraphInputs
     std::span<const BlobInstance> blobs; ///< must stay until the graph has executed, as must the next two
     std::span<ParticleBatch> batches; ///< their GL objects are given; what they are in the graph is filled in
     std::span<const MediaRun> runs;   ///< of blobs and of batches that do not hide
-    int mediaDivisor;                 ///< 1, 2 or 4; 1 with layer outputs
     bool anyHeat;
     bool anyDetail;
     uint32_t dazzleHistory; ///< GL buffer of sizeof(DazzleHistory); 0 when dazzle is off
+    int layerDivisor = 1;   ///< of this frame, >= that of the settings
 };
 
 /// Resources that exist after the frame besides the host's picture; invalid where they were not asked for.
 struct ViewGraphOutputs
 {
     ResourceId fire, smoke, dust, media, depth, opticalDepth, overdraw;
-    bool dazzled = false; ///< the glare ran, so its history is that of this frame
-    bool anyPass = false; ///< false: the host's picture is already what it should be
+    int layerWidth = 0, layerHeight = 0; ///< [texel] of what media and overdraw were drawn to
+    bool dazzled = false;                ///< the glare ran, so its history is that of this frame
+    bool anyPass = false;                ///< false: the host's picture is already what it should be
 };
 
 /// Fills `graph`, which has begun. Passes that nothing calls for are not added: without blobs no media

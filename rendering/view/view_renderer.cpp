@@ -9,8 +9,9 @@
 #include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/programs.h"
 #include "rendering/passes/view_block.h"
-#include "rendering/view/fragment_budget.h"
+#include "rendering/view/fragment_estimate.h"
 #include "rendering/view/frame_builder.h"
+#include "rendering/view/layer_scale_control.h"
 #include "rendering/view/particle_buffers.h"
 #include "rendering/view/particle_frame.h"
 #include "rendering/view/view_graph.h"
@@ -31,8 +32,8 @@ struct ViewRenderer::Impl
 
     base::Status ensureHistory();
     base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
-                        const ViewSettings& settings);                 ///< everything that is to be drawn
-    void readBack(int width, int height, FrameStatistics& statistics); ///< waits for the GPU
+                        const ViewSettings& settings); ///< everything that is to be drawn
+    void readBack(FrameStatistics& statistics);        ///< waits for the GPU
 
     GlDevice* device;
     FrameGraph graph;
@@ -43,7 +44,8 @@ struct ViewRenderer::Impl
     DrawRuns runs;
     std::pmr::vector<DrawStream> streams;
     const base::AssetTable* assets = nullptr;
-    FragmentBudget budget;
+    FragmentCounts fragments{}; ///< of this frame
+    LayerScaleControl layerScale;
     GlBuffer dazzleHistory;
     bool historyFresh = false; ///< nothing has been adapted to yet
     ViewGraphOutputs outputs;
@@ -99,18 +101,18 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     if (builder.stream().count > 0)
         streams.push_back(builder.stream());
     streams.insert(streams.end(), particles.streams().begin(), particles.streams().end());
-    const double fragments =
-        particles.coveredPixels() + coveredPixels(builder.blobs(), request.camera, request.targets);
-    budget.decide(fragments, settings.fragmentBudget, settings.layerOutputs ? 1 : settings.mediaDivisor,
-                  settings.layerOutputs);
+    fragments = estimateFragments(builder.blobs(), camera, request.targets.width, request.targets.height);
+    for (size_t i = 0; i < fragments.size(); ++i)
+        fragments[i] += particles.fragments()[i];
     return {};
 }
 
-void ViewRenderer::Impl::readBack(int width, int height, FrameStatistics& statistics)
+void ViewRenderer::Impl::readBack(FrameStatistics& statistics)
 {
     if (outputs.overdraw.valid()) {
-        for (const float count :
-             readTexture(*device, backend.textureName(outputs.overdraw), width, height, 1)) {
+        for (const float count : readTexture(*device, backend.textureName(outputs.overdraw),
+                                             outputs.layerWidth, outputs.layerHeight, 1))
+        {
             statistics.coveredPixels += count > 0.0f ? 1 : 0;
             statistics.shadedFragments += uint64_t(count);
         }
@@ -158,10 +160,12 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     if (base::Status status = s.gather(snapshots, request, settings_); !status)
         return status;
     const std::span<const MediaRun> runs = s.runs.build(s.streams);
+    const int divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,
+                                            asked.resetHistory);
     s.graph.begin();
-    s.outputs = buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.particles.batches(), runs,
-                                         s.budget.divisor(), s.builder.anyHeat(), s.builder.anyDetail(),
-                                         s.dazzleHistory.name()});
+    s.outputs = buildViewGraph(s.graph,
+                               {&request, &settings_, s.builder.blobs(), s.particles.batches(), runs,
+                                s.builder.anyHeat(), s.builder.anyDetail(), s.dazzleHistory.name(), divisor});
     base::Status status;
     if (s.outputs.anyPass) {
         s.graph.compile();
@@ -182,15 +186,15 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     statistics_.particles = s.particles.rows();
     statistics_.particlesOrdered = s.particles.orderedRows();
     statistics_.uploadedBytes = s.buffers.uploadedBytes();
-    statistics_.expectedFragments = s.budget.expected();
-    statistics_.mediaDivisor = s.budget.divisor();
     statistics_.passes = s.outputs.anyPass ? uint32_t(s.graph.executedPasses().size()) : 0;
     statistics_.glCalls = s.device->callCount() - callsBefore;
     statistics_.drawCalls = s.outputs.anyPass ? s.backend.drawCalls() : 0;
     statistics_.programsCompiled = s.device->programsCompiled() - compiledBefore;
     statistics_.textureBytes = s.backend.pooledBytes() + s.buffers.bytes();
+    statistics_.estimatedFragments = s.fragments[layerDivisorIndex(divisor)];
+    statistics_.layerDivisor = divisor;
     if (status && settings_.countOverdraw)
-        s.readBack(request.targets.width, request.targets.height, statistics_);
+        s.readBack(statistics_);
     return status;
 }
 

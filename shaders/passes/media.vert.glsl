@@ -21,7 +21,11 @@ mat3 detailAxes(float seed, float periods)
 
 void main()
 {
-    BlobInstance blob = blobs[gl_InstanceID + int(pass.x)]; // a draw may begin in the middle of the order
+    BlobInstance blob = blobs[gl_InstanceID + int(pass.y)]; // a draw may begin in the middle of the order
+#if FX_SMALL
+    float depthOfTexel = rayOrigin.w > 0.5 ? 1.0 : length(blob.centerRadius.xyz);
+    blob.centerRadius.w = max(blob.centerRadius.w, pass.x * depthOfTexel); // a large texel must not lose small blobs
+#endif
     blobCenterRadius = blob.centerRadius;
     blobMedium = blob.medium;
     if (rayOrigin.w < 0.5) // one sample of the detail stands for a whole path: from inside it would darken all at once

@@ -1,6 +1,6 @@
 // What one fragment of a blob's rectangle sees. Needs shared/view_block.glsl, shared/blob_chord.glsl and the
 // formulas it calls.
-// FX_FORM: 0 planar card, 1 homogeneous ball, 2 quartic kernel.
+// FX_FORM: 0 planar card, 1 homogeneous ball, 2 quartic kernel. FX_SMALL: 1 for layers smaller than the picture.
 
 flat in vec4 blobCenterRadius;
 flat in vec4 blobMedium;
@@ -15,6 +15,10 @@ struct BlobRay
 BlobRay traceBlob()
 {
     BlobChord chord = chordOf(blobCenterRadius.xyz);
+#if FX_SMALL
+    if (chord.t1 <= chord.t0)
+        discard; // small layers have many texels of which nothing is seen
+#endif
     float radius = blobCenterRadius.w;
     float h = chord.h;
     float tc = chord.tc;

@@ -46,6 +46,9 @@ TEST_F(ViewArguments, aSettingOutOfRangeIsRefusedByNameAndTheOldOnesStay)
     refuse("toneMap", [](FxViewSettings& s) { s.toneMap = 2; });
     refuse("layerOutputs", [](FxViewSettings& s) { s.layerOutputs = 2; });
     refuse("countOverdraw", [](FxViewSettings& s) { s.countOverdraw = 2; });
+    refuse("layerScale", [](FxViewSettings& s) { s.layerScale = 0.3f; });
+    refuse("layerScale", [](FxViewSettings& s) { s.layerScale = 0.0f; });
+    refuse("layerScale", [](FxViewSettings& s) { s.layerScale = kNan; });
     EXPECT_EQ(fxView_SetSettings(view_, nullptr), FX_ERROR_INVALID_ARGUMENT);
     const FxViewSettings good = fxDefaultViewSettings();
     EXPECT_EQ(fxView_SetSettings(view_, &good), FX_OK) << fxGetLastErrorMessage();

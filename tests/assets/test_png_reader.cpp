@@ -1,6 +1,5 @@
 // The reader against libspng on every kind of PNG, and on damaged ones.
 #include "foundation/random/philox.h"
-#include "fxsdk/assets/inflate.h"
 #include "fxsdk/assets/png_reader.h"
 #include "rendering/image/image.h"
 
@@ -68,10 +67,10 @@ Bytes storedZlib(const Bytes& raw)
               uint8_t(raw.size() >> 8),
               uint8_t(~raw.size()),
               uint8_t(~raw.size() >> 8)};
-    out.insert(out.end(), raw.begin(), raw.end());
     uint32_t a = 1;
     uint32_t b = 0;
     for (const uint8_t byte : raw) {
+        out.push_back(byte);
         a = (a + byte) % 65521;
         b = (b + a) % 65521;
     }
@@ -218,14 +217,73 @@ TEST(PngReader, aHeaderThatPromisesTooMuchIsRefusedBeforeAnythingIsUnpacked)
     EXPECT_EQ(asset::readPng(huge).status().code(), base::Code::Parse) << "too few data";
 }
 
-TEST(Inflate, noiseIsRefusedWithoutHarm)
+/// One texel of a palette picture, `index`, with a palette of a single color.
+Bytes onePaletteTexel(uint8_t index)
 {
-    Bytes out(1000);
+    Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+    addChunk(out, "IHDR", {0, 0, 0, 1, 0, 0, 0, 1, 8, 3, 0, 0, 0});
+    addChunk(out, "PLTE", {10, 20, 30});
+    addChunk(out, "IDAT", storedZlib({0, index}));
+    addChunk(out, "IEND", {});
+    return out;
+}
+
+TEST(PngReader, aColorThatThePaletteLacksIsBlack)
+{
+    EXPECT_EQ(asset::readPng(onePaletteTexel(0))->rgba, (Bytes{10, 20, 30, 255}));
+    EXPECT_EQ(asset::readPng(onePaletteTexel(200))->rgba, (Bytes{0, 0, 0, 255}));
+}
+
+/// zlib stream of 1 + 258 `repeats` zeros: fixed codes for one zero, then "258 times what came last".
+Bytes packedZeros(size_t repeats)
+{
+    Bytes out{0x78, 0x01};
+    size_t filled = 0;
+    const auto add = [&](uint32_t bits, int count) { // the first of `count` bits is the highest
+        for (int i = count - 1; i >= 0; --i, ++filled) {
+            if (filled % 8 == 0)
+                out.push_back(0);
+            out.back() |= uint8_t((bits >> i & 1) << filled % 8);
+        }
+    };
+    add(0b110, 3); // last block, fixed codes
+    add(0x30, 8);
+    for (size_t i = 0; i < repeats; ++i)
+        add(0xC5u << 5, 13);
+    add(0, 7);
+    const uint32_t length = uint32_t(1 + 258 * repeats);
+    addBig32(out, ((length % 65521) << 16) | 1);
+    return out;
+}
+
+Bytes grayPng(uint8_t width, uint8_t height, const Bytes& packed)
+{
+    Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+    addChunk(out, "IHDR", {0, 0, 0, width, 0, 0, 0, height, 8, 0, 0, 0, 0});
+    addChunk(out, "IDAT", packed);
+    addChunk(out, "IEND", {});
+    return out;
+}
+
+TEST(PngReader, dataThatUnpackToFarMoreThanThePictureNeedAreRefused)
+{
+    EXPECT_TRUE(asset::readPng(grayPng(36, 7, packedZeros(1))).ok()) << "7 rows of 37 bytes";
+    const Bytes bomb = grayPng(36, 7, packedZeros(65'000)); // 16 MB
+    EXPECT_LT(bomb.size(), 120'000u);
+    EXPECT_EQ(asset::readPng(bomb).status().code(), base::Code::Parse);
+}
+
+TEST(PngReader, noiseInsteadOfPackedDataIsRefusedWithoutHarm)
+{
     for (uint64_t seed = 0; seed < 3000; ++seed) {
         Noise noise(seed);
         Bytes packed{0x78, 0x01};
         for (int i = 0; i < 60; ++i)
             packed.push_back(noise.byte());
-        EXPECT_FALSE(asset::inflateZlib(packed, out).ok());
+        Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+        addChunk(out, "IHDR", {0, 0, 0, 20, 0, 0, 0, 20, 8, 6, 0, 0, uint8_t(seed % 2)});
+        addChunk(out, "IDAT", packed);
+        addChunk(out, "IEND", {});
+        EXPECT_FALSE(asset::readPng(out).ok());
     }
 }

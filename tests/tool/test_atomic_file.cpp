@@ -54,6 +54,18 @@ TEST(AtomicFile, aTargetThatIsAFolderIsRefusedAndStays)
     EXPECT_EQ(folder.entries(), 1u);
 }
 
+TEST(AtomicFile, whatWouldFailAtTheEndIsFoundBefore)
+{
+    TemporaryFolder folder;
+    EXPECT_TRUE(checkTarget(folder / "out.csv").ok());
+    EXPECT_TRUE(checkTarget("out.csv").ok());
+    EXPECT_NE(checkTarget(folder / "missing" / "out.csv").message().find("missing/out.csv"),
+              std::string::npos);
+    std::filesystem::create_directory(folder / "taken");
+    EXPECT_EQ(checkTarget(folder / "taken").code(), base::Code::Io);
+    EXPECT_EQ(folder.entries(), 1u);
+}
+
 TEST(AtomicFile, theTemporaryNameKeepsFolderAndSuffix)
 {
     const std::filesystem::path name = temporaryNameFor("some/folder/film.mp4");

@@ -73,6 +73,10 @@ typedef struct FxViewSettings
     uint32_t layerOutputs;  ///< 1: keep fire, smoke, dust, depth and optical depth as textures; default 0
     uint32_t
         countOverdraw; ///< 1: count fragments and read statistics back: costs a pass and a wait; default 0
+    float layerScale;  ///< [1] 1 (default), 0.5 or 0.25: width and height at which particles are drawn, over
+                       ///< those of the picture; edges of opaque surfaces stay sharp
+    uint32_t fragmentBudget; ///< 0 (default): none; otherwise a frame whose estimated fragments exceed it is
+                             ///< drawn at a smaller layerScale, until 30 frames in a row were calm
 } FxViewSettings;
 
 /// Daylight exposure, no lights of its own, everything on.
@@ -96,6 +100,7 @@ static inline FxViewSettings fxDefaultViewSettings(void)
     settings.billboardForm = FX_BILLBOARD_KERNEL;
     settings.saveState = 1;
     settings.detail = 1;
+    settings.layerScale = 1.0f;
     return settings;
 }
 
@@ -149,11 +154,15 @@ typedef struct FxViewStatistics
     uint32_t reserved;         ///< 0
     uint64_t glCalls;          ///< calls into GL during the frame
     uint64_t textureBytes;     ///< [byte] of GPU memory that the view holds
-    uint64_t coveredPixels;    ///< pixels with at least one particle; with countOverdraw
-    uint64_t shadedFragments;  ///< fragments of all particles; with countOverdraw
+    uint64_t coveredPixels;    ///< pixels, at layerScale, with at least one particle; with countOverdraw
+    uint64_t shadedFragments;  ///< fragments of all particles, at layerScale; with countOverdraw
     double overflow[3];   ///< [1] glare: mean overflow per pixel in units of dazzleWhite, red, green, blue;
                           ///< with countOverdraw
     uint64_t allocations; ///< allocations from the context's allocator during the frame
+    uint64_t estimatedFragments; ///< of the particles' covering rectangles, at layerScale; what
+                                 ///< fragmentBudget is compared with
+    float layerScale;            ///< [1] in use: that of the settings, or less to keep fragmentBudget
+    uint32_t reserved2;          ///< 0
 } FxViewStatistics;
 
 /// Pictures that the last frame kept; GL names, 0 when settings.layerOutputs was 0. Fill structSize with

@@ -239,12 +239,19 @@ void ReferenceRenderer::giveBack(std::unique_ptr<TileRenderer> renderer)
     idle_.push_back(std::move(renderer));
 }
 
+void ReferenceRenderer::stop()
+{
+    const std::lock_guard lock(mutex_);
+    if (status_.ok())
+        status_ = {base::Code::Interrupted, "interrupted"};
+}
+
 void ReferenceRenderer::renderTile(uint32_t tile, TileJournal* journal, const Callbacks& callbacks)
 {
+    if (callbacks.shouldStop && callbacks.shouldStop())
+        stop();
     {
         const std::lock_guard lock(mutex_);
-        if (status_.ok() && callbacks.shouldStop && callbacks.shouldStop())
-            status_ = {base::Code::Interrupted, "interrupted"};
         if (!status_.ok())
             return;
     }
@@ -252,8 +259,10 @@ void ReferenceRenderer::renderTile(uint32_t tile, TileJournal* journal, const Ca
     std::vector<float> values(size_t(block.x1 - block.x0) * size_t(block.y1 - block.y0) *
                               reference_channel::Count);
     std::unique_ptr<TileRenderer> renderer = borrow();
-    renderer->render(block, values);
+    const bool isWhole = renderer->render(block, values, callbacks.shouldStop);
     giveBack(std::move(renderer));
+    if (!isWhole)
+        return stop();
     place(tile, values);
     base::Status written = journal ? journal->append(tile, values) : base::Status();
     const std::lock_guard lock(mutex_);

@@ -37,11 +37,12 @@ public:
     uint64_t key() const { return key_; }
     uint32_t tileCount() const { return tilesX_ * tilesY_; }
 
-    /// Called from any thread, one call at a time.
+    /// Called from any thread.
     struct Callbacks
     {
-        std::function<void(uint32_t done, uint32_t total)> progress; ///< may be empty
-        std::function<bool()> shouldStop;                            ///< may be empty; asked before each tile
+        std::function<void(uint32_t done, uint32_t total)> progress; ///< may be empty; one call at a time
+        std::function<bool()>
+            shouldStop; ///< may be empty; asked before every few rays, several calls at once
     };
 
     /// Takes over a tile of an earlier run; ignored unless number and length are possible.
@@ -62,6 +63,7 @@ private:
     void place(uint32_t tile, std::span<const float> values);
     std::unique_ptr<TileRenderer> borrow();
     void giveBack(std::unique_ptr<TileRenderer> renderer);
+    void stop();
     void renderTile(uint32_t tile, TileJournal* journal, const Callbacks& callbacks);
 
     base::TaskRunner* tasks_ = nullptr;

@@ -46,7 +46,8 @@ TileRenderer::Sample& TileRenderer::sampleAt(const PixelBlock& rays, int x, int 
     return samples_[size_t(y - rays.y0) * size_t(rays.x1 - rays.x0) + size_t(x - rays.x0)];
 }
 
-void TileRenderer::render(const PixelBlock& block, std::span<float> out)
+bool TileRenderer::render(const PixelBlock& block, std::span<float> out,
+                          const std::function<bool()>& shouldStop)
 {
     const base::FloatingPointScope floatingPoint;
     const int n = picture_.settings.samples;
@@ -54,12 +55,13 @@ void TileRenderer::render(const PixelBlock& block, std::span<float> out)
     samples_.assign(size_t(rays.x1 - rays.x0) * size_t(rays.y1 - rays.y0), Sample{});
     work_.rays += samples_.size();
     renderOpaque(rays);
-    if (!picture_.medium.isEmpty())
-        renderMedium(rays);
+    if (!picture_.medium.isEmpty() && !renderMedium(rays, shouldStop))
+        return false;
     float* pixel = out.data();
     for (int y = block.y0; y < block.y1; ++y)
         for (int x = block.x0; x < block.x1; ++x, pixel += reference_channel::Count)
             writePixel(rays, x, y, pixel);
+    return true;
 }
 
 void TileRenderer::renderOpaque(const PixelBlock& rays)
@@ -85,16 +87,19 @@ void TileRenderer::renderOpaque(const PixelBlock& rays)
             see(x, y, hits_);
 }
 
-void TileRenderer::renderMedium(const PixelBlock& rays)
+bool TileRenderer::renderMedium(const PixelBlock& rays, const std::function<bool()>& shouldStop)
 {
+    bool isStopped = false;
     double farthest = 0.0;
     for (const Sample& sample : samples_)
         farthest = std::max(farthest, sample.opaque.distance);
     walk_.visit(picture_.medium.tree(), grid_, rays, farthest, 4,
                 [&](const PixelBlock& part, const TileCandidates& candidates) {
-                    if (candidates.size() > 0)
+                    isStopped = isStopped || (shouldStop && shouldStop());
+                    if (!isStopped && candidates.size() > 0)
                         renderBundle(rays, part, candidates);
                 });
+    return !isStopped;
 }
 
 void TileRenderer::renderBundle(const PixelBlock& rays, const PixelBlock& part,

@@ -8,6 +8,7 @@
 #include "rendering/reference/render/scattered_light.h"
 #include "rendering/reference/render/seen_depth.h"
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -75,14 +76,16 @@ public:
     ~TileRenderer();
 
     /// Writes reference_channel::Count floats for each pixel of `block`, row by row from the top.
-    void render(const PixelBlock& block, std::span<float> out);
+    /// @param shouldStop asked before each few rays; may be empty
+    /// @return false when it was stopped: `out` is not to be used
+    bool render(const PixelBlock& block, std::span<float> out, const std::function<bool()>& shouldStop);
 
     const ReferenceWork& work() const { return work_; }
 
 private:
     struct Sample;
     void renderOpaque(const PixelBlock& rays);
-    void renderMedium(const PixelBlock& rays);
+    bool renderMedium(const PixelBlock& rays, const std::function<bool()>& shouldStop);
     void addScattered(std::span<Sample* const> samples);
     void renderBundle(const PixelBlock& rays, const PixelBlock& part, const TileCandidates& candidates);
     Sample& sampleAt(const PixelBlock& rays, int x, int y);

@@ -31,7 +31,7 @@ struct DelayedHeat
     uint32_t isGiven; ///< 1 between that moment and the end of the frame
 };
 
-/// Lists of neighbors and what they are still good for.
+/// Lists of neighbors of all particles and what they are still good for. They last from frame to frame.
 struct ListState
 {
     bool valid = false;
@@ -73,7 +73,11 @@ struct DynamicsState
     bool listsServeActive = false;                            ///< every active place has a list
     base::Column<T> sortedX, sortedY, sortedZ, sortedSupport; ///< as the tree was sorted by, to sort it again
     base::Column<T> nowX, nowY, nowZ;                         ///< [m] positions now, for the tree
-    base::Column<GasRecord<T>> records;                       ///< particles as their neighbors see them now
+    base::Column<T> listX, listY, listZ, listSupport; ///< where `listState` was built, while it is valid
+    base::Column<GasRecord<T>> records;               ///< particles as their neighbors see them now
+    base::Column<uint32_t> recordRound;               ///< the prediction that each record belongs to
+    uint32_t round = 0;                               ///< number of the last prediction
+    bool recordsAreComplete = false;                  ///< all records belong to the last prediction
 
     uint64_t now = 0;              ///< [tick] of the frame
     double tick = 0;               ///< [s]
@@ -82,10 +86,13 @@ struct DynamicsState
     base::Column<uint32_t> blockCounts; ///< active places of each block of kBlock places
     base::Column<uint64_t> blockEnds;   ///< [tick] first end after `now` of a step in each block
     base::Column<T> blockSpeeds;        ///< [1/s2] largest (|v| / H)^2 in each block
+    base::Column<uint64_t> blockNow;    ///< [tick] for which nowX..nowZ of each block hold
+    base::Column<uint8_t> blockChanged; ///< 1 where steps in the block have changed since
     std::atomic<uint64_t> nextEnd{0};   ///< [tick] when the next steps end
     double fastest = 0;                 ///< [1/s] largest |v| / H
 
     base::Column<uint8_t> wantsReach;
+    base::Column<uint32_t> wanting; ///< active places that want more reach, ascending
     base::Column<uint32_t> neighbors;
     base::Column<uint32_t> pairs;
     base::Column<T> heating;
@@ -127,6 +134,13 @@ T pushOf(const DynamicsState<T>& s, T correction, T pressure, T density)
 double largestInDomain(const GasDynamicsDef& def);
 
 constexpr uint32_t kBlock = 1024; ///< places of a block in sums and searches over all particles
+
+/// Lets the next prediction look at the block of `place` again. Thread-safe.
+template <class T>
+void markChanged(DynamicsState<T>& s, uint32_t place)
+{
+    std::atomic_ref<uint8_t>(s.blockChanged[place / kBlock]).store(1, std::memory_order_relaxed);
+}
 
 inline uint32_t blockCount(uint32_t count)
 {

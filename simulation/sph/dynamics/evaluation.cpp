@@ -3,6 +3,7 @@
 #include "foundation/math/bits.h"
 #include "simulation/parallel.h"
 #include "simulation/sph/dynamics/neighborhood.h"
+#include "simulation/sph/dynamics/prediction.h"
 #include "simulation/sph/dynamics/step_criteria.h"
 #include "simulation/sph/dynamics/viscosity_switch.h"
 
@@ -40,6 +41,24 @@ void measureGrowth(DynamicsState<T>& s, base::TaskRunner& tasks)
         raiseTo(largest, std::bit_cast<uint64_t>(double(growth))); // bits of positive numbers are in order
     });
     s.listState.growth = (1.0 + s.listState.growth) * std::bit_cast<double>(largest.load()) - 1.0;
+}
+
+/// Looks farther around the active places whose supports have met the end of their lists. Lists of all active
+/// places are made anew: theirs have become too short, and so have those of their neighbors.
+template <class T>
+void sumWanting(DynamicsState<T>& s, base::TaskRunner& tasks)
+{
+    constexpr double kWideReach = 0.25; ///< with what the guess allows, supports grow by a third in a step
+    uint32_t count = 0;
+    for (const uint32_t i : s.activePlaces())
+        if (s.wantsReach[i] != 0)
+            s.wanting[count++] = i;
+    const std::span<const uint32_t> wanting = s.wanting.first(count);
+    searchNeighbors(s, wanting, kWideReach, tasks);
+    fillSeen(s, wanting, tasks);
+    sumDensities(s, wanting, kWideReach, tasks);
+    searchNeighbors(s, s.activePlaces(), marginOfLists(s), tasks);
+    fillSeen(s, s.activePlaces(), tasks);
 }
 
 /// A density that is a number, whatever the sum has given.
@@ -157,21 +176,18 @@ bool sumDensities(DynamicsState<T>& s, std::span<const uint32_t> places, double 
 template <class T>
 void evaluateDensity(DynamicsState<T>& s, base::TaskRunner& tasks)
 {
-    constexpr double kWideReach = 0.25; ///< with what the guess allows, supports grow by a third in a step
     double reach = roomOfLists(s);
     if (reach <= 0) {
         guessSupports(s, tasks);
         reach = marginOfLists(s);
         searchNeighbors(s, s.activePlaces(), reach, tasks);
     }
-    const bool wanting = sumDensities(s, s.activePlaces(), reach, tasks);
-    if (wanting) {
-        searchNeighbors(s, s.activePlaces(), kWideReach, tasks);
-        sumDensities(s, s.activePlaces(), kWideReach, tasks);
-        searchNeighbors(s, s.activePlaces(), 0.0, tasks);
-    } else {
+    fillSeen(s, s.activePlaces(), tasks);
+    if (sumDensities(s, s.activePlaces(), reach, tasks))
+        sumWanting(s, tasks);
+    else
         measureGrowth(s, tasks);
-    }
+    s.listsServeActive = true;
 }
 
 template <class T>

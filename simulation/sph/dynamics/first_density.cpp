@@ -95,6 +95,7 @@ void findFirstDensities(DynamicsState<T>& s, base::TaskRunner& tasks)
     for (uint32_t i = 0; i < s.count; ++i)
         if (isNew(s, i))
             s.gas.entropy[i] = T(entropyOf(s.def.state, double(s.gas.density[i]), double(s.gas.energy[i])));
+    sortParticles(s, tasks); // the tree measures its slackness from supports, which were not known before
 }
 
 template void findFirstDensities<float>(DynamicsState<float>&, base::TaskRunner&);

@@ -107,9 +107,9 @@ void rest(DynamicsState<T>& s)
     s.now = 0;
     s.activeCount = 0;
     s.listsServeActive = false;
-    s.listState = {};
     for (uint32_t i = 0; i < s.count; ++i)
         s.gas.begin[i] = s.gas.end[i] = s.gas.drifted[i] = 0;
+    std::fill_n(s.blockChanged.data(), blockCount(s.count), uint8_t(1));
 }
 
 } // namespace
@@ -119,12 +119,15 @@ void prepare(DynamicsState<T>& s, base::TaskRunner& tasks)
 {
     if (s.count == 0 || !(s.fresh || s.stale))
         return;
+    if (s.mustRecoverTree)
+        recoverTree(s, tasks);
     s.tick = 0;
     rest(s);
     if (s.fresh)
         findFirstDensities(s, tasks);
     s.heatedNow = s.shaken;
-    lookAround(s, tasks); // everybody is active: steps of no length end now
+    lookAround(s, tasks);  // everybody is active: steps of no length end now
+    measureWays(s, tasks); // whoever wrote may have moved particles
     evaluateActive(s, tasks);
     limitWantedSteps(s, tasks);
     rest(s);

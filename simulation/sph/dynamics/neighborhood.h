@@ -10,7 +10,7 @@ namespace fx::sim {
 template <class T>
 bool treeIsGood(const DynamicsState<T>& s)
 {
-    constexpr double kMostLoosened = 1.0;
+    constexpr double kMostLoosened = 0.25;
     return s.treeIsSorted && s.tree.loosened() <= kMostLoosened;
 }
 
@@ -18,7 +18,8 @@ bool treeIsGood(const DynamicsState<T>& s)
 template <class T>
 void sortParticles(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Restores the tree of a state whose columns are in the order of a sort by sortedX..sortedSupport.
+/// Restores the tree of a state whose columns are in the order of a sort by sortedX..sortedSupport, and the
+/// lists that were built at listX..listSupport where listState says that there are any.
 template <class T>
 void recoverTree(DynamicsState<T>& state, base::TaskRunner& tasks);
 
@@ -26,6 +27,10 @@ void recoverTree(DynamicsState<T>& state, base::TaskRunner& tasks);
 template <class T>
 void searchNeighbors(DynamicsState<T>& state, std::span<const uint32_t> owners, double margin,
                      base::TaskRunner& tasks);
+
+/// Measures how far particles have moved, and supports grown, since the lists of all were built.
+template <class T>
+void measureWays(DynamicsState<T>& state, base::TaskRunner& tasks);
 
 /// [1] How much supports may grow with the lists that exist; 0 where they must be made anew.
 template <class T>

@@ -3,6 +3,8 @@
 #include "simulation/parallel.h"
 #include "simulation/sph/dynamics/boundary.h"
 
+#include <algorithm>
+
 namespace fx::sim {
 
 namespace {
@@ -63,6 +65,19 @@ void fillRecord(DynamicsState<T>& s, uint32_t i)
     record.stepLevel = T(gas.level[i]);
 }
 
+constexpr uint32_t kFewest = 6; ///< all records are filled where more than one in so many is active
+constexpr uint32_t kPairBatch = 128;
+
+/// Fills the record of `i` if it belongs to an earlier prediction; one thread does it, whoever comes first.
+template <class T>
+void fillOnce(DynamicsState<T>& s, uint32_t i)
+{
+    std::atomic_ref<uint32_t> round(s.recordRound[i]);
+    if (round.load(std::memory_order_relaxed) != s.round &&
+        round.exchange(s.round, std::memory_order_relaxed) != s.round)
+        fillRecord(s, i);
+}
+
 /// What a block of places tells about itself.
 template <class T>
 struct BlockSummary
@@ -72,13 +87,23 @@ struct BlockSummary
     T speed = 0; ///< [1/s2]
 };
 
+/// Whether all steps in a block go on and nobody has moved by more than kStill since it was looked at.
+template <class T>
+bool canPassOver(const DynamicsState<T>& s, uint32_t b)
+{
+    constexpr double kStill = sizeof(T) == sizeof(double) ? 1e-12 : 1e-5; // of a support
+    if (s.blockChanged[b] != 0 || s.blockEnds[b] <= s.now)
+        return false;
+    const double seconds = double(s.now - s.blockNow[b]) * s.tick;
+    return double(s.blockSpeeds[b]) * seconds * seconds <= kStill * kStill;
+}
+
 template <class T>
 BlockSummary<T> predictBlock(DynamicsState<T>& s, const Axes<T>& axes, uint32_t first, uint32_t last)
 {
     BlockSummary<T> block;
     for (uint32_t i = first; i < last; ++i) {
         drift(s, axes, i);
-        fillRecord(s, i);
         const GasColumns<T>& gas = s.gas;
         if (gas.end[i] == s.now)
             ++block.active;
@@ -103,10 +128,34 @@ void collectActive(DynamicsState<T>& s, base::TaskRunner& tasks)
     parallelRows(tasks, blocks, 4, [&](uint32_t begin, uint32_t end) {
         for (uint32_t b = begin; b < end; ++b) {
             uint32_t next = s.blockCounts[b];
+            if (next == (b + 1 < blocks ? s.blockCounts[b + 1] : s.activeCount))
+                continue;
             for (uint32_t i = b * kBlock; i < std::min((b + 1) * kBlock, s.count); ++i)
                 if (s.gas.end[i] == s.now)
                     s.active[next++] = i;
         }
+    });
+}
+
+/// Records of all, or of the active ones where these are few.
+template <class T>
+void fillFirst(DynamicsState<T>& s, base::TaskRunner& tasks)
+{
+    s.recordsAreComplete = uint64_t(s.activeCount) * kFewest > s.count;
+    if (++s.round == 0) { // numbers have been used up
+        std::fill_n(s.recordRound.data(), s.recordRound.capacity(), 0u);
+        s.round = 1;
+    }
+    if (s.recordsAreComplete) {
+        parallelRows(tasks, s.count, kBlock, [&s](uint32_t begin, uint32_t end) {
+            for (uint32_t i = begin; i < end; ++i)
+                fillRecord(s, i);
+        });
+        return;
+    }
+    parallelRows(tasks, s.activeCount, kPairBatch, [&s](uint32_t begin, uint32_t end) {
+        for (uint32_t k = begin; k < end; ++k)
+            fillOnce(s, s.active[k]);
     });
 }
 
@@ -119,11 +168,16 @@ void predict(DynamicsState<T>& s, base::TaskRunner& tasks)
     const uint32_t blocks = blockCount(s.count);
     parallelRows(tasks, blocks, 1, [&](uint32_t begin, uint32_t end) {
         for (uint32_t b = begin; b < end; ++b) {
+            s.blockCounts[b] = 0;
+            if (canPassOver(s, b))
+                continue;
             const BlockSummary<T> block =
                 predictBlock(s, axes, b * kBlock, std::min((b + 1) * kBlock, s.count));
             s.blockCounts[b] = block.active;
             s.blockEnds[b] = block.nextEnd;
             s.blockSpeeds[b] = block.speed;
+            s.blockNow[b] = s.now;
+            s.blockChanged[b] = block.active > 0; // they will open new steps
         }
     });
     uint64_t nextEnd = kFrameTicks;
@@ -135,9 +189,28 @@ void predict(DynamicsState<T>& s, base::TaskRunner& tasks)
     s.nextEnd.store(nextEnd, std::memory_order_relaxed);
     s.fastest = std::sqrt(double(speed));
     collectActive(s, tasks);
+    fillFirst(s, tasks);
 }
 
-template void predict<float>(DynamicsState<float>&, base::TaskRunner&);
-template void predict<double>(DynamicsState<double>&, base::TaskRunner&);
+template <class T>
+void fillSeen(DynamicsState<T>& s, std::span<const uint32_t> owners, base::TaskRunner& tasks)
+{
+    if (s.recordsAreComplete)
+        return;
+    parallelRows(tasks, uint32_t(owners.size()), kPairBatch, [&](uint32_t begin, uint32_t end) {
+        for (const uint32_t i : owners.subspan(begin, end - begin))
+            s.lists.forEachPiece(i, [&](const uint32_t* entries, uint32_t count, bool) {
+                for (uint32_t n = 0; n < count; ++n)
+                    fillOnce(s, entries[n] & kPlaceMask);
+            });
+    });
+}
+
+#define FX_INSTANTIATE(T)                                                                                    \
+    template void predict<T>(DynamicsState<T>&, base::TaskRunner&);                                          \
+    template void fillSeen<T>(DynamicsState<T>&, std::span<const uint32_t>, base::TaskRunner&);
+FX_INSTANTIATE(float)
+FX_INSTANTIATE(double)
+#undef FX_INSTANTIATE
 
 } // namespace fx::sim

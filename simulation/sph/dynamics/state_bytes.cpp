@@ -5,6 +5,7 @@
 #include "simulation/sph/dynamics/neighborhood.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <type_traits>
 
@@ -12,7 +13,7 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint64_t kMagic = 0x31736e7964584653u; ///< "SFXdyns1"
+constexpr uint64_t kMagic = 0x32736e7964584653u; ///< "SFXdyns2"
 
 struct Header
 {
@@ -24,6 +25,7 @@ struct Header
     uint32_t count;
     uint32_t delayed;
     uint32_t fresh, stale, shaken, treeIsSorted;
+    double listMargin, listMoved, listGrowth, listPerStep; ///< of ListState; margin < 0: not valid
 };
 
 uint64_t hashDefinition(const GasDynamicsDef& def, size_t elementSize)
@@ -73,13 +75,21 @@ void append(std::vector<std::byte>& out, const void* data, size_t size)
         std::memcpy(out.data() + at, data, size);
 }
 
+/// What tree and lists are made of.
+template <class T>
+std::array<base::Column<T>*, 8> treeColumns(DynamicsState<T>& s)
+{
+    return {&s.sortedX, &s.sortedY, &s.sortedZ, &s.sortedSupport,
+            &s.listX,   &s.listY,   &s.listZ,   &s.listSupport};
+}
+
 /// Calls f(data, size) for every array that the bytes hold.
 template <class T, class F>
 void forEachArray(DynamicsState<T>& s, F&& f)
 {
     const size_t count = s.count;
     s.gas.forEachLasting([&](auto& column) { f(column.data(), count * sizeof(column[0])); });
-    for (base::Column<T>* column : {&s.sortedX, &s.sortedY, &s.sortedZ, &s.sortedSupport})
+    for (base::Column<T>* column : treeColumns(s))
         f(column->data(), count * sizeof(T));
     f(s.delayed.data(), s.delayed.size() * sizeof(DelayedHeat));
 }
@@ -103,6 +113,11 @@ void saveState(const DynamicsState<T>& state, std::vector<std::byte>& out)
     header.stale = s.stale;
     header.treeIsSorted = treeIsGood(s) || s.mustRecoverTree;
     header.shaken = s.shaken;
+    const ListState& lists = s.listState;
+    header.listMargin = header.treeIsSorted && lists.valid ? lists.margin : -1.0;
+    header.listMoved = lists.moved;
+    header.listGrowth = lists.growth;
+    header.listPerStep = lists.perStep;
     const size_t start = out.size();
     append(out, &header, sizeof(header));
     forEachArray(s, [&out](const void* data, size_t size) { append(out, data, size); });
@@ -120,7 +135,9 @@ bool fitsInto(DynamicsState<T>& s, const Header& header, size_t size)
     const auto isScale = [](double x) { return x > 0 && x <= 1; };
     const auto isLength = [](double x) { return x >= 0 && x <= 1e30; };
     if (!isScale(header.pressureScale) || !isScale(header.soundScale) || !isLength(header.smallestSupport) ||
-        !isLength(header.largestSupport) || header.delayed > size / sizeof(DelayedHeat))
+        !isLength(header.largestSupport) || !isLength(header.listMoved) || !isLength(header.listGrowth) ||
+        !isLength(header.listPerStep) || !(header.listMargin <= 1) ||
+        header.delayed > size / sizeof(DelayedHeat))
         return false;
     const uint32_t count = s.count;
     const size_t delayed = s.delayed.size();
@@ -143,7 +160,7 @@ bool isPlausible(DynamicsState<T>& s)
             for (uint32_t i = 0; i < s.count; ++i)
                 ok = ok && base::isFinite(column[i]);
     });
-    for (const base::Column<T>* column : {&s.sortedX, &s.sortedY, &s.sortedZ, &s.sortedSupport})
+    for (const base::Column<T>* column : treeColumns(s))
         for (uint32_t i = 0; i < s.count; ++i)
             ok = ok && base::isFinite((*column)[i]);
     for (uint32_t i = 0; i < s.count; ++i)
@@ -197,6 +214,7 @@ base::Status restoreState(DynamicsState<T>& s, std::span<const std::byte> bytes)
         s.count = 0;
         s.delayed.clear();
         s.treeIsSorted = s.mustRecoverTree = false;
+        s.listState = {};
         return refuse("gas state: impossible values");
     }
     for (uint32_t i = 0; i < s.count; ++i) {
@@ -206,6 +224,8 @@ base::Status restoreState(DynamicsState<T>& s, std::span<const std::byte> bytes)
     }
     s.treeIsSorted = false;
     s.mustRecoverTree = header.treeIsSorted != 0;
+    s.listState = {s.mustRecoverTree && header.listMargin >= 0, std::max(header.listMargin, 0.0),
+                   header.listMoved, header.listGrowth, header.listPerStep};
     return {};
 }
 

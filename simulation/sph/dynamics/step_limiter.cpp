@@ -3,6 +3,7 @@
 #include "simulation/parallel.h"
 #include "simulation/sph/dynamics/stepping.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fx::sim {
@@ -20,14 +21,29 @@ uint32_t allowedDifference(const GasDynamicsDef& def)
     return def.neighborStepRatio < 1e9 ? stepLevel(def.neighborStepRatio) : kNoLimit;
 }
 
+/// Longest level of all, of which the active places can only limit longer ones.
+template <class T>
+uint32_t longestLevel(const DynamicsState<T>& s, base::TaskRunner& tasks)
+{
+    std::atomic<uint32_t> longest{0};
+    parallelRows(tasks, s.count, kBlock, [&](uint32_t begin, uint32_t end) {
+        const uint8_t* const level = s.gas.level.data();
+        raiseTo(longest, uint32_t(*std::max_element(level + begin, level + end)));
+    });
+    return longest.load();
+}
+
 /// Offers every neighbor of the active places the longest level that they allow, into levelLimit.
 template <class T>
 void offerLimits(DynamicsState<T>& s, uint32_t difference, base::TaskRunner& tasks)
 {
-    parallelRows(tasks, s.activeCount, kPairBatch, [&s, difference](uint32_t begin, uint32_t end) {
+    const uint32_t longest = longestLevel(s, tasks);
+    parallelRows(tasks, s.activeCount, kPairBatch, [&s, difference, longest](uint32_t begin, uint32_t end) {
         for (uint32_t k = begin; k < end; ++k) {
             const uint32_t i = s.active[k];
             const uint8_t limit = uint8_t(std::min(s.gas.level[i] + difference, uint32_t(kNoLimit)));
+            if (limit >= longest)
+                continue; // nobody's step is long enough
             s.lists.forEachPiece(i, [&](const uint32_t* entries, uint32_t count, bool) {
                 for (uint32_t n = 0; n < count; ++n) {
                     const uint32_t j = entries[n] & kPlaceMask;

@@ -4,6 +4,7 @@
 #include "simulation/parallel.h"
 #include "simulation/sph/dynamics/step_limiter.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fx::sim {
@@ -117,6 +118,7 @@ void shortenStep(DynamicsState<T>& s, uint32_t place, uint64_t end)
     moveToNow(s, place);
     kick(s, place, T(0.5 * (double(end) - double(gas.end[place])) * s.tick)); // (3)
     gas.end[place] = end;
+    markChanged(s, place);
 }
 
 template <class T>
@@ -125,11 +127,17 @@ void endStepNow(DynamicsState<T>& s, uint32_t place, uint64_t lately)
     GasColumns<T>& gas = s.gas;
     const uint64_t begin = s.now - std::min(lately, s.now - gas.begin[place]);
     moveToNow(s, place);
+    if (s.blockNow[place / kBlock] != s.now) { // its block has hardly moved and was passed over
+        s.nowX[place] = gas.x[place];
+        s.nowY[place] = gas.y[place];
+        s.nowZ[place] = gas.z[place];
+    }
     const double ticks =
         ticksSinceMiddle(s.now, gas.begin[place], gas.end[place]) - 0.5 * double(s.now - begin);
     kick(s, place, T(ticks * s.tick));
     gas.begin[place] = begin;
     gas.end[place] = s.now;
+    markChanged(s, place);
 }
 
 template <class T>
@@ -145,9 +153,9 @@ void openFrame(DynamicsState<T>& s, double seconds, base::TaskRunner& tasks)
                 T(kFrameLevel); // wanted steps have been limited at the end of the last frame
         }
     });
+    std::fill_n(s.blockChanged.data(), blockCount(s.count), uint8_t(1));
     s.activeCount = s.count;
     s.nextEnd = kFrameTicks;
-    s.listState = {};
     s.listsServeActive = false;
     openSteps(s, tasks);
 }

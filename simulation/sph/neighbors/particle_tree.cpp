@@ -187,10 +187,10 @@ void ParticleTree<T>::measureLoosening()
         T extent = 0;
         for (uint32_t a = 0; a < 3; ++a)
             extent += (high_[a][leaf] - low_[a][leaf]) / T(3);
+        const T size = reach_[leaf] > 0 ? extent / reach_[leaf] + 2 : T(2);
         if (fresh_)
-            sizeAtSort_[leaf] = extent + 2 * reach_[leaf];
-        const double growth =
-            std::max(1.0, double(extent + 2 * reach_[leaf]) / std::max(double(sizeAtSort_[leaf]), 1e-300));
+            sizeAtSort_[leaf] = size;
+        const double growth = std::max(1.0, double(size) / double(sizeAtSort_[leaf]));
         sum += growth * growth * growth - 1.0;
     }
     loosened_ = fresh_ ? 0.0 : sum / double(levelCount_[0]);

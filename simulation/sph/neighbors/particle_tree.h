@@ -67,10 +67,11 @@ public:
 
     /// Recomputes bounds and reaches of all cells from columns that are in tree order, and keeps a copy of
     /// them; as often as particles move. The cells stay right however far particles have moved, only slower:
-    /// sort again when loosened() exceeds about 1.
+    /// sort again when loosened() exceeds a quarter, where sorting begins to cost less than slow searches.
     void refit(const PointColumns<T>& sorted, base::TaskRunner& tasks);
     /// [1] growth, since the first refit after the last sort, of the volume that a search from a leaf covers,
-    /// mean over leaves: 1 means that searches test about twice as many particles.
+    /// in units of its reach cubed, mean over leaves: 1 means that searches test about twice as many
+    /// particles. Even expansion leaves it at 0.
     double loosened() const { return loosened_; }
 
     TreeView<T> view() const;
@@ -95,7 +96,7 @@ private:
     std::array<base::Column<T>, 3> low_;
     std::array<base::Column<T>, 3> high_;
     base::Column<T> reach_;
-    base::Column<T> sizeAtSort_; ///< [m] width that a search from a leaf covers
+    base::Column<T> sizeAtSort_; ///< [1] width that a search from a leaf covers over its reach
     std::array<base::Column<T>, 3> position_;
     base::Column<T> support_;
 };

@@ -29,7 +29,7 @@ void ParticleTest::SetUp()
 base::FrameSnapshot ParticleTest::emptySnapshot(double seconds)
 {
     base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
-    snapshot.begin(base::Ticks(seconds * double(base::kTicksPerSecond)), 1);
+    snapshot.begin(base::Ticks(seconds * double(base::kTicksPerSecond)), ++sequence_);
     nextSolver_ = 100;
     return snapshot;
 }

@@ -3,7 +3,6 @@
 
 #include "rendering/gl/gl_state_guard.h"
 #include "rendering/view/draw_runs.h"
-#include "rendering/view/fragment_budget.h"
 #include "tests/rendering/gl/gl_host_state.h"
 #include "tests/rendering/gl/heap_counter.h"
 
@@ -111,9 +110,9 @@ TEST_F(ParticleLayersTest, halfAndQuarterSizeLookAlikeAndKeepTheEdgesOfSolidThin
     setDepth(stored);
     const Picture full = draw(snapshot);
     for (const int divisor : {2, 4}) {
-        view_->settings().mediaDivisor = divisor;
+        view_->settings().layerDivisor = divisor;
         const Picture small = draw(snapshot);
-        EXPECT_EQ(view_->statistics().mediaDivisor, divisor);
+        EXPECT_EQ(view_->statistics().layerDivisor, divisor);
         double sum = 0.0;
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x) {
@@ -130,7 +129,7 @@ TEST_F(ParticleLayersTest, halfAndQuarterSizeLookAlikeAndKeepTheEdgesOfSolidThin
 
 TEST_F(ParticleLayersTest, whatHidesStaysSharpWhenMediaAreSmall)
 {
-    view_->settings().mediaDivisor = 4;
+    view_->settings().layerDivisor = 4;
     auto snapshot = emptySnapshot();
     auto& group = addParticles(snapshot, {{{0, 0, 0}, 1.0f}});
     set(group, constant::Texture, white_);
@@ -141,6 +140,67 @@ TEST_F(ParticleLayersTest, whatHidesStaysSharpWhenMediaAreSmall)
         ASSERT_EQ(picture.at(x, 32)[0], x >= 26 && x < 38 ? 1.0f : 0.0f) << x;
 }
 
+TEST_F(ParticleLayersTest, whatHidesCutsSmallMediaAtItsOwnDistance)
+{
+    auto snapshot = emptySnapshot();
+    const auto addSquare = [&](float z, float radius, const glm::vec4& color, base::ParticleBlend blend) {
+        auto& group = addParticles(snapshot, {{{0, 0, z}, radius, color}});
+        set(group, constant::Texture, white_);
+        set(group, constant::Blend, float(blend));
+    };
+    addSquare(-2.0f, 20.0f, {0.75f, 0.0f, 0.0f, 0.5f}, base::ParticleBlend::Alpha);
+    addSquare(0.0f, 1.3f, {0.0f, 0.5f, 0.0f, 1.0f}, base::ParticleBlend::Opaque);
+    addSquare(2.0f, 20.0f, {0.0f, 0.0f, 1.0f, 0.25f}, base::ParticleBlend::Alpha);
+    const glm::vec3 onSquare(0.0f, 0.375f, 0.25f);
+    const glm::vec3 beside(0.75f * 0.5f * 0.75f, 0.0f, 0.25f);
+    for (const bool layers : {false, true})
+        for (const int divisor : {1, 2, 4}) {
+            view_->settings().layerOutputs = layers;
+            view_->settings().layerDivisor = divisor;
+            const Picture picture = draw(snapshot);
+            for (int x = 0; x < kSide; ++x)
+                for (int k = 0; k < 3; ++k) // 2.6 m of 10 are 16.6 of 64 pixels
+                    ASSERT_NEAR(picture.at(x, 32)[k], (x >= 24 && x < 40 ? onSquare : beside)[k], 1e-3f)
+                        << "pixel " << x << " divisor " << divisor << (layers ? " layers" : "");
+        }
+    const Picture depth = read(view_->layers().depth, 1);
+    const Picture thickness = read(view_->layers().opticalDepth, 1);
+    const size_t middle = size_t(32 * kSide + 32);
+    EXPECT_NEAR(depth.texels[middle], 0.25f * 8.0f + 0.75f * 10.0f, 1e-3f);
+    EXPECT_NEAR(thickness.texels[middle - 16], -std::log(0.5f) - std::log(0.75f), 1e-3f);
+}
+
+TEST_F(ParticleLayersTest, smallLayersMakeTheSamePictureTogetherAsOneTarget)
+{
+    for (const int divisor : {2, 4}) {
+        view_->settings().layerDivisor = divisor;
+        view_->settings().layerOutputs = false;
+        const Picture plain = draw(mixture());
+        view_->settings().layerOutputs = true;
+        EXPECT_LT(maxDifference(plain, draw(mixture())), 2e-6) << divisor;
+    }
+}
+
+TEST_F(ParticleLayersTest, aBudgetCountsSpritesAndRibbonsButNotWhatHides)
+{
+    const double pixels = kSide / 10.0; // of a metre
+    auto snapshot = emptySnapshot();
+    addParticles(snapshot, std::vector<TestParticle>(100, {{0, 0, 0}, 1.0f}));
+    view_->settings().fragmentBudget = uint64_t(100 * 4.0 * pixels * pixels) - 100;
+    (void)draw(snapshot);
+    EXPECT_EQ(view_->statistics().layerDivisor, 2);
+    EXPECT_NEAR(double(view_->statistics().estimatedFragments), 100 * pixels * pixels, 2.0);
+    view_->settings().fragmentBudget = 0;
+    auto strip = emptySnapshot();
+    addRibbon(strip, {{{-2, 0, 0}, 0.5f}, {{2, 0, 0}, 0.5f}});
+    (void)draw(strip);
+    EXPECT_NEAR(double(view_->statistics().estimatedFragments), 4.0 * pixels * pixels, 2.0 + 2.0 * pixels);
+    auto chips = emptySnapshot();
+    set(addParticles(chips, {{{0, 0, 0}, 1.0f}}), constant::Blend, float(base::ParticleBlend::Opaque));
+    (void)draw(chips);
+    EXPECT_EQ(view_->statistics().estimatedFragments, 0u);
+}
+
 TEST_F(ParticleLayersTest, sizesThatAreNoMultipleDoNotShiftThePicture)
 {
     makeTargets(61, 59);
@@ -149,7 +209,7 @@ TEST_F(ParticleLayersTest, sizesThatAreNoMultipleDoNotShiftThePicture)
     const auto camera = flatCamera(61.0f / 59.0f);
     setPicture(std::vector<float>(61 * 59 * 4, 0.0f));
     const Picture full = renderPair(snapshot, nullptr, 1.0, camera);
-    view_->settings().mediaDivisor = 4;
+    view_->settings().layerDivisor = 4;
     setPicture(std::vector<float>(61 * 59 * 4, 0.0f));
     const Picture small = renderPair(snapshot, nullptr, 1.0, camera);
     double shift[2] = {};
@@ -189,7 +249,7 @@ TEST_F(ParticleLayersTest, aWarmFrameAllocatesNothingCompilesNothingAndLeavesThe
 TEST_F(ParticleLayersTest, theHostsStateIsAsItWas)
 {
     const auto snapshot = mixture();
-    view_->settings().mediaDivisor = 2;
+    view_->settings().layerDivisor = 2;
     render::GlHost host(context_->loader());
     host.makeHostile();
     const render::GlProbe before = host.probe();
@@ -246,23 +306,4 @@ TEST(DrawRuns, everyElementIsDrawnOnceAndTheOrderIsRightToASlab)
     EXPECT_EQ(next[0], 1000u);
     EXPECT_EQ(next[1], 1000u);
     EXPECT_LE(built.size(), 66u);
-}
-
-TEST(FragmentBudget, risesAtOnceAndReturnsOnlyWithRoomToSpare)
-{
-    render::FragmentBudget budget;
-    budget.decide(1000, 0, 1, false);
-    EXPECT_EQ(budget.divisor(), 1);
-    budget.decide(1000, 900, 1, false);
-    EXPECT_EQ(budget.divisor(), 2);
-    budget.decide(800, 900, 1, false); // fits, but hardly
-    EXPECT_EQ(budget.divisor(), 2);
-    budget.decide(500, 900, 1, false);
-    EXPECT_EQ(budget.divisor(), 1);
-    budget.decide(1e9, 900, 1, false);
-    EXPECT_EQ(budget.divisor(), 4);
-    budget.decide(10, 900, 2, false);
-    EXPECT_EQ(budget.divisor(), 2) << "never finer than asked for";
-    budget.decide(1e9, 900, 1, true);
-    EXPECT_EQ(budget.divisor(), 1);
 }

@@ -30,7 +30,7 @@ protected:
         runs_.clear();
         if (blobCount > 0)
             runs_.push_back({MediaRun::kBlobs, 0, uint32_t(blobCount)});
-        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, {}, runs_, 1, heat, false, 7});
+        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, {}, runs_, heat, false, 7});
         graph_.compile();
         EXPECT_TRUE(graph_.status().ok()) << graph_.status().message();
         return {graph_.executedPasses().begin(), graph_.executedPasses().end()};
@@ -103,4 +103,23 @@ TEST_F(ViewGraphTest, everyBlobIsAnInstanceOfOneDraw)
     RecordingBackend backend(graph_);
     graph_.execute(backend);
     EXPECT_EQ(graph_.executedPasses().size(), 4u);
+}
+
+TEST_F(ViewGraphTest, smallLayersAreDrawnToBothEndsOfTheDepthAndEnlarged)
+{
+    blobs_.assign(3, BlobInstance{});
+    runs_.push_back({MediaRun::kBlobs, 0, 3});
+    const auto passesOf = [&](uint32_t depth) {
+        request_.targets.depth = depth;
+        graph_.begin();
+        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, {}, runs_, false, false, 7, 2});
+        graph_.compile();
+        EXPECT_TRUE(graph_.status().ok()) << graph_.status().message();
+        return Names(graph_.executedPasses().begin(), graph_.executedPasses().end());
+    };
+    EXPECT_EQ(passesOf(2), (Names{"scene distance", "blob upload", "layer distance", "layer spread", "media",
+                                  "media", "layer upsample", "composite"}));
+    EXPECT_EQ(outputs_.layerWidth, 48);
+    EXPECT_EQ(passesOf(0), (Names{"scene distance", "blob upload", "layer distance", "media",
+                                  "layer upsample", "composite"}));
 }

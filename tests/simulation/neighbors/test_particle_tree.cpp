@@ -124,6 +124,23 @@ TEST(ParticleTree, refitFollowsMotionAndSaysHowMuchLooserItHasBecome)
     EXPECT_EQ(grown.tree.loosened(), 0.0);
 }
 
+TEST(ParticleTree, evenExpansionLeavesItTightAndShrinkingSupportsDoNot)
+{
+    Cloud<float> cloud;
+    cloud.addLattice(20, 0, 1, 2.4);
+    Grown<float> grown(cloud);
+    for (uint32_t i = 0; i < cloud.count(); ++i)
+        for (std::vector<float>* column :
+             {&grown.cloud.x, &grown.cloud.y, &grown.cloud.z, &grown.cloud.support})
+            (*column)[i] *= 2;
+    grown.tree.refit(grown.cloud.columns(), *grown.tasks);
+    EXPECT_NEAR(grown.tree.loosened(), 0.0, 1e-5);
+    for (uint32_t i = 0; i < cloud.count(); ++i)
+        grown.cloud.support[i] /= 2;
+    grown.tree.refit(grown.cloud.columns(), *grown.tasks);
+    EXPECT_GT(grown.tree.loosened(), 0.25);
+}
+
 TEST(ParticleTree, anEmptyCloudHasNoBoxes)
 {
     const Grown<float> grown{Cloud<float>{}};

@@ -1,0 +1,45 @@
+/// @file layer_upsample_pass.h
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+
+namespace fx::render {
+
+inline constexpr ProgramDesc kLayerUpsampleProgram{"layer upsample", "passes/fullscreen.vert.glsl",
+                                                   "passes/layer_upsample.frag.glsl", nullptr, nullptr};
+
+/// [1] relative difference of 1 / distance from which a neighboring texel has no say.
+inline constexpr float kUpsampleReach = 0.1f;
+
+/// Brings one layer target of reduced size to the picture's size. Each pixel takes the texel of its own block
+/// at its own distance, between the block's near and far picture, and the neighbors' bilinearly as far as
+/// they saw the same surface; so no surface gets the media of another. Idea: joint bilateral upsampling,
+/// [KCLU07].
+///
+/// reads   sceneDistance  R32F [m] of the picture's size
+///         far, near      of LayerDistancePass
+///         farLight       what was drawn up to `far`
+///         nearLight      what was drawn up to `near`; invalid without depth
+/// writes  light          of the picture's size, in `format`
+/// Texels that are all equal give exactly that value. Keeps no state.
+class LayerUpsamplePass
+{
+public:
+    struct Inputs
+    {
+        ResourceId sceneDistance;
+        ResourceId far, near;
+        ResourceId farLight, nearLight;
+        int width, height; ///< of the picture
+        int divisor;
+        Format format;
+        std::string_view name; ///< of the result
+    };
+    struct Outputs
+    {
+        ResourceId light;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+} // namespace fx::render

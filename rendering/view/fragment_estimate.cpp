@@ -1,0 +1,74 @@
+#include "rendering/view/fragment_estimate.h"
+
+#include "rendering/view/blob_gather.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fx::render {
+
+namespace {
+
+/// Range of slopes of a ball in the plane of one screen axis and the view axis; as tangentSlopes() of
+/// shaders/shared/blob_quad.glsl.
+std::pair<float, float> tangentSlopes(float c, float depth, float radius)
+{
+    constexpr float kAll = 1e9f;
+    const float l2 = c * c + depth * depth - radius * radius;
+    if (l2 <= 0.0f)
+        return {-kAll, kAll};
+    const float l = std::sqrt(l2);
+    const float lowDepth = depth * l + c * radius;
+    const float highDepth = depth * l - c * radius;
+    return {lowDepth > 0.0f ? (c * l - depth * radius) / lowDepth : -kAll,
+            highDepth > 0.0f ? (c * l + depth * radius) / highDepth : kAll};
+}
+
+/// [pixel] of the window that a blob's rectangle covers along one axis; and before it was cut.
+struct Extent
+{
+    float cut, whole;
+};
+
+Extent extentAlong(const CameraGeometry& camera, int axis, float c, float depth, float radius, float pixels)
+{
+    const auto [low, high] =
+        camera.orthographic ? std::pair(c - radius, c + radius) : tangentSlopes(c, depth, radius);
+    float a = low * camera.clipScale[axis] + camera.clipOffset[axis];
+    float b = high * camera.clipScale[axis] + camera.clipOffset[axis];
+    if (a > b)
+        std::swap(a, b);
+    const float cut = std::clamp(b, -1.0f, 1.0f) - std::clamp(a, -1.0f, 1.0f);
+    return {0.5f * pixels * cut, 0.5f * pixels * (b - a)};
+}
+
+/// Texels across, when each is `divisor` pixels wide: small blobs are widened, what the window cuts is not.
+float texels(const Extent& extent, int divisor)
+{
+    const float least = 2.0f * kLeastPixels * float(divisor);
+    const float widening = std::max(least / std::max(extent.whole, 1e-6f), 1.0f);
+    return std::min(extent.cut * widening, std::max(extent.cut, least)) / float(divisor);
+}
+
+} // namespace
+
+FragmentCounts estimateFragments(std::span<const BlobInstance> blobs, const CameraGeometry& camera, int width,
+                                 int height)
+{
+    std::array<double, 3> sums{};
+    for (const BlobInstance& blob : blobs) {
+        const glm::vec3 center(blob.centerRadius);
+        const float depth = glm::dot(center, camera.forward);
+        const float radius = blob.centerRadius.w;
+        const Extent x = extentAlong(camera, 0, glm::dot(center, camera.right), depth, radius, float(width));
+        const Extent y = extentAlong(camera, 1, glm::dot(center, camera.up), depth, radius, float(height));
+        for (size_t i = 0; i < sums.size(); ++i)
+            sums[i] += double(texels(x, kLayerDivisors[i])) * double(texels(y, kLayerDivisors[i]));
+    }
+    return {uint64_t(sums[0]), uint64_t(sums[1]), uint64_t(sums[2])};
+}
+
+} // namespace fx::render
