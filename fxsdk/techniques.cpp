@@ -1,6 +1,7 @@
 #include "fxsdk/techniques.h"
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/particle_kind.h"
 #include "fxsdk/presets/emitter_preset.h"
 #include "fxsdk/presets/fragments_preset.h"
 #if FXSDK_WITH_SPH
@@ -14,6 +15,8 @@ namespace fx::preset {
 namespace {
 
 constexpr std::array<std::string_view, 3> kMediaPasses{"scene distance", "media", "composite"};
+constexpr std::array<std::string_view, 4> kParticlePasses{"scene distance", "solid particles", "media",
+                                                          "composite"};
 constexpr std::array<std::string_view, 2> kShimmerPasses{"heat offset", "heat shimmer"};
 constexpr std::array<std::string_view, 3> kDazzlePasses{"dazzle sum", "dazzle budget", "dazzle deal"};
 
@@ -25,6 +28,9 @@ constexpr std::array kTechniques
         Technique{"sph gas", "gas", "gas.schema.json", buildGas, &base::kBlobKind, {}},
 #endif
         Technique{"spherical billboards", "", "", nullptr, &base::kBlobKind, kMediaPasses},
+        Technique{"sprites and meshes", "", "", nullptr, &base::kParticleKind, kParticlePasses},
+        Technique{"ribbons", "", "", nullptr, &base::kRibbonKind, kMediaPasses},
+        Technique{"particle lights", "", "", nullptr, &base::kLightKind, {}},
         Technique{"heat shimmer", "", "", nullptr, nullptr, kShimmerPasses},
         Technique{"dazzle", "", "", nullptr, nullptr, kDazzlePasses},
 };

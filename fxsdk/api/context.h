@@ -2,6 +2,7 @@
 /// What is behind FxContext: the host's hooks and everything that scenes and views share.
 #pragma once
 
+#include "foundation/assets/asset_table.h"
 #include "foundation/memory/host_memory.h"
 #include "foundation/snapshot/snapshot_schema.h"
 #include "foundation/tasks/task_runner.h"
@@ -47,7 +48,8 @@ struct FxContext
 
     const FxContextDef def;
     fx::base::HostMemory memory;
-    fx::base::SnapshotSchema schema; ///< constant after construction
+    fx::base::SnapshotSchema schema;      ///< constant after construction
+    fx::base::AssetTable assets{&memory}; ///< images and meshes of all presets
     std::unique_ptr<fx::base::TaskRunner> tasks;
 
     fx::api::SharedCaller loading; ///< one preset is loaded at a time; taken before `tables`

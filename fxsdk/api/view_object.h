@@ -15,6 +15,7 @@ struct FxView
           renderer(context->device.get(), &context->schema, &context->memory)
     {
         renderer.settings() = settings;
+        renderer.setAssets(&context->assets);
         scene->views.fetch_add(1);
     }
     ~FxView() { scene->views.fetch_sub(1); }

@@ -73,7 +73,7 @@ void ExplosionRun::step()
 
 ExplosionState ExplosionRun::look()
 {
-    snapshot_.begin(frame_ * kStep, 1);
+    snapshot_.begin(frame_ * kStep, snapshot_.sequence() + 1);
     solver_->publish({}, snapshot_);
     ExplosionState sum{};
     double count = 0;

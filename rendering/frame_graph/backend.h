@@ -21,6 +21,7 @@ enum class Format : uint8_t
     RG32F,
     R32F,
     R32UI,
+    Depth32F, ///< a depth target
 };
 
 constexpr size_t formatBytes(Format format)
@@ -37,6 +38,7 @@ constexpr size_t formatBytes(Format format)
     case Format::R32F:
         return 4;
     case Format::R32UI:
+    case Format::Depth32F:
         return 4;
     }
     return 0;
@@ -73,6 +75,8 @@ enum class Sampling : uint8_t
     Nearest, ///< clamped to the edge
     Linear,  ///< clamped to the edge
     LinearRepeat,
+    Trilinear, ///< between the levels of a texture as well; clamped to the edge
+    TrilinearRepeat,
 };
 
 struct TextureBinding
@@ -92,6 +96,8 @@ struct BufferBinding
 {
     uint32_t binding;
     ResourceId buffer;
+    uint64_t offset = 0; ///< [byte] a multiple of the context's alignment for storage buffers
+    uint64_t bytes = 0;  ///< 0: up to the end
 };
 
 /// One draw of `vertices` x `instances` without vertex attributes (the shader fetches), triangles.

@@ -189,8 +189,15 @@ bool GlBackend::bindInputs(std::span<const TextureBinding> textures, std::span<c
         const uint32_t name = nameOrFail(binding.buffer, false, "bound as storage");
         if (!name || !inRange(binding.binding, kStorageBindings, "storage binding"))
             return false;
-        device_.gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding.binding, name, 0,
-                                   static_cast<GLsizeiptr>(graph_->resource(binding.buffer).bytes));
+        const uint64_t held = graph_->resource(binding.buffer).bytes;
+        const uint64_t bytes = binding.bytes ? binding.bytes : held - std::min(held, binding.offset);
+        if (bytes == 0 || binding.offset > held || bytes > held - binding.offset) {
+            fail(base::Code::Internal,
+                 {"'", graph_->resource(binding.buffer).name, "' is bound beyond its end"});
+            return false;
+        }
+        device_.gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding.binding, name,
+                                   static_cast<GLintptr>(binding.offset), static_cast<GLsizeiptr>(bytes));
     }
     if (!uniforms.empty()) {
         if (base::Status status = uniforms_.bind(uniforms); !status) {
@@ -262,8 +269,15 @@ void GlBackend::dispatch(const DispatchCall& call)
 void GlBackend::clear(ResourceId texture, const float (&rgba)[4])
 {
     uint32_t framebuffer = 0;
-    if (!usable() || !findFramebuffer({&texture, 1}, {}, framebuffer))
+    const bool isDepth =
+        graph_ && graph_->contains(texture) && graph_->resource(texture).format == Format::Depth32F;
+    const std::span<const ResourceId> colors(&texture, isDepth ? 0 : 1);
+    if (!usable() || !findFramebuffer(colors, isDepth ? texture : ResourceId(), framebuffer))
         return;
+    if (isDepth) {
+        device_.gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, rgba);
+        return;
+    }
     if (graph_->resource(texture).format == Format::R32UI) {
         const GLuint value[4] = {static_cast<GLuint>(rgba[0]), 0, 0, 0};
         device_.gl.ClearNamedFramebufferuiv(framebuffer, GL_COLOR, 0, value);

@@ -20,7 +20,9 @@ GlDrawState::GlDrawState(GlDevice& device)
     : device_(device),
       vertexArray_(createVertexArray(device)), samplers_{createSampler(device, Sampling::Nearest),
                                                          createSampler(device, Sampling::Linear),
-                                                         createSampler(device, Sampling::LinearRepeat)}
+                                                         createSampler(device, Sampling::LinearRepeat),
+                                                         createSampler(device, Sampling::Trilinear),
+                                                         createSampler(device, Sampling::TrilinearRepeat)}
 {}
 
 void GlDrawState::reset()

@@ -41,7 +41,7 @@ private:
 
     GlDevice& device_;
     GlVertexArray vertexArray_; ///< empty: shaders fetch
-    std::array<GlSampler, 3> samplers_;
+    std::array<GlSampler, 5> samplers_;
     uint32_t program_ = kUnknown;
     uint32_t framebuffer_ = kUnknown;
     int width_ = 0;

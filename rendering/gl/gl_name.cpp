@@ -18,11 +18,13 @@ GlFramebuffer createFramebuffer(GlDevice& device)
 
 GlSampler createSampler(GlDevice& device, Sampling sampling)
 {
+    const bool hasLevels = sampling == Sampling::Trilinear || sampling == Sampling::TrilinearRepeat;
+    const bool repeats = sampling == Sampling::LinearRepeat || sampling == Sampling::TrilinearRepeat;
     const GLint filter = sampling == Sampling::Nearest ? GL_NEAREST : GL_LINEAR;
-    const GLint wrap = sampling == Sampling::LinearRepeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
+    const GLint wrap = repeats ? GL_REPEAT : GL_CLAMP_TO_EDGE;
     uint32_t name = 0;
     device.gl.CreateSamplers(1, &name);
-    device.gl.SamplerParameteri(name, GL_TEXTURE_MIN_FILTER, filter);
+    device.gl.SamplerParameteri(name, GL_TEXTURE_MIN_FILTER, hasLevels ? GL_LINEAR_MIPMAP_LINEAR : filter);
     device.gl.SamplerParameteri(name, GL_TEXTURE_MAG_FILTER, filter);
     device.gl.SamplerParameteri(name, GL_TEXTURE_WRAP_S, wrap);
     device.gl.SamplerParameteri(name, GL_TEXTURE_WRAP_T, wrap);

@@ -45,6 +45,8 @@ GLenum glInternalFormat(Format format)
         return GL_R32F;
     case Format::R32UI:
         return GL_R32UI;
+    case Format::Depth32F:
+        return GL_DEPTH_COMPONENT32F;
     }
     return GL_NONE;
 }

@@ -29,7 +29,7 @@ struct GlTouchedState
 /// first.
 std::span<const GlTouchedState> glTouchedStates();
 
-constexpr uint32_t kGlSavedStates = 96; ///< sum of the counts
-constexpr uint32_t kGlTouchedStates = 37;
+constexpr uint32_t kGlSavedStates = 104; ///< sum of the counts
+constexpr uint32_t kGlTouchedStates = 38;
 
 } // namespace fx::render

@@ -37,16 +37,15 @@ constexpr ProgramDesc kPrograms[kMediaPrograms] = {
     program("FX_FORM=2 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=1"),
 };
 
-TextureDesc targetDesc(const MediaPass::Inputs& in, size_t target)
+} // namespace
+
+TextureDesc mediaTargetDesc(bool layers, size_t target, int width, int height)
 {
     constexpr std::string_view kNames[MediaPass::LayerTargets] = {
         "fire light", "smoke light", "dust light", "coverage", "depth moment", "optical depth"};
-    const bool scalar = in.layers && (target == MediaPass::DepthMoment || target == MediaPass::OpticalDepth);
-    return {in.layers ? kNames[target] : "media", in.width, in.height,
-            scalar ? Format::R32F : Format::RGBA32F};
+    const bool scalar = layers && (target == MediaPass::DepthMoment || target == MediaPass::OpticalDepth);
+    return {layers ? kNames[target] : "media", width, height, scalar ? Format::R32F : Format::RGBA32F};
 }
-
-} // namespace
 
 const ProgramDesc& mediaProgramAt(size_t index)
 {
@@ -59,39 +58,63 @@ const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bo
                      (layers ? 1 : 0)];
 }
 
-MediaPass::Outputs MediaPass::addTo(FrameGraph& graph, const Inputs& in)
+namespace {
+
+void drawBlobs(Backend& backend, const MediaPass::Inputs& in, const MediaRun& run,
+               std::span<const ResourceId> targets)
 {
-    Outputs out;
-    if (in.count == 0)
+    ViewBlock view = in.view;
+    view.pass.y = float(run.first); // exact up to 2^24
+    const TextureBinding textures[] = {{0, in.distance}};
+    const BufferBinding buffers[] = {{0, in.blobs}};
+    DrawCall call;
+    call.program = &mediaProgram(in.form, in.detail, in.layers, in.isSmall);
+    call.targets = targets;
+    call.textures = textures;
+    call.buffers = buffers;
+    call.uniforms = asUniforms(view);
+    call.blend = Blend::Premultiplied;
+    call.vertices = 6;
+    call.instances = run.count;
+    backend.draw(call);
+}
+
+} // namespace
+
+MediaPass::Outputs MediaPass::addTo(FrameGraph& graph, const Inputs& in, const Outputs& under)
+{
+    Outputs out = under;
+    if (in.runs.empty())
         return out; // nothing to draw: the graph does not even see this pass
 
     graph.addPass("media", [&](FrameGraph::Builder& builder) {
         const size_t targetCount = in.layers ? size_t(LayerTargets) : 1;
+        const bool isFirst = !(in.layers ? under.layers[0] : under.media).valid();
         std::array<ResourceId, LayerTargets> targets;
-        builder.read(in.blobs);
+        if (in.blobs.valid())
+            builder.read(in.blobs);
+        readBatches(builder, in.batches);
         builder.read(in.distance);
-        for (size_t i = 0; i < targetCount; ++i)
-            targets[i] = builder.write(builder.create(targetDesc(in, i)));
+        for (size_t i = 0; i < targetCount; ++i) {
+            const ResourceId before = in.layers ? under.layers[i] : under.media;
+            targets[i] = builder.write(
+                isFirst ? builder.create(mediaTargetDesc(in.layers, i, in.width, in.height)) : before);
+        }
         if (in.layers)
             out.layers = targets;
         else
             out.media = targets[0];
 
-        return [in, targets, targetCount](Backend& backend) {
-            for (size_t i = 0; i < targetCount; ++i)
+        return [in, targets, targetCount, isFirst](Backend& backend) {
+            for (size_t i = 0; isFirst && i < targetCount; ++i)
                 backend.clear(targets[i], {0.0f, 0.0f, 0.0f, 0.0f});
-            const TextureBinding textures[] = {{0, in.distance}};
-            const BufferBinding buffers[] = {{0, in.blobs}};
-            DrawCall call;
-            call.program = &mediaProgram(in.form, in.detail, in.layers, in.isSmall);
-            call.targets = {targets.data(), targetCount};
-            call.textures = textures;
-            call.buffers = buffers;
-            call.uniforms = asUniforms(in.view);
-            call.blend = Blend::Premultiplied;
-            call.vertices = 6;
-            call.instances = in.count;
-            backend.draw(call);
+            for (const MediaRun& run : in.runs) {
+                if (run.batch == MediaRun::kBlobs)
+                    drawBlobs(backend, in, run, {targets.data(), targetCount});
+                else
+                    drawBatch(backend, in.batches[run.batch], run.first, run.count, in.view, in.layers,
+                              in.distance, {targets.data(), targetCount});
+            }
         };
     });
     return out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"
+#include "rendering/passes/particle_batch.h"
 #include "rendering/passes/view_block.h"
 
 #include <array>
@@ -14,22 +15,25 @@ const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bo
 constexpr size_t kMediaPrograms = 3 * 2 * 2 * 2;
 const ProgramDesc& mediaProgramAt(size_t index);
 
-/// Draws all blobs of fire, smoke and dust as balls of medium, farthest first, in one order, so that the
-/// three layers are composed by depth and not by kind. Formula: kernel-optical-depth, or the form that is
-/// asked for.
+/// Draws all blobs of fire, smoke and dust as balls of medium and all particles that do not hide, in the
+/// order of `runs`, so that layers and kinds are composed by depth. Formula of blobs: kernel-optical-depth,
+/// or the form that is asked for.
 ///
 /// reads   blobs     buffer of BlobInstance sorted by falling distance
+///         batches   rows, orders, textures
 ///         distance  [m] along the ray to opaque geometry
 /// writes  media     RGBA32F exposed radiance, premultiplied "over"; or, with layers, the same light in six
-/// targets Adds nothing when there is no blob. Keeps no state.
+///         targets
+/// Adds nothing when there is no run. Keeps no state.
 class MediaPass
 {
 public:
     struct Inputs
     {
-        ResourceId blobs;
+        ResourceId blobs;                       ///< invalid when there is none
+        std::span<const ParticleBatch> batches; ///< must stay until the graph has executed, like `runs`
+        std::span<const MediaRun> runs;
         ResourceId distance;
-        uint32_t count;
         int width, height;
         ViewBlock view;
         BillboardForm form;
@@ -53,7 +57,11 @@ public:
         ResourceId media;                            ///< invalid with layers, or when nothing is drawn
         std::array<ResourceId, LayerTargets> layers; ///< invalid without layers
     };
-    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+    /// @param under what is drawn over; invalid members: nothing
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in, const Outputs& under);
 };
+
+/// The target number `target` of the media pass.
+TextureDesc mediaTargetDesc(bool layers, size_t target, int width, int height);
 
 } // namespace fx::render

@@ -5,6 +5,7 @@
 #include "rendering/passes/heat_offset_pass.h"
 #include "rendering/passes/heat_shimmer_pass.h"
 #include "rendering/passes/layer_distance_pass.h"
+#include "rendering/passes/layer_over_pass.h"
 #include "rendering/passes/layer_resolve_pass.h"
 #include "rendering/passes/layer_upsample_pass.h"
 #include "rendering/passes/media_pass.h"
@@ -26,7 +27,7 @@ constexpr const ProgramDesc* kSinglePrograms[] = {
     &kOverdrawProgram,      &kHeatOffsetProgram,    &kHeatShimmerProgram,    &kDazzleSumProgram,
     &kDazzleBudgetProgram,  &kDazzleDealProgram,    &kToneMapProgram,        &kToneMapDitherProgram,
     &kPresentProgram,       &kLayerDistanceProgram, &kLayerUpsampleProgram,  &kLayerSpreadProgram,
-    &kOverdrawSmallProgram,
+    &kOverdrawSmallProgram, &kLayerOverProgram,
 };
 
 } // namespace
@@ -34,10 +35,12 @@ constexpr const ProgramDesc* kSinglePrograms[] = {
 std::span<const ProgramDesc* const> allPrograms()
 {
     static const auto programs = [] {
-        std::array<const ProgramDesc*, std::size(kSinglePrograms) + kMediaPrograms> all{};
+        std::array<const ProgramDesc*, std::size(kSinglePrograms) + kMediaPrograms + kParticlePrograms> all{};
         std::copy(std::begin(kSinglePrograms), std::end(kSinglePrograms), all.begin());
         for (size_t i = 0; i < kMediaPrograms; ++i)
             all[std::size(kSinglePrograms) + i] = &mediaProgramAt(i);
+        for (size_t i = 0; i < kParticlePrograms; ++i)
+            all[std::size(kSinglePrograms) + kMediaPrograms + i] = &particleProgramAt(i);
         return all;
     }();
     return programs;

@@ -2,6 +2,8 @@
 
 #include "foundation/math/bits.h"
 #include "foundation/snapshot/blob_kind.h"
+#include "rendering/view/snapshot_match.h"
+#include "rendering/view/view_volume.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,35 +20,6 @@ namespace column = base::blob_column;
 namespace constant = base::blob_constant;
 
 constexpr int kMostStreakBlobs = 10;
-
-/// Half-spaces of the view in camera axes, for balls.
-class ViewVolume
-{
-public:
-    ViewVolume(const CameraGeometry& camera) : camera_(camera) {}
-
-    bool touches(const glm::vec3& center, float radius) const
-    {
-        const glm::vec3 c(glm::dot(center, camera_.right), glm::dot(center, camera_.up),
-                          glm::dot(center, camera_.forward));
-        if (c.z + radius < camera_.nearDistance)
-            return false;
-        for (int axis = 0; axis < 2; ++axis)
-            for (const float side : {-1.0f, 1.0f}) {
-                const float slope = (side - camera_.clipOffset[axis]) / camera_.clipScale[axis];
-                const float outward = camera_.clipScale[axis] < 0.0f ? -side : side; // mirrored
-                const float outside = camera_.orthographic ? outward * (c[axis] - slope)
-                                                           : outward * (c[axis] - slope * c.z) /
-                                                                 std::sqrt(1.0f + slope * slope);
-                if (outside > radius)
-                    return false;
-            }
-        return true;
-    }
-
-private:
-    const CameraGeometry& camera_;
-};
 
 float mix(float a, float b, float t)
 {
@@ -100,38 +73,6 @@ private:
     size_t j_ = 0;
     bool hasOld_ = false;
 };
-
-const base::SnapshotGroup* findSame(const base::FrameSnapshot* older, const base::GroupInfo& info,
-                                    size_t hint)
-{
-    if (!older)
-        return nullptr;
-    const auto same = [&](const base::SnapshotGroup& g) {
-        return g.info().instance == info.instance && g.info().solver == info.solver &&
-               g.info().kind == info.kind;
-    };
-    if (hint < older->groupCount() && same(older->group(hint)))
-        return &older->group(hint);
-    for (size_t g = 0; g < older->groupCount(); ++g)
-        if (same(older->group(g)))
-            return &older->group(g);
-    return nullptr;
-}
-
-/// Where a group stands at the moment of the frame, relative to the eye.
-base::Placement placementAt(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
-                            const glm::dvec3& eye)
-{
-    base::Placement p = newer.info().placement;
-    if (older) {
-        const base::Placement& o = older->info().placement;
-        p.position = o.position + (p.position - o.position) * double(t);
-        p.rotation = glm::slerp(o.rotation, p.rotation, t);
-        p.scale = mix(o.scale, p.scale, t);
-    }
-    p.position -= eye;
-    return p;
-}
 
 float seedOf(uint64_t id)
 {
@@ -261,7 +202,8 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
             continue;
         if (outInstances.empty() || outInstances.back().instance != group.info().instance)
             outInstances.push_back({group.info().instance, outVisible.size(), 0, outMedium.size(), 0});
-        gather.run(group, findSame(snapshots.older, group.info(), g), t, stepSeconds);
+        const size_t same = findSameGroup(snapshots.older, group.info(), g);
+        gather.run(group, same == kNoGroup ? nullptr : &snapshots.older->group(same), t, stepSeconds);
         outInstances.back().visibleEnd = outVisible.size();
         outInstances.back().mediumEnd = outMedium.size();
     }

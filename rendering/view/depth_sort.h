@@ -1,29 +1,59 @@
 /// @file depth_sort.h
-/// Order of drawing: farthest first, ties by position in the list, whatever the number of elements.
+/// Order of drawing: by distance or age, ties by position in the list, whatever the number of elements.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory_resource>
 #include <span>
 #include <vector>
 
 namespace fx::render {
 
-/// Radix sort that keeps its memory. Stable: equal distances keep the order of the input, so that an image
-/// does not flicker when several blobs are equally far.
+/// Radix sort that keeps its memory, and its last order to begin with: where few elements have moved, come
+/// or gone since, only those are sorted and merged in. The result is the same as if it began anew.
+///
+/// Stable: equal keys keep the order of the input, so that an image does not flicker when several elements
+/// are equally far.
 class DepthSort
 {
 public:
-    explicit DepthSort(std::pmr::memory_resource* memory) : keys_(memory), order_(memory), scratch_(memory) {}
+    /// Stands for "leave this element out".
+    static constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
 
-    /// @param distances [m] finite, any sign
+    explicit DepthSort(std::pmr::memory_resource* memory)
+        : keys_(memory), lastKeys_(memory), order_(memory), pairs_(memory), moved_(memory), scratch_(memory)
+    {}
+
+    /// @param distances [m] any sign; NaN leaves the element out
     /// @return indices into `distances`, farthest first; valid until the next call
-    std::span<const uint32_t> farthestFirst(std::span<const float> distances);
+    std::span<const uint32_t> farthestFirst(std::span<const float> distances) { return sort(distances, ~0u); }
+    /// The other way round.
+    std::span<const uint32_t> nearestFirst(std::span<const float> distances) { return sort(distances, 0u); }
+
+    void forget() { order_.clear(); } ///< the next order has nothing to do with the last
+    /// Elements that the last call sorted; fewer than it returned when it began with the order before.
+    size_t sortedElements() const { return sortedElements_; }
 
 private:
-    std::pmr::vector<uint32_t> keys_;
+    std::span<const uint32_t> sort(std::span<const float> distances, uint32_t flip);
+    bool mendLastOrder();
+    bool splitLastOrder(size_t limit, size_t* outKept, size_t* outMoved);
+    void takeNewcomers(size_t* ioMoved);
+    void sortAll();
+    void sortMoved(size_t count);
+    void merge(size_t kept, size_t moved);
+
+    std::pmr::vector<uint32_t> keys_;     ///< rising order of these is asked for; ~0 for who is absent
+    std::pmr::vector<uint32_t> lastKeys_; ///< of the call before
     std::pmr::vector<uint32_t> order_;
-    std::pmr::vector<uint32_t> scratch_;
+    std::pmr::vector<uint64_t> pairs_; ///< key * 2^32 + index
+    std::pmr::vector<uint64_t> moved_;
+    std::pmr::vector<uint64_t> scratch_;
+    uint32_t lowest_ = 0, highest_ = 0; ///< of the keys that are present
+    size_t presentCount_ = 0;
+    size_t newcomers_ = 0;
+    size_t sortedElements_ = 0;
 };
 
 } // namespace fx::render

@@ -55,8 +55,8 @@ float texels(const Extent& extent, int divisor)
 
 } // namespace
 
-std::array<uint64_t, 3> estimateFragments(std::span<const BlobInstance> blobs, const CameraGeometry& camera,
-                                          int width, int height)
+FragmentCounts estimateFragments(std::span<const BlobInstance> blobs, const CameraGeometry& camera, int width,
+                                 int height)
 {
     std::array<double, 3> sums{};
     for (const BlobInstance& blob : blobs) {

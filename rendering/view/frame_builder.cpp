@@ -4,13 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include <array>
-
 namespace fx::render {
-
-namespace {
-constexpr size_t kMostFires = 4; ///< the brightest ones, which light the smoke of all effects
-}
 
 FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
     : gathered_(memory), gridBlobs_(memory), instances_(memory), shaded_(memory), sorted_(memory),
@@ -32,12 +26,10 @@ void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest
 void FrameBuilder::shade(const base::SnapshotPair& snapshots, const ViewSettings& settings,
                          const CameraGeometry& camera)
 {
-    std::array<EffectLight, kMostFires> lights;
-    const size_t lightCount = snapshots.newer ? effectLights(*snapshots.newer, lights) : 0;
+    lightCount_ = snapshots.newer ? effectLights(*snapshots.newer, lights_) : 0;
     fires_.clear();
-    for (size_t i = 0; i < lightCount; ++i)
-        fires_.emplace_back(glm::vec3(lights[i].position - camera.eye), lights[i].intensity,
-                            lights[i].radius);
+    for (const EffectLight& light : lights())
+        fires_.emplace_back(glm::vec3(light.position - camera.eye), light.intensity, light.radius);
 
     const DirectionalLight sun(settings.lighting.sunDirection, settings.lighting.sunIlluminance);
     const ShadingContext context{
@@ -68,8 +60,20 @@ void FrameBuilder::sort(const CameraGeometry& camera)
         distances_.push_back(camera.orthographic ? glm::dot(blob.center, camera.forward)
                                                  : glm::dot(blob.center, blob.center));
     sorted_.clear();
-    for (const uint32_t index : depthSort_.farthestFirst(distances_))
+    order_ = depthSort_.farthestFirst(distances_);
+    isParallel_ = camera.orthographic;
+    for (const uint32_t index : order_)
         sorted_.push_back(shaded_[index]);
+}
+
+DrawStream FrameBuilder::stream() const
+{
+    DrawStream stream;
+    stream.count = uint32_t(order_.size());
+    stream.distances = distances_.data();
+    stream.order = order_.data();
+    stream.isSquared = !isParallel_;
+    return stream;
 }
 
 } // namespace fx::render

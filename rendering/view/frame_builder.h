@@ -2,13 +2,16 @@
 /// Snapshots and a camera to the sorted list of blobs that the passes draw.
 #pragma once
 
+#include "rendering/lights/effect_lights.h"
 #include "rendering/lights/extinction_grid.h"
 #include "rendering/lights/light.h"
 #include "rendering/passes/blob_instance.h"
 #include "rendering/view/blob_gather.h"
 #include "rendering/view/depth_sort.h"
+#include "rendering/view/draw_runs.h"
 #include "rendering/view/view_types.h"
 
+#include <array>
 #include <memory_resource>
 #include <span>
 #include <vector>
@@ -29,6 +32,10 @@ public:
     bool anyHeat() const { return anyHeat_; }                       ///< some blob bends light
     bool anyDetail() const { return anyDetail_; }                   ///< some blob has procedural detail
     const GatherCounts& counts() const { return counts_; }
+    /// The brightest fires of all effects, brightest first.
+    std::span<const EffectLight> lights() const { return {lights_.data(), lightCount_}; }
+    /// The blobs as a stream whose elements are the drawn ones; count 0 without any.
+    DrawStream stream() const;
 
 private:
     void shade(const base::SnapshotPair& snapshots, const ViewSettings& settings,
@@ -45,6 +52,10 @@ private:
     ExtinctionGrid grid_;
     DepthSort depthSort_;
     GatherCounts counts_;
+    std::array<EffectLight, 4> lights_;
+    size_t lightCount_ = 0;
+    std::span<const uint32_t> order_;
+    bool isParallel_ = false;
     bool anyHeat_ = false;
     bool anyDetail_ = false;
 };

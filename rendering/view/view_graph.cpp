@@ -5,12 +5,14 @@
 #include "rendering/passes/heat_offset_pass.h"
 #include "rendering/passes/heat_shimmer_pass.h"
 #include "rendering/passes/layer_distance_pass.h"
+#include "rendering/passes/layer_over_pass.h"
 #include "rendering/passes/layer_resolve_pass.h"
 #include "rendering/passes/layer_upsample_pass.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/passes/present_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
+#include "rendering/passes/solid_pass.h"
 #include "rendering/passes/tone_map_pass.h"
 #include "rendering/view/layer_grid.h"
 
@@ -39,7 +41,7 @@ public:
     ViewGraphOutputs build()
     {
         importTargets();
-        const bool media = !in_.blobs.empty();
+        const bool media = !in_.blobs.empty() || !in_.batches.empty();
         if (media)
             addMedia();
         if (!readable_)
@@ -91,10 +93,15 @@ private:
             depth =
                 graph_.importTexture({"host depth", width_, height_, Format::R32F}, request_.targets.depth);
         distance_ = SceneDistancePass::addTo(graph_, {depth, width_, height_, view_}).distance;
-        uploadBlobs();
+        if (!in_.blobs.empty())
+            uploadBlobs();
+        importBatches();
+        const auto solid = SolidPass::addTo(
+            graph_, {in_.batches, distance_, width_, height_, view_, settings_.layerOutputs});
+        distance_ = solid.distance;
         layerDistance_ = distance_;
         const auto drawn =
-            grid_.divisor == 1 ? drawLayers(distance_) : drawSmallLayers(request_.targets.depth != 0);
+            grid_.divisor == 1 ? drawLayers(distance_, solid.under) : drawSmallLayers(solid.under);
         media_ = drawn.media;
         if (settings_.layerOutputs) {
             const auto layers = LayerResolvePass::addTo(graph_, {drawn.layers, width_, height_});
@@ -109,7 +116,7 @@ private:
                  {out_.fire, out_.smoke, out_.dust, out_.media, out_.depth, out_.opticalDepth})
                 graph_.keep(kept);
         }
-        if (settings_.countOverdraw) {
+        if (settings_.countOverdraw && !in_.blobs.empty()) {
             out_.overdraw =
                 OverdrawPass::addTo(graph_, {blobs_, layerDistance_, uint32_t(in_.blobs.size()), grid_.width,
                                              grid_.height, grid_.view, grid_.divisor > 1})
@@ -120,40 +127,63 @@ private:
         out_.layerHeight = grid_.height;
     }
 
-    /// All that belongs into the layers, at their size, as far as `distance` lets it be seen.
-    MediaPass::Outputs drawLayers(ResourceId distance)
+    /// All that belongs into the layers and does not hide, at their size, as far as `distance` lets it be
+    /// seen.
+    MediaPass::Outputs drawLayers(ResourceId distance, const MediaPass::Outputs& under)
     {
         return MediaPass::addTo(graph_,
-                                {blobs_, distance, uint32_t(in_.blobs.size()), grid_.width, grid_.height,
+                                {blobs_, in_.batches, in_.runs, distance, grid_.width, grid_.height,
                                  grid_.view, settings_.form, settings_.detail && in_.anyDetail,
-                                 settings_.layerOutputs, grid_.divisor > 1});
+                                 settings_.layerOutputs, grid_.divisor > 1},
+                                under);
     }
 
     /// Layers smaller than the picture: drawn up to the far end of each block and, where a block shows more
-    /// than one surface, up to the near end as well; brought to the picture's size between the two.
-    MediaPass::Outputs drawSmallLayers(bool hasDepth)
+    /// than one surface, up to the near end as well; brought to the picture's size between the two, and put
+    /// over `under`, which has that size.
+    MediaPass::Outputs drawSmallLayers(const MediaPass::Outputs& under)
     {
+        if (in_.runs.empty())
+            return under;
+        const bool hasDepth = request_.targets.depth != 0 || under.media.valid() || under.layers[0].valid();
         const auto ends =
             LayerDistancePass::addTo(graph_, {distance_, hasDepth, grid_.width, grid_.height, grid_.divisor});
         layerDistance_ = ends.far;
-        const auto far = drawLayers(ends.far);
-        const auto near = hasDepth ? drawLayers(ends.near) : MediaPass::Outputs();
-        const auto upsampled = [&](ResourceId farLight, ResourceId nearLight, std::string_view name,
-                                   Format format) {
-            return LayerUpsamplePass::addTo(graph_, {distance_, ends.far, ends.near, farLight, nearLight,
-                                                     width_, height_, grid_.divisor, format, name})
+        const auto far = drawLayers(ends.far, {});
+        const auto near = hasDepth ? drawLayers(ends.near, {}) : MediaPass::Outputs();
+        const auto upsampled = [&](ResourceId farLight, ResourceId nearLight) {
+            const FrameGraph::Resource small = graph_.resource(farLight);
+            return LayerUpsamplePass::addTo(graph_,
+                                            {distance_, ends.far, ends.near, farLight, nearLight, width_,
+                                             height_, grid_.divisor, small.format, small.name})
                 .light;
         };
         MediaPass::Outputs out;
         if (!settings_.layerOutputs) {
-            out.media = upsampled(far.media, near.media, "media", Format::RGBA32F);
+            out.media = upsampled(far.media, near.media);
+            if (under.media.valid())
+                out.media =
+                    CompositePass::addTo(graph_, {out.media, under.media, width_, height_, true}).color;
             return out;
         }
-        for (size_t i = 0; i < MediaPass::LayerTargets; ++i) {
-            const FrameGraph::Resource& small = graph_.resource(far.layers[i]);
-            out.layers[i] = upsampled(far.layers[i], near.layers[i], small.name, small.format);
-        }
+        for (size_t i = 0; i < MediaPass::LayerTargets; ++i)
+            out.layers[i] = upsampled(far.layers[i], near.layers[i]);
+        if (under.layers[0].valid())
+            out.layers = LayerOverPass::addTo(graph_, out.layers, under.layers);
         return out;
+    }
+
+    /// Names of GL objects to resources of this graph.
+    void importBatches()
+    {
+        for (ParticleBatch& batch : in_.batches) {
+            for (BufferPart* part : {&batch.newer, &batch.older, &batch.order, &batch.mesh})
+                if (part->bytes > 0)
+                    part->id =
+                        graph_.importBuffer({"particles", size_t(part->offset + part->bytes)}, part->name);
+            batch.textureId = graph_.importTexture({"particle frames", 1, 1, Format::RGBA8}, batch.texture);
+            batch.motionId = graph_.importTexture({"particle motion", 1, 1, Format::RGBA8}, batch.motion);
+        }
     }
 
     void uploadBlobs()

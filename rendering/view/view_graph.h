@@ -4,6 +4,7 @@
 
 #include "rendering/frame_graph/frame_graph.h"
 #include "rendering/passes/blob_instance.h"
+#include "rendering/passes/particle_batch.h"
 #include "rendering/view/view_types.h"
 
 #include <span>
@@ -15,7 +16,9 @@ struct ViewGraphInputs
 {
     const FrameRequest* request;
     const ViewSettings* settings;
-    std::span<const BlobInstance> blobs; ///< must stay until the graph has executed
+    std::span<const BlobInstance> blobs; ///< must stay until the graph has executed, as must the next two
+    std::span<ParticleBatch> batches; ///< their GL objects are given; what they are in the graph is filled in
+    std::span<const MediaRun> runs;   ///< of blobs and of batches that do not hide
     bool anyHeat;
     bool anyDetail;
     uint32_t dazzleHistory; ///< GL buffer of sizeof(DazzleHistory); 0 when dazzle is off

@@ -12,6 +12,8 @@
 #include "rendering/view/fragment_estimate.h"
 #include "rendering/view/frame_builder.h"
 #include "rendering/view/layer_scale_control.h"
+#include "rendering/view/particle_buffers.h"
+#include "rendering/view/particle_frame.h"
 #include "rendering/view/view_graph.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -24,16 +26,25 @@ namespace fx::render {
 struct ViewRenderer::Impl
 {
     Impl(GlDevice* d, std::pmr::memory_resource* memory)
-        : device(d), graph(memory), backend(*d, memory), builder(memory), timer(*d)
+        : device(d), graph(memory), backend(*d, memory), builder(memory), particles(memory),
+          buffers(*d, memory), runs(memory), streams(memory), timer(*d)
     {}
 
     base::Status ensureHistory();
-    void readBack(FrameStatistics& statistics); ///< waits for the GPU
+    base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
+                        const ViewSettings& settings); ///< everything that is to be drawn
+    void readBack(FrameStatistics& statistics);        ///< waits for the GPU
 
     GlDevice* device;
     FrameGraph graph;
     GlBackend backend;
     FrameBuilder builder;
+    ParticleFrame particles;
+    ParticleBuffers buffers;
+    DrawRuns runs;
+    std::pmr::vector<DrawStream> streams;
+    const base::AssetTable* assets = nullptr;
+    FragmentCounts fragments{}; ///< of this frame
     LayerScaleControl layerScale;
     GlPassTimer timer;
     TimingClock clock = TimingClock::Off;
@@ -95,6 +106,24 @@ base::Status ViewRenderer::Impl::ensureHistory()
     return {};
 }
 
+base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
+                                        const ViewSettings& settings)
+{
+    const CameraGeometry camera = cameraGeometry(request.camera);
+    builder.build(snapshots, request, settings, camera);
+    particles.build({&snapshots, &request, &settings, &camera, builder.lights()});
+    if (base::Status status = buffers.prepare(snapshots, particles, assets); !status)
+        return status;
+    streams.clear();
+    if (builder.stream().count > 0)
+        streams.push_back(builder.stream());
+    streams.insert(streams.end(), particles.streams().begin(), particles.streams().end());
+    fragments = estimateFragments(builder.blobs(), camera, request.targets.width, request.targets.height);
+    for (size_t i = 0; i < fragments.size(); ++i)
+        fragments[i] += particles.fragments()[i];
+    return {};
+}
+
 void ViewRenderer::Impl::readBack(FrameStatistics& statistics)
 {
     if (outputs.overdraw.valid()) {
@@ -117,6 +146,11 @@ ViewRenderer::ViewRenderer(GlDevice* device, const base::SnapshotSchema*, std::p
 {}
 
 ViewRenderer::~ViewRenderer() = default;
+
+void ViewRenderer::setAssets(const base::AssetTable* assets)
+{
+    impl_->assets = assets;
+}
 
 base::Status ViewRenderer::warmUp()
 {
@@ -153,17 +187,17 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     FrameRequest request = asked;
     request.resetHistory = asked.resetHistory || s.historyFresh;
 
+    if (base::Status status = s.gather(snapshots, request, settings_); !status)
+        return status;
     s.timer.beginFrame(s.clock, s.tag);
     s.backend.setTimer(s.clock == TimingClock::Off ? nullptr : &s.timer);
-    const CameraGeometry camera = cameraGeometry(request.camera);
-    s.builder.build(snapshots, request, settings_, camera);
-    const auto fragments =
-        estimateFragments(s.builder.blobs(), camera, request.targets.width, request.targets.height);
-    const int divisor =
-        s.layerScale.choose(fragments, settings_.layerDivisor, settings_.fragmentBudget, asked.resetHistory);
+    const std::span<const MediaRun> runs = s.runs.build(s.streams);
+    const int divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,
+                                            asked.resetHistory);
     s.graph.begin();
-    s.outputs = buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.builder.anyHeat(),
-                                         s.builder.anyDetail(), s.dazzleHistory.name(), divisor});
+    s.outputs = buildViewGraph(s.graph,
+                               {&request, &settings_, s.builder.blobs(), s.particles.batches(), runs,
+                                s.builder.anyHeat(), s.builder.anyDetail(), s.dazzleHistory.name(), divisor});
     base::Status status;
     if (s.outputs.anyPass) {
         s.graph.compile();
@@ -171,6 +205,7 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         s.timer.beginPasses();
         if (s.backend.beginFrame(s.graph))
             s.graph.execute(s.backend);
+        s.buffers.fence();
         status = s.backend.endFrame();
     }
     s.timer.endFrame(status.ok() && s.outputs.anyPass);
@@ -184,12 +219,15 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     statistics_.blobs = uint32_t(s.builder.blobs().size());
     statistics_.blobsCulled = s.builder.counts().culled;
     statistics_.blobsNonFinite = s.builder.counts().nonFinite;
+    statistics_.particles = s.particles.rows();
+    statistics_.particlesOrdered = s.particles.orderedRows();
+    statistics_.uploadedBytes = s.buffers.uploadedBytes();
     statistics_.passes = s.outputs.anyPass ? uint32_t(s.graph.executedPasses().size()) : 0;
     statistics_.glCalls = s.device->callCount() - callsBefore;
     statistics_.drawCalls = s.outputs.anyPass ? s.backend.drawCalls() : 0;
     statistics_.programsCompiled = s.device->programsCompiled() - compiledBefore;
-    statistics_.textureBytes = s.backend.pooledBytes();
-    statistics_.estimatedFragments = fragments[layerDivisorIndex(divisor)];
+    statistics_.textureBytes = s.backend.pooledBytes() + s.buffers.bytes();
+    statistics_.estimatedFragments = s.fragments[layerDivisorIndex(divisor)];
     statistics_.layerDivisor = divisor;
     if (status && settings_.countOverdraw)
         s.readBack(statistics_);

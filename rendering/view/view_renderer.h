@@ -4,6 +4,7 @@
 /// Threads: [GL thread], the thread on which the GL context is current.
 #pragma once
 
+#include "foundation/assets/asset_table.h"
 #include "foundation/result/status.h"
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/gl/gl_pass_timer.h"
@@ -60,6 +61,8 @@ public:
     bool takeTimes(GroupTimes& out);    ///< see GlPassTimer::take
     /// Of the last frame; only while frames are measured.
     const ScreenShare& covered() const { return covered_; }
+    /// Images and meshes that particles name; must outlive the view or the next call. Null: plain particles.
+    void setAssets(const base::AssetTable* assets);
 
     const FrameStatistics& statistics() const { return statistics_; }
     LayerTextures layers() const;

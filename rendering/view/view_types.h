@@ -82,7 +82,8 @@ struct ViewSettings
     bool layerOutputs = false; ///< keep fire, smoke, dust, depth and optical depth as textures of their own
     bool countOverdraw =
         false; ///< count contributing fragments and read statistics back: costs a pass and waits for the GPU
-    int layerDivisor = 1; ///< 1, 2, 4: media are drawn at 1, 1/2, 1/4 of the width and height, at the most
+    int layerDivisor = 1; ///< 1, 2, 4: media and particles are drawn at 1, 1/2, 1/4 of the width and height,
+                          ///< at the most; what hides at 1
     uint64_t fragmentBudget = 0; ///< estimated fragments a frame above which they are drawn smaller; 0: never
 };
 
@@ -113,17 +114,20 @@ struct FrameRequest
 /// Counters of one rendered frame; exact counts except for the times.
 struct FrameStatistics
 {
-    uint32_t blobs = 0;          ///< drawn after culling
-    uint32_t blobsCulled = 0;    ///< outside the view
-    uint32_t blobsNonFinite = 0; ///< dropped because a value was not finite
-    uint32_t passes = 0;         ///< executed
+    uint32_t blobs = 0;            ///< drawn after culling
+    uint32_t blobsCulled = 0;      ///< outside the view
+    uint32_t blobsNonFinite = 0;   ///< dropped because a value was not finite
+    uint64_t particles = 0;        ///< rows and pieces of ribbons that were drawn
+    uint64_t particlesOrdered = 0; ///< of those, in an order of depth or age
+    uint64_t uploadedBytes = 0;    ///< [byte] of particles, written for this frame
+    uint32_t passes = 0;           ///< executed
     uint64_t glCalls = 0;
     uint32_t drawCalls = 0;
     uint32_t programsCompiled = 0;   ///< during this frame; 0 after warm-up
     uint64_t textureBytes = 0;       ///< [byte] held by the view
     uint64_t coveredPixels = 0;      ///< texels of the media's layers; with countOverdraw
     uint64_t shadedFragments = 0;    ///< at the layers' scale; with countOverdraw
-    uint64_t estimatedFragments = 0; ///< of the blobs' rectangles, at the layers' scale
+    uint64_t estimatedFragments = 0; ///< of the rectangles of blobs and particles, at the layers' scale
     int layerDivisor = 1;            ///< of this frame: what was asked for, or more to keep the budget
     double overflow[3] = {0, 0,
                           0}; ///< with countOverdraw and dazzle: mean overflow per pixel, units of white

@@ -21,7 +21,7 @@ mat3 detailAxes(float seed, float periods)
 
 void main()
 {
-    BlobInstance blob = blobs[gl_InstanceID];
+    BlobInstance blob = blobs[gl_InstanceID + int(pass.y)]; // a draw may begin in the middle of the order
 #if FX_SMALL
     float depthOfTexel = rayOrigin.w > 0.5 ? 1.0 : length(blob.centerRadius.xyz);
     blob.centerRadius.w = max(blob.centerRadius.w, pass.x * depthOfTexel); // a large texel must not lose small blobs

@@ -15,6 +15,9 @@ layout(std140, binding = 0) uniform ViewBlock
     vec4 depthRange;     // clip depth n = x d + y for a stored depth d; z: stored depth that means nothing is there
     vec4 sunDirection;   // [1] towards the sun; w: pixels per unit of slope vertically
     vec4 pass;           // a pass's own four numbers
+#ifdef FX_VIEW_EXTRA
+    FX_VIEW_EXTRA        // members of shared/particle_block.glsl
+#endif
 };
 
 // Ray through the window position gl_FragCoord.xy. Its parameter is the distance along the ray [m].

@@ -13,10 +13,11 @@ TEST(Techniques, registerEachKindOnce)
 {
     fx::base::SnapshotSchema schema;
     registerKinds(schema);
-    EXPECT_EQ(schema.size(), 1u);
-    EXPECT_NE(schema.find("blob"), fx::base::kNoKind);
+    EXPECT_EQ(schema.size(), 4u);
+    for (const char* kind : {"blob", "particle", "ribbon", "light"})
+        EXPECT_NE(schema.find(kind), fx::base::kNoKind) << kind;
     registerKinds(schema);
-    EXPECT_EQ(schema.size(), 1u);
+    EXPECT_EQ(schema.size(), 4u);
 }
 
 TEST(Techniques, haveNamesOfTheirOwnAndEitherAllOfAPresetMemberOrNothing)

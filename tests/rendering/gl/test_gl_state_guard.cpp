@@ -2,6 +2,8 @@
 #include "gl_host_state.h"
 #include "gl_test.h"
 
+#include "rendering/gl/gl_asset_cache.h"
+#include "rendering/gl/gl_draw_state.h"
 #include "rendering/gl/gl_state_guard.h"
 
 #include <algorithm>
@@ -166,6 +168,10 @@ TEST_F(GlStateGuardTest, everyPublishedStateIsReallyTouched)
     };
     const auto before = snapshot();
     drawEverything();
+    GlAssetCache assets(*device, std::pmr::get_default_resource()); // frames of particles are texture arrays
+    const auto atlas = assets.atlas(nullptr, 0, 1, 1);
+    ASSERT_TRUE(atlas.ok()) << atlas.status().message();
+    GlDrawState(*device).bindTexture(0, atlas->texture, Sampling::Trilinear);
     const auto after = snapshot();
     size_t slot = 0;
     for (const GlTouchedState& state : glTouchedStates()) {

@@ -47,3 +47,39 @@ TEST(DepthSort, ofNothingIsNothing)
     DepthSort sort(std::pmr::get_default_resource());
     EXPECT_TRUE(sort.farthestFirst({}).empty());
 }
+
+TEST(DepthSort, mendingTheLastOrderGivesTheSameAsSortingAnew)
+{
+    const auto unit = [](uint64_t stream, size_t i) {
+        return fx::base::randomUnit4(stream, 0, i, fx::base::RandomPurpose::Position)[0];
+    };
+    std::vector<float> distances(3000);
+    for (size_t i = 0; i < distances.size(); ++i)
+        distances[i] = std::floor(unit(1, i) * 400.0f) - 20.0f; // many are equally far
+    DepthSort mended(std::pmr::get_default_resource());
+    (void)mended.farthestFirst(distances);
+    for (uint64_t frame = 2; frame < 60; ++frame) {
+        const size_t step = frame % 5 == 0 ? 3 : 40 + frame; // now and then too many to mend
+        for (size_t i = size_t(frame); i < distances.size(); i += step)
+            distances[i] =
+                unit(frame, i) < 0.3f ? DepthSort::kAbsent : std::floor(unit(frame, i) * 400.0f) - 20.0f;
+        DepthSort anew(std::pmr::get_default_resource());
+        const auto a = mended.farthestFirst(distances);
+        const auto b = anew.farthestFirst(distances);
+        ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << "frame " << frame;
+        if (frame % 5 != 0) {
+            EXPECT_LT(mended.sortedElements(), distances.size() / 4) << "frame " << frame;
+        }
+    }
+}
+
+TEST(DepthSort, absentElementsAreLeftOutAndBothWaysAreReversed)
+{
+    DepthSort sort(std::pmr::get_default_resource());
+    const std::array<float, 5> distances{3.0f, DepthSort::kAbsent, 7.5f, 0.0f, DepthSort::kAbsent};
+    const auto far = sort.farthestFirst(distances);
+    EXPECT_EQ(std::vector<uint32_t>(far.begin(), far.end()), (std::vector<uint32_t>{2, 0, 3}));
+    sort.forget();
+    const auto near = sort.nearestFirst(distances);
+    EXPECT_EQ(std::vector<uint32_t>(near.begin(), near.end()), (std::vector<uint32_t>{3, 0, 2}));
+}

@@ -27,7 +27,10 @@ protected:
     {
         blobs_.assign(blobCount, BlobInstance{});
         graph_.begin();
-        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, heat, false, 7});
+        runs_.clear();
+        if (blobCount > 0)
+            runs_.push_back({MediaRun::kBlobs, 0, uint32_t(blobCount)});
+        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, {}, runs_, heat, false, 7});
         graph_.compile();
         EXPECT_TRUE(graph_.status().ok()) << graph_.status().message();
         return {graph_.executedPasses().begin(), graph_.executedPasses().end()};
@@ -36,6 +39,7 @@ protected:
     FrameRequest request_;
     ViewSettings settings_;
     std::vector<BlobInstance> blobs_;
+    std::vector<MediaRun> runs_;
     FrameGraph graph_{std::pmr::get_default_resource()};
     ViewGraphOutputs outputs_;
 };
@@ -104,10 +108,11 @@ TEST_F(ViewGraphTest, everyBlobIsAnInstanceOfOneDraw)
 TEST_F(ViewGraphTest, smallLayersAreDrawnToBothEndsOfTheDepthAndEnlarged)
 {
     blobs_.assign(3, BlobInstance{});
+    runs_.push_back({MediaRun::kBlobs, 0, 3});
     const auto passesOf = [&](uint32_t depth) {
         request_.targets.depth = depth;
         graph_.begin();
-        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, false, false, 7, 2});
+        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, {}, runs_, false, false, 7, 2});
         graph_.compile();
         EXPECT_TRUE(graph_.status().ok()) << graph_.status().message();
         return Names(graph_.executedPasses().begin(), graph_.executedPasses().end());

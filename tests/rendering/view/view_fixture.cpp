@@ -48,7 +48,7 @@ void ViewTest::TearDown()
 base::FrameSnapshot ViewTest::snapshotOf(const std::vector<TestBlob>& blobs, const glm::dvec3& placement)
 {
     base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
-    snapshot.begin(0, 1);
+    snapshot.begin(0, ++sequence_);
     for (uint32_t layer = 0; layer < uint32_t(base::MediaLayer::Count); ++layer) {
         auto& group = snapshot.addGroup(schema_.find("blob"), blobs.size());
         uint32_t count = 0;

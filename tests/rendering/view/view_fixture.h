@@ -70,6 +70,7 @@ protected:
     std::optional<render::GlTexture> color_;
     std::optional<render::GlTexture> depth_;
     bool useDepth_ = false;
+    uint64_t sequence_ = 0; ///< of the last snapshot
 };
 
 } // namespace fx::test

@@ -127,26 +127,29 @@ TEST(SolverState, aParticleThatIsDeadOrUnbornIsRefused)
 {
     const auto def = rateEmitter(60.0f, 1.0f);
     Bench original(*def);
-    original.play(5);
+    original.play(70); // longer than a life
     const std::vector<std::byte> good = original.state();
-    // now i64, started u8, burst u64, progress u64, next index u64, count u32, then the columns
-    const size_t columns = 8 + 1 + 8 + 8 + 8 + 4;
+    // Clock, started, begin and conditions of the motion; three words of births; window, placed and count;
+    // then the particles, each beginning with its index and its birth.
+    const size_t first = (8 + 1 + 8 + 12 + 4 + 1 + 1) + 3 * 8 + (8 + 8 + 1 + 4);
     const size_t count = original.solver->elementCount();
     ASSERT_GE(count, 4u);
+    ASSERT_EQ((good.size() - first) % count, 0u);
+    const size_t stride = (good.size() - first) / count;
     const auto with = [&](size_t at, int64_t value) {
         std::vector<std::byte> state = good;
         std::memcpy(state.data() + at, &value, sizeof value);
         Bench other(*def);
         return other.restore(state, original.tick);
     };
-    const size_t born = columns + 8 * count;
-    const size_t dies = born + 8 * count;
-    EXPECT_TRUE(with(born, 1));
+    int64_t index;
+    std::memcpy(&index, good.data() + first, sizeof index);
+    const size_t born = first + 8;
+    EXPECT_TRUE(with(born, original.tick - 1));
     EXPECT_FALSE(with(born, -1));
     EXPECT_FALSE(with(born, original.tick + 1));
-    EXPECT_TRUE(with(dies, original.tick + 1));
-    EXPECT_FALSE(with(dies, original.tick));
-    EXPECT_FALSE(with(dies, INT64_MAX));
-    EXPECT_FALSE(with(columns + 8, 0)); // two particles of one number
-    EXPECT_FALSE(with(0, -1));          // the clock
+    EXPECT_FALSE(with(born, original.tick - base::kTicksPerSecond)); // dead
+    EXPECT_FALSE(with(born, INT64_MAX));
+    EXPECT_FALSE(with(first + stride, index)); // two particles of one number
+    EXPECT_FALSE(with(0, -1));                 // the clock
 }

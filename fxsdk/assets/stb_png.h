@@ -1,0 +1,20 @@
+/// @file stb_png.h
+/// Unpacks PNG files with stb_image, within a limit of memory.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace fx::asset {
+
+/// @param file  complete, its header checked
+/// @param isDeep 16 bits a channel, which are rounded to 8
+/// @param mostBytes [byte] that a single block of memory may have while unpacking
+/// @return red, green, blue and opacity of width x height texels from the top; Parse with stb_image's reason
+base::Result<std::vector<uint8_t>> unpackPng(std::span<const uint8_t> file, bool isDeep, int width,
+                                             int height, size_t mostBytes);
+
+} // namespace fx::asset

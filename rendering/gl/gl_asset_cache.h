@@ -1,0 +1,78 @@
+/// @file gl_asset_cache.h
+/// Images and meshes of an asset table as GL objects, made when a frame first draws with them.
+///
+/// An image becomes a texture array with one layer a frame of its atlas and all smaller levels, so that
+/// neither filtering nor distance lets a frame bleed into its neighbor. Threads: [GL thread].
+#pragma once
+
+#include "foundation/assets/asset_table.h"
+#include "foundation/result/status.h"
+#include "rendering/gl/gl_buffer.h"
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace fx::render {
+
+/// A frame atlas on the GPU.
+struct GlAtlas
+{
+    uint32_t texture = 0; ///< GL_TEXTURE_2D_ARRAY
+    int width = 1;        ///< [texel] of one frame
+    int height = 1;
+    int frames = 1;
+};
+
+/// A mesh on the GPU: a storage buffer of vertices (8 floats each) and then indices.
+struct GlMesh
+{
+    uint32_t buffer = 0;
+    uint64_t bytes = 0;
+    uint32_t firstIndex = 0; ///< place of the first index, in words of 4 bytes
+    uint32_t indexCount = 0;
+    float reach = 0.0f;
+};
+
+class GlAssetCache
+{
+public:
+    GlAssetCache(GlDevice& device, std::pmr::memory_resource* memory)
+        : device_(device), atlases_(memory), meshes_(memory)
+    {}
+    ~GlAssetCache();
+    GlAssetCache(const GlAssetCache&) = delete;
+    GlAssetCache& operator=(const GlAssetCache&) = delete;
+
+    /// The frames of image `id`, `columns` x `rows` of them, row by row from the upper left.
+    /// An id that names no image gives one white texel.
+    /// @return OutOfMemory, InvalidArgument (more frames than the context's arrays have layers)
+    base::Result<GlAtlas> atlas(const base::AssetTable* table, base::AssetId id, int columns, int rows);
+    /// @return OutOfMemory, NotFound for an id that names no mesh
+    base::Result<GlMesh> mesh(const base::AssetTable* table, base::AssetId id);
+
+    uint64_t bytes() const { return bytes_; } ///< [byte] held
+
+private:
+    struct Atlas
+    {
+        base::AssetId id;
+        int columns, rows;
+        GlAtlas atlas;
+    };
+    struct Mesh
+    {
+        base::AssetId id;
+        GlBuffer buffer;
+        GlMesh mesh;
+    };
+
+    base::Result<GlAtlas> makeAtlas(const base::ImageAsset& image, int columns, int rows);
+
+    GlDevice& device_;
+    std::pmr::vector<Atlas> atlases_;
+    std::pmr::vector<Mesh> meshes_;
+    uint64_t bytes_ = 0;
+};
+
+} // namespace fx::render

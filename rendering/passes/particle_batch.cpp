@@ -1,0 +1,83 @@
+#include "rendering/passes/particle_batch.h"
+
+namespace fx::render {
+
+namespace {
+
+constexpr ProgramDesc sprite(const char* defines)
+{
+    return {"sprites", "passes/sprite.vert.glsl", "passes/sprite.frag.glsl", nullptr, defines};
+}
+constexpr ProgramDesc ribbon(const char* defines)
+{
+    return {"ribbons", "passes/ribbon.vert.glsl", "passes/ribbon.frag.glsl", nullptr, defines};
+}
+constexpr ProgramDesc mesh(const char* defines)
+{
+    return {"particle meshes", "passes/particle_mesh.vert.glsl", "passes/particle_mesh.frag.glsl", nullptr,
+            defines};
+}
+
+// index = shape * 4 + solid * 2 + layers
+constexpr ProgramDesc kPrograms[kParticlePrograms] = {
+    sprite("FX_SOLID=0 FX_LAYERS=0"), sprite("FX_SOLID=0 FX_LAYERS=1"), sprite("FX_SOLID=1 FX_LAYERS=0"),
+    sprite("FX_SOLID=1 FX_LAYERS=1"), ribbon("FX_SOLID=0 FX_LAYERS=0"), ribbon("FX_SOLID=0 FX_LAYERS=1"),
+    ribbon("FX_SOLID=1 FX_LAYERS=0"), ribbon("FX_SOLID=1 FX_LAYERS=1"), mesh("FX_SOLID=0 FX_LAYERS=0"),
+    mesh("FX_SOLID=0 FX_LAYERS=1"),   mesh("FX_SOLID=1 FX_LAYERS=0"),   mesh("FX_SOLID=1 FX_LAYERS=1"),
+};
+
+} // namespace
+
+const ProgramDesc& particleProgramAt(size_t index)
+{
+    return kPrograms[index];
+}
+
+const ProgramDesc& particleProgram(BatchShape shape, bool isSolid, bool layers)
+{
+    return kPrograms[size_t(shape) * 4 + (isSolid ? 2 : 0) + (layers ? 1 : 0)];
+}
+
+void readBatches(FrameGraph::Builder& builder, std::span<const ParticleBatch> batches)
+{
+    for (const ParticleBatch& batch : batches) {
+        for (const BufferPart* part : {&batch.newer, &batch.older, &batch.order, &batch.mesh})
+            if (part->bytes > 0)
+                builder.read(part->id);
+        builder.read(batch.textureId);
+        builder.read(batch.motionId);
+    }
+}
+
+void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uint32_t count,
+               const ViewBlock& view, bool layers, ResourceId distance, std::span<const ResourceId> targets,
+               ResourceId depth)
+{
+    ParticleBlock block = batch.block;
+    block.view = view;
+    block.rows[2] = int32_t(first);
+    const TextureBinding textures[] = {
+        {0, distance},
+        {1, batch.textureId, batch.repeats ? Sampling::TrilinearRepeat : Sampling::Trilinear},
+        {2, batch.motionId, Sampling::Trilinear}};
+    const BufferPart* parts[] = {&batch.newer, &batch.older, &batch.order, &batch.mesh};
+    std::array<BufferBinding, 4> buffers;
+    for (uint32_t i = 0; i < 4; ++i) { // what is not there is never read, but something has to be bound
+        const BufferPart& part = parts[i]->bytes > 0 ? *parts[i] : batch.newer;
+        buffers[i] = {i, part.id, part.offset, part.bytes};
+    }
+    DrawCall call;
+    call.program = &particleProgram(batch.shape, batch.isSolid, layers);
+    call.targets = targets;
+    call.textures = textures;
+    call.buffers = buffers;
+    call.uniforms = asUniforms(block);
+    call.blend = batch.isSolid ? Blend::None : Blend::Premultiplied;
+    call.vertices = batch.vertices;
+    call.instances = count;
+    call.depthTarget = depth;
+    call.reversedDepth = true;
+    backend.draw(call);
+}
+
+} // namespace fx::render

@@ -1,0 +1,94 @@
+/// @file particle_batch.h
+/// A group of particles or ribbons as the passes draw it, and the order in which groups and media take turns.
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/passes/view_block.h"
+
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace fx::render {
+
+/// Layout of the uniform block with FX_VIEW_EXTRA; each member is explained in
+/// shaders/shared/particle_block.glsl.
+struct ParticleBlock
+{
+    ViewBlock view;
+    glm::vec4 placePosition;
+    glm::vec4 placeRotation;
+    glm::vec4 alignAxis;
+    glm::vec4 look;
+    glm::vec4 shine;
+    glm::vec4 moment;
+    glm::vec4 atlas;
+    glm::vec4 strip;
+    glm::vec4 skyAbove;
+    glm::vec4 skyBelow;
+    glm::vec4 sunLight;
+    std::array<glm::vec4, 4> lightPosition;
+    std::array<glm::vec4, 4> lightIntensity;
+    std::array<int32_t, 16> newerAt;
+    std::array<int32_t, 16> olderAt;
+    std::array<int32_t, 4> rows;
+};
+static_assert(sizeof(ParticleBlock) == sizeof(ViewBlock) + 11 * 16 + 8 * 16 + 9 * 16);
+
+/// What is drawn for each row.
+enum class BatchShape : uint8_t
+{
+    Sprite,
+    Ribbon,
+    Mesh,
+    Count
+};
+
+/// Part of a buffer.
+struct BufferPart
+{
+    uint32_t name = 0; ///< GL buffer
+    ResourceId id;     ///< the same in this frame's graph
+    uint64_t offset = 0;
+    uint64_t bytes = 0; ///< 0: the part is not there
+};
+
+struct ParticleBatch
+{
+    ParticleBlock block;
+    BatchShape shape = BatchShape::Sprite;
+    bool isSolid = false;   ///< hides, writes depth, is drawn before all media
+    bool repeats = false;   ///< the texture repeats
+    uint32_t vertices = 6;  ///< of each instance
+    uint32_t instances = 0; ///< rows, or pieces of ribbons
+    BufferPart newer, older, order, mesh;
+    uint32_t texture = 0; ///< GL texture array
+    uint32_t motion = 0;
+    ResourceId textureId, motionId;
+};
+
+/// Some of a batch's instances, or of the media's blobs, that are drawn in one go.
+struct MediaRun
+{
+    static constexpr uint32_t kBlobs = ~0u;
+    uint32_t batch; ///< kBlobs, or an index of the batches
+    uint32_t first;
+    uint32_t count;
+};
+
+/// The program of one permutation; `isSolid` writes depth and distance, `layers` as in MediaPass.
+const ProgramDesc& particleProgram(BatchShape shape, bool isSolid, bool layers);
+constexpr size_t kParticlePrograms = 3 * 2 * 2;
+const ProgramDesc& particleProgramAt(size_t index);
+
+/// Declares what drawing `batches` reads.
+void readBatches(FrameGraph::Builder& builder, std::span<const ParticleBatch> batches);
+
+/// Draws instances `first` to `first + count` of a batch into `targets`, as `view` shows them.
+void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uint32_t count,
+               const ViewBlock& view, bool layers, ResourceId distance, std::span<const ResourceId> targets,
+               ResourceId depth = {});
+
+} // namespace fx::render

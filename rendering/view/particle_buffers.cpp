@@ -1,0 +1,227 @@
+#include "rendering/view/particle_buffers.h"
+
+#include "foundation/snapshot/particle_kind.h"
+#include "rendering/gl/gl_device.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <string>
+
+namespace fx::render {
+
+namespace {
+
+constexpr uint64_t kSmallest = 1 << 16; ///< [byte]
+
+uint64_t roundUp(uint64_t value, uint64_t step)
+{
+    return (value + step - 1) / step * step;
+}
+
+/// Columns that drawing reads.
+base::ColumnSet drawnColumns(bool isRibbon)
+{
+    return isRibbon ? base::kAllColumns : ~base::particle_column::kIndex;
+}
+
+bool isDrawn(const base::FrameSnapshot& snapshot, size_t group, bool& outRibbon)
+{
+    const base::KindId kind = snapshot.group(group).info().kind;
+    outRibbon = kind == snapshot.schema().find(base::kRibbonKind.name);
+    return outRibbon || kind == snapshot.schema().find(base::kParticleKind.name);
+}
+
+base::Status ensure(GlDevice& device, GlMappedBuffer& buffer, uint64_t bytes, const char* label)
+{
+    if (buffer.bytes() >= bytes)
+        return buffer.wait();
+    base::Result<GlMappedBuffer> made =
+        GlMappedBuffer::create(device, std::bit_ceil(std::max(bytes, kSmallest)), label);
+    if (!made)
+        return made.status();
+    buffer = std::move(*made);
+    return {};
+}
+
+} // namespace
+
+ParticleBuffers::ParticleBuffers(GlDevice& device, std::pmr::memory_resource* memory)
+    : device_(device), places_{Place{{}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
+                               Place{{}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
+                               Place{{}, {}, 0, std::pmr::vector<GroupPlace>(memory)}},
+      assets_(device, memory)
+{}
+
+uint64_t ParticleBuffers::bytes() const
+{
+    uint64_t sum = assets_.bytes();
+    for (size_t i = 0; i < 3; ++i)
+        sum += places_[i].buffer.bytes() + orders_[i].bytes();
+    return sum;
+}
+
+/// @return [byte] of all groups
+uint64_t ParticleBuffers::layOut(const base::FrameSnapshot& snapshot, std::pmr::vector<GroupPlace>& out) const
+{
+    const auto alignment = uint64_t(std::max(device_.limits().storageAlignment, 64));
+    uint64_t end = 0;
+    out.assign(snapshot.groupCount(), GroupPlace{});
+    for (size_t g = 0; g < snapshot.groupCount(); ++g) {
+        bool isRibbon = false;
+        if (!isDrawn(snapshot, g, isRibbon))
+            continue;
+        const base::SnapshotGroup& group = snapshot.group(g);
+        const auto columns = snapshot.schema().kind(group.info().kind).columns;
+        GroupPlace& place = out[g];
+        place.offset = roundUp(end, alignment);
+        place.columns.fill(-1);
+        uint64_t words = 0;
+        for (size_t c = 0; c < std::min(columns.size(), place.columns.size()); ++c) {
+            if (!group.has(c) || !(drawnColumns(isRibbon) >> c & 1))
+                continue;
+            place.columns[c] = int32_t(words);
+            words += roundUp(group.count() * base::columnElementSize(columns[c].type) / 4, 16);
+        }
+        place.bytes = words * 4;
+        end = place.offset + place.bytes;
+    }
+    return end;
+}
+
+void ParticleBuffers::write(const base::FrameSnapshot& snapshot, Place& place)
+{
+    for (size_t g = 0; g < place.groups.size(); ++g) {
+        const GroupPlace& at = place.groups[g];
+        const base::SnapshotGroup& group = snapshot.group(g);
+        const auto columns = snapshot.schema().kind(group.info().kind).columns;
+        for (size_t c = 0; at.bytes > 0 && c < std::min(columns.size(), at.columns.size()); ++c) {
+            if (at.columns[c] < 0)
+                continue;
+            std::byte* target = place.buffer.data() + at.offset + size_t(at.columns[c]) * 4;
+            const bool isWide = columns[c].type == base::ColumnType::U64;
+            const auto bytes = isWide ? std::as_bytes(group.column64(c)) : std::as_bytes(group.column(c));
+            std::memcpy(target, bytes.data(), bytes.size());
+            uploadedBytes_ += bytes.size();
+        }
+    }
+}
+
+base::Status ParticleBuffers::makeResident(const base::FrameSnapshot& snapshot, Place*& out)
+{
+    const Content content{&snapshot, snapshot.sequence(), snapshot.tick()};
+    for (Place& place : places_)
+        if (place.content == content) {
+            place.usedFrame = frame_;
+            out = &place;
+            return {};
+        }
+    out = &*std::min_element(places_.begin(), places_.end(),
+                             [](const Place& a, const Place& b) { return a.usedFrame < b.usedFrame; });
+    out->content = {};
+    const uint64_t bytes = layOut(snapshot, out->groups);
+    if (base::Status status = ensure(device_, out->buffer, std::max<uint64_t>(bytes, 1), "particle rows");
+        !status)
+        return status;
+    write(snapshot, *out);
+    out->content = content;
+    out->usedFrame = frame_;
+    return {};
+}
+
+base::Status ParticleBuffers::writeOrders(ParticleFrame& frame)
+{
+    const auto alignment = uint64_t(std::max(device_.limits().storageAlignment, 64));
+    uint64_t bytes = 0;
+    for (const ParticleGroup& group : frame.groups())
+        bytes = roundUp(bytes, alignment) + group.order.size_bytes();
+    if (bytes == 0)
+        return {};
+    GlMappedBuffer& buffer = orders_[frame_ % orders_.size()];
+    if (base::Status status = ensure(device_, buffer, bytes, "particle orders"); !status)
+        return status;
+    uint64_t end = 0;
+    for (size_t i = 0; i < frame.groups().size(); ++i) {
+        const auto order = frame.groups()[i].order;
+        if (order.empty())
+            continue;
+        const uint64_t offset = roundUp(end, alignment);
+        std::memcpy(buffer.data() + offset, order.data(), order.size_bytes());
+        frame.batches()[i].order = {buffer.name(), {}, offset, order.size_bytes()};
+        end = offset + order.size_bytes();
+    }
+    uploadedBytes_ += end;
+    return {};
+}
+
+base::Status ParticleBuffers::findAssets(ParticleFrame& frame, const base::AssetTable* assets)
+{
+    for (size_t i = 0; i < frame.groups().size(); ++i) {
+        const ParticleGroup& group = frame.groups()[i];
+        ParticleBatch& batch = frame.batches()[i];
+        const auto texture = assets_.atlas(assets, group.texture, group.columns, group.rows);
+        const auto motion = assets_.atlas(assets, group.motion, group.columns, group.rows);
+        if (!texture || !motion)
+            return texture ? motion.status() : texture.status();
+        batch.texture = texture->texture;
+        batch.motion = motion->texture;
+        batch.block.atlas.x = float(texture->frames);
+        if (!assets || !assets->image(group.texture))
+            batch.block.atlas.w = 0.0f;
+        if (!assets || !assets->image(group.motion))
+            batch.block.strip.x = 0.0f;
+        if (batch.shape != BatchShape::Mesh)
+            continue;
+        const auto mesh = assets_.mesh(assets, group.mesh);
+        if (!mesh)
+            return mesh.status();
+        batch.mesh = {mesh->buffer, {}, 0, mesh->bytes};
+        batch.vertices = mesh->indexCount;
+        batch.block.rows[3] = int32_t(mesh->firstIndex);
+    }
+    return {};
+}
+
+base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, ParticleFrame& frame,
+                                      const base::AssetTable* assets)
+{
+    uploadedBytes_ = 0;
+    if (frame.groups().empty())
+        return {};
+    ++frame_;
+    Place* older = nullptr;
+    Place* newer = nullptr;
+    if (snapshots.older)
+        if (base::Status status = makeResident(*snapshots.older, older); !status)
+            return status;
+    if (base::Status status = makeResident(*snapshots.newer, newer); !status)
+        return status;
+    if (base::Status status = writeOrders(frame); !status)
+        return status;
+    for (size_t i = 0; i < frame.groups().size(); ++i) {
+        const ParticleGroup& group = frame.groups()[i];
+        ParticleBatch& batch = frame.batches()[i];
+        const GroupPlace& at = newer->groups[group.newerIndex];
+        batch.newer = {newer->buffer.name(), {}, at.offset, at.bytes};
+        batch.block.newerAt = at.columns;
+        batch.block.rows[0] = int32_t(group.newer->count());
+        if (group.older) {
+            const GroupPlace& before = older->groups[group.olderIndex];
+            batch.older = {older->buffer.name(), {}, before.offset, before.bytes};
+            batch.block.olderAt = before.columns;
+            batch.block.rows[1] = int32_t(group.older->count());
+        }
+    }
+    return findAssets(frame, assets);
+}
+
+void ParticleBuffers::fence()
+{
+    for (Place& place : places_)
+        if (place.usedFrame == frame_ && place.content.snapshot)
+            place.buffer.fence();
+    if (orders_[frame_ % orders_.size()].name() != 0)
+        orders_[frame_ % orders_.size()].fence();
+}
+
+} // namespace fx::render

@@ -1,0 +1,75 @@
+/// @file particle_buffers.h
+/// Rows of snapshots on the GPU: each snapshot is written once, column by column, into memory that stays
+/// mapped, and serves as the newer and then as the older of two.
+///
+/// 28 bytes a row: position, age, radius, color; more only for columns that a group has. Three places take
+/// turns: the two that frames read, and the one being written. Threads: [GL thread].
+#pragma once
+
+#include "foundation/assets/asset_table.h"
+#include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/gl/gl_asset_cache.h"
+#include "rendering/gl/gl_mapped_buffer.h"
+#include "rendering/view/particle_frame.h"
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace fx::render {
+
+class ParticleBuffers
+{
+public:
+    ParticleBuffers(GlDevice& device, std::pmr::memory_resource* memory);
+
+    /// Writes what is not yet there and fills in the batches' buffers, textures and meshes.
+    /// @return OutOfMemory, GlFailed, TooLarge (a group is larger than the context's storage buffers)
+    base::Status prepare(const base::SnapshotPair& snapshots, ParticleFrame& frame,
+                         const base::AssetTable* assets);
+    /// To be called when all draws of the frame have been issued.
+    void fence();
+
+    uint64_t uploadedBytes() const { return uploadedBytes_; } ///< [byte] of the last prepare()
+    uint64_t bytes() const;                                   ///< [byte] held
+
+private:
+    /// Where a group of a snapshot lies.
+    struct GroupPlace
+    {
+        uint64_t offset = 0, bytes = 0;
+        std::array<int32_t, 16> columns{}; ///< in words from the offset; -1: not there
+    };
+    /// Names what a snapshot holds: those of one ring differ in their number, those of two in their address.
+    struct Content
+    {
+        const base::FrameSnapshot* snapshot = nullptr; ///< never followed; null: none
+        uint64_t sequence = 0;
+        base::Ticks tick = 0;
+
+        bool operator==(const Content&) const = default;
+    };
+    struct Place
+    {
+        GlMappedBuffer buffer;
+        Content content; ///< that is there
+        uint64_t usedFrame = 0;
+        std::pmr::vector<GroupPlace> groups;
+    };
+
+    base::Status makeResident(const base::FrameSnapshot& snapshot, Place*& out);
+    uint64_t layOut(const base::FrameSnapshot& snapshot, std::pmr::vector<GroupPlace>& out) const;
+    void write(const base::FrameSnapshot& snapshot, Place& place);
+    base::Status writeOrders(ParticleFrame& frame);
+    base::Status findAssets(ParticleFrame& frame, const base::AssetTable* assets);
+
+    GlDevice& device_;
+    std::array<Place, 3> places_;
+    std::array<GlMappedBuffer, 3> orders_;
+    GlAssetCache assets_;
+    uint64_t frame_ = 0;
+    uint64_t uploadedBytes_ = 0;
+};
+
+} // namespace fx::render

@@ -1,0 +1,271 @@
+#include "rendering/view/particle_frame.h"
+
+#include "foundation/snapshot/particle_bounds.h"
+#include "rendering/view/blob_shading.h"
+#include "rendering/view/depth_keys.h"
+#include "rendering/view/particle_estimate.h"
+#include "rendering/view/snapshot_match.h"
+#include "rendering/view/view_volume.h"
+
+#include <glm/common.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fx::render {
+
+namespace {
+
+namespace column = base::particle_column;
+namespace constant = base::particle_constant;
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kLeastHalfSide = 0.5f; ///< [pixel] half the side of the smallest square: it covers one pixel
+constexpr uint64_t kFramesKept = 120;
+
+/// Center and radius of local bounds, relative to the eye.
+struct Ball
+{
+    glm::vec3 center;
+    float radius; ///< < 0: nothing is known
+};
+
+Ball ballOf(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, const base::Placement& place)
+{
+    base::Bounds bounds = newer.info().bounds;
+    if (bounds.empty())
+        return {glm::vec3(place.position), -1.0f};
+    if (older && !older->info().bounds.empty()) {
+        bounds.min = glm::min(bounds.min, older->info().bounds.min);
+        bounds.max = glm::max(bounds.max, older->info().bounds.max);
+    }
+    const glm::vec3 middle = 0.5f * (bounds.min + bounds.max);
+    return {glm::vec3(place.position) + place.rotation * (middle * place.scale),
+            0.5f * glm::length(bounds.max - bounds.min) * place.scale};
+}
+
+/// Middle of the rows when the writer has not given bounds.
+glm::vec3 middleOfRows(const base::SnapshotGroup& group, bool isRibbon)
+{
+    const base::Bounds bounds =
+        isRibbon ? base::ribbonBounds(group) : base::particleBounds(group, 1.0f, 0.0f);
+    return bounds.empty() ? glm::vec3(0.0f) : 0.5f * (bounds.min + bounds.max);
+}
+
+uint32_t asId(float value)
+{
+    return value >= 1.0f && value < 16777216.0f ? uint32_t(value) : 0u;
+}
+
+int asCount(float value)
+{
+    return value >= 1.0f && value <= 4096.0f ? int(value) : 1;
+}
+
+} // namespace
+
+/// The order of one group, by which the next begins.
+struct ParticleFrame::Orderer
+{
+    explicit Orderer(std::pmr::memory_resource* memory) : sort(memory), distances(memory) {}
+
+    uint64_t instance = 0;
+    uint32_t solver = 0;
+    uint32_t kind = 0;
+    uint64_t usedFrame = 0;
+    base::ParticleOrder mode = base::ParticleOrder::None;
+    DepthSort sort;
+    std::pmr::vector<float> distances;
+};
+
+ParticleFrame::ParticleFrame(std::pmr::memory_resource* memory)
+    : memory_(memory), groups_(memory), batches_(memory), streams_(memory), orderers_(memory)
+{}
+
+ParticleFrame::~ParticleFrame() = default;
+
+void ParticleFrame::build(const ParticleFrameInputs& in)
+{
+    ++frame_;
+    groups_.clear();
+    batches_.clear();
+    streams_.clear();
+    rows_ = orderedRows_ = 0;
+    fragments_ = {};
+    if (!in.snapshots->newer)
+        return;
+    const base::FrameSnapshot& newer = *in.snapshots->newer;
+    const base::KindId particles = newer.schema().find(base::kParticleKind.name);
+    const base::KindId ribbons = newer.schema().find(base::kRibbonKind.name);
+    for (size_t g = 0; g < newer.groupCount(); ++g) {
+        const base::GroupInfo& info = newer.group(g).info();
+        const bool isRibbon = info.kind == ribbons && ribbons != base::kNoKind;
+        if ((info.kind == particles && particles != base::kNoKind && info.count > 0) ||
+            (isRibbon && info.count > 1))
+            addGroup(in, g, isRibbon);
+    }
+    std::erase_if(orderers_, [&](const auto& orderer) { return frame_ - orderer->usedFrame > kFramesKept; });
+}
+
+void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool isRibbon)
+{
+    const base::SnapshotGroup& newer = in.snapshots->newer->group(index);
+    const auto constants = newer.constants();
+    const size_t olderIndex = findSameGroup(in.snapshots->older, newer.info(), index);
+    const base::SnapshotGroup* older =
+        olderIndex == kNoGroup ? nullptr : &in.snapshots->older->group(olderIndex);
+    const float t = float(glm::clamp(in.request->interpolation, 0.0, 1.0));
+    const base::Placement place = placementAt(newer, older, t, in.camera->eye);
+    const Ball ball = ballOf(newer, older, place);
+    if (ball.radius >= 0.0f && !ViewVolume(*in.camera).touches(ball.center, ball.radius))
+        return;
+
+    ParticleGroup group{&newer,
+                        isRibbon ? nullptr : older,
+                        index,
+                        olderIndex,
+                        {},
+                        asId(constants[constant::Texture]),
+                        asId(constants[constant::Motion]),
+                        asId(constants[constant::Mesh]),
+                        asCount(constants[constant::TileColumns]),
+                        asCount(constants[constant::TileRows])};
+    ParticleBatch batch;
+    const bool isMesh = !isRibbon && constants[constant::Shape] == float(base::ParticleShape::Mesh);
+    batch.shape = isRibbon ? BatchShape::Ribbon : isMesh ? BatchShape::Mesh : BatchShape::Sprite;
+    batch.isSolid = constants[constant::Blend] == float(base::ParticleBlend::Opaque);
+    batch.repeats = isRibbon;
+    batch.instances = newer.count() - (isRibbon ? 1 : 0);
+    if (isRibbon)
+        group.columns = group.rows = 1;
+    fillBlock(in, place, group, batch);
+    DrawStream stream;
+    stream.batch = uint32_t(batches_.size());
+    stream.count = batch.instances;
+    if (!batch.isSolid) {
+        const glm::vec3 middle =
+            ball.radius >= 0.0f
+                ? ball.center
+                : ball.center + place.rotation * (middleOfRows(newer, isRibbon) * place.scale);
+        const float distance =
+            in.camera->orthographic ? glm::dot(middle, in.camera->forward) : glm::length(middle);
+        stream.distance = distance - constants[constant::OrderBias];
+        if (!isRibbon)
+            orderRows(in, place, group, batch, stream);
+    }
+    if (batch.instances == 0)
+        return;
+    rows_ += batch.instances;
+    groups_.push_back(group);
+    batches_.push_back(batch);
+    if (batch.isSolid)
+        return; // always drawn at full size
+    streams_.push_back(stream);
+    const FragmentCounts counts = estimateParticles(newer, isRibbon, place, *in.camera,
+                                                    in.request->targets.width, in.request->targets.height);
+    for (size_t i = 0; i < counts.size(); ++i)
+        fragments_[i] += counts[i];
+}
+
+void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placement& place,
+                              ParticleGroup& group, ParticleBatch& batch)
+{
+    const auto c = group.newer->constants();
+    const float exposure = exposureFromEv100(in.settings->exposureEv100);
+    const float seconds =
+        group.older ? float(base::toSeconds(in.snapshots->newer->tick() - in.snapshots->older->tick()))
+                    : 0.0f;
+    const glm::vec3 axis =
+        place.rotation * glm::vec3(c[constant::AxisX], c[constant::AxisY], c[constant::AxisZ]);
+    ParticleBlock& b = batch.block;
+    b = {};
+    b.view = makeViewBlock(in.request->camera, in.request->targets.width, in.request->targets.height);
+    b.view.sunDirection = {in.settings->lighting.sunDirection, b.view.sunDirection.w};
+    b.placePosition = {glm::vec3(place.position), place.scale};
+    b.placeRotation = {place.rotation.x, place.rotation.y, place.rotation.z, place.rotation.w};
+    b.alignAxis = {axis, c[constant::Alignment]};
+    b.look = {c[constant::Aspect], c[constant::Stretch], c[constant::Softness], c[constant::Blend]};
+    b.shine = {c[constant::Luminance] * exposure, c[constant::Lit], c[constant::Layer], 0.0f};
+    b.moment = {float(glm::clamp(in.request->interpolation, 0.0, 1.0)), seconds, group.older ? 1.0f : 0.0f,
+                kLeastHalfSide};
+    b.atlas = {float(group.columns * group.rows), c[constant::FrameBlend], c[constant::MotionScale],
+               group.texture ? 1.0f : 0.0f};
+    b.strip = {group.motion ? 1.0f : 0.0f, c[constant::ArcPerTile], 0.0f, 0.0f};
+    fillLights(in, b);
+}
+
+void ParticleFrame::fillLights(const ParticleFrameInputs& in, ParticleBlock& block)
+{
+    const Lighting& light = in.settings->lighting;
+    const float exposure = exposureFromEv100(in.settings->exposureEv100);
+    const glm::vec3 ground =
+        light.groundAlbedo *
+        (light.sunIlluminance * (std::max(light.sunDirection.y, 0.0f) / kPi) + light.skyLuminance);
+    block.skyAbove = {light.skyLuminance * exposure, 0.0f};
+    block.skyBelow = {ground * exposure, 0.0f};
+    block.sunLight = {light.sunIlluminance * exposure, 0.0f};
+    for (size_t i = 0; i < std::min(in.lights.size(), block.lightPosition.size()); ++i) {
+        block.lightPosition[i] = {glm::vec3(in.lights[i].position - in.camera->eye), in.lights[i].radius};
+        block.lightIntensity[i] = {in.lights[i].intensity * exposure, 0.0f};
+    }
+}
+
+ParticleFrame::Orderer& ParticleFrame::ordererOf(const base::GroupInfo& info)
+{
+    for (const auto& orderer : orderers_)
+        if (orderer->instance == info.instance && orderer->solver == info.solver &&
+            orderer->kind == info.kind && orderer->usedFrame != frame_)
+            return *orderer;
+    orderers_.push_back(std::make_unique<Orderer>(memory_));
+    Orderer& made = *orderers_.back();
+    made.instance = info.instance;
+    made.solver = info.solver;
+    made.kind = info.kind;
+    return made;
+}
+
+/// Empty rows are left out of an order. Distances are those of the newer snapshot: what happens within a step
+/// hardly changes the order.
+void ParticleFrame::orderRows(const ParticleFrameInputs& in, const base::Placement& place,
+                              ParticleGroup& group, ParticleBatch& batch, DrawStream& stream)
+{
+    const base::SnapshotGroup& rows = *group.newer;
+    const auto mode = base::ParticleOrder(uint32_t(rows.constants()[constant::Order]));
+    if (mode == base::ParticleOrder::None)
+        return;
+    Orderer& orderer = ordererOf(rows.info());
+    orderer.usedFrame = frame_;
+    if (orderer.mode != mode)
+        orderer.sort.forget();
+    orderer.mode = mode;
+    orderer.distances.resize(rows.count());
+    float* distances = orderer.distances.data();
+    const float* radius = rows.column(column::Radius).data();
+    if (mode == base::ParticleOrder::Depth) {
+        const glm::quat back = glm::conjugate(place.rotation);
+        const bool isParallel = in.camera->orthographic;
+        const glm::vec3 eye =
+            isParallel ? back * in.camera->forward : back * -glm::vec3(place.position) / place.scale;
+        const float offset = isParallel ? glm::dot(glm::vec3(place.position), in.camera->forward) : 0.0f;
+        rowDistances({rows.column(column::PositionX).data(), rows.column(column::PositionY).data(),
+                      rows.column(column::PositionZ).data(), radius, rows.count()},
+                     eye, isParallel, place.scale, offset - rows.constants()[constant::OrderBias], distances);
+    } else {
+        const float* age = rows.column(column::Age).data();
+        for (size_t i = 0; i < rows.count(); ++i)
+            distances[i] = radius[i] > 0.0f ? age[i] : DepthSort::kAbsent;
+    }
+    group.order = mode == base::ParticleOrder::Youngest ? orderer.sort.nearestFirst(orderer.distances)
+                                                        : orderer.sort.farthestFirst(orderer.distances);
+    orderedRows_ += group.order.size();
+    batch.instances = stream.count = uint32_t(group.order.size());
+    batch.block.strip.z = 1.0f;
+    if (mode == base::ParticleOrder::Depth) {
+        stream.distances = distances;
+        stream.order = group.order.data();
+    }
+}
+
+} // namespace fx::render

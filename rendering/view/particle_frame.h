@@ -1,0 +1,82 @@
+/// @file particle_frame.h
+/// The groups of particles and ribbons of a pair of snapshots as a frame draws them: which are seen, in which
+/// order their rows come, and every number that their shaders need. No GL; rows stay where they are.
+#pragma once
+
+#include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/lights/effect_lights.h"
+#include "rendering/passes/particle_batch.h"
+#include "rendering/view/depth_sort.h"
+#include "rendering/view/draw_runs.h"
+#include "rendering/view/fragment_estimate.h"
+#include "rendering/view/view_types.h"
+
+#include <memory>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// A group that is drawn, beside the batch of the same index.
+struct ParticleGroup
+{
+    const base::SnapshotGroup* newer;
+    const base::SnapshotGroup* older; ///< null: none, or a ribbon
+    size_t newerIndex, olderIndex;    ///< in their snapshots
+    std::span<const uint32_t> order;  ///< rows as they are drawn; empty: all as they are
+    uint32_t texture, motion, mesh;   ///< ids in the asset table
+    int columns, rows;                ///< frames of the texture
+};
+
+/// What a frame's particles are made from.
+struct ParticleFrameInputs
+{
+    const base::SnapshotPair* snapshots;
+    const FrameRequest* request;
+    const ViewSettings* settings;
+    const CameraGeometry* camera;
+    std::span<const EffectLight> lights; ///< at most four are used
+};
+
+/// Owns the orders of one view; they and all memory are kept from frame to frame.
+class ParticleFrame
+{
+public:
+    explicit ParticleFrame(std::pmr::memory_resource* memory);
+    ~ParticleFrame();
+
+    void build(const ParticleFrameInputs& in);
+
+    std::span<const ParticleGroup> groups() const { return groups_; }
+    std::span<ParticleBatch> batches() { return batches_; }
+    /// Batches that do not hide, for DrawRuns.
+    std::span<const DrawStream> streams() const { return streams_; }
+    uint64_t rows() const { return rows_; }               ///< of all groups that are drawn
+    uint64_t orderedRows() const { return orderedRows_; } ///< in orders
+    /// Estimated, of what does not hide.
+    const FragmentCounts& fragments() const { return fragments_; }
+
+private:
+    struct Orderer;
+
+    void addGroup(const ParticleFrameInputs& in, size_t index, bool isRibbon);
+    void fillBlock(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
+                   ParticleBatch& batch);
+    void fillLights(const ParticleFrameInputs& in, ParticleBlock& block);
+    void orderRows(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
+                   ParticleBatch& batch, DrawStream& stream);
+    Orderer& ordererOf(const base::GroupInfo& info);
+
+    std::pmr::memory_resource* memory_;
+    std::pmr::vector<ParticleGroup> groups_;
+    std::pmr::vector<ParticleBatch> batches_;
+    std::pmr::vector<DrawStream> streams_;
+    std::pmr::vector<std::unique_ptr<Orderer>> orderers_;
+    uint64_t frame_ = 0;
+    uint64_t rows_ = 0;
+    uint64_t orderedRows_ = 0;
+    FragmentCounts fragments_{};
+};
+
+} // namespace fx::render

@@ -1,0 +1,23 @@
+#include "shared/particle_block.glsl"
+#include "shared/view_block.glsl"
+#include "shared/particle_texture.glsl"
+#include "shared/particle_output.glsl"
+
+in vec3 fragmentPlace;
+in vec2 fragmentTexture;
+in vec4 fragmentColor;
+
+void main()
+{
+    vec4 texel = vec4(1.0);
+    if (atlas.w > 0.5)
+        texel = texture(frames, vec3(fragmentTexture, 0.0));
+    float alpha = fragmentColor.a * texel.a;
+    float left = leftOver(fragmentPlace);
+#if FX_SOLID
+    alpha = left > 0.0 && alpha >= 0.5 ? 1.0 : 0.0;
+#else
+    alpha *= left;
+#endif
+    writeParticle(fragmentColor.rgb * texel.rgb, alpha, fragmentPlace);
+}

@@ -1,0 +1,67 @@
+#include "shared/particle_block.glsl"
+#include "shared/view_block.glsl"
+#include "shared/particle_fetch.glsl"
+#include "shared/particle_place.glsl"
+
+// One square a particle.
+out vec3 fragmentPlace;      // [m] relative to the eye
+out vec2 fragmentTexture;    // [0, 1] from the lower left of the frame
+flat out vec4 fragmentColor; // rgb exposed light of a white texel; a opacity
+flat out float fragmentFrame;
+
+// Vertical and horizontal of the square, unit.
+void standUp(Particle p, out vec3 horizontal, out vec3 vertical)
+{
+    vec3 look0 = lookAt(p.center);
+    horizontal = normalize(cross(look0, up.xyz));
+    vertical = cross(horizontal, look0);
+    int alignment = int(alignAxis.w);
+    if (alignment == 3) {
+        vec3 n = alignAxis.xyz;
+        horizontal = normalize(cross(abs(n.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), n));
+        vertical = cross(n, horizontal);
+    } else if (alignment > 0) {
+        vec3 along = alignment == 1 ? p.velocity : alignAxis.xyz;
+        vec3 across = cross(look0, along);
+        float size = length(along);
+        if (length(across) > 1e-4 * size && size > 0.0) {
+            horizontal = normalize(across);
+            vertical = along / size;
+        }
+    }
+    float c = cos(p.angle);
+    float s = sin(p.angle);
+    vec3 turned = c * horizontal + s * vertical;
+    vertical = c * vertical - s * horizontal;
+    horizontal = turned;
+}
+
+void main()
+{
+    Particle p = fetchParticle(rowOfRank(rows.z + gl_InstanceID));
+    fragmentPlace = vec3(0.0);
+    fragmentTexture = vec2(0.0);
+    fragmentColor = vec4(0.0);
+    fragmentFrame = p.frame;
+    gl_Position = clippedAway();
+    if (!p.alive)
+        return;
+    vec3 horizontal;
+    vec3 vertical;
+    standUp(p, horizontal, vertical);
+    vec2 extent = vec2(p.radius * look.x, p.radius);
+    if (int(alignAxis.w) == 1)
+        extent.y += 0.5 * look.y * length(p.velocity);
+    float least = moment.w * pixelSize(p.center);
+    vec2 shown = max(extent, vec2(least)); // what is smaller than a pixel is widened to it and thinned as much
+    float thinned = extent.x * extent.y / max(shown.x * shown.y, 1e-30);
+    vec2 corner = vec2(gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4 ? 1.0 : -1.0,
+                       gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5 ? 1.0 : -1.0);
+    fragmentPlace = p.center + horizontal * (corner.x * shown.x) + vertical * (corner.y * shown.y);
+    fragmentTexture = 0.5 + 0.5 * corner;
+    vec3 white = vec3(shine.x);
+    if (shine.y > 0.0)
+        white += shine.y * scatteredByBall(p.center);
+    fragmentColor = vec4(p.color.rgb * white, p.color.a * thinned);
+    gl_Position = clipOf(fragmentPlace);
+}

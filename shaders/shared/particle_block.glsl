@@ -1,0 +1,34 @@
+// A group of particles or ribbons within a view; filled from rendering/passes/particle_batch.h, which asserts this layout.
+//
+// placePosition   xyz [m] origin of the group relative to the eye, world axes; w scale
+// placeRotation   quaternion x, y, z, w from the group's axes to the world's
+// alignAxis       xyz world unit axis; w SpriteAlignment
+// look            x aspect; y stretch [s]; z softness [m]; w ParticleBlend
+// shine           x exposed luminance of color 1; y share of light scattered; z MediaLayer; w 1 when the first index of a mesh
+//                 is at meshPlace.x
+// moment          x share of the newer snapshot; y seconds between both; z 1 when there is an older one; w least radius [pixel]
+// atlas           x frames; y 1 to mix frames; z motion of a vector of 1 [frame]; w 1 with texture
+// strip           x 1 with motion vectors; y length of a ribbon for one width of texture [m]; z 1 when rows are drawn by an order
+// skyAbove        rgb exposed radiance that comes from above on average; skyBelow from below
+// sunLight        rgb exposed illuminance
+// lightPosition   xyz [m] relative to the eye; w radius [m]
+// lightIntensity  rgb exposed [cd]
+// newerAt         places of the columns in the newer rows, in words of 4 bytes; -1: not there. olderAt the same in the older
+// rows            x rows of the newer; y of the older; z first of this draw; w first index of the mesh in words
+#define FX_VIEW_EXTRA \
+    vec4 placePosition; \
+    vec4 placeRotation; \
+    vec4 alignAxis; \
+    vec4 look; \
+    vec4 shine; \
+    vec4 moment; \
+    vec4 atlas; \
+    vec4 strip; \
+    vec4 skyAbove; \
+    vec4 skyBelow; \
+    vec4 sunLight; \
+    vec4 lightPosition[4]; \
+    vec4 lightIntensity[4]; \
+    ivec4 newerAt[4]; \
+    ivec4 olderAt[4]; \
+    ivec4 rows;

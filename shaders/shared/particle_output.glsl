@@ -1,0 +1,63 @@
+// What a fragment of a particle adds to the targets of the media pass. Needs shared/view_block.glsl and
+// shared/particle_block.glsl. FX_LAYERS as in media.frag.glsl; FX_SOLID 1 replaces instead, with depth and distance.
+layout(binding = 0) uniform sampler2D sceneDistance; // [m] along the ray to the opaque surface, +inf for none
+
+#if FX_LAYERS
+layout(location = 0) out vec4 fireLight;
+layout(location = 1) out vec4 smokeLight;
+layout(location = 2) out vec4 dustLight;
+layout(location = 3) out vec4 coverage;
+layout(location = 4) out vec4 depthMoment;
+layout(location = 5) out vec4 opticalDepthSum;
+#if FX_SOLID
+layout(location = 6) out vec4 solidDistance;
+#endif
+#else
+layout(location = 0) out vec4 mediaLight;
+#if FX_SOLID
+layout(location = 1) out vec4 solidDistance;
+#endif
+#endif
+
+// [m] along this fragment's ray.
+float distanceOf(vec3 place)
+{
+    return rayOrigin.w > 0.5 ? dot(place, forward.xyz) : length(place);
+}
+
+// Share of the particle that the opaque scene and the near plane leave at `place`; 0 is to be discarded.
+float leftOver(vec3 place)
+{
+    float behind = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r - distanceOf(place);
+    float before = dot(place, forward.xyz) - rayOriginX.w;
+    float room = min(behind, before);
+    if (look.z > 0.0)
+        return clamp(room / look.z, 0.0, 1.0);
+    return room > 0.0 ? 1.0 : 0.0;
+}
+
+void writeParticle(vec3 light, float alpha, vec3 place)
+{
+    if (!(alpha > 0.0) || any(isnan(light)) || any(isinf(light)))
+        discard;
+#if FX_SOLID
+    alpha = 1.0;
+    float d = distanceOf(place);
+    solidDistance = vec4(d, 0.0, 0.0, 1.0);
+    gl_FragDepth = 1.0 / (1.0 + max(d, 0.0)); // nearer is more, as precise far away as a float is
+#endif
+    float cover = look.w > 0.5 && look.w < 1.5 ? 0.0 : alpha; // what only adds hides nothing
+    vec3 seen = alpha * light;
+#if FX_LAYERS
+    float layer = shine.z;
+    vec3 ofLayer = vec3(layer < 0.5, layer > 0.5 && layer < 1.5, layer > 1.5);
+    fireLight = vec4(ofLayer.x * seen, cover);
+    smokeLight = vec4(ofLayer.y * seen, cover);
+    dustLight = vec4(ofLayer.z * seen, cover);
+    coverage = vec4(cover * ofLayer, cover);
+    depthMoment = vec4(cover * distanceOf(place), 0.0, 0.0, cover);
+    opticalDepthSum = vec4(-log(max(1.0 - cover, 1e-9)), 0.0, 0.0, 0.0);
+#else
+    mediaLight = vec4(seen, cover);
+#endif
+}
