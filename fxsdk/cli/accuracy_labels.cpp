@@ -11,14 +11,6 @@ constexpr double kHeight = 11.0; // [pixel]
 
 } // namespace
 
-std::string escapedMarkup(const std::string& text)
-{
-    std::string out;
-    for (const char c : text)
-        out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    return out;
-}
-
 LabelPlaces::LabelPlaces(double left, double top, double right, double bottom)
     : frame_{left, top, right, bottom}
 {}

@@ -7,9 +7,6 @@
 
 namespace fx::cli {
 
-/// `<`, `>` and `&` as XML and HTML want them.
-std::string escapedMarkup(const std::string& text);
-
 /// Puts labels beside their points, one after the other, where they cover the least of what is there already.
 class LabelPlaces
 {

@@ -3,6 +3,7 @@
 
 #include "fxsdk/cli/accuracy_curve.h"
 #include "fxsdk/cli/accuracy_labels.h"
+#include "fxsdk/cli/svg_chart.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,64 +21,6 @@ constexpr const char* kColors[] = {"#1f6fb4", "#c0392b", "#2e8b57", "#8e5ea2",
                                    "#c77800", "#444444", "#008b8b"};
 
 constexpr const char* kFrontStroke = "#f2b8a0\" stroke-width=\"5\" stroke-linecap=\"round";
-
-/// A logarithmic axis, marked at every decade or second one, and at 2 and 5 when there are few.
-struct Axis
-{
-    double low = std::numeric_limits<double>::infinity();
-    double high = 0;
-    double from = 0; ///< [pixel] of low
-    double to = 1;   ///< [pixel] of high
-
-    void include(double value)
-    {
-        low = std::min(low, value);
-        high = std::max(high, value);
-    }
-    void widen(double below, double above)
-    {
-        low /= below;
-        high *= above;
-    }
-    double at(double value) const
-    {
-        return from + (to - from) * std::log(value / low) / std::log(high / low);
-    }
-    std::vector<double> marks() const
-    {
-        const double decades = std::log10(high / low);
-        std::vector<double> marks;
-        for (int decade = int(std::floor(std::log10(low))); decade <= int(std::ceil(std::log10(high)));
-             ++decade)
-            for (const double step : {1.0, 2.0, 5.0}) {
-                const double value = step * std::pow(10.0, decade);
-                const bool isUsed = decades < 3.0 || (step == 1.0 && (decades < 9.0 || decade % 2 == 0));
-                if (value >= low && value <= high && isUsed)
-                    marks.push_back(value);
-            }
-        return marks;
-    }
-};
-
-template <class... Numbers>
-std::string format(const char* pattern, Numbers... numbers)
-{
-    char buffer[400];
-    std::snprintf(buffer, sizeof buffer, pattern, numbers...);
-    return buffer;
-}
-
-std::string textAt(double x, double y, const char* anchor, const std::string& text, const char* more = "")
-{
-    return format("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" %s>", x, y, anchor, more) +
-           escapedMarkup(text) + "</text>\n";
-}
-
-std::string lineAt(double x1, double y1, double x2, double y2, const char* stroke)
-{
-    return format("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\"/>\n", x1, y1, x2, y2,
-                  stroke);
-}
 
 /// "paper" of "paper-4": settings of one family are joined by a line.
 std::string familyOf(const std::string& name)
@@ -120,21 +63,21 @@ private:
 
     std::string grid() const
     {
-        std::string svg = textAt(kLeft, 20, "start", curve_.technique + ": " + curve_.scene,
-                                 "font-size=\"15\" font-weight=\"bold\"");
+        std::string svg = svgText(kLeft, 20, "start", curve_.technique + ": " + curve_.scene,
+                                  "font-size=\"15\" font-weight=\"bold\"");
         for (const double mark : x_.marks())
-            svg += lineAt(x_.at(mark), kTop, x_.at(mark), y_.from, "#e4e4e4") +
-                   textAt(x_.at(mark), y_.from + 17, "middle", format("%g", mark));
+            svg += svgLine(x_.at(mark), kTop, x_.at(mark), y_.from, "#e4e4e4") +
+                   svgText(x_.at(mark), y_.from + 17, "middle", svgFormat("%g", mark));
         for (const double mark : y_.marks())
-            svg += lineAt(kLeft, y_.at(mark), x_.to, y_.at(mark), "#e4e4e4") +
-                   textAt(kLeft - 7, y_.at(mark) + 4, "end", format("%g", mark));
-        svg += format(
+            svg += svgLine(kLeft, y_.at(mark), x_.to, y_.at(mark), "#e4e4e4") +
+                   svgText(kLeft - 7, y_.at(mark) + 4, "end", svgFormat("%g", mark));
+        svg += svgFormat(
             "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"none\" stroke=\"#999\"/>\n",
             kLeft, kTop, x_.to - kLeft, y_.from - kTop);
         return svg +
-               textAt(0.5 * (kLeft + x_.to), kPanelHeight - 14, "middle",
-                      "time, 1 = " + curve_.points.front().setting.name) +
-               textAt(kLeft, kTop - 7, "start", shownErrorName(curve_));
+               svgText(0.5 * (kLeft + x_.to), kPanelHeight - 14, "middle",
+                       "time, 1 = " + curve_.points.front().setting.name) +
+               svgText(kLeft, kTop - 7, "start", shownErrorName(curve_));
     }
 
     /// Steps along the settings that no other beats.
@@ -148,8 +91,8 @@ private:
         std::string svg;
         for (size_t i = 1; i < best.size(); ++i) {
             const double x = px(best[i]), before = py(best[i - 1]), after = py(best[i]);
-            svg += lineAt(px(best[i - 1]), before, x, before, kFrontStroke) +
-                   lineAt(x, before, x, after, kFrontStroke);
+            svg += svgLine(px(best[i - 1]), before, x, before, kFrontStroke) +
+                   svgLine(x, before, x, after, kFrontStroke);
         }
         return svg;
     }
@@ -161,7 +104,7 @@ private:
             std::string path;
             for (size_t k = 0; k < curve_.points.size(); ++k)
                 if (familyOf(curve_.points[k].setting.name) == family)
-                    path += format("%s%.1f %.1f", path.empty() ? "M" : " L", px(k), py(k));
+                    path += svgFormat("%s%.1f %.1f", path.empty() ? "M" : " L", px(k), py(k));
             svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + color +
                    "\" stroke-opacity=\"0.5\" stroke-width=\"1\"/>\n";
         }
@@ -178,9 +121,9 @@ private:
             const AccuracySetting& setting = curve_.points[k].setting;
             const char* color = colors_.at(familyOf(setting.name));
             const bool isBest = isOnFront(curve_, k);
-            svg += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\" fill=\"%s\" stroke=\"%s\" "
-                          "stroke-width=\"1.5\"/>\n",
-                          px(k), py(k), isBest ? color : "white", color);
+            svg += svgFormat("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\" fill=\"%s\" stroke=\"%s\" "
+                             "stroke-width=\"1.5\"/>\n",
+                             px(k), py(k), isBest ? color : "white", color);
             std::string label = setting.name;
             if (!setting.tier.empty())
                 label += " (" + setting.tier + ")";
@@ -188,14 +131,14 @@ private:
                 label += ": exact";
             const LabelPlaces::Place place = places.place(px(k), py(k), label);
             svg +=
-                textAt(place.x, place.y, "start", label,
-                       setting.tier.empty() ? "font-size=\"11\"" : "font-size=\"11\" font-weight=\"bold\"");
+                svgText(place.x, place.y, "start", label,
+                        setting.tier.empty() ? "font-size=\"11\"" : "font-size=\"11\" font-weight=\"bold\"");
         }
         return svg;
     }
 
     const AccuracyCurve& curve_;
-    Axis x_, y_;
+    LogAxis x_, y_;
     std::map<std::string, const char*> colors_;
 };
 
@@ -207,17 +150,17 @@ std::string curvesSvg(const std::vector<AccuracyCurve>& curves, const std::strin
     const size_t rows = (curves.size() + columns - 1) / columns;
     const double width = kPanelWidth * double(columns);
     const double height = kHead + kPanelHeight * double(rows);
-    std::string svg = format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
-                             "viewBox=\"0 0 %.0f %.0f\" font-family=\"sans-serif\" font-size=\"12\">\n"
-                             "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-                             width, height, width, height);
-    svg += textAt(12, 16, "start", origin, "font-size=\"11\" fill=\"#555\"") +
-           textAt(12, 32, "start",
-                  "filled, on the broad line: no other setting is both as fast and as exact (Pareto front)",
-                  "font-size=\"11\" fill=\"#555\"");
+    std::string svg = svgFormat("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
+                                "viewBox=\"0 0 %.0f %.0f\" font-family=\"sans-serif\" font-size=\"12\">\n"
+                                "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+                                width, height, width, height);
+    svg += svgText(12, 16, "start", origin, "font-size=\"11\" fill=\"#555\"") +
+           svgText(12, 32, "start",
+                   "filled, on the broad line: no other setting is both as fast and as exact (Pareto front)",
+                   "font-size=\"11\" fill=\"#555\"");
     for (size_t i = 0; i < curves.size(); ++i)
-        svg += format("<g transform=\"translate(%.0f,%.0f)\">\n", kPanelWidth * double(i % columns),
-                      kHead + kPanelHeight * double(i / columns)) +
+        svg += svgFormat("<g transform=\"translate(%.0f,%.0f)\">\n", kPanelWidth * double(i % columns),
+                         kHead + kPanelHeight * double(i / columns)) +
                Panel(curves[i]).svg() + "</g>\n";
     return svg + "</svg>\n";
 }

@@ -6,6 +6,7 @@
 #include "fxsdk/cli/bench_budget.h"
 #include "fxsdk/cli/bench_city.h"
 #include "fxsdk/cli/bench_idle.h"
+#include "fxsdk/cli/bench_plot.h"
 #include "fxsdk/cli/commands.h"
 
 #include <CLI/CLI.hpp>
@@ -69,7 +70,20 @@ void addBudget(CLI::App& bench, int& outExitCode)
 void addBenchCommand(CLI::App& app, int& outExitCode)
 {
     CLI::App* bench = app.add_subcommand("bench", "Measure what effects cost on this machine");
-    bench->require_subcommand(1);
+    auto plot = std::make_shared<std::string>();
+    auto threads = std::make_shared<uint32_t>(1);
+    CLI::Option* drawn =
+        bench->add_option("--plot", *plot, "Draw the time of a step against the number of particles (SVG)");
+    bench->add_option("--threads", *threads, "With --plot; 0 for all of the machine")
+        ->check(CLI::Range(0u, 1024u));
+    bench->require_subcommand(0, 1);
+    bench->callback([bench, drawn, plot, threads, &outExitCode] {
+        if (!bench->get_subcommands().empty())
+            return;
+        if (drawn->count() == 0)
+            throw CLI::RequiredError("A subcommand or --plot");
+        outExitCode = runBenchPlot(*plot, *threads);
+    });
     addBenchMeasurements(*bench, outExitCode);
     addIdle(*bench, outExitCode);
     addCity(*bench, outExitCode);

@@ -10,11 +10,18 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kParticleVariants{"lean", "typical", "heavy"};
 constexpr std::array<std::string_view, 2> kManySmallVariants{"many", "few"};
+constexpr std::array<std::string_view, 5> kSortVariants{"random", "same", "hundredth-moved", "all-nearer",
+                                                        "standard"};
+constexpr std::array<std::string_view, 3> kEmitVariants{"point", "sphere", "cone"};
+constexpr std::array<std::string_view, 2> kFrameVariants{"unsorted", "sorted"};
 
-constexpr std::array<BenchEntry, 2> kEntries{{
+constexpr std::array<BenchEntry, 5> kEntries{{
     {"particles", "One emitter: step it, publish the snapshot", kParticleVariants, benchParticles},
     {"many-small", "The same number of particles in many small effects and in few", kManySmallVariants,
      benchManySmall},
+    {"sort", "The order of drawing, on one thread", kSortVariants, benchSort},
+    {"emit", "Births: all particles are new in every step", kEmitVariants, benchEmit},
+    {"frame", "Update, upload, submission and drawing of sprites with OpenGL", kFrameVariants, benchFrame},
 }};
 
 std::string hexadecimal(uint64_t hash)
@@ -56,12 +63,21 @@ nlohmann::json toJson(const BenchRow& row)
 std::string toText(const BenchRow& row)
 {
     char text[256];
-    std::snprintf(text, sizeof text,
-                  "%-10s %-8s %9llu particles  %8.3f ns (95 %%: %8.3f)  %5.1f bytes  %4.0f %% of a copy  %s",
-                  row.name.c_str(), row.variant.c_str(), static_cast<unsigned long long>(row.count),
-                  row.medianNanoseconds, row.p95Nanoseconds, row.bytesPerParticle,
-                  100.0 * row.bandwidthFraction, hexadecimal(row.hash).c_str());
-    return text;
+    std::snprintf(text, sizeof text, "%-10s %-15s %9llu particles  %8.3f ns (95 %%: %8.3f)", row.name.c_str(),
+                  row.variant.c_str(), static_cast<unsigned long long>(row.count), row.medianNanoseconds,
+                  row.p95Nanoseconds);
+    std::string line = text;
+    if (row.bytesPerParticle > 0) {
+        std::snprintf(text, sizeof text, "  %5.1f bytes  %4.0f %% of a copy", row.bytesPerParticle,
+                      100.0 * row.bandwidthFraction);
+        line += text;
+    }
+    for (const char* part : {"ms_update", "ms_upload", "ms_submit", "ms_finish"})
+        if (row.more.contains(part)) {
+            std::snprintf(text, sizeof text, "  %s %.3f", part, row.more[part].get<double>());
+            line += text;
+        }
+    return row.hash != 0 ? line + "  " + hexadecimal(row.hash) : line;
 }
 
 } // namespace fx::cli

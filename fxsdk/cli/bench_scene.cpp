@@ -121,6 +121,12 @@ base::Status BenchScene::draw()
     return toStatus(fxView_Render(view_, &frame_));
 }
 
+void BenchScene::finish()
+{
+    if (device_)
+        device_->gl.Finish();
+}
+
 FxSceneStatistics BenchScene::statistics() const
 {
     FxSceneStatistics statistics = {};

@@ -35,7 +35,8 @@ public:
     /// A camera 2 m above the origin that looks horizontally, with a view of 40 degrees; 0 is along -Z.
     base::Status look(double radians);
     base::Status update();
-    base::Status draw(); ///< nothing without GL; waits for the GPU
+    base::Status draw(); ///< nothing without GL
+    void finish();       ///< waits for the GPU
 
     FxScene* scene() const { return scene_; }
     const std::vector<FxInstanceId>& instances() const { return instances_; }

@@ -1,0 +1,90 @@
+// fx bench emit: births. Every particle lives for one step, so that each step makes all of them anew: drawn
+// from the instance's seed, stored, published.
+#include "fxsdk/cli/bench_rows.h"
+#include "fxsdk/cli/bench_stage.h"
+#include "fxsdk/cli/interrupt.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace fx::cli {
+namespace {
+
+constexpr uint64_t kUsualCount = 40'000;
+constexpr uint64_t kMostCount = 10'000'000;
+constexpr float kStepsPerSecond = 60.0f;
+
+std::shared_ptr<const sim::EffectDef> emitter(std::string_view variant, uint64_t count)
+{
+    auto def = std::make_unique<sim::EmitterDef>();
+    def->look.kind = sim::Appearance::Sprite;
+    def->maxParticles = uint32_t(2 * count + 16);
+    def->lifetime = {1.0f / kStepsPerSecond, 1.0f / kStepsPerSecond};
+    def->emission.rate = float(count) * kStepsPerSecond;
+    def->emission.duration = std::numeric_limits<float>::infinity();
+    def->speed = {1.0f, 3.0f};
+    def->radius = {0.05f, 0.1f};
+    if (variant == "sphere") {
+        def->shape = sim::EmitterShape::Sphere;
+        def->size = {0.5f, 0.0f, 0.0f};
+    } else if (variant == "cone") {
+        def->shape = sim::EmitterShape::Cone;
+        def->size = {0.5f, 0.0f, 0.0f};
+        def->angle = 0.5f;
+    }
+    auto effect = std::make_shared<sim::EffectDef>();
+    effect->solvers.push_back(std::move(def));
+    return effect;
+}
+
+base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view variant, uint64_t count)
+{
+    BenchStage stage(settings.threads);
+    stage.add(emitter(variant, count), 1);
+    stage.play(4);
+    const uint64_t before = stage.counters().born;
+    const uint32_t steps =
+        settings.steps > 0
+            ? settings.steps
+            : uint32_t(std::clamp<uint64_t>(20'000'000 / std::max<uint64_t>(count, 1), 30, 500));
+    for (uint32_t i = 0; i < steps; ++i) {
+        if (interruptRequested())
+            return base::Status{base::Code::Interrupted, "interrupted"};
+        stage.playTimed();
+    }
+    const double born = double(stage.counters().born - before) / double(steps);
+    BenchRow row;
+    row.name = "emit";
+    row.variant = variant;
+    row.count = count;
+    row.medianNanoseconds = 1e9 * quantile(stage.times(), 0.5) / born;
+    row.p95Nanoseconds = 1e9 * quantile(stage.times(), 0.95) / born;
+    row.hash = stage.hash();
+    row.more = {{"ns_per_particle_min", 1e9 * quantile(stage.times(), 0.0) / born},
+                {"born_per_step", born},
+                {"steps", steps},
+                {"dropped", stage.counters().dropped}};
+    return row;
+}
+
+} // namespace
+
+base::Result<std::vector<BenchRow>> benchEmit(const BenchSettings& settings)
+{
+    const uint64_t count = settings.count > 0 ? settings.count : kUsualCount;
+    if (count > kMostCount)
+        return base::Status{base::Code::InvalidArgument, "--count: at most " + std::to_string(kMostCount) +
+                                                             " births a step can be measured"};
+    std::vector<BenchRow> rows;
+    for (const std::string_view variant : findBenchEntry("emit")->variants) {
+        if (!settings.variant.empty() && settings.variant != variant)
+            continue;
+        base::Result<BenchRow> row = measure(settings, variant, count);
+        if (!row)
+            return row.status();
+        rows.push_back(std::move(*row));
+    }
+    return rows;
+}
+
+} // namespace fx::cli

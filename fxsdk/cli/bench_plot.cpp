@@ -1,0 +1,157 @@
+#include "fxsdk/cli/bench_plot.h"
+
+#include "fxsdk/cli/atomic_file.h"
+#include "fxsdk/cli/bench_rows.h"
+#include "fxsdk/cli/exit_code.h"
+#include "fxsdk/cli/interrupt.h"
+#include "fxsdk/cli/machine.h"
+#include "fxsdk/cli/progress.h"
+#include "fxsdk/cli/svg_chart.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace fx::cli {
+namespace {
+
+constexpr double kWidth = 720, kHeight = 460;                      // [pixel]
+constexpr double kLeft = 70, kRight = 90, kTop = 48, kBottom = 50; // [pixel]
+constexpr std::array<uint64_t, 9> kCounts{1000,    3000,      10'000,    30'000,    100'000,
+                                          300'000, 1'000'000, 3'000'000, 10'000'000};
+constexpr std::array<const char*, 3> kColors{"#1f6fb4", "#2e8b57", "#c0392b"};
+constexpr double kLongest = 0.5; ///< [s] of a step; more particles are not tried
+
+struct Line
+{
+    std::string variant;
+    std::vector<double> counts;
+    std::vector<double> milliseconds; ///< median of a step
+};
+
+base::Result<std::vector<Line>> measureLines(uint32_t threads)
+{
+    const auto variants = findBenchEntry("particles")->variants;
+    std::vector<Line> lines;
+    Progress bar("size", variants.size() * kCounts.size(), true);
+    uint64_t done = 0;
+    for (const std::string_view variant : variants) {
+        Line line;
+        line.variant = variant;
+        for (const uint64_t count : kCounts) {
+            BenchSettings settings;
+            settings.count = count;
+            settings.threads = threads;
+            settings.variant = variant;
+            settings.steps = count < 100'000 ? 300 : 20;
+            auto rows = benchParticles(settings);
+            if (!rows)
+                return rows.status();
+            line.counts.push_back(double(count));
+            line.milliseconds.push_back(1e-6 * rows->front().medianNanoseconds * double(count));
+            bar.update(++done);
+            if (1e-3 * line.milliseconds.back() * 3.0 > kLongest)
+                break;
+        }
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+std::string drawing(const std::vector<Line>& lines, const std::string& origin)
+{
+    LogAxis x, y;
+    x.from = kLeft;
+    x.to = kWidth - kRight;
+    y.from = kHeight - kBottom;
+    y.to = kTop;
+    for (const Line& line : lines)
+        for (size_t i = 0; i < line.counts.size(); ++i) {
+            x.include(line.counts[i]);
+            y.include(line.milliseconds[i]);
+        }
+    y.include(1000.0 / 60.0);
+    y.widen(2, 2);
+    std::string svg =
+        svgFormat("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
+                  "font-family=\"sans-serif\" "
+                  "font-size=\"12\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+                  kWidth, kHeight) +
+        svgText(12, 16, "start", origin, "font-size=\"11\" fill=\"#555\"");
+    for (const double mark : x.marks())
+        svg += svgLine(x.at(mark), kTop, x.at(mark), y.from, "#e4e4e4") +
+               svgText(x.at(mark), y.from + 17, "middle", svgFormat("%g", mark));
+    for (const double mark : y.marks())
+        svg += svgLine(kLeft, y.at(mark), x.to, y.at(mark), "#e4e4e4") +
+               svgText(kLeft - 7, y.at(mark) + 4, "end", svgFormat("%g", mark));
+    const double frame = y.at(1000.0 / 60.0);
+    svg += svgLine(kLeft, frame, x.to, frame, "#c77800") +
+           svgText(kLeft + 4, frame - 4, "start", "a frame of 60 Hz");
+    svg += svgText(0.5 * (kLeft + x.to), kHeight - 12, "middle", "particles") +
+           svgText(kLeft, kTop - 8, "start", "time of a step and its snapshot [ms]");
+    for (size_t k = 0; k < lines.size(); ++k) {
+        const char* color = kColors[k % kColors.size()];
+        std::string path;
+        for (size_t i = 0; i < lines[k].counts.size(); ++i)
+            path += svgFormat("%s%.1f %.1f", i == 0 ? "M" : " L", x.at(lines[k].counts[i]),
+                              y.at(lines[k].milliseconds[i]));
+        svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + color + "\" stroke-width=\"2\"/>\n" +
+               svgText(x.at(lines[k].counts.back()) + 6, y.at(lines[k].milliseconds.back()) + 4, "start",
+                       lines[k].variant);
+    }
+    return svg + "</svg>\n";
+}
+
+/// Exponent of time over number from 10^4 particles on, by least squares of the logarithms.
+double exponentOf(const Line& line)
+{
+    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (size_t i = 0; i < line.counts.size(); ++i) {
+        const double x = std::log(line.counts[i]), y = std::log(line.milliseconds[i]);
+        n += 1;
+        sx += x;
+        sy += y;
+        sxx += x * x;
+        sxy += x * y;
+    }
+    return n > 1 ? (n * sxy - sx * sy) / (n * sxx - sx * sx) : 0.0;
+}
+
+/// How many particles a step of `milliseconds` holds, by the slope between the two sizes around it.
+double affordable(const Line& line, double milliseconds)
+{
+    for (size_t i = 1; i < line.counts.size(); ++i)
+        if (line.milliseconds[i] >= milliseconds) {
+            const double t = std::log(milliseconds / line.milliseconds[i - 1]) /
+                             std::log(line.milliseconds[i] / line.milliseconds[i - 1]);
+            return line.counts[i - 1] * std::pow(line.counts[i] / line.counts[i - 1], t);
+        }
+    return line.counts.back();
+}
+
+} // namespace
+
+int runBenchPlot(const std::string& file, uint32_t threads)
+{
+    const auto failed = [](const base::Status& status) {
+        std::fprintf(stderr, "fx bench: %s\n", status.message().c_str());
+        return exitCodeOf(status);
+    };
+    if (base::Status status = checkTarget(file); !status)
+        return failed(status);
+    const auto lines = measureLines(threads);
+    if (!lines)
+        return failed(lines.status());
+    const std::string origin =
+        "fx bench --plot, " + toText(readMachine()) + ", " + std::to_string(threads) + " threads";
+    if (base::Status status = writeFileAtomically(file, drawing(*lines, origin)); !status)
+        return failed(status);
+    for (const Line& line : *lines)
+        std::printf("%-8s %.0f particles in 1 ms, %.0f in 4 ms; time grows as N^%.3f\n", line.variant.c_str(),
+                    affordable(line, 1.0), affordable(line, 4.0), exponentOf(line));
+    std::printf("%s\n", origin.c_str());
+    return kSuccess;
+}
+
+} // namespace fx::cli

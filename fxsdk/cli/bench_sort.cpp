@@ -1,0 +1,138 @@
+// fx bench sort: the order of drawing on one thread. random: elements in random order; same: once more as
+// they are; hundredth-moved: one in a hundred moved anywhere; all-nearer: the camera has gone a little on;
+// standard: std::sort of distance and index beside them. Fails when an order is not that of a stable standard
+// sort.
+#include "foundation/math/hash.h"
+#include "foundation/random/philox.h"
+#include "fxsdk/cli/bench_rows.h"
+#include "fxsdk/cli/bench_stage.h"
+#include "fxsdk/cli/interrupt.h"
+#include "rendering/view/depth_sort.h"
+
+#include <algorithm>
+#include <ctime>
+#include <memory_resource>
+#include <numeric>
+#include <utility>
+
+namespace fx::cli {
+namespace {
+
+constexpr uint64_t kUsualCount = 400'000;
+constexpr uint64_t kMostCount = 100'000'000;
+
+double threadSeconds()
+{
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+float unit(uint64_t stream, size_t i)
+{
+    return base::randomUnit4(stream, 0, i, base::RandomPurpose::Position)[0];
+}
+
+/// Distances of a cloud of particles, 3 m to 40 m away.
+float distanceOf(uint64_t stream, size_t i)
+{
+    return 3.0f + 37.0f * unit(stream, i);
+}
+
+std::vector<uint32_t> expected(const std::vector<float>& distances)
+{
+    std::vector<uint32_t> order(distances.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return distances[a] > distances[b]; });
+    return order;
+}
+
+/// What happens before sort number k.
+void change(std::string_view variant, std::vector<float>& distances, uint32_t k)
+{
+    if (variant == "hundredth-moved")
+        for (size_t i = k % 100; i < distances.size(); i += 100)
+            distances[i] = distanceOf(k + 2, i);
+    if (variant == "all-nearer")
+        for (float& distance : distances)
+            distance -= 0.002f;
+}
+
+double timeStandard(const std::vector<float>& distances)
+{
+    std::vector<std::pair<float, uint32_t>> pairs(distances.size());
+    const double begin = threadSeconds();
+    for (size_t i = 0; i < pairs.size(); ++i)
+        pairs[i] = {-distances[i], uint32_t(i)};
+    std::sort(pairs.begin(), pairs.end());
+    return threadSeconds() - begin;
+}
+
+/// Which numbers a row is made of.
+struct Sorting
+{
+    std::vector<double> seconds;
+    uint64_t hash = 0;
+    bool isRight = true;
+};
+
+Sorting sortAgain(std::string_view variant, uint64_t count, uint32_t steps)
+{
+    render::DepthSort sort(std::pmr::get_default_resource());
+    std::vector<float> distances(count);
+    for (size_t i = 0; i < distances.size(); ++i)
+        distances[i] = distanceOf(1, i);
+    static_cast<void>(sort.farthestFirst(distances));
+    Sorting result;
+    for (uint32_t k = 0; k < steps && !interruptRequested(); ++k) {
+        change(variant, distances, k);
+        if (variant == "standard") {
+            result.seconds.push_back(timeStandard(distances));
+            continue;
+        }
+        if (variant == "random")
+            sort.forget();
+        const double begin = threadSeconds();
+        const auto order = sort.farthestFirst(distances);
+        result.seconds.push_back(threadSeconds() - begin);
+        result.hash = base::hashBytes(result.hash, order.data(), order.size_bytes());
+    }
+    const auto order = sort.farthestFirst(distances);
+    const auto wanted = expected(distances);
+    result.isRight = std::equal(order.begin(), order.end(), wanted.begin(), wanted.end());
+    return result;
+}
+
+} // namespace
+
+base::Result<std::vector<BenchRow>> benchSort(const BenchSettings& settings)
+{
+    const uint64_t count = settings.count > 0 ? settings.count : kUsualCount;
+    if (count > kMostCount)
+        return base::Status{base::Code::InvalidArgument,
+                            "--count: at most " + std::to_string(kMostCount) + " elements can be measured"};
+    std::vector<BenchRow> rows;
+    for (const std::string_view variant : findBenchEntry("sort")->variants) {
+        if (!settings.variant.empty() && settings.variant != variant)
+            continue;
+        const Sorting sorting = sortAgain(variant, count, settings.steps > 0 ? settings.steps : 15);
+        if (interruptRequested())
+            return base::Status{base::Code::Interrupted, "interrupted"};
+        if (!sorting.isRight)
+            return base::Status{base::Code::Internal,
+                                "sort: the order of '" + std::string(variant) + "' is wrong"};
+        BenchRow row;
+        row.name = "sort";
+        row.variant = variant;
+        row.count = count;
+        row.medianNanoseconds = 1e9 * quantile(sorting.seconds, 0.5) / double(count);
+        row.p95Nanoseconds = 1e9 * quantile(sorting.seconds, 0.95) / double(count);
+        row.hash = sorting.hash;
+        row.more = {{"ns_per_particle_min", 1e9 * quantile(sorting.seconds, 0.0) / double(count)}};
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+} // namespace fx::cli

@@ -1,0 +1,41 @@
+/// @file svg_chart.h
+/// What charts on logarithmic axes are drawn with, as text of SVG.
+#pragma once
+
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+
+/// A logarithmic axis, marked at every decade or second one, and at 2 and 5 when there are few.
+struct LogAxis
+{
+    double low = std::numeric_limits<double>::infinity();
+    double high = 0;
+    double from = 0; ///< [pixel] of low
+    double to = 1;   ///< [pixel] of high
+
+    void include(double value);
+    void widen(double below, double above);
+    double at(double value) const; ///< [pixel]
+    std::vector<double> marks() const;
+};
+
+/// `<`, `>` and `&` as XML and HTML want them.
+std::string escapedMarkup(const std::string& text);
+
+template <class... Numbers>
+std::string svgFormat(const char* pattern, Numbers... numbers)
+{
+    char buffer[400];
+    std::snprintf(buffer, sizeof buffer, pattern, numbers...);
+    return buffer;
+}
+
+/// @param anchor start, middle or end
+std::string svgText(double x, double y, const char* anchor, const std::string& text, const char* more = "");
+std::string svgLine(double x1, double y1, double x2, double y2, const char* stroke);
+
+} // namespace fx::cli
