@@ -2,8 +2,8 @@
 /// The report as one page: what was measured, on what, the plots and every number.
 
 #include "fxsdk/cli/accuracy_curve.h"
-#include "fxsdk/cli/svg_chart.h"
 #include "fxsdk/cli/accuracy_labels.h"
+#include "fxsdk/cli/svg_chart.h"
 
 #include <cstdio>
 

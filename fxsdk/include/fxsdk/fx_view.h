@@ -93,8 +93,8 @@ typedef struct FxViewSettings
         countOverdraw; ///< 1: count fragments and read statistics back: costs a pass and a wait; default 0
     float layerScale;  ///< [1] 1 (default), 0.5 or 0.25: width and height at which particles are drawn, over
                        ///< those of the picture; edges of opaque surfaces stay sharp
-    uint32_t fragmentBudget; ///< 0 (default): none; otherwise a frame whose estimated fragments exceed it is
-                             ///< drawn at a smaller layerScale, until 30 frames in a row were calm
+    uint32_t fragmentBudget;  ///< 0 (default): none; otherwise a frame whose estimated fragments exceed it is
+                              ///< drawn at a smaller layerScale, until 30 frames in a row were calm
     float budgetMilliseconds; ///< [ms] 0..1e4 that a frame of this view may take; 0 (default): quality is
                               ///< what these settings say. Otherwise it may fall below, never rise above
                               ///< them; what is simulated does not depend on it.
