@@ -9,12 +9,11 @@ namespace fx::base {
 
 namespace {
 
-constexpr size_t kRowsPerLine = 16; // floats in 64 bytes
-
 /// Floats from the beginning of a column to that of the next.
 size_t columnFloats(ColumnType type, size_t capacity)
 {
-    const size_t rows = (capacity + kRowsPerLine - 1) / kRowsPerLine * kRowsPerLine;
+    const size_t line = 64 / sizeof(float);
+    const size_t rows = (capacity + line - 1) / line * line;
     return rows * columnElementSize(type) / sizeof(float);
 }
 
@@ -47,17 +46,29 @@ void SnapshotGroup::prepare(const SnapshotSchema& schema, KindId kind, size_t ca
         storage_ = Column<float>(memory_, floats);
     if (desc.hasIds && ids_.size() < capacity)
         ids_.resize(capacity);
-    columns_.resize(desc.columns.size());
+    lines_.resize(desc.columns.size());
     size_t offset = 0;
     for (size_t c = 0; c < desc.columns.size(); ++c) {
-        columns_[c] = {offset, isIn(present, c)};
-        offset += columns_[c].present ? columnFloats(desc.columns[c].type, capacity) : 0;
+        lines_[c] = uint32_t(offset / kRowsPerLine);
+        offset += isIn(present, c) ? columnFloats(desc.columns[c].type, capacity) : 0;
     }
     constants_.assign(desc.constants.size(), 0.0f);
     capacity_ = capacity;
+    present_ = present;
     hasIds_ = desc.hasIds;
+    isExact_ = bytes() == floats * sizeof(float) + (desc.hasIds ? capacity * sizeof(uint64_t) : 0);
     info_ = GroupInfo{};
     info_.kind = kind;
+}
+
+bool SnapshotGroup::prepareAgain(KindId kind, size_t capacity, ColumnSet present)
+{
+    if (!isExact_ || info_.kind != kind || capacity_ != capacity || present_ != present)
+        return false;
+    std::fill(constants_.begin(), constants_.end(), 0.0f);
+    info_ = GroupInfo{};
+    info_.kind = kind;
+    return true;
 }
 
 FrameSnapshot::FrameSnapshot(const SnapshotSchema* schema, std::pmr::memory_resource* memory)
@@ -73,6 +84,8 @@ void FrameSnapshot::begin(Ticks tick, uint64_t sequence)
 
 SnapshotGroup& FrameSnapshot::addGroup(KindId kind, size_t capacity, ColumnSet present)
 {
+    if (groupCount_ < groups_.size() && groups_[groupCount_].prepareAgain(kind, capacity, present))
+        return groups_[groupCount_++]; // as in the snapshot before: there is none that fits better
     const KindDesc& desc = schema_->kind(kind);
     const size_t ids = desc.hasIds ? capacity * sizeof(uint64_t) : 0;
     const size_t least = floatsFor(desc, capacity, present) * sizeof(float) + ids;
@@ -85,7 +98,8 @@ SnapshotGroup& FrameSnapshot::addGroup(KindId kind, size_t capacity, ColumnSet p
             best = i;
     if (best == groups_.size())
         groups_.emplace_back(memory_);
-    std::swap(groups_[groupCount_], groups_[best]);
+    if (best != groupCount_)
+        std::swap(groups_[groupCount_], groups_[best]);
     SnapshotGroup& group = groups_[groupCount_];
     group.prepare(*schema_, kind, capacity, present);
     ++groupCount_;

@@ -38,7 +38,7 @@ class SnapshotGroup
 {
 public:
     SnapshotGroup(std::pmr::memory_resource* memory)
-        : memory_(memory), columns_(memory), ids_(memory), constants_(memory)
+        : memory_(memory), lines_(memory), ids_(memory), constants_(memory)
     {}
 
     const GroupInfo& info() const { return info_; }
@@ -46,17 +46,13 @@ public:
     /// Empty when the kind has none.
     std::span<const uint64_t> ids() const { return {ids_.data(), hasIds_ ? info_.count : 0}; }
     /// Column `index` of the kind, which is F32; empty when the group lacks it.
-    std::span<const float> column(size_t index) const
-    {
-        return {storage_.data() + columns_[index].offset, columns_[index].present ? info_.count : 0};
-    }
+    std::span<const float> column(size_t index) const { return {place(index), has(index) ? info_.count : 0}; }
     /// Column `index` of the kind, which is U64; empty when the group lacks it.
     std::span<const uint64_t> column64(size_t index) const
     {
-        return {reinterpret_cast<const uint64_t*>(storage_.data() + columns_[index].offset),
-                columns_[index].present ? info_.count : 0};
+        return {reinterpret_cast<const uint64_t*>(place(index)), has(index) ? info_.count : 0};
     }
-    bool has(size_t index) const { return columns_[index].present; }
+    bool has(size_t index) const { return (present_ >> index & 1) != 0; }
     std::span<const float> constants() const { return constants_; }
 
     // ---- for the writer, before publication ----
@@ -64,12 +60,11 @@ public:
     std::span<uint64_t> editIds() { return {ids_.data(), hasIds_ ? capacity_ : 0}; }
     std::span<float> editColumn(size_t index)
     {
-        return {storage_.data() + columns_[index].offset, columns_[index].present ? capacity_ : 0};
+        return {const_cast<float*>(place(index)), has(index) ? capacity_ : 0};
     }
     std::span<uint64_t> editColumn64(size_t index)
     {
-        return {reinterpret_cast<uint64_t*>(storage_.data() + columns_[index].offset),
-                columns_[index].present ? capacity_ : 0};
+        return {reinterpret_cast<uint64_t*>(const_cast<float*>(place(index))), has(index) ? capacity_ : 0};
     }
     std::span<float> editConstants() { return constants_; }
     /// True when its memory is enough for `capacity` elements with the columns `present` of `kind`.
@@ -77,20 +72,23 @@ public:
     size_t bytes() const { return storage_.capacity() * sizeof(float) + ids_.capacity() * sizeof(uint64_t); }
     /// Makes room for `capacity` elements of `kind`; keeps its memory when that is enough.
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present = kAllColumns);
+    /// The same where it was prepared for the same the last time and its memory is exactly that; otherwise
+    /// false.
+    bool prepareAgain(KindId kind, size_t capacity, ColumnSet present);
 
 private:
-    struct Place
-    {
-        size_t offset = 0; ///< in floats
-        bool present = false;
-    };
+    /// Where a column begins.
+    const float* place(size_t index) const { return storage_.data() + size_t(lines_[index]) * kRowsPerLine; }
+    static constexpr size_t kRowsPerLine = 16; ///< floats in 64 bytes
 
     GroupInfo info_;
     size_t capacity_ = 0;
+    ColumnSet present_ = 0;
     bool hasIds_ = true;
+    bool isExact_ = false; ///< its memory is not larger than it needs
     std::pmr::memory_resource* memory_;
     Column<float> storage_;
-    std::pmr::vector<Place> columns_;
+    std::pmr::vector<uint32_t> lines_; ///< of 64 bytes before each column
     std::pmr::vector<uint64_t> ids_;
     std::pmr::vector<float> constants_;
 };

@@ -248,8 +248,41 @@ BirthCount BirthSchedule::advance(const BirthWindow& window, std::span<Birth> ou
     return advanceTo(window, {out, out.size(), nullptr, nullptr});
 }
 
+/// True when nobody is born in the window, which is remembered.
+bool BirthSchedule::staysQuiet(const BirthWindow& window)
+{
+    const bool quiet = window.end <= quiet_.until && window.begin == quiet_.to &&
+                       window.intensity == quiet_.intensity && window.emitting == quiet_.emitting;
+    if (quiet)
+        quiet_.to = window.end;
+    return quiet;
+}
+
+void BirthSchedule::endQuiet()
+{
+    progress_ += quiet_.rate * (quiet_.to - quiet_.from); // (3)
+    quiet_ = {};
+}
+
+/// Sees how long nobody will be born from the end of the window on.
+void BirthSchedule::findQuiet(const BirthWindow& window)
+{
+    if (curved_ || window.end < start_ || window.end >= end_)
+        return;
+    const WideInt rate = pieceAt(window.end, end_, window).rate;
+    Ticks until = end_;
+    if (rate > 0 && -progress_ / rate < WideInt(end_ - window.end)) // (6)
+        until = window.end + Ticks(-progress_ / rate);
+    for (const ScheduledBurst& burst : bursts_)
+        until = std::min(until, burst.nextTick());
+    quiet_ = {window.end, window.end, until, window.intensity, window.emitting, rate};
+}
+
 BirthCount BirthSchedule::advanceTo(const BirthWindow& window, const Outlet& outlet)
 {
+    if (staysQuiet(window))
+        return {};
+    endQuiet();
     Ticks at = std::clamp(start_, window.begin, window.end);
     const Ticks end = std::clamp(end_, at, window.end);
     Writer writer{outlet, nextIndex_};
@@ -264,12 +297,13 @@ BirthCount BirthSchedule::advanceTo(const BirthWindow& window, const Outlet& out
     }
     giveRate(at, end, window, writer);
     writer.flush();
+    findQuiet(window);
     return writer.count;
 }
 
 void BirthSchedule::save(StateWriter& writer) const
 {
-    const WideInt waiting = -progress_; // 0 <= -R < D < 2^78
+    const WideInt waiting = -progress_ - quiet_.rate * (quiet_.to - quiet_.from); // 0 <= -R < D < 2^78
     writer.value(uint64_t(waiting >> 32));
     writer.value(uint64_t(waiting & 0xFFFFFFFF));
     writer.value(nextIndex_);
@@ -283,6 +317,7 @@ void BirthSchedule::restore(StateReader& reader)
     const uint64_t high = reader.value<uint64_t>(0, most, "a birth is overdue");
     const uint64_t low = reader.value<uint64_t>(0, 0xFFFFFFFFu, "a birth is overdue");
     progress_ = -((WideInt(high) << 32) + WideInt(low));
+    quiet_ = {};
     nextIndex_ = reader.value<uint64_t>(0, kMostBirths, "an emitter's births are out of range");
     for (ScheduledBurst& burst : bursts_)
         burst.next = reader.value<uint64_t>(0, burst.cycles, "a burst has fewer cycles");

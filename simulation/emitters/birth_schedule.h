@@ -24,7 +24,8 @@
 ///   Where the rate runs straight from ra to rb over L ticks, with D = 2^48 F,
 ///       q = 2^48 ra + m k at tick k of it,   m = 2^48 (rb - ra) / L rounded towards 0           (5)
 ///   Progress is a sum of integers, and S(k + n) = S(k) + S(n) of the piece that begins at k: any partition
-///   of time into steps gives the same births.
+///   of time into steps gives the same births. At a constant rate nobody is born within floor(-R / q) ticks
+///   of a moment: windows that end by then are put together and their progress is added later.           (6)
 /// @source    elementary
 /// @deviation none
 /// @valid     r <= 1e9 /s (larger is taken as that; NaN and negative as 0); a rate that changes over more
@@ -139,7 +140,21 @@ private:
     };
     struct Writer;
 
+    /// Windows in which nobody is born, whose progress has not been added yet.
+    struct Quiet
+    {
+        base::Ticks from = 0;
+        base::Ticks to = 0;    ///< they are [from, to)
+        base::Ticks until = 0; ///< nobody is born before this under the same conditions
+        double intensity = 0;
+        bool emitting = false;
+        WideInt rate = 0; ///< q
+    };
+
     BirthCount advanceTo(const BirthWindow& window, const Outlet& outlet);
+    bool staysQuiet(const BirthWindow& window);
+    void endQuiet();
+    void findQuiet(const BirthWindow& window);
     WideInt particle() const; ///< D
     Piece pieceAt(base::Ticks tick, base::Ticks end, const BirthWindow& window) const;
     void giveRate(base::Ticks from, base::Ticks to, const BirthWindow& window, Writer& writer);
@@ -156,6 +171,7 @@ private:
     uint32_t solverIndex_ = 0;
     WideInt progress_ = 0; ///< R
     uint64_t nextIndex_ = 0;
+    Quiet quiet_;
 };
 
 } // namespace fx::sim

@@ -10,6 +10,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -63,6 +65,25 @@ struct EmitterForces
     uint32_t curlOctaves = 1;  ///< each next one has half the strength and scale and twice the rate, 1..8
 };
 
+struct ParticleProgram;
+
+/// What all solvers of a definition share, made by the first of them. A copy of a definition makes its own.
+class SharedProgram
+{
+public:
+    SharedProgram() = default;
+    SharedProgram(const SharedProgram&) {}
+    SharedProgram& operator=(const SharedProgram&) { return *this; }
+
+    /// Any thread.
+    std::shared_ptr<const ParticleProgram> of(const struct EmitterDef& def) const;
+
+private:
+    mutable std::mutex mutex_;
+    mutable std::weak_ptr<const ParticleProgram> program_;
+};
+
+/// Immutable while it has solvers.
 struct EmitterDef final : SolverDef
 {
     std::string name;
@@ -102,6 +123,8 @@ struct EmitterDef final : SolverDef
     float detailScale = 1.5f;
     float anisotropy = 0.0f;
     float shutter = 0.0f; ///< [s]
+
+    SharedProgram program;
 
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;

@@ -66,6 +66,22 @@ LookColumns columnsOf(base::SnapshotGroup& group)
     return out;
 }
 
+/// All rows of the window, spread over threads where there are many.
+LookBounds writeAll(const LookJob& job, const LookColumns& out, base::TaskRunner* tasks)
+{
+    const uint32_t chunks = (job.rows.count + kChunk - 1) / kChunk;
+    if (!tasks || chunks <= kMinChunks) // no lock, which would wait for everything that has been written
+        return writeLooks(job, out, 0, job.rows.count);
+    LookBounds bounds;
+    std::mutex mutex; // guards bounds, which do not depend on the order of what is added
+    parallelRows(*tasks, chunks, kMinChunks, [&](uint32_t begin, uint32_t end) {
+        const LookBounds found = writeLooks(job, out, begin * kChunk, std::min(end * kChunk, job.rows.count));
+        const std::lock_guard lock(mutex);
+        bounds.add(found);
+    });
+    return bounds;
+}
+
 } // namespace
 
 LookJob EmitterSolver::lookJob() const
@@ -93,20 +109,7 @@ void EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSna
     info.count = job.rows.count;
     writeConstants(def_, group.editConstants());
 
-    const LookColumns out = columnsOf(group);
-    LookBounds bounds;
-    std::mutex mutex; // guards bounds, which do not depend on the order of what is added
-    const auto write = [&](uint32_t begin, uint32_t end) {
-        const LookBounds found = writeLooks(job, out, begin * kChunk, std::min(end * kChunk, job.rows.count));
-        const std::lock_guard lock(mutex);
-        bounds.add(found);
-    };
-    const uint32_t chunks = (job.rows.count + kChunk - 1) / kChunk;
-    if (tasks_)
-        parallelRows(*tasks_, chunks, kMinChunks, write);
-    else if (chunks > 0)
-        write(0, chunks);
-    group.editInfo().bounds = bounds.box();
+    group.editInfo().bounds = writeAll(job, columnsOf(group), tasks_).box();
 }
 
 } // namespace fx::sim

@@ -40,8 +40,8 @@ std::unique_ptr<Solver> EmitterDef::create(const base::SnapshotSchema& schema, c
 
 EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                              std::pmr::memory_resource* memory)
-    : def_(def), kinds_(kinds), program_(def), schedule_(def.emission, memory), store_(program_, memory),
-      rowsByBirth_(memory)
+    : def_(def), kinds_(kinds), shared_(def.program.of(def)), program_(*shared_),
+      schedule_(def.emission, memory), store_(program_, memory), rowsByBirth_(memory)
 {
     if (def.look.kind == Appearance::Medium)
         rowsByBirth_.resize(store_.capacity());

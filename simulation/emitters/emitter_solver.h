@@ -60,7 +60,8 @@ private:
 
     const EmitterDef& def_;
     EmitterKinds kinds_;
-    ParticleProgram program_;
+    std::shared_ptr<const ParticleProgram> shared_;
+    const ParticleProgram& program_;
     BirthSchedule schedule_;
     ParticleStore store_;
     base::Ticks now_ = 0;         ///< end of the last step

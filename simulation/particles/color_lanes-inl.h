@@ -36,10 +36,15 @@ using WideTag = hn::RepartitionToWide<WordTag>;
 #endif
 constexpr WideTag kWides;
 
-/// The binary16 of each lane in the low half of a word.
-HWY_INLINE Words halfWords(Floats x)
+HWY_INLINE Floats boundedForHalf(Floats x)
 {
-    const Floats bounded = hn::Min(hn::Max(x, hn::Zero(kFloats)), all(65504.0f));
+    return hn::Min(hn::Max(x, hn::Zero(kFloats)), all(65504.0f));
+}
+
+#if HWY_TARGET > HWY_AVX3
+/// The binary16 of each lane in the low half of a word.
+HWY_INLINE Words halfWords(Floats bounded)
+{
 #if HWY_TARGET <= HWY_AVX2
     const hn::Rebind<hwy::float16_t, FloatTag> halves;
     const hn::Rebind<uint16_t, FloatTag> shorts;
@@ -53,6 +58,7 @@ HWY_INLINE Words halfWords(Floats x)
     return hn::IfThenElse(hn::RebindMask(kWords, hn::Lt(bounded, all(0x1p-14f))), small, normal);
 #endif
 }
+#endif
 
 /// The colors of kWidth particles; with one lane all of them in `low`.
 struct ColorLanes
@@ -61,13 +67,27 @@ struct ColorLanes
     hn::Vec<WideTag> high;
 };
 
-HWY_INLINE ColorLanes packColor(Which alive, const Floats* rgb, Floats opacity)
+/// Red, green, blue and opacity, all bounded.
+HWY_INLINE ColorLanes packColor(const Floats* rgb, Floats opacity)
 {
-    Words redGreen = hn::Or(halfWords(rgb[0]), hn::ShiftLeft<16>(halfWords(rgb[1])));
-    Words blueOpacity = hn::Or(halfWords(rgb[2]), hn::ShiftLeft<16>(halfWords(opacity)));
-    const auto which = hn::RebindMask(kWords, alive);
-    redGreen = hn::IfThenElseZero(which, redGreen);
-    blueOpacity = hn::IfThenElseZero(which, blueOpacity);
+#if HWY_TARGET <= HWY_AVX3
+    constexpr int kNearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
+    const auto pair = [](Floats first, Floats second) HWY_ATTR {
+        const __m512i lower = _mm512_castsi256_si512(_mm512_cvtps_ph(first.raw, kNearest));
+        return _mm512_inserti64x4(lower, _mm512_cvtps_ph(second.raw, kNearest), 1);
+    };
+    const __m512i redBlue = pair(rgb[0], rgb[2]);
+    const __m512i greenOpacity = pair(rgb[1], opacity);
+    // Words of two channels: particles 0..3 and 8..11 in the first, the others in the second.
+    const __m512i first = _mm512_unpacklo_epi16(redBlue, greenOpacity);
+    const __m512i second = _mm512_unpackhi_epi16(redBlue, greenOpacity);
+    const __m512i low = _mm512_setr_epi32(0, 8, 1, 9, 2, 10, 3, 11, 16, 24, 17, 25, 18, 26, 19, 27);
+    const __m512i high = _mm512_setr_epi32(4, 12, 5, 13, 6, 14, 7, 15, 20, 28, 21, 29, 22, 30, 23, 31);
+    return {hn::Vec<WideTag>{_mm512_permutex2var_epi32(first, low, second)},
+            hn::Vec<WideTag>{_mm512_permutex2var_epi32(first, high, second)}};
+#else
+    const Words redGreen = hn::Or(halfWords(rgb[0]), hn::ShiftLeft<16>(halfWords(rgb[1])));
+    const Words blueOpacity = hn::Or(halfWords(rgb[2]), hn::ShiftLeft<16>(halfWords(opacity)));
 #if HWY_TARGET == HWY_SCALAR
     const auto color =
         hn::Set(kWides, uint64_t(hn::GetLane(redGreen)) | uint64_t(hn::GetLane(blueOpacity)) << 32);
@@ -79,6 +99,7 @@ HWY_INLINE ColorLanes packColor(Which alive, const Floats* rgb, Floats opacity)
     };
     return {join(hn::LowerHalf(half, redGreen), hn::LowerHalf(half, blueOpacity)),
             join(hn::UpperHalf(half, redGreen), hn::UpperHalf(half, blueOpacity))};
+#endif
 #endif
 }
 

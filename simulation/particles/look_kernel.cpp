@@ -13,20 +13,29 @@ HWY_BEFORE_NAMESPACE();
 namespace fx::sim::particles::HWY_NAMESPACE {
 namespace {
 
+template <bool kBrief>
+void writeBallistic(const Looks& looks, const LookJob& job, const LookColumns& out, uint32_t begin,
+                    uint32_t end, LookBounds& bounds)
+{
+    if (!job.program->plain)
+        looks.run<true, kBrief, false, false>(begin, end, bounds);
+    else if (out.stream)
+        looks.run<true, kBrief, true, true>(begin, end, bounds);
+    else
+        looks.run<true, kBrief, true, false>(begin, end, bounds);
+}
+
 LookBounds writeLooksLanes(const LookJob& job, const LookColumns& out, uint32_t begin, uint32_t end)
 {
     const Looks looks(job, out);
     LookBounds bounds;
-    if (job.program->ballistic) {
-        if (job.program->brief)
-            looks.run<true, true>(begin, end, bounds);
-        else
-            looks.run<true, false>(begin, end, bounds);
-    } else if (job.program->brief) {
-        looks.run<false, true>(begin, end, bounds);
-    } else {
-        looks.run<false, false>(begin, end, bounds);
-    }
+    const ParticleProgram& program = *job.program;
+    if (program.ballistic)
+        program.brief ? writeBallistic<true>(looks, job, out, begin, end, bounds)
+                      : writeBallistic<false>(looks, job, out, begin, end, bounds);
+    else
+        program.brief ? looks.run<false, true, false, false>(begin, end, bounds)
+                      : looks.run<false, false, false, false>(begin, end, bounds);
     if (out.stream)
         hwy::FlushStream();
     return bounds;

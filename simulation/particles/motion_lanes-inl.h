@@ -63,7 +63,8 @@ public:
         m.life = m.age * perLife_.at(row);
         if constexpr (kBallistic) {
             const Floats t = hn::Min(m.age, all(longest_));
-            const DragLanes step = hasDrag_ ? dragLanes(all(drag_), all(perDrag_), t) : freeLanes(t);
+            const DragLanes step =
+                hasDrag_ ? dragLanes<kVelocity>(all(drag_), all(perDrag_), t) : freeLanes(t);
             for (int a = 0; a < 3; ++a) {
                 const Floats v = hn::Load(kFloats, v_[a] + row);
                 m.position[a] = x_[a].at(row) + step.gain * v + step.ramp * all(pull_[a]); // (1)
@@ -104,41 +105,65 @@ private:
 class CurveLanes
 {
 public:
-    HWY_INLINE CurveLanes(const RampCurves& curves, Floats t) : curves_(curves), t_(t)
+    /// @param ioPiece where the last particles were: mostly these are there too
+    HWY_INLINE CurveLanes(const RampCurves& curves, Floats t, uint32_t& ioPiece) : curves_(curves), t_(t)
     {
-        if (curves_.byTable) {
+        if (HWY_UNLIKELY(curves_.byTable)) {
             const Floats s = hn::Min(hn::Max(t, hn::Zero(kFloats)), all(1.0f)) * all(float(kLast));
             const auto i = hn::Min(hn::ConvertTo(kInts, s), hn::Set(kInts, int32_t(kLast) - 1));
             fraction_ = s - hn::ConvertTo(kFloats, i);
             place_ = i;
             return;
         }
-        for (uint32_t k = 0; k < curves_.ramps; ++k)
-            ramp_[k] = hn::Max(t - all(curves_.at[k]), hn::Zero(kFloats));
+        piece_ = ioPiece;
+        const Which inside =
+            hn::And(hn::Ge(t, all(curves_.from[piece_])), hn::Lt(t, all(curves_.from[piece_ + 1])));
+        together_ = hn::AllTrue(kFloats, inside);
+        if (HWY_LIKELY(together_))
+            return;
+        for (uint32_t k = 1; k <= curves_.ramps; ++k) {
+            const auto beyond = hn::RebindMask(kInts, hn::Ge(t, all(curves_.from[k])));
+            place_ = hn::Add(place_, hn::IfThenElseZero(beyond, hn::Set(kInts, 1)));
+        }
+        ioPiece = uint32_t(hn::GetLane(place_));
     }
     HWY_INLINE Floats value(uint32_t channel) const
     {
         if (curves_.isConstant(channel))
             return all(curves_.start[channel]);
-        if (curves_.byTable) {
+        if (HWY_UNLIKELY(curves_.byTable)) {
             const float* table = curves_.table[channel].data();
             const Floats low = hn::GatherIndex(kFloats, table, place_);
-            return low + fraction_ * (hn::GatherIndex(kFloats, table + 1, place_) - low); // (2)
+            return low + fraction_ * (hn::GatherIndex(kFloats, table + 1, place_) - low); // (3)
         }
-        Floats sum = all(curves_.start[channel]) + all(curves_.slope[channel]) * t_; // (1)
-        for (uint32_t k = 0; k < curves_.ramps; ++k)
-            sum = sum + all(curves_.bend[channel][k]) * ramp_[k];
-        return sum;
+        const float* const starts = curves_.pieceStart[channel].data();
+        const float* const slopes = curves_.pieceSlope[channel].data();
+        if (HWY_LIKELY(together_))
+            return all(starts[piece_]) + all(slopes[piece_]) * t_; // (2)
+        return ofPlace(starts) + ofPlace(slopes) * t_;
     }
 
 private:
+    /// From a table of pieces, that of the piece in which each particle is.
+    HWY_INLINE Floats ofPlace(const float* table) const
+    {
+#if HWY_TARGET != HWY_SCALAR
+        if (kWidth >= 8 && curves_.ramps < kWidth)
+            return hn::TableLookupLanes(hn::LoadU(kFloats, table), hn::IndicesFromVec(kFloats, place_));
+#endif
+        Floats found = all(table[0]);
+        for (uint32_t k = 1; k <= curves_.ramps; ++k)
+            found = hn::IfThenElse(hn::Ge(t_, all(curves_.from[k])), all(table[k]), found);
+        return found;
+    }
     static constexpr size_t kLast = base::kCurveSamples;
 
     const RampCurves& curves_;
     Floats t_;
     Floats fraction_ = hn::Zero(kFloats);
     hn::Vec<IntTag> place_ = hn::Zero(kInts);
-    Floats ramp_[kMostRamps];
+    uint32_t piece_ = 0;
+    bool together_ = false;
 };
 
 } // namespace fx::sim::particles::HWY_NAMESPACE

@@ -61,6 +61,18 @@ base::ColumnSet publishedColumns(const EmitterLook& look)
     return set;
 }
 
+/// Whether the pass that only has to do what most emitters need does all that this one needs.
+bool isPlain(const ParticleProgram& program)
+{
+    const EmitterLook& look = program.def.look;
+    bool plain = program.published == base::particle_column::kAlways && !program.bySpeed &&
+                 !program.looks.byTable && look.brightness.min == 1.0f && !varies(look.brightness);
+    for (uint32_t c = look_channel::Red; c <= look_channel::Blue; ++c) // more than rounding within the bounds
+        plain = plain && program.looks.lowest(c) > 1e-3f * program.looks.highest(c) &&
+                program.looks.highest(c) < 6e4f;
+    return plain;
+}
+
 /// Decides attribute by attribute whether it is the same for all.
 void chooseColumns(ParticleProgram& program)
 {
@@ -109,11 +121,20 @@ size_t bytesMoved(const ParticleProgram& program)
     return bytes;
 }
 
+std::shared_ptr<const ParticleProgram> SharedProgram::of(const EmitterDef& def) const
+{
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<const ParticleProgram> program = program_.lock();
+    if (!program)
+        program_ = program = std::make_shared<const ParticleProgram>(def);
+    return program;
+}
+
 ParticleProgram::ParticleProgram(const EmitterDef& definition)
     : def(definition), ballistic(isBallistic(definition)), brief(sim::longestLife(definition) <= kBrief),
       mortal(!definition.modules.empty()), longestLife(base::toTicks(double(sim::longestLife(definition)))),
       published(publishedColumns(definition.look)), looks(lookCurves(definition)),
-      bySpeed(speedCurves(definition.look))
+      bySpeed(speedCurves(definition.look)), plain(isPlain(*this))
 {
     if (!ballistic) {
         addBuiltinOps(definition, ops);

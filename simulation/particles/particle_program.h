@@ -70,6 +70,7 @@ struct ParticleProgram
     base::ColumnSet published = 0;       ///< columns of the kind "particle"
     RampCurves looks;                    ///< over life
     std::unique_ptr<RampCurves> bySpeed; ///< over speed, null when not used
+    bool plain; ///< no optional columns, looks over life alone, colors need no bounds to be binary16
 };
 
 /// [byte] that a step and a publication read and write of each row, births left out.

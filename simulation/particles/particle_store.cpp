@@ -17,7 +17,7 @@ bool isPlace(size_t column)
 
 ParticleStore::ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory)
     : constant(program.constant), placed(program.stores[stored::X]),
-      capacity_(std::max(program.def.maxParticles, 1u)), brief_(program.brief)
+      capacity_(std::max(program.def.maxParticles, 1u)), brief_(program.brief), mortal_(program.mortal)
 {
     // Kernels work on whole vectors: every column can be read and written up to the next multiple.
     const size_t rows = (size_t(capacity_) + kTilePadding - 1) / kTilePadding * kTilePadding;
@@ -74,11 +74,16 @@ RowWindow ParticleStore::window() const
 
 void ParticleStore::retire(base::Ticks now)
 {
+    if (now < frontUntil_)
+        return;
     if (next_ - front_ > 2 * uint64_t(capacity_)) // births were dropped: most indices in between never lived
         searchFront(now);
     for (; front_ < next_; ++front_)
-        if (const uint32_t row = rowOf(front_); index[row] == front_ && isAlive(row, now))
+        if (const uint32_t row = rowOf(front_); index[row] == front_ && isAlive(row, now)) {
+            const double life = double(base::kTicksPerSecond) / double(value(stored::PerLife, row));
+            frontUntil_ = mortal_ ? 0 : born[row] + base::Ticks(0.999 * life); // with more than rounding
             return;
+        }
 }
 
 void ParticleStore::searchFront(base::Ticks now)
@@ -106,6 +111,7 @@ void ParticleStore::clear(uint64_t next)
     if (values[stored::PerLife].data())
         std::fill_n(values[stored::PerLife].data(), capacity_, kNoLife);
     front_ = next_ = next;
+    frontUntil_ = 0;
 }
 
 void ParticleStore::save(StateWriter& writer, base::Ticks now) const

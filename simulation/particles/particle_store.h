@@ -73,8 +73,10 @@ private:
 
     uint32_t capacity_;
     bool brief_;
+    bool mortal_;
     uint64_t front_ = 0; ///< the oldest index that may live
     uint64_t next_ = 0;
+    base::Ticks frontUntil_ = 0; ///< until then it surely does, unless something ends its life
 };
 
 } // namespace fx::sim

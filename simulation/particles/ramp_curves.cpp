@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fx::sim {
 
@@ -61,15 +62,33 @@ RampCurves::RampCurves(std::span<const std::array<float, kLast + 1>> samples)
         at[ramps - 1] = float(i) / float(kLast);
     }
     places[ramps + 1] = kLast;
+    from.fill(std::numeric_limits<float>::infinity());
+    from[0] = -from[1];
+    std::copy_n(at.begin(), ramps, from.begin() + 1);
     for (uint32_t c = 0; c < channels; ++c) {
         slope[c] = slopeBetween(table[c], 0, places[1]);
         float before = slope[c];
+        pieceStart[c].fill(start[c]);
+        pieceSlope[c].fill(before);
         for (uint32_t k = 0; k < ramps; ++k) {
             const float after = slopeBetween(table[c], places[k + 1], places[k + 2]);
             bend[c][k] = after - before;
             before = after;
+            const double line = double(table[c][places[k + 1]]) - double(after) * double(at[k]);
+            std::fill(pieceStart[c].begin() + k + 1, pieceStart[c].end(), float(line));
+            std::fill(pieceSlope[c].begin() + k + 1, pieceSlope[c].end(), after);
         }
     }
+}
+
+float RampCurves::lowest(uint32_t channel) const
+{
+    return *std::min_element(table[channel].begin(), table[channel].end());
+}
+
+float RampCurves::highest(uint32_t channel) const
+{
+    return *std::max_element(table[channel].begin(), table[channel].end());
 }
 
 } // namespace fx::sim

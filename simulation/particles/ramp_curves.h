@@ -10,15 +10,18 @@
 ///   c       -      value at 0
 ///   s       -      slope from 0 to t_1
 ///   d_k     -      change of slope at t_k
+///   a_i,b_i -      value at 0 and slope of the line that piece i lies on; t_i is where it begins
 /// @derivation
 ///   f(t) = c + s t + sum of d_k max(t - t_k, 0)                                            (1)
-///   The ramps max(t - t_k, 0) do not depend on the channel: they are computed once for all of them.
+///   On piece i the sum is a line: with b_i = s + d_1 + ... + d_i and a_i = f(t_i) - b_i t_i,
+///   f(t) = a_i + b_i t                                                                     (2)
+///   Pieces do not depend on the channel, and particles that follow each other are mostly in the same one.
 ///   With more than 8 changes of slope the samples of the curve are looked up instead:
-///   f(t) = p_i + (64 t - i) (p_(i+1) - p_i), i = floor(64 t)                              (2)
+///   f(t) = p_i + (64 t - i) (p_(i+1) - p_i), i = floor(64 t)                              (3)
 /// @source    elementary
 /// @deviation none
 /// @valid     t in [0, 1]; outside, the last pieces go on
-/// @accuracy  (1) differs from the curve by at most 2^-20 of its largest value plus 2^-20 of its slopes
+/// @accuracy  (2) differs from the curve by at most 2^-20 of its largest value plus 2^-20 of its slopes
 /// @tests     tests/simulation/particles/core/test_ramp_curves.cpp
 #pragma once
 
@@ -33,22 +36,29 @@ namespace fx::sim {
 
 constexpr uint32_t kMostRamps = 8;
 constexpr uint32_t kMostChannels = 8;
+constexpr uint32_t kPieceRoom = 16; ///< more than there are pieces: the width of the widest vector
 
 struct RampCurves
 {
     /// @param channels values at the 65 equally spaced samples of base::Curve, one span a channel
     explicit RampCurves(std::span<const std::array<float, base::kCurveSamples + 1>> channels);
 
+    /// Lowest and highest of the samples of a channel.
+    float lowest(uint32_t channel) const;
+    float highest(uint32_t channel) const;
     bool isConstant(uint32_t channel) const { return (varying >> channel & 1u) == 0; }
 
     uint32_t channels = 0;
-    uint32_t varying = 0; ///< bit c: channel c is not constant
-    bool byTable = false; ///< (2) instead of (1)
-    uint32_t ramps = 0;
-    std::array<float, kMostRamps> at{};                              ///< t_k
-    std::array<float, kMostChannels> start{};                        ///< c
-    std::array<float, kMostChannels> slope{};                        ///< s
-    std::array<std::array<float, kMostRamps>, kMostChannels> bend{}; ///< d_k
+    uint32_t varying = 0;                     ///< bit c: channel c is not constant
+    bool byTable = false;                     ///< (3) instead of (2)
+    uint32_t ramps = 0;                       ///< one fewer than pieces
+    std::array<float, kPieceRoom + 1> from{}; ///< t_i; -infinity for the first, +infinity after the last
+    std::array<std::array<float, kPieceRoom>, kMostChannels> pieceStart{}; ///< a_i; the last one repeated
+    std::array<std::array<float, kPieceRoom>, kMostChannels> pieceSlope{}; ///< b_i
+    std::array<float, kMostRamps> at{};                                    ///< t_k
+    std::array<float, kMostChannels> start{};                              ///< c
+    std::array<float, kMostChannels> slope{};                              ///< s
+    std::array<std::array<float, kMostRamps>, kMostChannels> bend{};       ///< d_k
     std::array<std::array<float, base::kCurveSamples + 1>, kMostChannels> table{};
 };
 

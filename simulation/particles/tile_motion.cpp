@@ -68,7 +68,7 @@ void integrateLanes(Tile& tile)
         const Floats t = hn::IfThenElseZero(moves, hn::Load(kFloats, tile.seconds + i));
         const Floats k = hn::Load(kFloats, tile.drag + i);
         const Floats q = hn::Load(kFloats, tile.quadratic + i);
-        const DragLanes step = dragLanes(k, all(1.0f) / hn::Max(k, all(1e-30f)), t);
+        const DragLanes step = dragLanes<true>(k, all(1.0f) / hn::Max(k, all(1e-30f)), t);
         const Floats half = all(0.5f) * t;
         const bool quadratic = !hn::AllFalse(kFloats, hn::Gt(q, hn::Zero(kFloats)));
         Floats v[3];

@@ -1,4 +1,5 @@
 #include "simulation/emitters/birth_schedule.h"
+#include "simulation/state/state_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -162,4 +163,21 @@ TEST(BirthSchedule, isExhaustedAfterItsLastBirthOnly)
     schedule.advance({kTicksPerSecond, 3 * kTicksPerSecond}, {});
     EXPECT_TRUE(schedule.exhausted(3 * kTicksPerSecond));
     EXPECT_FALSE(BirthSchedule(steady(1.0f), std::pmr::get_default_resource()).exhausted(kTicksPerSecond));
+}
+
+TEST(BirthSchedule, idleStepsLeaveTheSameStateAsOneLongWindow)
+{
+    const auto stateAfter = [](Ticks step) {
+        Emission emission = steady(0.7f);
+        emission.bursts = {{4.3f, 3}};
+        BirthSchedule schedule(emission, std::pmr::get_default_resource());
+        schedule.setPhase(0.25f);
+        const Ticks change = 3 * kTicksPerSecond, end = 5 * kTicksPerSecond;
+        for (Ticks at = 0; at < end; at += step) // the rate changes while nobody is born
+            schedule.advance({at, at + step, at < change ? 1.0 : 0.4, true}, {});
+        StateBuffer state(std::pmr::get_default_resource());
+        schedule.save(state);
+        return std::vector<std::byte>(state.bytes().begin(), state.bytes().end());
+    };
+    EXPECT_EQ(stateAfter(kTicksPerSecond / 60), stateAfter(kTicksPerSecond));
 }
