@@ -1,6 +1,7 @@
 #include "fxsdk/techniques.h"
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/particle_kind.h"
 #include "fxsdk/presets/emitter_preset.h"
 #include "fxsdk/presets/fragments_preset.h"
 #if FXSDK_WITH_SPH
@@ -24,6 +25,8 @@ constexpr std::array kTechniques
 #if FXSDK_WITH_SPH
         Technique{"sph gas", "gas", "gas.schema.json", buildGas, &base::kBlobKind, {}},
 #endif
+        Technique{"trails", "", "", nullptr, &base::kRibbonKind, {}},
+        Technique{"light lists", "", "", nullptr, &base::kLightKind, {}},
         Technique{"spherical billboards", "", "", nullptr, &base::kBlobKind, kMediaPasses},
         Technique{"heat shimmer", "", "", nullptr, nullptr, kShimmerPasses},
         Technique{"dazzle", "", "", nullptr, nullptr, kDazzlePasses},
