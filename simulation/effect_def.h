@@ -20,12 +20,16 @@ struct EffectDef
     std::string name;
     uint64_t fingerprint = 0; ///< of all that the preset says: equal for equal presets; 0 when there was none
     base::Ticks duration = 0; ///< end of the effect's life; 0 for "until its solvers have finished"
+    base::Ticks prewarm = 0;  ///< an instance starts as if it had run for so long
     uint32_t subSteps = 1;    ///< steps of the effect per step of the scene, 1..16
     glm::vec3 wind{0.0f};     ///< [m/s] local
     bool hasGround = true;    ///< particles stay above the instance's y = 0
     std::optional<CatchUp> offscreen; ///< what becomes of it out of sight; none: what its solvers ask for
     float bound = 0; ///< [m] local distance from the origin that nothing passes; 0: as its solvers estimate
     std::vector<std::unique_ptr<const SolverDef>> solvers;
+    /// Where events of one solver's particles give birth in another's: all solvers, causes before effects.
+    std::vector<uint32_t> order;
+    std::vector<std::string> hostEvents; ///< names of what the host may say
 
     /// True when the host's geometry changes what it does.
     bool collides() const

@@ -20,12 +20,14 @@ uint64_t bitsOf(double x)
 }
 
 /// Everything of the conditions as whole words.
-std::array<uint64_t, 14> words(const RunConditions& c)
+std::array<uint64_t, 17> words(const RunConditions& c)
 {
     const base::Placement& p = c.placement;
     const uint64_t choices = (uint64_t(c.quality.level) << 1) | uint64_t(c.parameters.emitting);
     return {c.seed,
-            uint64_t(c.startTick),
+            uint64_t(c.clock.scene),
+            uint64_t(c.clock.local),
+            c.clock.rate,
             choices,
             bitsOf(c.gravity.x, c.gravity.y),
             bitsOf(c.gravity.z, c.wind.x),
@@ -97,7 +99,7 @@ RunIndex RunPool::create(const std::shared_ptr<const EffectDef>& effect, const R
     Run run;
     run.effect = effect;
     run.conditions = conditions;
-    run.simulated = conditions.startTick;
+    run.simulated = conditions.clock.scene;
     run.released = released;
     if (!released)
         makeSolvers(run);
@@ -122,6 +124,7 @@ RunIndex RunPool::copy(RunIndex index)
     runs_[index].save(state);
     const std::shared_ptr<const EffectDef> effect = runs_[index].effect;
     std::vector<Run::Change> changes = runs_[index].changes;
+    std::vector<Run::Told> told = runs_[index].told;
     const RunIndex made = create(effect, runs_[index].conditions, runs_[index].released);
     const Run& from = runs_[index];
     Run& run = runs_[made];
@@ -129,6 +132,7 @@ RunIndex RunPool::copy(RunIndex index)
     run.fresh = from.fresh;
     run.simulated = from.simulated;
     run.changes = std::move(changes);
+    run.told = std::move(told);
     run.field = from.field;
     if (run.released) {
         run.pristine = from.pristine;

@@ -5,6 +5,7 @@
 
 #include "foundation/math/geometry.h"
 #include "simulation/effect_def.h"
+#include "simulation/run_clock.h"
 
 #include <array>
 #include <cstdint>
@@ -20,7 +21,7 @@ namespace fx::sim {
 struct RunConditions
 {
     uint64_t seed = 0;
-    base::Ticks startTick = 0; ///< scene time of local tick 0
+    RunClock clock; ///< its anchor is the start, or when the host last changed its time
     Quality quality;
     glm::vec3 gravity{0.0f};              ///< [m/s2] local
     glm::vec3 wind{0.0f};                 ///< [m/s] local, the effect's and the host's
@@ -45,6 +46,13 @@ struct Run
         std::shared_ptr<const DistanceField> field; ///< keeps that of the conditions
     };
 
+    /// What the host said happened.
+    struct Told
+    {
+        base::Ticks tick; ///< scene time
+        HostEvent event;
+    };
+
     std::shared_ptr<const EffectDef> effect;
     RunConditions conditions;
     std::vector<std::unique_ptr<Solver>> solvers; ///< none while released
@@ -55,6 +63,7 @@ struct Run
     base::Ticks simulated = 0;                   ///< scene time that the state has reached
     base::Ticks restUntil = 0;                   ///< scene time up to which steps would change nothing
     std::vector<Change> changes;                 ///< of a paused run, by tick
+    std::vector<Told> told;                      ///< by the host, not heard yet, by tick
     std::shared_ptr<const DistanceField> field;  ///< keeps that of the conditions of a paused run
     std::shared_ptr<const StateBuffer> pristine; ///< of the solvers before their first step
     std::optional<StateBuffer> kept;

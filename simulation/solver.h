@@ -20,6 +20,7 @@
 #include <limits>
 #include <memory>
 #include <memory_resource>
+#include <span>
 
 namespace fx::sim {
 
@@ -66,6 +67,15 @@ struct ContactHook
                 float outNormal[3]) = nullptr;
 };
 
+class EventBoard;
+
+/// The host says that something happened.
+struct HostEvent
+{
+    uint32_t event; ///< number in EffectDef::hostEvents
+    uint32_t count; ///< how often
+};
+
 /// What a solver gets for one step.
 struct StepContext
 {
@@ -82,6 +92,8 @@ struct StepContext
     base::Arena* scratch; ///< forgotten after the step
     StepCounters* counters;
     const ContactHook* contactHook = nullptr; ///< null for none
+    EventBoard* board = nullptr;              ///< what solvers tell each other in this step; null for nothing
+    std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };

@@ -98,7 +98,7 @@ RunConditions World::conditionsOf(const EffectDef& effect, const InstanceStart& 
 {
     RunConditions conditions;
     conditions.seed = start.seed;
-    conditions.startTick = start.startTick;
+    conditions.clock = start.clock.value_or(RunClock{start.startTick, effect.prewarm, start.rate});
     conditions.quality = qualityOf(start.quality);
     conditions.gravity = toLocal(start.placement, environment_.gravity);
     conditions.wind = effect.wind + toLocal(start.placement, start.parameters.wind) /
@@ -166,8 +166,8 @@ bool World::finished(Slot slot, base::Ticks sceneTick) const
 
 bool World::isFinished(const Run& run, base::Ticks sceneTick) const
 {
-    const base::Ticks local = sceneTick - run.conditions.startTick;
-    if (local < 0)
+    const base::Ticks local = run.conditions.clock.toLocal(sceneTick);
+    if (local < 0 || sceneTick < run.conditions.clock.scene)
         return false;
     if (run.effect->duration > 0 && local >= run.effect->duration)
         return true;
@@ -277,55 +277,86 @@ void World::withContext(RunIndex index, StepCounters& counters, F&& body)
 
 void World::stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters)
 {
+    const RunClock clock = runs_.at(index).conditions.clock;
+    if (runs_.at(index).fresh && clock.local > 0)
+        replay(index, 0, clock.toLocal(std::max(tick, clock.scene)), stepTicks, counters);
     withContext(index, counters, [&](StepContext& context, const Run& run) {
-        const base::Ticks parts = std::clamp<base::Ticks>(run.effect->subSteps, 1, 16);
+        const base::Ticks turns = (clock.rate + kNormalRate - 1) / kNormalRate;
+        const base::Ticks parts =
+            std::clamp<base::Ticks>(run.effect->subSteps, 1, 16) * std::max<base::Ticks>(turns, 1);
         for (base::Ticks part = 0; part < parts; ++part) {
-            const base::Ticks from = tick + stepTicks * part / parts - run.conditions.startTick;
-            const base::Ticks to = tick + stepTicks * (part + 1) / parts - run.conditions.startTick;
-            context.tick = std::max<base::Ticks>(from, 0);
-            context.stepTicks = to - context.tick;
-            if (context.stepTicks <= 0)
+            const base::Ticks from = std::max(tick + stepTicks * part / parts, clock.scene);
+            const base::Ticks to = tick + stepTicks * (part + 1) / parts;
+            if (to <= from)
                 continue;
-            runs_.touch(index);
-            for (uint32_t i = 0; i < run.solvers.size(); ++i) {
-                context.solverIndex = i;
-                run.solvers[i]->step(context);
-                scratch_.reset();
-            }
+            context.hostEvents = hear(index, tick);
+            stepLocal(index, context, run, clock.toLocal(from), clock.toLocal(to));
         }
     });
-    runs_.at(index).simulated = std::max(tick + stepTicks, runs_.at(index).conditions.startTick);
+    runs_.at(index).simulated = std::max(tick + stepTicks, clock.scene);
+}
+
+/// One step of all solvers.
+void World::stepLocal(RunIndex index, StepContext& context, const Run& run, base::Ticks from, base::Ticks to)
+{
+    context.tick = std::max<base::Ticks>(from, 0);
+    context.stepTicks = to - context.tick;
+    if (context.stepTicks <= 0)
+        return;
+    runs_.touch(index);
+    stepSolvers(run, context);
 }
 
 /// Jumps to scene time `to`. False, and nothing has changed, when a solver cannot.
 bool World::seek(RunIndex index, base::Ticks to, StepCounters& counters)
 {
     const Run& run = runs_.at(index);
-    const base::Ticks from = run.simulated - run.conditions.startTick;
-    const base::Ticks local = to - run.conditions.startTick;
-    if (local <= from)
-        return true;
+    const base::Ticks from = run.conditions.clock.toLocal(run.simulated);
+    const base::Ticks local = run.conditions.clock.toLocal(to);
+    if (local > from && !jump(index, from, local, counters))
+        return false;
+    runs_.at(index).simulated = std::max(to, runs_.at(index).simulated);
+    return true;
+}
+
+/// The same in local time, also backwards.
+bool World::jump(RunIndex index, base::Ticks from, base::Ticks to, StepCounters& counters)
+{
+    const Run& run = runs_.at(index);
     bool canSeek = true;
     withContext(index, counters, [&](StepContext& context, const Run&) {
         context.tick = from;
-        context.stepTicks = local - from;
+        context.stepTicks = std::max<base::Ticks>(to - from, 1);
         for (uint32_t i = 0; i < run.solvers.size() && canSeek; ++i) {
             context.solverIndex = i;
-            canSeek = run.solvers[i]->canSeek(context, local);
+            canSeek = run.solvers[i]->canSeek(context, to);
         }
         if (!canSeek)
             return;
         runs_.touch(index);
         for (uint32_t i = 0; i < run.solvers.size(); ++i) {
             context.solverIndex = i;
-            run.solvers[i]->seek(context, local);
+            run.solvers[i]->seek(context, to);
             scratch_.reset();
         }
     });
-    if (!canSeek)
-        return false;
-    runs_.at(index).simulated = to;
-    return true;
+    return canSeek;
+}
+
+/// Steps from local time `from` to `to` on the schedule of an instance that is played from 0.
+void World::replay(RunIndex index, base::Ticks from, base::Ticks to, base::Ticks stepTicks,
+                   StepCounters& counters)
+{
+    if (from >= to || jump(index, from, to, counters))
+        return;
+    withContext(index, counters, [&](StepContext& context, const Run& run) {
+        const base::Ticks parts = std::clamp<base::Ticks>(run.effect->subSteps, 1, 16);
+        for (base::Ticks begin = from / stepTicks * stepTicks; begin < to; begin += stepTicks)
+            for (base::Ticks part = 0; part < parts; ++part) {
+                const base::Ticks first = std::max(begin + stepTicks * part / parts, from);
+                stepLocal(index, context, run, first, std::min(begin + stepTicks * (part + 1) / parts, to));
+            }
+    });
 }
 
 void World::publish(std::span<const Slot> active, base::FrameSnapshot& snapshot) const

@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct InstanceStart
     base::Placement placement;
     InstanceParameters parameters;
     QualityLevel quality = QualityLevel::Medium; ///< for life
+    uint32_t rate = kNormalRate;                 ///< see RunClock, from the start on
+    std::optional<RunClock> clock{};             ///< when the host has changed its time; else from the above
 };
 
 /// What all instances of a world share.
@@ -105,6 +108,17 @@ public:
     // Strong guarantee; both may need memory when the instance no longer comes out like others.
     void setPlacement(Slot slot, const base::Placement& placement);
     void setParameters(Slot slot, const InstanceParameters& parameters);
+    /// Plays an instance at another rate from now on. As setParameters().
+    void setRate(Slot slot, uint32_t rate);
+    /// Takes an instance to local time `to`, as if it had been played to there from its first step on, in
+    /// steps of `stepTicks`, under the conditions that hold now; what the host told it is left out.
+    void seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters);
+    base::Ticks localTime(Slot slot) const { return clockOf(slot).toLocal(now_); }
+    /// See RunClock; the present one, told or not.
+    RunClock clockOf(Slot slot) const;
+    /// Tells an instance that something happened; it hears of it when its state reaches the present, with the
+    /// next step. Strong guarantee; may need memory.
+    void tell(Slot slot, const HostEvent& event);
     /// True at the end of the effect's duration, when all solvers have finished, and when an instance that no
     /// longer emits is empty.
     bool finished(Slot slot, base::Ticks sceneTick) const;
@@ -167,6 +181,14 @@ private:
     void withContext(RunIndex index, StepCounters& counters, F&& body);
     void divideByPlacement();
     void divideRuns(std::span<const Slot> active);
+    void stepSolvers(const Run& run, StepContext& context);
+    void stepLocal(RunIndex index, StepContext& context, const Run& run, base::Ticks from, base::Ticks to);
+    void replay(RunIndex index, base::Ticks from, base::Ticks to, base::Ticks stepTicks,
+                StepCounters& counters);
+    bool jump(RunIndex index, base::Ticks from, base::Ticks to, StepCounters& counters);
+    void isolate(Slot slot);
+    std::span<const HostEvent> hear(RunIndex index, base::Ticks tick);
+    void restoreTold(Run& run, StateReader& reader);
     void stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters);
     RunIndex restoreRun(const Entry& first, StateReader& reader);
     RunIndex joinRun(RunIndex index, const Entry& entry, StateReader& reader);

@@ -144,8 +144,9 @@ base::Ticks World::restsUntil(Slot slot) const
 /// Scene time up to which the run, whose state is known, rests; what it has reached when it does not.
 base::Ticks World::restOf(const Run& run) const
 {
-    const base::Ticks local = run.simulated - run.conditions.startTick;
-    if (run.solvers.empty() || local <= 0)
+    const RunClock& clock = run.conditions.clock;
+    const base::Ticks local = clock.toLocal(run.simulated);
+    if (run.solvers.empty() || local <= 0 || clock.rate == 0)
         return run.simulated;
     base::Ticks until = run.effect->duration > 0 ? run.effect->duration : INT64_MAX / 4;
     for (const std::unique_ptr<Solver>& solver : run.solvers) {
@@ -153,7 +154,7 @@ base::Ticks World::restOf(const Run& run) const
         if (until <= local)
             return run.simulated;
     }
-    return run.conditions.startTick + until;
+    return clock.toScene(until);
 }
 
 /// Takes a run that is stepped but rests to `tick`.
@@ -179,7 +180,7 @@ void World::setNow(base::Ticks now)
 {
     now_ = now;
     for (RunIndex index = 0; index < runs_.size(); ++index)
-        runs_.at(index).simulated = std::max(now, runs_.at(index).conditions.startTick);
+        runs_.at(index).simulated = std::max(now, runs_.at(index).conditions.clock.scene);
 }
 
 } // namespace fx::sim

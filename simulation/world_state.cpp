@@ -6,6 +6,22 @@
 
 namespace fx::sim {
 
+namespace {
+
+void saveTold(const Run& run, StateWriter& writer)
+{
+    if (run.effect->hostEvents.empty())
+        return;
+    writer.value(uint32_t(run.told.size()));
+    for (const Run::Told& told : run.told) {
+        writer.value(told.tick);
+        writer.value(told.event.event);
+        writer.value(told.event.count);
+    }
+}
+
+} // namespace
+
 uint64_t World::hash(std::span<const Slot> slots) const
 {
     std::vector<uint64_t> hashes(runs_.size());
@@ -16,6 +32,7 @@ uint64_t World::hash(std::span<const Slot> slots) const
         if (!known[index]) {
             StateHasher hasher;
             runs_.at(index).save(hasher);
+            saveTold(runs_.at(index), hasher);
             hashes[index] = hasher.hash();
             known[index] = true;
         }
@@ -38,6 +55,7 @@ void World::save(std::span<const Slot> slots, StateWriter& writer) const
             continue;
         writer.flag(run.fresh);
         run.save(writer);
+        saveTold(run, writer);
     }
 }
 
@@ -67,6 +85,7 @@ RunIndex World::restoreRun(const Entry& first, StateReader& reader)
     run.users = 1;
     run.fresh = fresh;
     run.restore(reader);
+    restoreTold(run, reader);
     runs_.welcome(index);
     return index;
 }

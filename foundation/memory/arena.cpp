@@ -35,7 +35,7 @@ void Arena::reset()
         for (const Block& block : blocks_)
             total += block.size;
         releaseBlocks();
-        addBlock(total);
+        addBlock(total + total / 4); // the next frame may need a little more
     }
     if (!blocks_.empty())
         blocks_.back().used = 0;

@@ -27,8 +27,8 @@ public:
         return {static_cast<T*>(allocateBytes(count * sizeof(T))), count};
     }
 
-    /// Forgets all allocations. When they had spread over several blocks, one block of their sum replaces
-    /// them.
+    /// Forgets all allocations. When they had spread over several blocks, one block of their sum
+    /// and a quarter replaces them.
     void reset();
 
 private:

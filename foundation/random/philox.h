@@ -61,6 +61,7 @@ enum class RandomPurpose : uint32_t
     Axis,
     Bursts,
     Gusts,
+    Events,
 };
 
 /// Four numbers in [0, 1) for particle `index` of emitter `emitter` in the instance with this `seed`.

@@ -176,3 +176,37 @@ FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance, const FxIn
             return check.status();
         });
 }
+
+FxResult fxScene_TriggerEvent(FxScene* scene, FxInstanceId instance, const char* name, uint32_t count)
+{
+    return fx::api::withInstance(
+        "fxScene_TriggerEvent", scene, instance, [&](fx::scene::LocalId id) -> Status {
+            fx::api::Checks check;
+            check.notNull(name, "name");
+            if (count > 65536)
+                return fx::api::invalid("count is above 65536");
+            return check.status() ? scene->scene.tell(id, name, count) : check.status();
+        });
+}
+
+FxResult fxScene_SetInstanceSpeed(FxScene* scene, FxInstanceId instance, float speed)
+{
+    return fx::api::withInstance(
+        "fxScene_SetInstanceSpeed", scene, instance, [&](fx::scene::LocalId id) -> Status {
+            fx::api::Checks check;
+            check.range(speed, 0.0f, 16.0f, "speed");
+            if (check.status())
+                scene->scene.setRate(id, uint32_t(speed * float(fx::sim::kNormalRate) + 0.5f));
+            return check.status();
+        });
+}
+
+FxResult fxScene_SeekInstance(FxScene* scene, FxInstanceId instance, double seconds)
+{
+    return fx::api::withInstance("fxScene_SeekInstance", scene, instance,
+                                 [&](fx::scene::LocalId id) -> Status {
+                                     if (!(seconds >= 0.0 && seconds <= 86400.0))
+                                         return fx::api::invalid("seconds is not within 0 and 86400");
+                                     return scene->scene.seek(id, fx::base::toTicks(seconds));
+                                 });
+}

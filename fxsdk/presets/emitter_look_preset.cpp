@@ -92,4 +92,30 @@ void readEmitterLook(const PresetValue& appearance, sim::EmitterLook& out)
     readDegrees(appearance, "spinDegrees", out.spin);
 }
 
+void readEmitterTrail(const PresetValue& trail, sim::RibbonDef& out)
+{
+    trail.read("lifetime", out.lifetime);
+    trail.read("width", out.width);
+    trail.read("minDistance", out.minDistance);
+    trail.read("maxPoints", out.maxPoints);
+    trail.read("arcPerTile", out.arcPerTile);
+    trail.read("widthAlong", out.widthAlong);
+    trail.read("colorAlong", out.colorAlong);
+    trail.read("opacityAlong", out.opacityAlong);
+    readName(trail, "blend", kBlends, out.look.blend);
+    trail.read("orderBias", out.look.orderBias);
+    trail.read("luminance", out.look.luminance);
+    trail.read("lit", out.look.lit);
+    trail.read("softness", out.look.softness);
+}
+
+void readEmitterLight(const PresetValue& element, sim::LightDef& out)
+{
+    out.given = element.has("light");
+    const PresetValue light = element.child("light");
+    light.read("intensity", out.intensity);
+    light.read("count", out.maxLights);
+    light.read("merged", out.merged);
+}
+
 } // namespace fx::preset

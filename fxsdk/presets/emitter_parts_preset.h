@@ -21,6 +21,10 @@ double readEmitterEmission(const PresetValue& emission, float longestLife, sim::
 void readEmitterForces(const PresetValue& element, sim::EmitterDef& emitter);
 /// appearance
 void readEmitterLook(const PresetValue& appearance, sim::EmitterLook& out);
+/// trail
+void readEmitterTrail(const PresetValue& trail, sim::RibbonDef& out);
+/// light
+void readEmitterLight(const PresetValue& element, sim::LightDef& out);
 
 // Assets that members name; null after a finding.
 std::shared_ptr<const sim::FieldGrid> readGrid(const PresetValue& value, const char* member,

@@ -87,8 +87,6 @@ double readEmitterEmission(const PresetValue& emission, float longestLife, sim::
         out.bursts.emplace_back();
         alive += readBurst(emission.element("bursts", i), longestLife, out.bursts.back());
     }
-    if (out.rate <= 0 && out.bursts.empty())
-        emission.error("", "found neither a rate above 0 nor bursts: nothing would ever be born");
     return alive;
 }
 
@@ -107,6 +105,8 @@ void buildEmitter(const PresetValue& element, sim::EffectDef& effect)
     readEmitterForces(element, *emitter);
     readCurves(element, *emitter);
     readEmitterLook(element.child("appearance"), emitter->look);
+    readEmitterTrail(element.child("trail"), emitter->trail);
+    readEmitterLight(element, emitter->light);
     const double alive =
         readEmitterEmission(element.child("emission"), emitter->lifetime.max, emitter->emission);
     if (alive > double(emitter->maxParticles))

@@ -3,6 +3,7 @@
 #include "embedded/preset_library.h"
 #include "foundation/math/hash.h"
 #include "fxsdk/assets/read_file.h"
+#include "fxsdk/presets/emitter_events_preset.h"
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
 #include "fxsdk/presets/schema_assembly.h"
@@ -54,6 +55,9 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     double duration = 0;
     root.read("duration", duration);
     effect->duration = base::toTicks(duration);
+    double prewarm = 0;
+    root.read("prewarm", prewarm);
+    effect->prewarm = base::toTicks(prewarm);
     root.read("subSteps", effect->subSteps);
     root.read("wind", effect->wind);
     root.read("ground", effect->hasGround);
@@ -66,6 +70,7 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
         for (size_t i = 0; i < root.size(member.c_str()); ++i)
             technique.build(root.element(member.c_str(), i), *effect);
     }
+    linkEmitterEvents(root, *effect);
     if (findings.assetHash() != 0)
         effect->fingerprint = base::hashWord(effect->fingerprint, findings.assetHash());
     if (effect->solvers.empty() && !findings.hasErrors())

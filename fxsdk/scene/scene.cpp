@@ -196,6 +196,8 @@ sim::InstanceStart Scene::startOf(const IdTable<Instance>& instances, uint32_t i
     start.placement = setup.placement;
     start.parameters = setup.parameters;
     start.quality = setup.quality;
+    start.rate = setup.rate;
+    start.clock = setup.clock;
     return start;
 }
 

@@ -19,7 +19,9 @@
 #include <memory>
 #include <memory_resource>
 #include <mutex>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace fx::scene {
@@ -94,6 +96,8 @@ struct InstanceSetup
     sim::InstanceParameters parameters;
     bool destroyWhenFinished = false;
     sim::QualityLevel quality = sim::QualityLevel::Medium;
+    uint32_t rate = sim::kNormalRate;        ///< see sim::RunClock
+    std::optional<sim::RunClock> clock = {}; ///< once the host has changed its time
 };
 
 /// Exact counts since the scene was created, unless they say "now".
@@ -140,6 +144,13 @@ public:
     uint32_t particles(LocalId id);
     void setPlacement(LocalId id, const base::Placement& placement);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
+    /// @param rate see sim::RunClock
+    void setRate(LocalId id, uint32_t rate);
+    /// Takes an instance to a local time. @return InvalidArgument before its start and after its end
+    base::Status seek(LocalId id, base::Ticks local);
+    /// Tells an instance that what its preset calls `name` happened `count` times.
+    /// @return NotFound when its preset knows no such event, InvalidArgument before its start
+    base::Status tell(LocalId id, std::string_view name, uint32_t count);
     void setHints(LocalId id, const ActivationHints& hints);
 
     /// What is known about why an instance costs what it costs.

@@ -309,7 +309,11 @@ void Scene::takeBack(uint32_t index)
 base::Ticks Scene::endOf(const Instance& instance) const
 {
     const base::Ticks duration = instance.setup.effect->duration;
-    return duration > 0 ? instance.setup.startTick + duration : std::numeric_limits<base::Ticks>::max();
+    if (duration <= 0)
+        return std::numeric_limits<base::Ticks>::max();
+    const InstanceSetup& setup = instance.setup;
+    const sim::RunClock atStart{setup.startTick, setup.effect->prewarm, setup.rate};
+    return setup.clock.value_or(atStart).toScene(duration);
 }
 
 void Scene::setAlarm(uint32_t index, base::Ticks tick)

@@ -24,6 +24,12 @@ void saveSetup(sim::StateWriter& writer, const InstanceSetup& setup)
     writer.flag(setup.parameters.emitting);
     writer.flag(setup.destroyWhenFinished);
     writer.value(setup.quality);
+    writer.value(setup.rate);
+    writer.flag(setup.clock.has_value());
+    const sim::RunClock clock = setup.clock.value_or(sim::RunClock{});
+    writer.value(clock.scene);
+    writer.value(clock.local);
+    writer.value(clock.rate);
 }
 
 /// All but the effect.
@@ -41,6 +47,14 @@ InstanceSetup restoreSetup(sim::StateReader& reader)
     setup.destroyWhenFinished = reader.flag();
     setup.quality =
         reader.value(sim::QualityLevel::Low, sim::QualityLevel::Reference, "a quality is out of range");
+    setup.rate = reader.value<uint32_t>(0, sim::kHighestRate, "a rate is out of range");
+    const bool hasClock = reader.flag();
+    sim::RunClock clock;
+    clock.scene = reader.value<base::Ticks>(0, kLatestTick, "a clock is out of range");
+    clock.local = reader.value<base::Ticks>(0, kLatestTick, "a clock is out of range");
+    clock.rate = reader.value<uint32_t>(0, sim::kHighestRate, "a rate is out of range");
+    if (hasClock)
+        setup.clock = clock;
     const glm::dvec3 distance = glm::abs(setup.placement.position);
     reader.require(std::max({distance.x, distance.y, distance.z}) <= kFarthest,
                    "an instance is too far away");

@@ -5,6 +5,8 @@
 #include "foundation/math/curve.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "simulation/emitters/emitter_look.h"
+#include "simulation/emitters/event_rule.h"
+#include "simulation/emitters/ribbon_def.h"
 #include "simulation/particles/tile.h"
 #include "simulation/solver.h"
 
@@ -116,6 +118,11 @@ struct EmitterDef final : SolverDef
     base::ColorCurve albedoOverLife{std::array{0.0f, 0.0f, 0.0f}};   ///< [0, 1] single scattering albedo
     base::ColorCurve emissionOverLife{std::array{0.0f, 0.0f, 0.0f}}; ///< [cd/m2] besides the black body
 
+    std::vector<EventRule> events; ///< what happens to its particles gives birth in other emitters
+    bool fed = false;              ///< events of other emitters' particles give birth in this one
+
+    RibbonDef trail;
+    LightDef light;
     EmitterLook look;          ///< how particles are drawn; the members below are those of a medium
     float fireShare = 0.0f;    ///< [0, 1] part of the medium accounted to the fire layer
     float heat = 0.0f;         ///< [1] how strongly the excess temperature bends light (shimmer), 0 none

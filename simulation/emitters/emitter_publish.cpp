@@ -1,5 +1,6 @@
 #include "simulation/emitters/emitter_solver.h"
 
+#include "simulation/emitters/look_constants.h"
 #include "simulation/parallel.h"
 
 #include <algorithm>
@@ -14,36 +15,6 @@ namespace column = base::particle_column;
 constexpr uint32_t kChunk = 1024;        // rows that are handed to a thread together
 constexpr uint32_t kMinChunks = 8;       // fewer cost less than handing them to another thread
 constexpr size_t kBeyondCache = 8 << 20; // [byte] of a group that is not kept in the cache of a core
-
-void writeConstants(const EmitterDef& def, std::span<float> constants)
-{
-    namespace constant = base::particle_constant;
-    const EmitterLook& look = def.look;
-    const auto shape =
-        look.kind == Appearance::Mesh ? base::ParticleShape::Mesh : base::ParticleShape::Sprite;
-    constants[constant::Shape] = float(uint32_t(shape));
-    constants[constant::Layer] = float(uint32_t(def.layer));
-    constants[constant::Blend] = float(uint32_t(look.blend));
-    constants[constant::Order] = float(uint32_t(look.order));
-    constants[constant::OrderBias] = look.orderBias;
-    constants[constant::Alignment] = float(uint32_t(look.alignment));
-    constants[constant::AxisX] = look.axis.x;
-    constants[constant::AxisY] = look.axis.y;
-    constants[constant::AxisZ] = look.axis.z;
-    constants[constant::Aspect] = look.aspect;
-    constants[constant::Stretch] = look.stretch;
-    constants[constant::Luminance] = look.luminance;
-    constants[constant::Lit] = look.lit;
-    constants[constant::Softness] = look.softness;
-    constants[constant::Texture] = float(look.texture);
-    constants[constant::TileColumns] = float(look.tileColumns);
-    constants[constant::TileRows] = float(look.tileRows);
-    constants[constant::FrameBlend] = look.frameBlend ? 1.0f : 0.0f;
-    constants[constant::Motion] = float(look.motion);
-    constants[constant::MotionScale] = look.motionScale;
-    constants[constant::Mesh] = float(look.mesh);
-    constants[constant::ArcPerTile] = 1.0f;
-}
 
 /// The columns of a group, null where it lacks one.
 LookColumns columnsOf(base::SnapshotGroup& group)
@@ -84,6 +55,36 @@ LookBounds writeAll(const LookJob& job, const LookColumns& out, base::TaskRunner
 
 } // namespace
 
+void writeConstants(const EmitterDef& def, const EmitterLook& look, float arcPerTile,
+                    std::span<float> constants)
+{
+    namespace constant = base::particle_constant;
+    const auto shape =
+        look.kind == Appearance::Mesh ? base::ParticleShape::Mesh : base::ParticleShape::Sprite;
+    constants[constant::Shape] = float(uint32_t(shape));
+    constants[constant::Layer] = float(uint32_t(def.layer));
+    constants[constant::Blend] = float(uint32_t(look.blend));
+    constants[constant::Order] = float(uint32_t(look.order));
+    constants[constant::OrderBias] = look.orderBias;
+    constants[constant::Alignment] = float(uint32_t(look.alignment));
+    constants[constant::AxisX] = look.axis.x;
+    constants[constant::AxisY] = look.axis.y;
+    constants[constant::AxisZ] = look.axis.z;
+    constants[constant::Aspect] = look.aspect;
+    constants[constant::Stretch] = look.stretch;
+    constants[constant::Luminance] = look.luminance;
+    constants[constant::Lit] = look.lit;
+    constants[constant::Softness] = look.softness;
+    constants[constant::Texture] = float(look.texture);
+    constants[constant::TileColumns] = float(look.tileColumns);
+    constants[constant::TileRows] = float(look.tileRows);
+    constants[constant::FrameBlend] = look.frameBlend ? 1.0f : 0.0f;
+    constants[constant::Motion] = float(look.motion);
+    constants[constant::MotionScale] = look.motionScale;
+    constants[constant::Mesh] = float(look.mesh);
+    constants[constant::ArcPerTile] = arcPerTile;
+}
+
 LookJob EmitterSolver::lookJob() const
 {
     return {&program_, &store_, store_.window(), now_, motionBegin_, conditions_.pull};
@@ -95,6 +96,10 @@ void EmitterSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& sn
         publishMedium(base, snapshot);
     else if (def_.look.kind != Appearance::None)
         publishParticles(base, snapshot);
+    if (trails_)
+        publishTrails(base, snapshot);
+    if (def_.light.given)
+        publishLights(base, snapshot);
 }
 
 void EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
@@ -107,7 +112,7 @@ void EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSna
     info = base;
     info.kind = kinds_.particle;
     info.count = job.rows.count;
-    writeConstants(def_, group.editConstants());
+    writeConstants(def_, def_.look, 1.0f, group.editConstants());
 
     group.editInfo().bounds = writeAll(job, columnsOf(group), tasks_).box();
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 
 namespace fx::sim {
 
@@ -34,15 +35,21 @@ bool EmitterDef::collides() const
 std::unique_ptr<Solver> EmitterDef::create(const base::SnapshotSchema& schema, const Quality&,
                                            std::pmr::memory_resource* memory) const
 {
-    const EmitterKinds kinds{schema.find(base::kBlobKind.name), schema.find(base::kParticleKind.name)};
+    const EmitterKinds kinds{schema.find(base::kBlobKind.name), schema.find(base::kParticleKind.name),
+                             schema.find(base::kRibbonKind.name), schema.find(base::kLightKind.name)};
     return std::make_unique<EmitterSolver>(*this, kinds, memory);
 }
 
 EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                              std::pmr::memory_resource* memory)
     : def_(def), kinds_(kinds), shared_(def.program.of(def)), program_(*shared_),
-      schedule_(def.emission, memory), store_(program_, memory), rowsByBirth_(memory)
+      schedule_(def.emission, memory), store_(program_, memory), interest_(def.events), lights_(memory),
+      rowsByBirth_(memory)
 {
+    if (def.trail.lifetime > 0.0f)
+        trails_.emplace(def.trail, store_.capacity(), memory);
+    if (def.light.given)
+        lights_.resize(store_.capacity());
     if (def.look.kind == Appearance::Medium)
         rowsByBirth_.resize(store_.capacity());
 }
@@ -96,10 +103,16 @@ void EmitterSolver::step(const StepContext& context)
     schedule_.setSeed(context.seed, context.solverIndex);
     heedConditions(context);
     const base::Ticks end = context.tick + context.stepTicks;
-    giveBirth(context, context.tick, end);
-    if (!program_.ballistic)
-        move(context);
+    if (isLinked()) {
+        stepWithEvents(context);
+    } else {
+        giveBirth(context, context.tick, end);
+        if (!program_.ballistic)
+            move(context);
+    }
     now_ = end;
+    if (trails_)
+        trails_->follow(lookJob(), context.tick, end);
     store_.retire(now_);
     const uint64_t window = std::min<uint64_t>(store_.next() - store_.front(), store_.capacity());
     context.counters->particleSteps += window;
@@ -132,9 +145,15 @@ void EmitterSolver::storeBatch(const StepContext& context, std::span<const Birth
     store_.advance(births.size());
 }
 
-void EmitterSolver::move(const StepContext& context)
+/// @param firstIndex only particles from it on move @param room receives what happens to them; null: nobody
+/// asks
+void EmitterSolver::move(const StepContext& context, uint64_t firstIndex, EventRoom* room)
 {
-    const TileStep step(program_, context);
+    TileStep step(program_, context);
+    std::optional<EventWatch> watch;
+    if (room)
+        step.watchBy(&watch.emplace(interest_, *room));
+    step.onlyFrom(firstIndex);
     const RowWindow rows = store_.window();
     const uint32_t tiles = (rows.count + kTileRows - 1) / kTileRows;
     parallelRows(*context.tasks, tiles, kMinSteppedTiles, [&](uint32_t begin, uint32_t end) {
@@ -144,7 +163,8 @@ void EmitterSolver::move(const StepContext& context)
 
 bool EmitterSolver::finished(base::Ticks tick) const
 {
-    return store_.empty() && schedule_.exhausted(tick);
+    return store_.empty() && !(trails_ && !trails_->empty()) && schedule_.exhausted(tick) &&
+           !interest_.in(EventKind::Host);
 }
 
 /// True when the ring is so large that no birth can ever find its row taken.
@@ -163,7 +183,8 @@ bool EmitterSolver::neverDrops(double intensity) const
 bool EmitterSolver::canSeek(const StepContext& context, base::Ticks tick) const
 {
     const bool isForwards = tick >= now_ || !started_;
-    return program_.ballistic && (isForwards || (!varied_ && conditionsOf(context) == conditions_));
+    return program_.ballistic && !isLinked() && !trails_ &&
+           (isForwards || (!varied_ && conditionsOf(context) == conditions_));
 }
 
 void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
@@ -204,8 +225,12 @@ void EmitterSolver::save(StateWriter& writer) const
     writer.value(conditions_.intensity);
     writer.flag(conditions_.emitting);
     writer.flag(varied_);
+    if (interest_.in(EventKind::Host))
+        writer.value(hostEvents_);
     schedule_.save(writer);
     store_.save(writer, now_);
+    if (trails_)
+        trails_->save(writer);
 }
 
 void EmitterSolver::restore(StateReader& reader)
@@ -217,8 +242,12 @@ void EmitterSolver::restore(StateReader& reader)
     conditions_.intensity = reader.value<float>();
     conditions_.emitting = reader.flag();
     varied_ = reader.flag();
+    if (interest_.in(EventKind::Host))
+        hostEvents_ = reader.value<uint64_t>();
     schedule_.restore(reader);
     store_.restore(reader, now_);
+    if (trails_)
+        trails_->restore(reader);
 }
 
 } // namespace fx::sim

@@ -4,8 +4,12 @@
 
 #include "simulation/emitters/birth_schedule.h"
 #include "simulation/emitters/emitter_def.h"
+#include "simulation/emitters/event_scan.h"
+#include "simulation/emitters/ribbon_store.h"
 #include "simulation/particles/look_kernel.h"
 #include "simulation/particles/particle_store.h"
+
+#include <optional>
 
 namespace fx::sim {
 
@@ -14,6 +18,8 @@ struct EmitterKinds
 {
     base::KindId blob;
     base::KindId particle;
+    base::KindId ribbon = base::kNoKind;
+    base::KindId light = base::kNoKind;
 };
 
 /// Steps particles that do not feel each other. The set of particles, their birth ticks and their rows depend
@@ -51,10 +57,37 @@ private:
     void heedConditions(const StepContext& context);
     void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to);
     void storeBatch(const StepContext& context, std::span<const Birth> births);
-    void move(const StepContext& context);
+    void move(const StepContext& context, uint64_t firstIndex = 0, EventRoom* room = nullptr);
+    // where there are events
+    struct Origin
+    {
+        glm::vec3 position{0.0f}; ///< [m] added to where the birth's own shape puts it
+        glm::vec3 velocity{0.0f}; ///< [m/s] likewise
+        bool fed = false;         ///< an event gave birth to it
+    };
+    bool isLinked() const { return def_.fed || !def_.events.empty(); }
+    void stepWithEvents(const StepContext& context);
+    void giveLinkedBirth(const StepContext& context, EventList& out);
+    std::span<Birth> scheduledBirths(const StepContext& context);
+    void storeLinked(const StepContext& context, std::span<const Birth> births,
+                     std::span<const Origin> origins, EventList& out);
+    void answerEvents(const StepContext& context, std::span<const EventList> lists, const EventList& more);
+    void hearHost(const StepContext& context, EventList& out);
+    EventScan scanOf(const StepContext& context) const;
     bool neverDrops(double intensity) const;
     LookJob lookJob() const;
     void publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
+    void publishTrails(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
+    void publishLights(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
+    struct Light
+    {
+        glm::vec3 position{0.0f};
+        glm::vec3 intensity{0.0f}; ///< [cd]
+        uint32_t row = 0;
+        float sum = 0; ///< what decides which are kept
+    };
+    Light lightOf(uint32_t row, uint32_t i, const MotionTile& motion) const;
+    uint32_t findLights() const;
     uint32_t sortLiving() const;
     void publishMedium(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
 
@@ -64,10 +97,14 @@ private:
     const ParticleProgram& program_;
     BirthSchedule schedule_;
     ParticleStore store_;
-    base::Ticks now_ = 0;         ///< end of the last step
-    base::Ticks motionBegin_ = 0; ///< see LookJob
-    Conditions conditions_;       ///< of the last step
-    bool varied_ = false;         ///< they were others before
+    EventInterest interest_;
+    std::optional<RibbonStore> trails_;
+    mutable std::pmr::vector<Light> lights_; ///< room for those that are published
+    uint64_t hostEvents_ = 0;                ///< so many have been answered
+    base::Ticks now_ = 0;                    ///< end of the last step
+    base::Ticks motionBegin_ = 0;            ///< see LookJob
+    Conditions conditions_;                  ///< of the last step
+    bool varied_ = false;                    ///< they were others before
     bool started_ = false;
     uint32_t highWater_ = 0;
     uint64_t dropped_ = 0;

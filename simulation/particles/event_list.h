@@ -13,8 +13,9 @@
 ///   A contact happens at the tick b + floor(c n), at most b + n - 1, so that it belongs to the step that saw
 ///   it                                                                                      (1)
 ///   at the place x0 + c (x1 - x0), unless the particle ends there                           (2)
-///   Events are answered in the order of (tick, emitter, index of the particle, kind), which no partition of
-///   the work changes                                                                        (3)
+///   Events are answered in the order of (tick, cause, emitter, index of the particle, kind, number), which
+///   no partition of the work and of time changes: what an earlier event of the same tick caused comes
+///   before what the clock or the host did                                                   (3)
 /// @source    elementary
 /// @deviation (2) takes the way as straight
 /// @valid     0 <= c <= 1, n >= 1
@@ -50,14 +51,17 @@ struct ParticleEvent
     uint64_t index;   ///< of the particle in its emitter
     uint32_t emitter; ///< solver index
     EventKind kind;
-    glm::vec3 position; ///< [m]
-    glm::vec3 velocity; ///< [m/s]
+    glm::vec3 position;     ///< [m]
+    glm::vec3 velocity;     ///< [m/s]
+    bool scheduled = false; ///< the clock or the host is its cause, not what a particle went through
+    uint32_t number = 0;    ///< which of the emitter's ages, with EventKind::Age
 };
 
 /// (3)
 inline bool happensBefore(const ParticleEvent& a, const ParticleEvent& b)
 {
-    return std::tuple(a.tick, a.emitter, a.index, a.kind) < std::tuple(b.tick, b.emitter, b.index, b.kind);
+    return std::tuple(a.tick, a.scheduled, a.emitter, a.index, a.kind, a.number) <
+           std::tuple(b.tick, b.scheduled, b.emitter, b.index, b.kind, b.number);
 }
 
 /// (1)

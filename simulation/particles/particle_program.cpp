@@ -82,7 +82,7 @@ void chooseColumns(ParticleProgram& program)
         program.constant[column] = range.min;
     };
     const bool medium = def.look.kind == Appearance::Medium;
-    const bool fixed = def.shape == EmitterShape::Point && !def.births && program.ballistic;
+    const bool fixed = def.shape == EmitterShape::Point && !def.births && !def.fed && program.ballistic;
     for (size_t a = 0; a < 3; ++a) {
         program.stores[stored::X + a] = !fixed;
         program.constant[stored::X + a] = def.position[int(a)];

@@ -56,7 +56,7 @@ void TileStep::load(const ParticleStore& store, uint32_t row, Tile& tile) const
         tile.indexLow[i] = uint32_t(index);
         tile.indexHigh[i] = uint32_t(index >> 32);
         const uint32_t kept = store.flags.data() ? store.flags[row + i] : 0;
-        const bool living = i < tile.count && inWindow(rows, row + i) && index != kNobody;
+        const bool living = i < tile.count && inWindow(rows, row + i) && index != kNobody && index >= first_;
         tile.flags[i] = living ? kept : uint32_t(tile_flag::Empty);
     }
     const float* const perLife = store.values[stored::PerLife].data();
@@ -78,7 +78,8 @@ void TileStep::save(const Tile& tile, ParticleStore& store) const
         std::copy_n(kMotion[c](from), tile.padded, store.values[stored::X + c].data() + tile.firstRow);
     if (store.flags.data())
         for (uint32_t i = 0; i < tile.count; ++i)
-            store.flags[tile.firstRow + i] = tile.flags[i] & (tile_flag::Stuck | tile_flag::Collided);
+            if ((tile.flags[i] & tile_flag::Empty) == 0)
+                store.flags[tile.firstRow + i] = tile.flags[i] & (tile_flag::Stuck | tile_flag::Collided);
     if (!program_.mortal)
         return;
     for (uint32_t i = 0; i < tile.count; ++i)
@@ -106,6 +107,8 @@ void TileStep::run(ParticleStore& store, uint32_t begin, uint32_t end) const
         }
         if (!moved)
             integrate(tile);
+        if (watch_)
+            watch_->see(context_, tile, store);
         save(tile, store);
     }
 }

@@ -16,6 +16,14 @@ struct PreparedOp
     const void* scratch;
 };
 
+/// Sees each tile after its modules have run and before it is stored. Called by several threads at once.
+class TileWatch
+{
+public:
+    virtual ~TileWatch() = default;
+    virtual void see(const TileContext& context, const Tile& tile, const ParticleStore& store) = 0;
+};
+
 /// One step of one emitter. Rows may be stepped by several threads at once.
 class TileStep
 {
@@ -26,6 +34,10 @@ public:
     /// Steps the rows [begin, end) of `store` that are in its window; begin is a multiple of kTilePadding.
     void run(ParticleStore& store, uint32_t begin, uint32_t end) const;
 
+    /// Steps only particles whose index is at least `first`.
+    void onlyFrom(uint64_t first) { first_ = first; }
+    void watchBy(TileWatch* watch) { watch_ = watch; }
+
 private:
     void load(const ParticleStore& store, uint32_t row, Tile& tile) const;
     void save(const Tile& tile, ParticleStore& store) const;
@@ -33,6 +45,8 @@ private:
     const ParticleProgram& program_;
     TileContext context_;
     std::span<PreparedOp> ops_;
+    uint64_t first_ = 0;
+    TileWatch* watch_ = nullptr;
 };
 
 } // namespace fx::sim

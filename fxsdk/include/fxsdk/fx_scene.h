@@ -255,6 +255,36 @@ FX_API FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, cons
 FX_API FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance,
                                       const FxInstanceParameters* parameters);
 
+/// Plays an instance at another speed from now on: its time is integer ticks, a 65536th of the scene's at a
+/// time, so that equal calls give equal bits. A speed that is a whole number takes the same steps as speed 1,
+/// several of them with each step of the scene; 0 lets the instance stand still. [scene thread]
+/// @param speed [1] 0..16, rounded to a multiple of 1/65536. Nothing happens to an instance that has ended
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (not finite or out of range), FX_ERROR_STALE_ID,
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (as fxScene_SetTransform)
+FX_API FxResult fxScene_SetInstanceSpeed(FxScene* scene, FxInstanceId instance, float speed);
+
+/// Takes an instance to a time of its own, forwards or backwards, as if it had been played to there from its
+/// beginning under the wind, intensity and place that it has now: bit for bit, when the time is a whole
+/// number of the scene's steps. Emitters whose motion has a closed form jump there; everything else takes
+/// the steps again, in this call. What fxScene_TriggerEvent told it is left out. Views see it with the next
+/// step. [scene thread]
+/// @param seconds [s] 0..86400 since its beginning, rounded to a tick
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (not finite, out of range, or the instance has not started or has
+///         ended), FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
+FX_API FxResult fxScene_SeekInstance(FxScene* scene, FxInstanceId instance, double seconds);
+
+/// Tells an instance that something happened that its preset answers with births: a member of an emitter's
+/// "events" with "on": "host" and this name. They happen at the beginning of the next step, at that emitter's
+/// position; an instance that is out of sight hears of it when it is simulated again. Each call counts:
+/// equal calls give equal bits. [scene thread]
+/// @param name  what the preset calls it, at most 128 bytes
+/// @param count [1] how often it happened, 0..65536; 0 does nothing. Nothing happens to an instance that has
+///              ended
+/// @return FX_OK, FX_ERROR_NOT_FOUND (the preset has no such event), FX_ERROR_INVALID_ARGUMENT (null, out of
+///         range, or the instance has not started), FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD,
+///         FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
+FX_API FxResult fxScene_TriggerEvent(FxScene* scene, FxInstanceId instance, const char* name, uint32_t count);
+
 /// Sets the geometry that gases, fragments, and emitted particles that bounce collide with, in place of any
 /// former one; it holds from the next step on. Closed surfaces are solid; behind others, of which the side
 /// that is seen counter-clockwise is the front, two cells are. Walls thinner than a cell are thickened, so

@@ -1,0 +1,27 @@
+/// @file half.h
+/// One float to binary16, as the particle kernels do it for many (half-floats).
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace fx::base {
+
+/// To nearest, ties to even; what is outside of [0, 65504] is clamped, NaN becomes 0.
+inline uint32_t toHalf(float x)
+{
+    const float bounded = x > 0.0f ? (x < 65504.0f ? x : 65504.0f) : 0.0f;
+    const uint32_t bits = std::bit_cast<uint32_t>(bounded);
+    if (bounded < 0x1p-14f)
+        return std::bit_cast<uint32_t>(bounded + 0.5f) - (126u << 23);
+    return (bits - (112u << 23) + 0xFFFu + ((bits >> 13) & 1u)) >> 13;
+}
+
+/// A column Color: red in the lowest 16 bits, then green, blue, opacity.
+inline uint64_t packHalfs(float red, float green, float blue, float opacity)
+{
+    return uint64_t(toHalf(red)) | uint64_t(toHalf(green)) << 16 | uint64_t(toHalf(blue)) << 32 |
+           uint64_t(toHalf(opacity)) << 48;
+}
+
+} // namespace fx::base

@@ -1,0 +1,39 @@
+/// @file event_rule.h
+/// What an emitter's preset says about what becomes of its events.
+#pragma once
+
+#include "simulation/particles/event_list.h"
+
+#include <cstdint>
+
+namespace fx::sim {
+
+/// Something that happens to particles of one emitter gives birth to particles of another one.
+struct EventRule
+{
+    EventKind on = EventKind::Death;
+    base::Ticks age = 0;    ///< with EventKind::Age: how old a particle is then, > 0
+    uint32_t hostEvent = 0; ///< with EventKind::Host: number in EffectDef::hostEvents
+    uint32_t target = 0;    ///< solver index of the emitter that gives birth
+    uint32_t fewest = 1;    ///< births of one event, drawn from [fewest, most]
+    uint32_t most = 1;
+    float probability = 1.0f;     ///< [1] 0..1 that anything is born
+    float inheritVelocity = 0.0f; ///< [1] 0..1 of the particle's velocity that those who are born have too
+};
+
+/// What one event asks of the emitter that it gives birth in.
+struct EventBirth
+{
+    ParticleEvent cause; ///< its velocity is what is inherited
+    uint32_t rule;       ///< number among the rules of the emitter that it happened in
+    uint32_t count;
+};
+
+inline bool comesBefore(const EventBirth& a, const EventBirth& b)
+{
+    if (happensBefore(a.cause, b.cause) || happensBefore(b.cause, a.cause))
+        return happensBefore(a.cause, b.cause);
+    return a.rule < b.rule;
+}
+
+} // namespace fx::sim

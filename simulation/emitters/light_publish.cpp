@@ -1,0 +1,111 @@
+// What emitters publish besides their particles: trails and lights.
+#include "simulation/emitters/emitter_solver.h"
+#include "simulation/emitters/look_constants.h"
+
+#include <algorithm>
+
+namespace fx::sim {
+
+namespace {
+constexpr float kPi = 3.14159265f;
+}
+
+void EmitterSolver::publishTrails(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+{
+    if (kinds_.ribbon == base::kNoKind)
+        return;
+    base::SnapshotGroup& group = snapshot.addGroup(kinds_.ribbon, trails_->mostPoints());
+    group.editInfo() = base;
+    group.editInfo().kind = kinds_.ribbon;
+    writeConstants(def_, def_.trail.look, def_.trail.arcPerTile, group.editConstants());
+    group.editInfo().count = trails_->publish(now_, group);
+}
+
+/// A sprite emits its luminance from its projected area; a medium from the smaller of that and its cross
+/// section.
+EmitterSolver::Light EmitterSolver::lightOf(uint32_t row, uint32_t i, const MotionTile& motion) const
+{
+    const float life = motion.life[i];
+    const bool medium = def_.look.kind == Appearance::Medium;
+    const auto color = medium ? def_.emissionOverLife.at(life) : def_.look.colorOverLife.at(life);
+    const float radius = store_.value(stored::Radius, row) * def_.sizeOverLife.at(life)[0];
+    const float amount = store_.value(stored::Amount, row) * def_.opacityOverLife.at(life)[0];
+    const float area = kPi * radius * radius;
+    float strength = medium ? std::min(area, amount) : amount * store_.value(stored::Brightness, row);
+    if (!medium)
+        strength *= def_.light.intensity > 0.0f ? def_.light.intensity : def_.look.luminance * area;
+    Light light;
+    light.row = row;
+    for (int a = 0; a < 3; ++a) {
+        light.position[a] = motion.position[a][i];
+        light.intensity[a] = strength * color[size_t(a)];
+    }
+    light.sum = light.intensity.x + light.intensity.y + light.intensity.z;
+    return light;
+}
+
+/// Fills lights_ with all particles that shine, by row. @return how many
+uint32_t EmitterSolver::findLights() const
+{
+    const LookJob job = lookJob();
+    uint32_t count = 0;
+    MotionTile motion;
+    for (uint32_t first = 0; first < job.rows.count; first += kTileRows) {
+        const uint32_t rows = std::min(job.rows.count - first, kTileRows);
+        readMotion(job, first, rows, motion);
+        for (uint32_t i = 0; i < rows; ++i) {
+            const uint32_t row = first + i;
+            const bool outside = row >= job.rows.gapBegin && row < job.rows.gapEnd;
+            if (outside || !store_.isAlive(row, now_))
+                continue;
+            const Light light = lightOf(row, i, motion);
+            if (light.sum > 0.0f)
+                lights_[count++] = light;
+        }
+    }
+    return count;
+}
+
+void EmitterSolver::publishLights(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+{
+    if (kinds_.light == base::kNoKind)
+        return;
+    uint32_t count = findLights();
+    const auto end = lights_.begin() + count;
+    if (def_.light.merged && count > 1) {
+        Light all;
+        for (auto light = lights_.begin(); light != end; ++light) {
+            all.intensity += light->intensity;
+            all.sum += light->sum;
+            all.position += light->sum * light->position;
+        }
+        all.position /= all.sum;
+        lights_[0] = all;
+        count = 1;
+    } else if (count > def_.light.maxLights) {
+        const auto brighter = [](const Light& a, const Light& b) {
+            return a.sum != b.sum ? a.sum > b.sum : a.row < b.row;
+        };
+        count = def_.light.maxLights;
+        std::nth_element(lights_.begin(), lights_.begin() + count, end, brighter);
+        const auto byRow = [](const Light& a, const Light& b) { return a.row < b.row; };
+        std::make_heap(lights_.begin(), lights_.begin() + count, byRow); // heap sort: no allocation
+        std::sort_heap(lights_.begin(), lights_.begin() + count, byRow);
+    }
+    namespace column = base::light_column;
+    base::SnapshotGroup& group =
+        snapshot.addGroup(kinds_.light, def_.light.merged ? 1 : def_.light.maxLights);
+    base::GroupInfo& info = group.editInfo();
+    info = base;
+    info.kind = kinds_.light;
+    info.count = count;
+    for (uint32_t i = 0; i < count; ++i)
+        for (size_t a = 0; a < 3; ++a) {
+            group.editColumn(column::PositionX + a)[i] = lights_[i].position[int(a)];
+            group.editColumn(column::IntensityR + a)[i] = lights_[i].intensity[int(a)];
+        }
+    for (uint32_t i = 0; i < count; ++i)
+        info.bounds.add(lights_[i].position, 0.0f);
+}
+
+} // namespace fx::sim

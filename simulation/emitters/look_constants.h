@@ -1,0 +1,15 @@
+/// @file look_constants.h
+/// Constants of the groups that emitters publish for drawing.
+#pragma once
+
+#include "simulation/emitters/emitter_def.h"
+
+#include <span>
+
+namespace fx::sim {
+
+/// @param arcPerTile [m] of a ribbon; 1 elsewhere
+void writeConstants(const EmitterDef& def, const EmitterLook& look, float arcPerTile,
+                    std::span<float> constants);
+
+} // namespace fx::sim

@@ -1,0 +1,63 @@
+// How solvers of an effect and the host tell each other of events.
+#include "simulation/emitters/event_board.h"
+#include "simulation/world.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace fx::sim {
+
+/// Solvers that tell each other of events share the scratch memory of the step, causes before effects.
+void World::stepSolvers(const Run& run, StepContext& context)
+{
+    const std::span<const uint32_t> order = run.effect->order;
+    std::optional<EventBoard> board;
+    if (!order.empty())
+        context.board = &board.emplace(scratch_, run.solvers.size());
+    for (uint32_t k = 0; k < run.solvers.size(); ++k) {
+        context.solverIndex = order.empty() ? k : order[k];
+        run.solvers[context.solverIndex]->step(context);
+        if (order.empty())
+            scratch_.reset();
+    }
+    context.board = nullptr;
+    scratch_.reset();
+}
+
+void World::tell(Slot slot, const HostEvent& event)
+{
+    isolate(slot);
+    const RunIndex index = instances_[slot].run;
+    runs_.at(index).told.push_back({now_, event});
+    runs_.touch(index); // nobody may join it any more
+}
+
+/// What the run, at scene time `tick`, has been told and has not heard; in scratch memory.
+std::span<const HostEvent> World::hear(RunIndex index, base::Ticks tick)
+{
+    Run& run = runs_.at(index);
+    const base::Ticks until = std::max(tick, run.conditions.clock.scene);
+    const auto end = std::find_if(run.told.begin(), run.told.end(),
+                                  [until](const Run::Told& told) { return told.tick > until; });
+    const std::span<HostEvent> heard = scratch_.allocate<HostEvent>(size_t(end - run.told.begin()));
+    std::transform(run.told.begin(), end, heard.begin(), [](const Run::Told& told) { return told.event; });
+    run.told.erase(run.told.begin(), end);
+    return heard;
+}
+
+void World::restoreTold(Run& run, StateReader& reader)
+{
+    const size_t known = run.effect->hostEvents.size();
+    if (known == 0)
+        return;
+    const uint32_t count = reader.value<uint32_t>(0, 1u << 20, "too many events wait");
+    for (uint32_t i = 0; i < count && reader.ok(); ++i) {
+        Run::Told told{};
+        told.tick = reader.value<base::Ticks>();
+        told.event.event = reader.value<uint32_t>(0, uint32_t(known - 1), "an event is unknown");
+        told.event.count = reader.value<uint32_t>();
+        run.told.push_back(told);
+    }
+}
+
+} // namespace fx::sim

@@ -1,0 +1,75 @@
+// Instances whose time is their own: prewarm, playback rate, jumps.
+#include "foundation/simd/floating_point_scope.h"
+#include "simulation/world.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace fx::sim {
+
+/// Gives an instance a run that no other shares.
+void World::isolate(Slot slot)
+{
+    RunIndex& index = instances_[slot].run;
+    endRest(index, now_);
+    if (runs_.at(index).users == 1)
+        return;
+    const RunIndex own = runs_.copy(index);
+    if (instances_[slot].hidden) {
+        --runs_.at(index).hidden;
+        ++runs_.at(own).hidden;
+    }
+    runs_.leave(index);
+    index = own;
+}
+
+RunClock World::clockOf(Slot slot) const
+{
+    const Run& run = runs_.at(instances_[slot].run);
+    return run.changes.empty() ? run.conditions.clock : run.changes.back().conditions.clock;
+}
+
+void World::setRate(Slot slot, uint32_t rate)
+{
+    InstanceStart start = instances_[slot].start;
+    RunClock clock = clockOf(slot);
+    if (now_ > clock.scene)
+        clock = {now_, clock.toLocal(now_), rate};
+    clock.rate = rate;
+    start.clock = clock;
+    change(slot, start);
+}
+
+void World::seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters)
+{
+    const base::FloatingPointScope floatingPoint;
+    isolate(slot);
+    const RunIndex index = instances_[slot].run;
+    runs_.materialize(index);
+    Run& run = runs_.at(index);
+    runs_.touch(index);
+    base::Ticks from = std::max<base::Ticks>(run.conditions.clock.toLocal(run.simulated), 0);
+    if (!run.changes.empty()) {
+        run.conditions = run.changes.back().conditions;
+        run.changes.clear();
+    }
+    run.told.clear();
+    const uint32_t rate = run.conditions.clock.rate;
+    if (!jump(index, from, to, counters)) {
+        if (to < from) {
+            StateReader reader(run.pristine->bytes());
+            run.restore(reader);
+            if (!reader.ok())
+                throw std::logic_error("a solver does not take its first state: " +
+                                       reader.status().message());
+            from = 0;
+        }
+        replay(index, from, to, stepTicks, counters);
+    }
+    run.conditions.clock = {now_, to, rate};
+    instances_[slot].start.clock = run.conditions.clock;
+    run.simulated = now_;
+    run.field.reset();
+}
+
+} // namespace fx::sim

@@ -1,0 +1,109 @@
+#include "tests/api/api_fixture.h"
+
+#include <limits>
+
+using namespace fx::test;
+
+namespace {
+
+class InstanceTimeApi : public ApiTest
+{
+protected:
+    FxInstanceId add(const std::string& text)
+    {
+        FxInstanceDef def = fxDefaultInstanceDef();
+        def.preset = loadText(context_, text);
+        FxInstanceId id{};
+        EXPECT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK);
+        return id;
+    }
+    uint32_t particlesOf(FxInstanceId id) const
+    {
+        uint32_t particles = 0;
+        EXPECT_EQ(fxScene_GetInstanceState(scene_, id, nullptr, &particles), FX_OK);
+        return particles;
+    }
+};
+
+const std::string kBell = R"({"version":1,"emitters":[
+    {"name":"bell","emission":{},"position":[0,1,0],"events":[{"on":"host","name":"ring","emit":"waves","count":5}]},
+    {"name":"waves","lifetime":100}]})";
+
+} // namespace
+
+TEST_F(InstanceTimeApi, anEventGivesBirthWithTheNextStep)
+{
+    const FxInstanceId bell = add(kBell);
+    play(3);
+    EXPECT_EQ(particlesOf(bell), 0u);
+    EXPECT_EQ(fxScene_TriggerEvent(scene_, bell, "ring", 2), FX_OK);
+    EXPECT_EQ(particlesOf(bell), 0u);
+    play(1);
+    EXPECT_EQ(particlesOf(bell), 10u);
+    play(5);
+    EXPECT_EQ(particlesOf(bell), 10u);
+}
+
+TEST_F(InstanceTimeApi, whatIsToldIsSavedAndRestored)
+{
+    const FxInstanceId bell = add(kBell);
+    play(3);
+    ASSERT_EQ(fxScene_TriggerEvent(scene_, bell, "ring", 1), FX_OK);
+    const auto state = savedState();
+    play(2);
+    const uint64_t want = simulationHash();
+    ASSERT_EQ(restore(state), FX_OK);
+    play(2);
+    EXPECT_EQ(simulationHash(), want);
+    EXPECT_EQ(particlesOf(bell), 5u);
+}
+
+TEST_F(InstanceTimeApi, aSeekEqualsPlayingForwardsAndBackwards)
+{
+    const FxInstanceId played = addFountain();
+    play(90);
+    const FxInstanceId sought = addFountain(); // begins 90 frames later
+    play(1);
+    EXPECT_EQ(fxScene_SeekInstance(scene_, sought, 1.5), FX_OK);
+    EXPECT_EQ(particlesOf(sought), particlesOf(played));
+    EXPECT_EQ(fxScene_SeekInstance(scene_, sought, 0.5), FX_OK);
+    EXPECT_EQ(particlesOf(sought), 30u);
+    const auto state = savedState();
+    play(10);
+    const uint64_t want = simulationHash();
+    ASSERT_EQ(restore(state), FX_OK);
+    play(10);
+    EXPECT_EQ(simulationHash(), want);
+}
+
+TEST_F(InstanceTimeApi, speedScalesTime)
+{
+    const FxInstanceId slow = add(fountainPreset());
+    EXPECT_EQ(fxScene_SetInstanceSpeed(scene_, slow, 0.5f), FX_OK);
+    play(60);
+    EXPECT_EQ(particlesOf(slow), 30u);
+    EXPECT_EQ(fxScene_SetInstanceSpeed(scene_, slow, 0.0f), FX_OK);
+    play(60);
+    EXPECT_EQ(particlesOf(slow), 30u);
+    EXPECT_EQ(fxScene_SetInstanceSpeed(scene_, slow, 4.0f), FX_OK);
+    play(6);
+    EXPECT_EQ(particlesOf(slow), 54u);
+}
+
+TEST_F(InstanceTimeApi, badArgumentsAreRefused)
+{
+    const FxInstanceId bell = add(kBell);
+    play(1);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(fxScene_TriggerEvent(nullptr, bell, "ring", 1), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxScene_TriggerEvent(scene_, bell, nullptr, 1), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxScene_TriggerEvent(scene_, bell, "ring", 65537), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxScene_TriggerEvent(scene_, bell, "rang", 1), FX_ERROR_NOT_FOUND);
+    EXPECT_EQ(fxScene_TriggerEvent(scene_, {77}, "ring", 1), FX_ERROR_STALE_ID);
+    for (const float speed : {-1.0f, 17.0f, nan})
+        EXPECT_EQ(fxScene_SetInstanceSpeed(scene_, bell, speed), FX_ERROR_INVALID_ARGUMENT);
+    for (const double seconds : {-1.0, 1e6, double(nan)})
+        EXPECT_EQ(fxScene_SeekInstance(scene_, bell, seconds), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxScene_SetInstanceSpeed(scene_, {77}, 1.0f), FX_ERROR_STALE_ID);
+    EXPECT_EQ(fxScene_SeekInstance(scene_, {77}, 1.0), FX_ERROR_STALE_ID);
+}

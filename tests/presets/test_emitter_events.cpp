@@ -1,0 +1,93 @@
+#include "fxsdk/presets/preset_loader.h"
+#include "simulation/emitters/emitter_def.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+using namespace fx;
+
+namespace {
+
+base::Result<preset::LoadedPreset> load(const std::string& emitters)
+{
+    return preset::loadPresetText("{\"version\":1,\"emitters\":[" + emitters + "]}", "probe");
+}
+
+std::string messageOf(const std::string& emitters)
+{
+    const auto loaded = load(emitters);
+    return loaded.ok() ? "no error" : loaded.status().message();
+}
+
+const std::string kSparks = R"({"name":"sparks","speed":2})";
+
+} // namespace
+
+TEST(EmitterEventsPreset, joinsEmittersByNameWhateverTheirOrder)
+{
+    const auto loaded = load(kSparks + R"(,{"name":"rocket","emission":{"rate":1},"events":[
+        {"on":"death","emit":"sparks","count":{"min":3,"max":7},"probability":0.5,"inheritVelocity":0.25},
+        {"on":"age","age":0.5,"emit":"sparks"}, {"on":"host","name":"hit","emit":"sparks"}]})");
+    ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+    const sim::EffectDef& effect = *loaded->effect;
+    EXPECT_EQ(effect.order, (std::vector<uint32_t>{1, 0})); // causes first
+    EXPECT_EQ(effect.hostEvents, std::vector<std::string>{"hit"});
+    const auto& sparks = dynamic_cast<const sim::EmitterDef&>(*effect.solvers[0]);
+    const auto& rocket = dynamic_cast<const sim::EmitterDef&>(*effect.solvers[1]);
+    EXPECT_TRUE(sparks.fed);
+    EXPECT_FALSE(rocket.fed);
+    ASSERT_EQ(rocket.events.size(), 3u);
+    EXPECT_EQ(rocket.events[0].on, sim::EventKind::Death);
+    EXPECT_EQ(rocket.events[0].fewest, 3u);
+    EXPECT_EQ(rocket.events[0].most, 7u);
+    EXPECT_EQ(rocket.events[0].probability, 0.5f);
+    EXPECT_EQ(rocket.events[0].inheritVelocity, 0.25f);
+    EXPECT_EQ(rocket.events[1].age, base::kTicksPerSecond / 2);
+    EXPECT_EQ(rocket.events[1].most, 1u);
+}
+
+TEST(EmitterEventsPreset, aCircleIsNamed)
+{
+    const std::string text = messageOf(
+        R"({"name":"a","emission":{"rate":1},"events":[{"on":"death","emit":"b"}]},
+           {"name":"b","events":[{"on":"death","emit":"c"}]},{"name":"c","events":[{"on":"birth","emit":"b"}]})");
+    EXPECT_NE(text.find("b -> c -> b"), std::string::npos) << text;
+}
+
+TEST(EmitterEventsPreset, mistakesAreExplained)
+{
+    const auto expect = [](const std::string& event, const std::string& message) {
+        const std::string text =
+            messageOf(kSparks + R"(,{"name":"rocket","emission":{"rate":1},"events":[)" + event + "]}");
+        EXPECT_NE(text.find(message), std::string::npos) << text;
+    };
+    expect(R"({"on":"death","emit":"sparkz"})", "did you mean \"sparks\"?");
+    expect(R"({"on":"age","emit":"sparks"})", "the event age needs one");
+    expect(R"({"on":"death","age":1,"emit":"sparks"})", "only the event age has one");
+    expect(R"({"on":"host","emit":"sparks"})", "the event host needs one");
+    expect(R"({"on":"death","emit":"sparks","count":1.5})", "whole numbers");
+    EXPECT_NE(messageOf(kSparks).find("is missing"), std::string::npos);
+}
+
+TEST(EmitterEventsPreset, trailsLightsAndPrewarmAreRead)
+{
+    const auto loaded =
+        preset::loadPresetText(R"({"version":1,"prewarm":1.5,"emitters":[{"emission":{"rate":1},
+        "trail":{"lifetime":0.5,"width":0.2,"minDistance":0.01,"maxPoints":20,"blend":"additive","luminance":5},
+        "light":{"count":4,"merged":true,"intensity":3}}]})",
+                               "probe");
+    ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+    EXPECT_EQ(loaded->effect->prewarm, base::kTicksPerSecond * 3 / 2);
+    const auto& emitter = dynamic_cast<const sim::EmitterDef&>(*loaded->effect->solvers[0]);
+    EXPECT_EQ(emitter.trail.lifetime, 0.5f);
+    EXPECT_EQ(emitter.trail.width, 0.2f);
+    EXPECT_EQ(emitter.trail.minDistance, 0.01f);
+    EXPECT_EQ(emitter.trail.maxPoints, 20u);
+    EXPECT_EQ(emitter.trail.look.blend, base::ParticleBlend::Additive);
+    EXPECT_EQ(emitter.trail.look.luminance, 5.0f);
+    EXPECT_TRUE(emitter.light.given);
+    EXPECT_EQ(emitter.light.maxLights, 4u);
+    EXPECT_TRUE(emitter.light.merged);
+    EXPECT_EQ(emitter.light.intensity, 3.0f);
+}
