@@ -3,6 +3,7 @@
 #include "simulation/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 namespace fx::sim {
@@ -43,6 +44,14 @@ void writeConstants(const EmitterDef& def, std::span<float> constants)
     constants[constant::MotionScale] = look.motionScale;
     constants[constant::Mesh] = float(look.mesh);
     constants[constant::ArcPerTile] = 1.0f;
+}
+
+/// [1] How far the farthest corner of what is drawn is from its center, over the half height.
+float cornerOf(const EmitterLook& look)
+{
+    constexpr float kRounding = 1.00002f; // of the arithmetic that draws
+    return kRounding *
+           (look.kind == Appearance::Mesh ? look.meshReach : std::sqrt(1.0f + look.aspect * look.aspect));
 }
 
 /// The columns of a group, null where it lacks one.
@@ -106,6 +115,7 @@ void EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSna
         parallelRows(*tasks_, chunks, kMinChunks, write);
     else if (chunks > 0)
         write(0, chunks);
+    bounds.radius *= cornerOf(def_.look);
     group.editInfo().bounds = bounds.box();
 }
 

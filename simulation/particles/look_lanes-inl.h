@@ -58,7 +58,10 @@ public:
                                                    {*job.store, stored::AxisY},
                                                    {*job.store, stored::AxisZ}},
           frames_(float(look_.tileColumns * look_.tileRows)),
-          bright_(brightness_.rows || brightness_.constant != 1.0f)
+          bright_(brightness_.rows || brightness_.constant != 1.0f),
+          stretch_(look_.alignment == base::SpriteAlignment::Velocity && look_.kind == Appearance::Sprite
+                       ? 0.5f * look_.stretch
+                       : 0.0f)
     {}
 
     template <bool kBallistic, bool kBrief>
@@ -117,6 +120,8 @@ private:
     void writeNobody(uint32_t row) const;
     HWY_INLINE void write(uint32_t row, const MotionLanes& motion, BoundsLanes& bounds) const;
     HWY_INLINE void writeMore(uint32_t row, Which alive, const MotionLanes& motion) const;
+    HWY_INLINE void addMoving(Which alive, const MotionLanes& motion, Floats radius,
+                              BoundsLanes& bounds) const;
     HWY_INLINE void writeOrientation(uint32_t row, Which alive, Floats angle) const;
     HWY_INLINE Floats frameAt(uint32_t row, const MotionLanes& motion) const;
 
@@ -127,6 +132,7 @@ private:
     Source axis_[3];
     float frames_;
     bool bright_;
+    float stretch_; ///< [s] half of it lengthens a sprite to each side
 };
 
 HWY_INLINE void Looks::write(uint32_t row, const MotionLanes& motion, BoundsLanes& bounds) const
@@ -158,8 +164,25 @@ HWY_INLINE void Looks::write(uint32_t row, const MotionLanes& motion, BoundsLane
     put(hn::IfThenElseZero(alive, motion.age), out_.age + row);
     put(radius, out_.radius + row);
     putColor(packColor(alive, rgb, hn::Min(opacity, all(1.0f))), out_.color + row);
-    bounds.add(alive, motion.position, radius);
+    if (out_.velocity[0])
+        addMoving(alive, motion, radius, bounds);
+    else
+        bounds.add(alive, motion.position, radius);
     writeMore(row, alive, motion);
+}
+
+/// Sprites are longer by their way, and what was born since the snapshot before is drawn on its way from
+/// where it was born.
+HWY_INLINE void Looks::addMoving(Which alive, const MotionLanes& motion, Floats radius,
+                                 BoundsLanes& bounds) const
+{
+    const Floats* v = motion.velocity;
+    const Floats speed = hn::Sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    bounds.add(alive, motion.position, hn::IfThenElseZero(alive, radius + all(stretch_) * speed));
+    const Which young = hn::And(alive, hn::Le(motion.age, all(kLongestStep)));
+    const Floats start[3] = {motion.position[0] - v[0] * motion.age, motion.position[1] - v[1] * motion.age,
+                             motion.position[2] - v[2] * motion.age};
+    bounds.add(young, start, hn::Zero(kFloats));
 }
 
 HWY_INLINE void Looks::writeMore(uint32_t row, Which alive, const MotionLanes& motion) const
