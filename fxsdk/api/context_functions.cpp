@@ -25,7 +25,7 @@ Status checkDef(const FxContextDef& def)
                "def.allocator has one function of two; set both or none");
     check.that(!def.assets.open == !def.assets.close, "def.assets has one function of two; set both or none");
     check.range(def.workers, 0u, kMostWorkers, "def.workers");
-    check.range(def.flags, 0u, 0u, "def.flags");
+    check.range(def.flags, 0u, uint32_t(FX_CONTEXT_PLACEHOLDERS), "def.flags");
     return check.status();
 }
 

@@ -73,17 +73,25 @@ Status checkLoad(const FxContext* context, const void* text, const char* textNam
     return check.status();
 }
 
-Result<LoadedPreset> loadFile(const FxContext& context, const char* path)
+/// Images and meshes of all presets live in the context.
+fx::preset::PresetAssets assetsOf(FxContext& context)
+{
+    const bool isLenient = (context.def.flags & FX_CONTEXT_PLACEHOLDERS) != 0;
+    return {&context.assets,
+            isLenient ? fx::asset::MissingAsset::ShowsPlaceholder : fx::asset::MissingAsset::IsAnError};
+}
+
+Result<LoadedPreset> loadFile(FxContext& context, const char* path)
 {
     FxAssetHook hook = context.def.assets;
     if (hook.open && fx::asset::checkAssetName(path).ok() &&
         !std::string_view(path).starts_with(kLibraryPrefix)) {
-        const fx::asset::AssetResolver resolver("", fx::preset::presetLibrary(), {&hook, &readThroughHook});
-        Result<LoadedPreset> loaded = fx::preset::loadPresetAsset(path, resolver);
+        const fx::asset::AssetResolver resolver("", fx::preset::libraryFiles(), {&hook, &readThroughHook});
+        Result<LoadedPreset> loaded = fx::preset::loadPresetAsset(path, resolver, nullptr, assetsOf(context));
         if (loaded.ok() || loaded.status().code() != Code::NotFound)
             return loaded;
     }
-    return fx::preset::loadPresetFile(path);
+    return fx::preset::loadPresetFile(path, nullptr, assetsOf(context));
 }
 
 uint64_t capacityOf(const fx::sim::EffectDef& effect)
@@ -117,7 +125,8 @@ FxResult fxLoadPresetText(FxContext* context, const char* text, size_t length, c
             return {Code::TooLarge, "length is " + std::to_string(length) + "; a preset has at most " +
                                         std::to_string(fx::preset::kPresetBytes) + " bytes"};
         return loadInto(context, outPreset, [&] {
-            return fx::preset::loadPresetText({text, length}, displayName ? displayName : "preset text");
+            return fx::preset::loadPresetText({text, length}, displayName ? displayName : "preset text",
+                                              nullptr, nullptr, assetsOf(*context));
         });
     });
 }
@@ -131,8 +140,8 @@ FxResult fxLoadPresetLibrary(FxContext* context, const char* name, FxPresetId* o
         if (!full.starts_with(kLibraryPrefix))
             full.insert(0, kLibraryPrefix);
         return loadInto(context, outPreset, [&] {
-            const fx::asset::AssetResolver library("", fx::preset::presetLibrary());
-            return fx::preset::loadPresetAsset(full, library);
+            const fx::asset::AssetResolver library("", fx::preset::libraryFiles());
+            return fx::preset::loadPresetAsset(full, library, nullptr, assetsOf(*context));
         });
     });
 }

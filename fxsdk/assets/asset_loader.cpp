@@ -1,5 +1,6 @@
 #include "fxsdk/assets/asset_loader.h"
 
+#include "foundation/math/hash.h"
 #include "fxsdk/assets/obj_reader.h"
 #include "fxsdk/assets/png_reader.h"
 
@@ -58,10 +59,19 @@ base::Result<base::AssetId> placeholderMesh(base::AssetTable& table)
     return table.addMesh(vertices, indices);
 }
 
-base::Result<base::AssetId> AssetLoader::readImage(std::string_view name, ImageUse use, int columns,
-                                                   int rows) const
+base::Result<std::string> AssetLoader::read(std::string_view name, uint64_t maxBytes)
 {
-    const base::Result<std::string> bytes = resolver_.read(name, kMostImageBytes);
+    const bool isRelative = checkAssetName(name) && !name.starts_with("library:");
+    base::Result<std::string> bytes =
+        resolver_.read(isRelative ? folder_ + std::string(name) : name, maxBytes);
+    if (bytes)
+        contentHash_ = base::hashWord(contentHash_, base::hashBytes(0, bytes->data(), bytes->size()));
+    return bytes;
+}
+
+base::Result<base::AssetId> AssetLoader::readImage(std::string_view name, ImageUse use, int columns, int rows)
+{
+    const base::Result<std::string> bytes = read(name, kMostImageBytes);
     if (!bytes)
         return bytes.status();
     const base::Result<PngPicture> picture = readPng(asBytes(*bytes));
@@ -76,9 +86,9 @@ base::Result<base::AssetId> AssetLoader::readImage(std::string_view name, ImageU
     return table_.addImage(picture->width, picture->height, use == ImageUse::Color, picture->rgba);
 }
 
-base::Result<base::AssetId> AssetLoader::readMesh(std::string_view name) const
+base::Result<base::AssetId> AssetLoader::readMesh(std::string_view name)
 {
-    const base::Result<std::string> text = resolver_.read(name, kMostMeshBytes);
+    const base::Result<std::string> text = read(name, kMostMeshBytes);
     if (!text)
         return text.status();
     const base::Result<ObjMesh> mesh = readObj(*text);
@@ -88,7 +98,7 @@ base::Result<base::AssetId> AssetLoader::readMesh(std::string_view name) const
 }
 
 base::Result<base::AssetId> AssetLoader::image(std::string_view name, ImageUse use, int columns, int rows,
-                                               std::string& outWarning) const
+                                               std::string& outWarning)
 {
     base::Result<base::AssetId> id = readImage(name, use, columns, rows);
     if (id || missing_ == MissingAsset::IsAnError || id.status().code() == base::Code::Capacity)
@@ -97,7 +107,7 @@ base::Result<base::AssetId> AssetLoader::image(std::string_view name, ImageUse u
     return placeholderImage(table_, use);
 }
 
-base::Result<base::AssetId> AssetLoader::mesh(std::string_view name, std::string& outWarning) const
+base::Result<base::AssetId> AssetLoader::mesh(std::string_view name, std::string& outWarning)
 {
     base::Result<base::AssetId> id = readMesh(name);
     if (id || missing_ == MissingAsset::IsAnError || id.status().code() == base::Code::Capacity)

@@ -1,5 +1,6 @@
 /// @file asset_loader.h
-/// Names in presets to ids in the asset table: reads PNG images and OBJ meshes through the resolver.
+/// What one document names: its files, and images and meshes as ids in the asset table. The one way by which
+/// presets come to files.
 #pragma once
 
 #include "foundation/assets/asset_table.h"
@@ -27,28 +28,38 @@ enum class MissingAsset
     ShowsPlaceholder, ///< a magenta and black checkerboard, a tetrahedron; motion vectors of nothing
 };
 
-/// Loads into one table. Threads: any; equal to those of the resolver.
+/// Loads into one table what one document names. Threads: one at a time.
 class AssetLoader
 {
 public:
-    AssetLoader(const AssetResolver& resolver, base::AssetTable& table, MissingAsset missing)
-        : resolver_(resolver), table_(table), missing_(missing)
+    /// @param folder where the document lies below the resolver's folder, with '/' at its end; empty: there
+    AssetLoader(const AssetResolver& resolver, base::AssetTable& table, MissingAsset missing,
+                std::string folder = {})
+        : resolver_(resolver), table_(table), missing_(missing), folder_(std::move(folder))
     {}
+
+    /// The bytes behind `name`, relative to the document. @return as AssetResolver::read
+    base::Result<std::string> read(std::string_view name, uint64_t maxBytes);
+    /// Of all bytes that were read, in order; 0 when there were none.
+    uint64_t contentHash() const { return contentHash_; }
+    const base::AssetTable& table() const { return table_; }
 
     /// @param columns, rows frames that the image must divide into, >= 1
     /// @param outWarning gets why a placeholder stands in; untouched otherwise
     /// @return NotFound, TooLarge, Parse, Schema (it does not divide), naming the asset and what to do
     base::Result<base::AssetId> image(std::string_view name, ImageUse use, int columns, int rows,
-                                      std::string& outWarning) const;
-    base::Result<base::AssetId> mesh(std::string_view name, std::string& outWarning) const;
+                                      std::string& outWarning);
+    base::Result<base::AssetId> mesh(std::string_view name, std::string& outWarning);
 
 private:
-    base::Result<base::AssetId> readImage(std::string_view name, ImageUse use, int columns, int rows) const;
-    base::Result<base::AssetId> readMesh(std::string_view name) const;
+    base::Result<base::AssetId> readImage(std::string_view name, ImageUse use, int columns, int rows);
+    base::Result<base::AssetId> readMesh(std::string_view name);
 
     const AssetResolver& resolver_;
     base::AssetTable& table_;
     MissingAsset missing_;
+    std::string folder_;
+    uint64_t contentHash_ = 0;
 };
 
 /// Ids of the placeholders, which are made when they are first asked for.

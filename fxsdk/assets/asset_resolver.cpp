@@ -85,13 +85,18 @@ base::Result<std::string> AssetResolver::read(std::string_view name, uint64_t ma
 
 base::Result<std::string> AssetResolver::readLibrary(std::string_view name, uint64_t maxBytes) const
 {
-    const std::string file = std::string(name.substr(kLibraryPrefix.size())) + std::string(kPresetSuffix);
+    std::string file(name.substr(kLibraryPrefix.size()));
+    if (file.find('.') == std::string::npos)
+        file += kPresetSuffix;
     std::string known;
     for (const base::EmbeddedText& entry : library_) {
         if (entry.name == file)
             return entry.text.size() <= maxBytes ? base::Result<std::string>(std::string(entry.text))
                                                  : tooLarge(name, maxBytes);
-        known.append(" ").append(entry.name.substr(0, entry.name.size() - kPresetSuffix.size()));
+        std::string_view shown = entry.name;
+        if (shown.ends_with(kPresetSuffix))
+            shown.remove_suffix(kPresetSuffix.size());
+        known.append(" ").append(shown);
     }
     return base::Status(base::Code::NotFound,
                         "asset \"" + std::string(name) + "\" is not in the library; it holds:" + known);
@@ -116,7 +121,10 @@ base::Result<std::string> AssetResolver::readHook(const std::string& name, uint6
 base::Result<std::string> AssetResolver::readFolder(const std::string& name, uint64_t maxBytes) const
 {
     if (folder_.empty())
-        return base::Status(base::Code::NotFound, "asset \"" + name + "\" does not exist (no folder is set)");
+        return base::Status(base::Code::NotFound,
+                            "asset \"" + name +
+                                "\" does not exist: there is no folder to look in; load "
+                                "the preset from a file, or name library:NAME");
     std::error_code error;
     const std::filesystem::path folder = std::filesystem::canonical(folder_, error);
     if (error)

@@ -32,7 +32,8 @@ class AssetResolver
 {
 public:
     /// @param folder  where relative names begin; empty: there are no files, only the library and the hook
-    /// @param library texts known as library:NAME, by file name NAME.fx.json; must outlive the resolver
+    /// @param library texts known as library:NAME, by file name NAME.fx.json, or NAME when it has a dot;
+    ///                must outlive the resolver
     AssetResolver(std::string folder, std::span<const base::EmbeddedText> library, const ReadHook& hook = {})
         : folder_(std::move(folder)), library_(library), hook_(hook)
     {}

@@ -12,10 +12,11 @@
 namespace fx::cli {
 namespace {
 
-constexpr int kTiles = 24;          // a side
-constexpr float kTileSize = 2.5f;   // [m]
-constexpr int kFramingMoments = 12; // looked at between the start and the end
-constexpr double kFramingLimit = 8; // [s] longest time simulated only to place the camera
+constexpr int kTiles = 24;           // a side
+constexpr float kTileSize = 2.5f;    // [m]
+constexpr int kFramingMoments = 12;  // looked at between the start and the end
+constexpr double kAboveGround = 1.5; // [m] of what does not stand on the ground
+constexpr double kFramingLimit = 8;  // [s] longest time simulated only to place the camera
 
 void addTile(render::StageMesh& mesh, int i, int j)
 {
@@ -58,6 +59,11 @@ public:
         for (size_t g = 0; g < snapshot.groupCount(); ++g)
             add(snapshot.group(g));
     }
+    void add(const std::vector<glm::vec4>& places)
+    {
+        for (const glm::vec4& place : places)
+            add(glm::dvec3(place), double(place.w), std::numbers::pi * double(place.w) * double(place.w));
+    }
     bool empty() const { return !(weight_ > 0.0); }
     glm::dvec3 center() const { return sum_ / weight_; }
     /// [m] of a ball that holds most of it
@@ -79,12 +85,16 @@ private:
             const double weight = double(group.column(column::CrossSection)[i]);
             const glm::dvec3 world =
                 placement.position + glm::dvec3(placement.rotation * (placement.scale * local));
-            if (!std::isfinite(weight * (glm::dot(world, world) + radius)))
-                continue;
-            weight_ += weight;
-            sum_ += weight * world;
-            square_ += weight * (glm::dot(world, world) + 0.5 * radius * radius);
+            add(world, radius, weight);
         }
+    }
+    void add(const glm::dvec3& world, double radius, double weight)
+    {
+        if (!std::isfinite(weight * (glm::dot(world, world) + radius)))
+            return;
+        weight_ += weight;
+        sum_ += weight * world;
+        square_ += weight * (glm::dot(world, world) + 0.5 * radius * radius);
     }
 
     double weight_ = 0.0;
@@ -109,18 +119,20 @@ base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input)
 {
     const bool fromLibrary = input.rfind("library:", 0) == 0;
     auto text = fromLibrary
-                    ? asset::AssetResolver("", preset::presetLibrary()).read(input, preset::kPresetBytes)
+                    ? asset::AssetResolver("", preset::libraryFiles()).read(input, preset::kPresetBytes)
                     : asset::readFile(input, preset::kPresetBytes);
     if (!text.ok())
         return text.status();
-    auto loaded = preset::loadPresetText(*text, input);
+    auto loaded = fromLibrary ? preset::loadPresetText(*text, input) : preset::loadPresetFile(input);
     if (!loaded.ok())
         return loaded.status();
     scene_file::SceneFile scene;
     scene.name = input;
     scene.warnings = loaded->warnings;
-    scene.presets.push_back({input, std::move(*text), loaded->effect});
+    scene.presets.push_back({input, std::move(*text), fromLibrary ? std::string() : input, loaded->effect});
     scene.instances.emplace_back();
+    if (!scene.presets[0].effect->hasGround)
+        scene.instances[0].position.y = kAboveGround;
     addDefaultStage(scene);
     return scene;
 }
@@ -139,6 +151,10 @@ base::Status frameEffect(scene_file::SceneFile& scene, base::Ticks until, const 
         if (!snapshot.ok())
             return snapshot.status();
         extent.add(**snapshot);
+        const auto places = (*effects)->places();
+        if (!places.ok())
+            return places.status();
+        extent.add(*places);
     }
     if (!extent.empty())
         lookAt(scene.camera, extent);

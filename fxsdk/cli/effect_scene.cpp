@@ -1,6 +1,7 @@
 #include "fxsdk/cli/effect_scene.h"
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/particle_kind.h"
 #include "fxsdk/cli/api_status.h"
 #include "fxsdk/cli/interrupt.h"
 
@@ -76,6 +77,36 @@ base::Status copyGroups(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, co
     return {};
 }
 
+/// Adds center and radius of what a group of sprites or meshes shows, in the world.
+base::Status addPlaces(FxScene* scene, FxSnapshotId id, uint32_t index, std::vector<glm::vec4>& io)
+{
+    FxSnapshotGroup group = {};
+    group.structSize = sizeof group;
+    if (const FxResult result = fxScene_GetSnapshotGroup(scene, id, FX_SNAPSHOT_NEWER, index, &group);
+        result != FX_OK)
+        return toStatus(result);
+    if (group.kind != base::kParticleKind.name)
+        return {};
+    namespace column = base::particle_column;
+    FxSnapshotColumn columns[4] = {};
+    const size_t wanted[4] = {column::PositionX, column::PositionY, column::PositionZ, column::Radius};
+    for (size_t c = 0; c < 4; ++c) {
+        columns[c].structSize = sizeof columns[c];
+        if (const FxResult result = fxScene_GetSnapshotColumn(scene, id, FX_SNAPSHOT_NEWER, index,
+                                                              uint32_t(wanted[c]), &columns[c]);
+            result != FX_OK)
+            return toStatus(result);
+    }
+    const glm::quat turn(group.rotation[3], group.rotation[0], group.rotation[1], group.rotation[2]);
+    const glm::vec3 origin(group.position[0], group.position[1], group.position[2]);
+    for (uint32_t i = 0; i < group.count; ++i) {
+        const glm::vec3 local(columns[0].values[i], columns[1].values[i], columns[2].values[i]);
+        if (columns[3].values[i] > 0.0f)
+            io.emplace_back(origin + turn * (group.scale * local), group.scale * columns[3].values[i]);
+    }
+    return {};
+}
+
 } // namespace
 
 EffectScene::EffectScene()
@@ -135,7 +166,9 @@ base::Status EffectScene::addInstances(const scene_file::SceneFile& file, const 
     for (const scene_file::ScenePreset& preset : file.presets) {
         FxPresetId id = {};
         const FxResult result =
-            fxLoadPresetText(context_, preset.text.data(), preset.text.size(), preset.name.c_str(), &id);
+            preset.file.empty()
+                ? fxLoadPresetText(context_, preset.text.data(), preset.text.size(), preset.name.c_str(), &id)
+                : fxLoadPresetFile(context_, preset.file.c_str(), &id);
         if (result != FX_OK)
             return toStatus(result);
         presets.push_back(id);
@@ -195,6 +228,25 @@ base::Result<SceneMoment> EffectScene::moment()
     if (!released)
         return released;
     return SceneMoment{{copy_.get(), hasOlder ? older_.get() : nullptr}, info.interpolation};
+}
+
+base::Result<std::vector<glm::vec4>> EffectScene::places()
+{
+    FxSnapshotId id = {};
+    if (base::Status status = toStatus(fxScene_AcquireSnapshot(scene_, &id)); !status)
+        return status;
+    std::vector<glm::vec4> found;
+    FxSnapshotInfo info = {};
+    info.structSize = sizeof info;
+    base::Status read = toStatus(fxScene_GetSnapshotInfo(scene_, id, &info));
+    for (uint32_t i = 0; i < info.groupsNewer && read.ok(); ++i)
+        read = addPlaces(scene_, id, i, found);
+    const base::Status released = toStatus(fxScene_ReleaseSnapshot(scene_, id));
+    if (!read)
+        return read;
+    if (!released)
+        return released;
+    return found;
 }
 
 base::Result<FxSceneStatistics> EffectScene::statistics() const

@@ -10,8 +10,11 @@
 #include "fxsdk/fxsdk.h"
 #include "fxsdk/scene_file/scene_file.h"
 
+#include <glm/vec4.hpp>
+
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace fx::cli {
 
@@ -49,6 +52,9 @@ public:
 
     /// Copies the last two steps: what a view would show now. Valid until the next call, of snapshot() too.
     base::Result<SceneMoment> moment();
+
+    /// Center and radius [m] of every sprite and mesh of the last step, in the world.
+    base::Result<std::vector<glm::vec4>> places();
 
     base::Result<FxSceneStatistics> statistics() const;
     FxContext* context() const { return context_; }

@@ -1,3 +1,4 @@
+#include "fxsdk/assets/asset_loader.h"
 #include "fxsdk/presets/emitter_parts_preset.h"
 
 #include <array>
@@ -44,6 +45,44 @@ void readDegrees(const PresetValue& value, const char* member, base::Range& out)
     out = {degrees.min * kRadians, degrees.max * kRadians};
 }
 
+/// The id that `load` makes of the member's name, or 0 with a finding.
+template <class Load>
+base::AssetId readAssetId(const PresetValue& value, const char* member, const Load& load)
+{
+    std::string name, warning;
+    value.read(member, name);
+    if (name.empty())
+        return 0;
+    const base::Result<base::AssetId> id = load(name, warning);
+    if (!warning.empty())
+        value.warning(member, warning);
+    if (id)
+        return *id;
+    value.error(member, id.status().message());
+    return 0;
+}
+
+void readAssets(const PresetValue& value, sim::EmitterLook& out)
+{
+    asset::AssetLoader& loader = *value.assets();
+    const auto image = [&](asset::ImageUse use) {
+        return [&, use](const std::string& name, std::string& warning) {
+            return loader.image(name, use, int(out.tileColumns), int(out.tileRows), warning);
+        };
+    };
+    out.texture = readAssetId(value, "texture", image(asset::ImageUse::Color));
+    out.motion = readAssetId(value, "motion", image(asset::ImageUse::Numbers));
+    out.mesh = readAssetId(value, "mesh", [&](const std::string& name, std::string& warning) {
+        return loader.mesh(name, warning);
+    });
+    if (const base::MeshAsset* mesh = loader.table().mesh(out.mesh))
+        out.meshReach = mesh->reach;
+    if (out.kind == sim::Appearance::Mesh && !value.has("mesh"))
+        value.error("kind", "found kind \"mesh\" without a mesh; add \"mesh\": \"NAME.obj\"");
+    if (out.motion != 0 && out.texture == 0 && !value.has("texture"))
+        value.warning("motion", "motion vectors without a texture do nothing");
+}
+
 void readFrames(const PresetValue& value, sim::EmitterLook& out)
 {
     value.read("tileColumns", out.tileColumns);
@@ -87,6 +126,7 @@ void readEmitterLook(const PresetValue& appearance, sim::EmitterLook& out)
     appearance.read("lit", out.lit);
     appearance.read("softness", out.softness);
     readFrames(appearance, out);
+    readAssets(appearance, out);
     readColors(appearance, out);
     readDegrees(appearance, "angleDegrees", out.angle);
     readDegrees(appearance, "spinDegrees", out.spin);

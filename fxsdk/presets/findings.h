@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace fx::asset {
-class AssetResolver;
+class AssetLoader;
 }
 
 namespace fx::preset {
@@ -40,12 +40,9 @@ struct Renaming
 class Findings
 {
 public:
-    /// @param assets where files that the document names come from; null: from nowhere
-    explicit Findings(const asset::AssetResolver* assets = nullptr) : assets_(assets) {}
-    const asset::AssetResolver* assets() const { return assets_; }
-    /// What the document says also depends on the files that it names.
-    void addAssetHash(uint64_t hash) { assetHash_ = assetHash_ * 0x9E3779B97F4A7C15u + hash; }
-    uint64_t assetHash() const { return assetHash_; } ///< 0 when none was read
+    /// @param assets reads files that the document names; null: there are none
+    explicit Findings(asset::AssetLoader* assets = nullptr) : assets_(assets) {}
+    asset::AssetLoader* assets() const { return assets_; }
 
     void error(std::string pointer, std::string message, base::Code code = base::Code::Schema);
     void errorAtKey(std::string pointer, std::string message);
@@ -69,8 +66,7 @@ public:
 private:
     void add(Finding finding);
 
-    const asset::AssetResolver* assets_;
-    uint64_t assetHash_ = 0;
+    asset::AssetLoader* assets_;
     std::vector<Finding> list_;
     std::vector<Renaming> renamings_;
     base::Code firstCode_ = base::Code::Ok;

@@ -71,8 +71,8 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
             technique.build(root.element(member.c_str(), i), *effect);
     }
     linkEmitterEvents(root, *effect);
-    if (findings.assetHash() != 0)
-        effect->fingerprint = base::hashWord(effect->fingerprint, findings.assetHash());
+    if (findings.assets()->contentHash() != 0)
+        effect->fingerprint = base::hashWord(effect->fingerprint, findings.assets()->contentHash());
     if (effect->solvers.empty() && !findings.hasErrors())
         findings.warning("", "the preset has no emitters and no gas: there will be nothing to see");
     return effect;
@@ -106,14 +106,36 @@ base::Status unreadable(const base::Status& status, const std::string& displayNa
 
 std::span<const base::EmbeddedText> presetLibrary()
 {
+    const std::span<const base::EmbeddedText> files = library::texts(); // presets come first
+    size_t presets = 0;
+    while (presets < files.size() && files[presets].name.ends_with(".fx.json"))
+        ++presets;
+    return files.first(presets);
+}
+
+std::span<const base::EmbeddedText> libraryFiles()
+{
     return library::texts();
+}
+
+std::string folderOf(std::string_view name)
+{
+    const size_t slash = name.find_last_of('/');
+    return std::string(name.substr(0, slash == std::string_view::npos ? 0 : slash + 1));
 }
 
 base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::string& displayName,
                                           std::vector<Diagnostic>* outDiagnostics,
-                                          const asset::AssetResolver* assets)
+                                          const asset::AssetResolver* resolver, const PresetAssets& assets,
+                                          const std::string& folder)
 {
-    Findings findings(assets);
+    const asset::AssetResolver libraryOnly("", libraryFiles());
+    std::unique_ptr<base::AssetTable> forgotten;
+    if (!assets.table)
+        forgotten = std::make_unique<base::AssetTable>(std::pmr::get_default_resource());
+    asset::AssetLoader loader(resolver ? *resolver : libraryOnly, assets.table ? *assets.table : *forgotten,
+                              assets.missing, folder);
+    Findings findings(&loader);
     std::shared_ptr<const sim::EffectDef> effect = readPreset(text, displayName, findings);
     std::vector<Diagnostic> diagnostics = findings.locate(text, displayName);
     if (outDiagnostics)
@@ -124,23 +146,25 @@ base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::stri
 }
 
 base::Result<LoadedPreset> loadPresetAsset(std::string_view name, const asset::AssetResolver& resolver,
-                                           std::vector<Diagnostic>* outDiagnostics)
+                                           std::vector<Diagnostic>* outDiagnostics,
+                                           const PresetAssets& assets)
 {
     const base::Result<std::string> text = resolver.read(name, kPresetBytes);
     if (!text)
         return unreadable(text.status(), std::string(name), outDiagnostics);
-    return loadPresetText(*text, std::string(name), outDiagnostics, &resolver);
+    return loadPresetText(*text, std::string(name), outDiagnostics, &resolver, assets,
+                          name.starts_with("library:") ? std::string() : folderOf(name));
 }
 
-base::Result<LoadedPreset> loadPresetFile(const std::string& path, std::vector<Diagnostic>* outDiagnostics)
+base::Result<LoadedPreset> loadPresetFile(const std::string& path, std::vector<Diagnostic>* outDiagnostics,
+                                          const PresetAssets& assets)
 {
     const base::Result<std::string> text = asset::readFile(path, kPresetBytes);
     if (!text)
         return unreadable(text.status(), path, outDiagnostics);
-    const size_t slash = path.find_last_of('/');
-    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
-    const asset::AssetResolver assets(folder, presetLibrary());
-    return loadPresetText(*text, path, outDiagnostics, &assets);
+    const std::string folder = folderOf(path);
+    const asset::AssetResolver resolver(folder.empty() ? "." : folder, libraryFiles());
+    return loadPresetText(*text, path, outDiagnostics, &resolver, assets);
 }
 
 } // namespace fx::preset

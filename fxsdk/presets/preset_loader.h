@@ -5,7 +5,7 @@
 #pragma once
 
 #include "foundation/result/status.h"
-#include "fxsdk/assets/asset_resolver.h"
+#include "fxsdk/assets/asset_loader.h"
 #include "fxsdk/presets/diagnostic.h"
 #include "simulation/effect_def.h"
 
@@ -28,22 +28,39 @@ constexpr uint64_t kPresetBytes = uint64_t(4) << 20;
 
 /// The presets that are compiled in; names are `NAME.fx.json`.
 std::span<const base::EmbeddedText> presetLibrary();
+/// The same, followed by the files that they name: what a resolver takes as its library.
+std::span<const base::EmbeddedText> libraryFiles();
+
+/// Where images and meshes that presets name go to.
+struct PresetAssets
+{
+    base::AssetTable* table = nullptr; ///< null: they are read, checked and forgotten
+    asset::MissingAsset missing = asset::MissingAsset::IsAnError;
+};
 
 /// Parses, migrates, validates and builds. The status of a failure holds the first findings.
 /// @param displayName names the text in messages
 /// @param outDiagnostics receives every finding, warnings included, whether it fails or not; may be null
-/// @param assets where files that the preset names come from; null: naming one is an error
+/// @param resolver where files that the preset names come from; null: from the library alone
+/// @param folder   of the preset below the resolver's folder, with '/' at its end
 /// @return Parse, TooLarge, Version, Schema
 base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::string& displayName,
                                           std::vector<Diagnostic>* outDiagnostics = nullptr,
-                                          const asset::AssetResolver* assets = nullptr);
+                                          const asset::AssetResolver* resolver = nullptr,
+                                          const PresetAssets& assets = {}, const std::string& folder = {});
 
 /// The same for an asset: `library:NAME`, or a name relative to the resolver's folder.
+/// Files that it names are relative to it.
 base::Result<LoadedPreset> loadPresetAsset(std::string_view name, const asset::AssetResolver& resolver,
-                                           std::vector<Diagnostic>* outDiagnostics = nullptr);
+                                           std::vector<Diagnostic>* outDiagnostics = nullptr,
+                                           const PresetAssets& assets = {});
+
+/// Folder of an asset, with '/' at its end; empty when it lies in the resolver's.
+std::string folderOf(std::string_view name);
 
 /// The same for a file anywhere.
 base::Result<LoadedPreset> loadPresetFile(const std::string& path,
-                                          std::vector<Diagnostic>* outDiagnostics = nullptr);
+                                          std::vector<Diagnostic>* outDiagnostics = nullptr,
+                                          const PresetAssets& assets = {});
 
 } // namespace fx::preset

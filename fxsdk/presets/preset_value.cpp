@@ -1,7 +1,6 @@
 #include "fxsdk/presets/preset_value.h"
 
-#include "foundation/math/hash.h"
-#include "fxsdk/assets/asset_resolver.h"
+#include "fxsdk/assets/asset_loader.h"
 
 #include <nlohmann/json.hpp>
 
@@ -170,12 +169,8 @@ base::Result<std::string> PresetValue::readAsset(const char* member, uint64_t ma
     if (name.empty())
         return base::Status(base::Code::NotFound, "found no file; this needs one");
     if (!findings_.assets())
-        return base::Status(base::Code::NotFound,
-                            "cannot read " + name + ": a preset that is given as text has no folder");
-    base::Result<std::string> bytes = findings_.assets()->read(name, maxBytes);
-    if (bytes)
-        findings_.addAssetHash(base::hashBytes(0, bytes->data(), bytes->size()));
-    return bytes;
+        return base::Status(base::Code::NotFound, "cannot read " + name + ": this document has no files");
+    return findings_.assets()->read(name, maxBytes);
 }
 
 void PresetValue::error(const char* member, std::string message) const

@@ -64,6 +64,8 @@ public:
     /// The bytes of the asset that the member names.
     /// @return what the resolver failed with, NotFound when the member is absent or there is no resolver
     base::Result<std::string> readAsset(const char* member, uint64_t maxBytes) const;
+    /// What reads the files that this document names; null when there are none.
+    asset::AssetLoader* assets() const { return findings_.assets(); }
 
     const std::string& pointer() const { return pointer_; }
     void error(const char* member, std::string message) const;

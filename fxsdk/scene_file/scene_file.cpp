@@ -49,7 +49,9 @@ std::optional<size_t> findPreset(Reader& reader, const std::string& name, const 
         reportAsset(instance, "preset", text.status(), reader.findings);
         return std::nullopt;
     }
-    const base::Result<preset::LoadedPreset> loaded = preset::loadPresetText(*text, name);
+    const bool isInLibrary = name.starts_with("library:");
+    const base::Result<preset::LoadedPreset> loaded = preset::loadPresetText(
+        *text, name, nullptr, &reader.resolver, {}, isInLibrary ? std::string() : preset::folderOf(name));
     if (!loaded) {
         reader.failures[name] = loaded.status().message();
         reportAsset(instance, "preset", loaded.status(), reader.findings);
@@ -58,7 +60,10 @@ std::optional<size_t> findPreset(Reader& reader, const std::string& name, const 
     for (const preset::Diagnostic& warning : loaded->warnings)
         instance.warning("preset", preset::toString(warning));
     const size_t index = reader.scene.presets.size();
-    reader.scene.presets.push_back({name, std::move(*text), loaded->effect});
+    const bool isFile = !isInLibrary && !reader.resolver.folder().empty();
+    reader.scene.presets.push_back({name, std::move(*text),
+                                    isFile ? reader.resolver.folder() + "/" + name : std::string(),
+                                    loaded->effect});
     reader.presetIndices[name] = index;
     return index;
 }
@@ -186,7 +191,7 @@ base::Result<SceneFile> loadSceneFile(const std::string& path,
         return text.status();
     }
     const std::string folder = std::filesystem::absolute(path).parent_path().string();
-    const asset::AssetResolver resolver(folder, preset::presetLibrary());
+    const asset::AssetResolver resolver(folder, preset::libraryFiles());
     return loadSceneText(*text, path, resolver, outDiagnostics);
 }
 

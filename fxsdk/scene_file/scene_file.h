@@ -38,6 +38,7 @@ struct ScenePreset
 {
     std::string name; ///< as the scene file says it
     std::string text; ///< the JSON behind it
+    std::string file; ///< where it lies; empty: in the library
     std::shared_ptr<const sim::EffectDef> effect;
 };
 

@@ -47,6 +47,7 @@ struct EmitterLook
     uint32_t motion = 0;      ///< id in the AssetTable, 0 none
     float motionScale = 0.0f; ///< [1]
     uint32_t mesh = 0;        ///< id in the AssetTable, 0 none
+    float meshReach = 1.0f;   ///< [1] distance of its farthest vertex, of the radius
 
     base::ColorCurve colorOverLife{std::array{1.0f, 1.0f, 1.0f}}; ///< linear Rec. 709
     base::Range opacity{1.0f, 1.0f};    ///< [1] 0..1, multiplied by the emitter's opacityOverLife

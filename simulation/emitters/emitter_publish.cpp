@@ -4,7 +4,7 @@
 #include "simulation/parallel.h"
 
 #include <algorithm>
-#include <mutex>
+#include <cmath>
 
 namespace fx::sim {
 
@@ -85,6 +85,18 @@ void writeConstants(const EmitterDef& def, const EmitterLook& look, float arcPer
     constants[constant::ArcPerTile] = arcPerTile;
 }
 
+namespace {
+
+/// [1] How far the farthest corner of what is drawn is from its center, over the half height.
+float cornerOf(const EmitterLook& look)
+{
+    constexpr float kRounding = 1.00002f; // of the arithmetic that draws
+    return kRounding *
+           (look.kind == Appearance::Mesh ? look.meshReach : std::sqrt(1.0f + look.aspect * look.aspect));
+}
+
+} // namespace
+
 LookJob EmitterSolver::lookJob() const
 {
     return {&program_, &store_, store_.window(), now_, motionBegin_, conditions_.pull};
@@ -114,7 +126,9 @@ void EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSna
     info.count = job.rows.count;
     writeConstants(def_, def_.look, 1.0f, group.editConstants());
 
-    group.editInfo().bounds = writeAll(job, columnsOf(group), tasks_).box();
+    LookBounds bounds = writeAll(job, columnsOf(group), tasks_);
+    bounds.radius *= cornerOf(def_.look);
+    group.editInfo().bounds = bounds.box();
 }
 
 } // namespace fx::sim

@@ -149,10 +149,11 @@ void BirthBatch::samplePlaces()
 void BirthBatch::storeMotion()
 {
     samplePlaces();
+    const glm::vec3 center = def_.births ? glm::vec3(0.0f) : def_.position; // they know their own
     if (store_.placed)
         for (size_t a = 0; a < 3; ++a) {
             for (uint32_t i = 0; i < tile_.count; ++i)
-                tile_.position[a][i] += def_.position[int(a)];
+                tile_.position[a][i] += center[int(a)];
             put(stored::X + a, tile_.position[a]);
         }
     if (stores(stored::PerLife) || def_.speed.max > def_.speed.min)

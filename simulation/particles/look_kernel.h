@@ -60,9 +60,10 @@ struct LookColumns
     bool stream; ///< write past the caches
 };
 
+constexpr float kLongestStep = 1.0f; ///< [s] between two snapshots
 constexpr float kFarAway = std::numeric_limits<float>::infinity();
 
-/// Box around the centers, and the largest radius.
+/// Box around the centers, and the largest half height of what is drawn there.
 struct LookBounds
 {
     glm::vec3 low{kFarAway};

@@ -62,7 +62,10 @@ public:
                                                    {*job.store, stored::AxisY},
                                                    {*job.store, stored::AxisZ}},
           frames_(float(look_.tileColumns * look_.tileRows)),
-          bright_(brightness_.rows || brightness_.constant != 1.0f)
+          bright_(brightness_.rows || brightness_.constant != 1.0f),
+          stretch_(look_.alignment == base::SpriteAlignment::Velocity && look_.kind == Appearance::Sprite
+                       ? 0.5f * look_.stretch
+                       : 0.0f)
     {}
 
     /// @tparam kPlain ParticleProgram::plain
@@ -156,6 +159,8 @@ private:
     HWY_INLINE void write(uint32_t row, Which alive, const MotionLanes& motion, Pieces& pieces,
                           BoundsLanes& bounds) const;
     HWY_INLINE void writeMore(uint32_t row, Which alive, const MotionLanes& motion) const;
+    HWY_INLINE void addMoving(Which alive, const MotionLanes& motion, Floats radius,
+                              BoundsLanes& bounds) const;
     HWY_INLINE void writeOrientation(uint32_t row, Which alive, Floats angle) const;
     HWY_INLINE Floats frameAt(uint32_t row, const MotionLanes& motion) const;
 
@@ -166,6 +171,7 @@ private:
     Source axis_[3];
     float frames_;
     bool bright_;
+    float stretch_; ///< [s] half of it lengthens a sprite to each side
 };
 
 template <bool kPlain, bool kStream, bool kFull>
@@ -202,9 +208,26 @@ HWY_INLINE void Looks::write(uint32_t row, Which alive, const MotionLanes& motio
     put(ofAlive(motion.age), out_.age + row, stream);
     put(radius, out_.radius + row, stream);
     putColor(packColor(rgb, opacity), out_.color + row, stream);
-    bounds.add<kFull>(alive, motion.position, radius);
+    if (!kPlain && out_.velocity[0])
+        addMoving(alive, motion, radius, bounds);
+    else
+        bounds.add<kFull>(alive, motion.position, radius);
     if (!kPlain)
         writeMore(row, alive, motion);
+}
+
+/// Sprites are longer by their way, and what was born since the snapshot before is drawn on its way from
+/// where it was born.
+HWY_INLINE void Looks::addMoving(Which alive, const MotionLanes& motion, Floats radius,
+                                 BoundsLanes& bounds) const
+{
+    const Floats* v = motion.velocity;
+    const Floats speed = hn::Sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    bounds.add<false>(alive, motion.position, hn::IfThenElseZero(alive, radius + all(stretch_) * speed));
+    const Which young = hn::And(alive, hn::Le(motion.age, all(kLongestStep)));
+    const Floats start[3] = {motion.position[0] - v[0] * motion.age, motion.position[1] - v[1] * motion.age,
+                             motion.position[2] - v[2] * motion.age};
+    bounds.add<false>(young, start, hn::Zero(kFloats));
 }
 
 HWY_INLINE void Looks::writeMore(uint32_t row, Which alive, const MotionLanes& motion) const

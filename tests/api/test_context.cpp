@@ -58,7 +58,7 @@ TEST(CreateContext, whatIsWrongInTheDefinitionIsRefusedAndTheOutputStays)
     EXPECT_EQ(fxCreateContext(nullptr, &context), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(refused([](FxContextDef& def) { def.structSize = 0; }), FX_ERROR_VERSION);
     EXPECT_EQ(refused([](FxContextDef& def) { def.headerVersion += 65536; }), FX_ERROR_VERSION);
-    EXPECT_EQ(refused([](FxContextDef& def) { def.flags = 1; }), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(refused([](FxContextDef& def) { def.flags = 2; }), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(refused([](FxContextDef& def) { def.workers = 257; }), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(refused([](FxContextDef& def) {
                   def.allocator.allocate = [](void*, size_t, size_t) -> void* { return nullptr; };

@@ -99,7 +99,8 @@ TEST_F(PresetApi, everyLibraryPresetLoadsWithAndWithoutItsPrefix)
 {
     FxPresetId id{};
     for (const char* name : {"explosion", "gas-fire", "campfire", "smoke-column", "dust-burst", "sparks",
-                             "steam", "burning-debris"})
+                             "steam", "burning-debris", "rain", "snow", "fireworks", "waterfall-mist",
+                             "magic-trail", "muzzle-flash", "tracer", "debris"})
         EXPECT_EQ(fxLoadPresetLibrary(context_, name, &id), FX_OK) << name << ": " << fxGetLastErrorMessage();
     EXPECT_EQ(fxLoadPresetLibrary(context_, "library:explosion", &id), FX_OK) << fxGetLastErrorMessage();
     EXPECT_EQ(fxLoadPresetLibrary(context_, "volcano", &id), FX_ERROR_NOT_FOUND);

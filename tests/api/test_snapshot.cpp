@@ -227,3 +227,38 @@ TEST(EmptyScene, hasASnapshotWithoutGroupsFromTheStart)
     EXPECT_EQ(info.tickNewer, 0);
     EXPECT_EQ(fxDestroyContext(context), FX_OK); // a held snapshot does not keep it
 }
+
+TEST_F(SnapshotApi, particlesAreBornWhereTheirShapeStandsHoweverItIsMade)
+{
+    for (const char* shape :
+         {R"("shape": "sphere", "size": 0.3)", R"("shape": "sphere", "size": 0.3, "surface": true)",
+          R"("shape": "cone", "size": 0.3, "axis": [1, 1, 0])", R"("shape": "line", "size": 0.3)"})
+    {
+        const std::string text = std::string(R"({"version": 1, "emitters": [{"position": [3, 46, -5], )") +
+                                 shape +
+                                 R"(, "emission": {"bursts": [{"time": 0, "count": 50}]}, "radius": 0.01,
+            "forces": {"gravity": 0}, "appearance": {"kind": "sprite"}}]})";
+        FxScene* scene = nullptr;
+        const FxSceneDef def = fxDefaultSceneDef();
+        ASSERT_EQ(fxCreateScene(context_, &def, &scene), FX_OK);
+        FxInstanceDef instance = fxDefaultInstanceDef();
+        instance.preset = fx::test::loadText(context_, text.c_str());
+        FxInstanceId id{};
+        ASSERT_EQ(fxScene_CreateInstance(scene, &instance, &id), FX_OK);
+        for (int i = 0; i < 3; ++i)
+            ASSERT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+        FxSnapshotId snapshot{};
+        ASSERT_EQ(fxScene_AcquireSnapshot(scene, &snapshot), FX_OK);
+        FxSnapshotGroup born{};
+        born.structSize = sizeof born;
+        ASSERT_EQ(fxScene_GetSnapshotGroup(scene, snapshot, FX_SNAPSHOT_NEWER, 0, &born), FX_OK);
+        const float center[3] = {3, 46, -5};
+        for (int a = 0; a < 3; ++a) {
+            EXPECT_GT(born.boundsMin[a], center[a] - 0.35f) << shape;
+            EXPECT_LT(born.boundsMax[a], center[a] + 0.35f) << shape;
+            EXPECT_LE(born.boundsMin[a], born.boundsMax[a]) << shape;
+        }
+        EXPECT_EQ(fxScene_ReleaseSnapshot(scene, snapshot), FX_OK);
+        EXPECT_EQ(fxDestroyScene(scene), FX_OK);
+    }
+}

@@ -15,7 +15,7 @@ namespace {
 /// The effect of a library preset; a failure of the test when it cannot be loaded or has warnings.
 std::shared_ptr<const sim::EffectDef> load(const std::string& name)
 {
-    const fx::asset::AssetResolver resolver("", presetLibrary());
+    const fx::asset::AssetResolver resolver("", libraryFiles());
     auto loaded = loadPresetAsset("library:" + name, resolver);
     if (!loaded.ok()) {
         ADD_FAILURE() << loaded.status().message();
@@ -49,8 +49,10 @@ TEST(PresetLibrary, holdsWhatItPromisesAndAllOfItIsValid)
 {
     const std::vector<std::string> list = names();
     const std::set<std::string> found(list.begin(), list.end());
-    EXPECT_EQ(found, (std::set<std::string>{"explosion", "gas-fire", "campfire", "smoke-column", "dust-burst",
-                                            "sparks", "steam", "burning-debris"}));
+    EXPECT_EQ(found,
+              (std::set<std::string>{"explosion", "gas-fire", "campfire", "smoke-column", "dust-burst",
+                                     "sparks", "steam", "burning-debris", "rain", "snow", "fireworks",
+                                     "waterfall-mist", "magic-trail", "muzzle-flash", "tracer", "debris"}));
     for (const std::string& name : list) {
         const auto effect = load(name);
         ASSERT_TRUE(effect);

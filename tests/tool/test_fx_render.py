@@ -9,6 +9,7 @@ import struct
 import subprocess
 import time
 import unittest
+import zlib
 
 from fx_program import FX, FxTest, fx
 
@@ -23,6 +24,14 @@ def png_size(path):
     if data[:8] != b"\x89PNG\r\n\x1a\n" or data[-8:-4] != b"IEND":
         raise ValueError(f"{path} is not a whole PNG")
     return struct.unpack(">II", data[16:24])
+
+
+def png_of_one_texel(red, green, blue):
+    """A PNG of 1 x 1 opaque texels."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 6, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(bytes([0, red, green, blue, 255]))) + chunk(b"IEND", b""))
 
 
 class FxRender(FxTest):
@@ -41,6 +50,22 @@ class FxRender(FxTest):
             time.sleep(0.05)
         process.send_signal(signal.SIGINT)
         return process.wait(60)
+
+    def test_a_texture_beside_the_preset_is_what_sprites_show(self):
+        preset = self.folder / "p.fx.json"
+        preset.write_text("""{"version": 1, "emitters": [{"position": [0, 1, 0], "radius": 0.5, "forces": {"gravity": 0},
+            "emission": {"bursts": [{"time": 0, "count": 1}]}, "lifetime": 9,
+            "appearance": {"kind": "sprite", "texture": "t.png", "lit": 0, "luminance": 5000}}]}""")
+        missing = fx("validate", preset)
+        self.assertEqual(missing.code, 1)
+        self.assertIn("/emitters/0/appearance/texture", missing.err + missing.out)
+        pictures = []
+        for color in ((255, 0, 0), (0, 0, 255)):
+            (self.folder / "t.png").write_bytes(png_of_one_texel(*color))
+            self.assertEqual(fx("validate", preset).code, 0)
+            self.render("p.png", scene=preset)
+            pictures.append((self.folder / "p.png").read_bytes())
+        self.assertNotEqual(pictures[0], pictures[1])
 
     def test_a_still_is_one_png_of_the_size_asked_for(self):
         self.render("a.png")

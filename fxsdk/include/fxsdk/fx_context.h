@@ -77,6 +77,14 @@ typedef struct FxAssetHook
     void (*close)(void* user, const void* data, size_t size);
 } FxAssetHook;
 
+/// What a context does otherwise than usual.
+typedef enum FxContextFlag
+{
+    /// An image or mesh of a preset that is missing or damaged is a warning, and a magenta checkerboard or a
+    /// tetrahedron stands in; without it, an error.
+    FX_CONTEXT_PLACEHOLDERS = 1
+} FxContextFlag;
+
 /// How a context starts. Fill with fxDefaultContextDef(), then change what you need.
 typedef struct FxContextDef
 {
@@ -90,7 +98,7 @@ typedef struct FxContextDef
     FxAssetHook assets;        ///< default: files
     uint32_t workers; ///< most threads to use without parallelFor, 0..256, and never more than the machine
                       ///< has; 0 (default): as many as it has
-    uint32_t flags;   ///< must be 0
+    uint32_t flags;   ///< FxContextFlag, added up; default 0
 } FxContextDef;
 
 /// The definition of a context that simulates on the library's own threads, without GL.
