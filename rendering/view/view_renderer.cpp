@@ -33,7 +33,9 @@ struct ViewRenderer::Impl
     base::Status ensureHistory();
     base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
                         const ViewSettings& settings); ///< everything that is to be drawn
-    void readBack(FrameStatistics& statistics);        ///< waits for the GPU
+    FrameStatistics rest();
+    FrameStatistics count(int divisor);
+    void readBack(FrameStatistics& statistics); ///< waits for the GPU
 
     GlDevice* device;
     FrameGraph graph;
@@ -124,6 +126,39 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     return {};
 }
 
+/// A frame in which there is nothing to draw.
+FrameStatistics ViewRenderer::Impl::rest()
+{
+    outputs = {};
+    historyFresh = true; // glare that has paused begins anew
+    FrameStatistics statistics;
+    if (++idleFrames >= kIdleFrames && backend.pooledBytes() > 0) {
+        const uint64_t before = device->callCount();
+        backend.releasePool();
+        statistics.glCalls = device->callCount() - before;
+    }
+    statistics.textureBytes = backend.pooledBytes();
+    return statistics;
+}
+
+/// What the frame has drawn.
+FrameStatistics ViewRenderer::Impl::count(int divisor)
+{
+    FrameStatistics statistics;
+    statistics.blobs = uint32_t(builder.blobs().size());
+    statistics.blobsCulled = builder.counts().culled;
+    statistics.blobsNonFinite = builder.counts().nonFinite;
+    statistics.particles = particles.rows();
+    statistics.particlesOrdered = particles.orderedRows();
+    statistics.uploadedBytes = buffers.uploadedBytes();
+    statistics.passes = outputs.anyPass ? uint32_t(graph.executedPasses().size()) : 0;
+    statistics.drawCalls = outputs.anyPass ? backend.drawCalls() : 0;
+    statistics.textureBytes = backend.pooledBytes() + buffers.bytes();
+    statistics.estimatedFragments = fragments[layerDivisorIndex(divisor)];
+    statistics.layerDivisor = divisor;
+    return statistics;
+}
+
 void ViewRenderer::Impl::readBack(FrameStatistics& statistics)
 {
     if (outputs.overdraw.valid()) {
@@ -168,15 +203,7 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     if (base::Status status = checkSensorLaw(settings_.dazzle); !status)
         return status;
     if (leavesPictureAlone(snapshots, asked, settings_)) {
-        s.outputs = {};
-        s.historyFresh = true; // glare that has paused begins anew
-        statistics_ = {};
-        if (++s.idleFrames >= kIdleFrames && s.backend.pooledBytes() > 0) {
-            const uint64_t before = s.device->callCount();
-            s.backend.releasePool();
-            statistics_.glCalls = s.device->callCount() - before;
-        }
-        statistics_.textureBytes = s.backend.pooledBytes();
+        statistics_ = s.rest();
         return {};
     }
     s.idleFrames = 0;
@@ -215,20 +242,9 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         s.outputs = {};                              // nothing of this frame can be handed out
     s.historyFresh = !(status && s.outputs.dazzled); // glare that has paused begins anew
 
-    statistics_ = {};
-    statistics_.blobs = uint32_t(s.builder.blobs().size());
-    statistics_.blobsCulled = s.builder.counts().culled;
-    statistics_.blobsNonFinite = s.builder.counts().nonFinite;
-    statistics_.particles = s.particles.rows();
-    statistics_.particlesOrdered = s.particles.orderedRows();
-    statistics_.uploadedBytes = s.buffers.uploadedBytes();
-    statistics_.passes = s.outputs.anyPass ? uint32_t(s.graph.executedPasses().size()) : 0;
+    statistics_ = s.count(divisor);
     statistics_.glCalls = s.device->callCount() - callsBefore;
-    statistics_.drawCalls = s.outputs.anyPass ? s.backend.drawCalls() : 0;
     statistics_.programsCompiled = s.device->programsCompiled() - compiledBefore;
-    statistics_.textureBytes = s.backend.pooledBytes() + s.buffers.bytes();
-    statistics_.estimatedFragments = s.fragments[layerDivisorIndex(divisor)];
-    statistics_.layerDivisor = divisor;
     if (status && settings_.countOverdraw)
         s.readBack(statistics_);
     return status;
