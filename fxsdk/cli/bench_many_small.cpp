@@ -1,7 +1,5 @@
 #include "fxsdk/cli/bench_emitters.h"
 #include "fxsdk/cli/bench_rows.h"
-#include "fxsdk/cli/bench_stage.h"
-#include "fxsdk/cli/interrupt.h"
 
 #include <algorithm>
 
@@ -22,28 +20,14 @@ base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view v
     for (uint64_t i = 0; i < instances; ++i)
         stage.add(effect, i + 1); // different seeds: none is simulated together with another
     stage.play(kWarmSteps);
-    const uint32_t steps = settings.steps > 0 ? settings.steps : 2000;
-    for (uint32_t i = 0; i < steps; ++i) {
-        if (interruptRequested())
-            return base::Status{base::Code::Interrupted, "interrupted"};
-        stage.playTimed();
-    }
-    const double alive = double(std::max<uint64_t>(stage.particles(), 1));
-    const double bandwidth = copyGigabytes(stage.tasks());
     BenchRow row;
     row.name = "many-small";
     row.variant = variant;
     row.count = settings.count;
-    row.medianNanoseconds = 1e9 * quantile(stage.times(), 0.5) / alive;
-    row.p95Nanoseconds = 1e9 * quantile(stage.times(), 0.95) / alive;
-    row.bytesPerParticle = bytesPerParticle(*effect);
-    row.bandwidthFraction = row.bytesPerParticle / row.medianNanoseconds / bandwidth;
-    row.hash = stage.hash();
-    row.more = {{"ns_per_particle_min", 1e9 * quantile(stage.times(), 0.0) / alive},
-                {"instances", instances},
-                {"alive", uint64_t(alive)},
-                {"steps", steps},
-                {"copy_gb_per_s", bandwidth}};
+    const uint32_t steps = settings.steps > 0 ? settings.steps : 2000;
+    if (base::Status status = timeStage(stage, steps, *effect, row); !status)
+        return status;
+    row.more["instances"] = instances;
     return row;
 }
 

@@ -19,6 +19,31 @@ uint32_t stepsFor(const BenchSettings& settings)
     return uint32_t(std::clamp<uint64_t>(200'000'000 / std::max<uint64_t>(settings.count, 1), 60, 2000));
 }
 
+} // namespace
+
+base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& effect, BenchRow& row)
+{
+    for (uint32_t i = 0; i < steps; ++i) {
+        if (interruptRequested())
+            return {base::Code::Interrupted, "interrupted"};
+        stage.playTimed();
+    }
+    const double alive = double(std::max<uint64_t>(stage.particles(), 1));
+    const double bandwidth = copyGigabytes(stage.tasks());
+    row.medianNanoseconds = 1e9 * quantile(stage.times(), 0.5) / alive;
+    row.p95Nanoseconds = 1e9 * quantile(stage.times(), 0.95) / alive;
+    row.bytesPerParticle = bytesPerParticle(effect);
+    row.bandwidthFraction = row.bytesPerParticle / row.medianNanoseconds / bandwidth;
+    row.hash = stage.hash();
+    row.more = {{"ns_per_particle_min", 1e9 * quantile(stage.times(), 0.0) / alive},
+                {"alive", uint64_t(alive)},
+                {"steps", steps},
+                {"copy_gb_per_s", bandwidth}};
+    return {};
+}
+
+namespace {
+
 base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view variant)
 {
     const std::shared_ptr<const sim::EffectDef> effect = benchEffect(variant, uint32_t(settings.count));
@@ -26,29 +51,14 @@ base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view v
     stage.add(effect, 1);
     stage.play(kWarmSteps);
     const uint64_t allocations = stage.allocations();
-    const uint32_t steps = stepsFor(settings);
-    for (uint32_t i = 0; i < steps; ++i) {
-        if (interruptRequested())
-            return base::Status{base::Code::Interrupted, "interrupted"};
-        stage.playTimed();
-    }
-    const double alive = double(std::max<uint64_t>(stage.particles(), 1));
-    const double bandwidth = copyGigabytes(stage.tasks());
     BenchRow row;
     row.name = "particles";
     row.variant = variant;
     row.count = settings.count;
-    row.medianNanoseconds = 1e9 * quantile(stage.times(), 0.5) / alive;
-    row.p95Nanoseconds = 1e9 * quantile(stage.times(), 0.95) / alive;
-    row.bytesPerParticle = bytesPerParticle(*effect);
-    row.bandwidthFraction = row.bytesPerParticle / row.medianNanoseconds / bandwidth;
-    row.hash = stage.hash();
-    row.more = {{"ns_per_particle_min", 1e9 * quantile(stage.times(), 0.0) / alive},
-                {"alive", uint64_t(alive)},
-                {"steps", steps},
-                {"dropped", stage.counters().dropped},
-                {"copy_gb_per_s", bandwidth},
-                {"allocations", stage.allocations() - allocations}};
+    if (base::Status status = timeStage(stage, stepsFor(settings), *effect, row); !status)
+        return status;
+    row.more["dropped"] = stage.counters().dropped;
+    row.more["allocations"] = stage.allocations() - allocations;
     return row;
 }
 

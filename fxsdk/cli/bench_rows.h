@@ -3,8 +3,14 @@
 #pragma once
 
 #include "fxsdk/cli/bench_entry.h"
+#include "fxsdk/cli/bench_stage.h"
 
 namespace fx::cli {
+
+/// Plays and times `steps` frames of a stage whose instances all show `effect`.
+/// @param row has name, variant and count; gets everything else
+/// @return Interrupted after a signal
+base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& effect, BenchRow& row);
 
 base::Result<std::vector<BenchRow>> benchParticles(const BenchSettings& settings);
 base::Result<std::vector<BenchRow>> benchManySmall(const BenchSettings& settings);
