@@ -54,6 +54,9 @@ void checkSwitches(fx::api::Checks& check, const FxViewSettings& given)
     check.flag(given.countOverdraw, "settings.countOverdraw");
     check.that(given.layerScale == 1.0f || given.layerScale == 0.5f || given.layerScale == 0.25f,
                "settings.layerScale is not 1, 0.5 or 0.25");
+    check.range(given.lodBias, 0.0f, 256.0f, "settings.lodBias");
+    check.range(given.lodImpostorPixels, 0.0f, fx::render::LodSettings::kMostImpostorPixels,
+                "settings.lodImpostorPixels");
 }
 
 void checkTarget(fx::api::Checks& check, const FxFrameDef& given)
@@ -98,6 +101,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     settings.countOverdraw = given.countOverdraw != 0;
     settings.layerDivisor = int(1.0f / given.layerScale);
     settings.fragmentBudget = given.fragmentBudget;
+    settings.lod = {given.lodBias, given.lodImpostorPixels};
     outSettings = settings;
     return {};
 }

@@ -91,6 +91,15 @@ FxViewStatistics gatherStatistics(const FxView& view)
     statistics.allocations = view.allocations;
     statistics.estimatedFragments = frame.estimatedFragments;
     statistics.layerScale = 1.0f / float(frame.layerDivisor);
+    statistics.keptLists = frame.keptLists ? 1 : 0;
+    statistics.uploadedBytes = frame.uploadedBytes;
+    statistics.sortedParticles = frame.sortedElements;
+    statistics.unsharedBytes = frame.unsharedBytes;
+    statistics.sharedBytes = frame.sharedBytes;
+    statistics.blobsThinned = frame.blobsThinned;
+    std::copy_n(frame.lodGroups, 4, statistics.lodGroups);
+    statistics.impostors = frame.impostors;
+    statistics.impostorsTaken = frame.impostorsTaken;
     return statistics;
 }
 

@@ -6,6 +6,7 @@
 #include "fxsdk/cli/bench_budget.h"
 #include "fxsdk/cli/bench_city.h"
 #include "fxsdk/cli/bench_idle.h"
+#include "fxsdk/cli/bench_lod.h"
 #include "fxsdk/cli/bench_plot.h"
 #include "fxsdk/cli/commands.h"
 
@@ -50,6 +51,23 @@ void addCity(CLI::App& bench, int& outExitCode)
     command->callback([options, &outExitCode] { outExitCode = runBenchCity(*options); });
 }
 
+void addLod(CLI::App& bench, int& outExitCode)
+{
+    auto options = std::make_shared<BenchLodOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "lod", "A field of far effects drawn with a level of detail: time, picture and a flight towards it");
+    command->add_option("--instances", options->instances, "Effects in the field")
+        ->check(CLI::Range(1, 100000));
+    command->add_option("--size", options->pixels, "[pixel] Width and height of the picture")
+        ->check(CLI::Range(64, 4096));
+    command->add_option("--repeats", options->repeats, "Frames of which the mean time is taken")
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--flight", options->flight, "Frames of the flight; 0: none")
+        ->check(CLI::Range(0, 100000));
+    command->add_flag("--json", options->json, "One object a level");
+    command->callback([options, &outExitCode] { outExitCode = runBenchLod(*options); });
+}
+
 void addBudget(CLI::App& bench, int& outExitCode)
 {
     auto arguments = std::make_shared<BenchBudgetArguments>();
@@ -87,6 +105,7 @@ void addBenchCommand(CLI::App& app, int& outExitCode)
     addBenchMeasurements(*bench, outExitCode);
     addIdle(*bench, outExitCode);
     addCity(*bench, outExitCode);
+    addLod(*bench, outExitCode);
     addBudget(*bench, outExitCode);
 }
 

@@ -1,6 +1,7 @@
 #include "fxsdk/cli/bench_scene.h"
 
 #include "fxsdk/cli/api_status.h"
+#include "rendering/gl/gl_read_texture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +77,14 @@ base::Result<FxPresetId> BenchScene::load(const std::string& preset)
     return id;
 }
 
+base::Result<FxPresetId> BenchScene::loadLibrary(const char* name)
+{
+    FxPresetId id = {};
+    if (base::Status status = toStatus(fxLoadPresetLibrary(context_, name, &id)); !status)
+        return status;
+    return id;
+}
+
 base::Status BenchScene::add(FxPresetId preset, double x, double z, uint64_t seed, int64_t startTick)
 {
     FxInstanceDef def = fxDefaultInstanceDef();
@@ -107,6 +116,29 @@ base::Status BenchScene::look(double radians)
     std::copy_n(focus.view, 16, frame_.view);
     std::copy_n(focus.projection, 16, frame_.projection);
     return toStatus(fxScene_SetFocus(scene_, &focus, 1));
+}
+
+void BenchScene::moveTo(double x, double y, double z)
+{
+    frame_.origin[0] = x;
+    frame_.origin[1] = y;
+    frame_.origin[2] = z;
+}
+
+base::Status BenchScene::setView(const FxViewSettings& settings)
+{
+    return toStatus(fxView_SetSettings(view_, &settings));
+}
+
+void BenchScene::clear()
+{
+    const float black[4] = {0, 0, 0, 0};
+    device_->gl.ClearTexImage(color_.name(), 0, GL_RGBA, GL_FLOAT, black);
+}
+
+std::vector<float> BenchScene::picture()
+{
+    return render::readTexture(*device_, color_.name(), options_.pixels, options_.pixels, 4);
 }
 
 base::Status BenchScene::update()

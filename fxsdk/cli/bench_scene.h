@@ -31,12 +31,18 @@ public:
     BenchScene& operator=(const BenchScene&) = delete;
 
     base::Result<FxPresetId> load(const std::string& preset);
+    base::Result<FxPresetId> loadLibrary(const char* name);
     base::Status add(FxPresetId preset, double x, double z, uint64_t seed, int64_t startTick);
     /// A camera 2 m above the origin that looks horizontally, with a view of 40 degrees; 0 is along -Z.
     base::Status look(double radians);
+    /// Where the camera of draw() is, as far as it is not turned; what is simulated does not change by it.
+    void moveTo(double x, double y, double z);
+    base::Status setView(const FxViewSettings& settings);
     base::Status update();
-    base::Status draw(); ///< nothing without GL
-    void finish();       ///< waits for the GPU
+    base::Status draw();          ///< nothing without GL
+    void finish();                ///< waits for the GPU
+    void clear();                 ///< the picture before draw(): black
+    std::vector<float> picture(); ///< RGBA
 
     FxScene* scene() const { return scene_; }
     const std::vector<FxInstanceId>& instances() const { return instances_; }

@@ -12,12 +12,14 @@ namespace {
 using quality::Knobs;
 
 constexpr double kLeastStep = 0.9; ///< a step costs at most so much of the one above it
+constexpr double kFarAway = 12.0;  ///< times the distance: an effect of a dozen pixels
 
 /// A moment of a preset that calls for a technique.
 struct Moment
 {
     const char* preset;
     double seconds;
+    double away = 1.0; ///< distance of the camera over that from which the effect fills the picture
 };
 
 struct Subject
@@ -26,7 +28,8 @@ struct Subject
     render::PassGroup group;
     std::vector<Knobs> settings; ///< the first is the best
     std::vector<Moment> moments;
-    bool countsOff; ///< the last setting leaves the technique out: it costs nothing
+    bool countsOff;          ///< the last setting leaves the technique out: it costs nothing
+    bool withDazzle = false; ///< otherwise there is no glare: it would hide differences
 };
 
 Subject media()
@@ -37,14 +40,33 @@ Subject media()
                     {{"library:explosion", 0.5},
                      {"library:smoke-column", 4.0},
                      {"library:campfire", 2.5},
-                     {"library:dust-burst", 1.0}},
+                     {"library:dust-burst", 1.0},
+                     {"library:explosion", 0.5, kFarAway},
+                     {"library:smoke-column", 4.0, kFarAway}},
                     false};
     for (const float particles : {1.0f, 0.5f, 0.25f, 0.125f})
         for (const auto form :
              {render::BillboardForm::Kernel, render::BillboardForm::Constant, render::BillboardForm::Planar})
             for (const bool detail : {true, false})
-                subject.settings.push_back({form, detail, particles, std::nullopt});
+                subject.settings.push_back({form, detail, particles});
+    for (const float bias : {1.0f, 4.0f, 16.0f})
+        for (const float particles : {1.0f, 0.5f, 0.25f})
+            for (const bool detail : {true, false}) {
+                Knobs knobs{render::BillboardForm::Kernel, detail, particles};
+                knobs.lodBias = bias;
+                subject.settings.push_back(knobs);
+            }
     return subject;
+}
+
+Subject dazzle()
+{
+    Knobs on, off;
+    on.dazzle = true;
+    off.dazzle = false;
+    return {"dazzle",  render::PassGroup::Dazzle,
+            {on, off}, {{"library:explosion", 0.2}, {"library:gas-fire", 2.5}, {"library:campfire", 2.5}},
+            true,      true};
 }
 
 Subject shimmer()
@@ -73,10 +95,12 @@ public:
         if (!scene.ok())
             return scene.status();
         file_ = std::move(*scene);
-        file_.view.dazzle.enabled = false; // it would hide differences, and is no part of the techniques
+        file_.view.dazzle.enabled = subject_.withDazzle;
         const base::Ticks tick = base::toTicks(moment_.seconds);
         if (base::Status status = frameEffect(file_, tick, {}); !status)
             return status;
+        scene_file::CameraPath& camera = file_.camera;
+        camera.position = camera.target + moment_.away * (camera.position - camera.target);
         auto stage = QualityStage::create(file_, rules_.width, rules_.height);
         if (!stage.ok())
             return stage.status();
@@ -198,7 +222,7 @@ quality::Ladder ladderOf(const AccuracyCurve& curve, const std::vector<Knobs>& k
 base::Result<MeasuredCalibration> measureLadders(const CalibrateRules& rules)
 {
     MeasuredCalibration calibration;
-    const Subject subjects[] = {media(), shimmer()};
+    const Subject subjects[] = {media(), shimmer(), dazzle()};
     uint64_t all = 0;
     for (const Subject& subject : subjects)
         all += subject.moments.size() * rules.repetitions;

@@ -27,8 +27,10 @@ using Json = nlohmann::json;
 struct ExplainOptions
 {
     std::string input;
-    double time = 1.0; ///< [s]
-    int size = 256;    ///< [pixel]
+    double time = 1.0;        ///< [s]
+    int size = 256;           ///< [pixel]
+    float lodBias = 0;        ///< [1]
+    float impostorPixels = 0; ///< [pixel]
     bool everything = false;
     bool json = false;
 };
@@ -113,6 +115,14 @@ Json techniquesOf(const scene_file::SceneFile& file, const Json& instances,
     return list;
 }
 
+/// Groups of media by what is drawn of them.
+Json levelsOf(const FxViewStatistics& view)
+{
+    return {{"all", view.lodGroups[0]},   {"half", view.lodGroups[1]}, {"eighth", view.lodGroups[2]},
+            {"less", view.lodGroups[3]},  {"blobs_drawn", view.blobs}, {"blobs_thinned", view.blobsThinned},
+            {"impostors", view.impostors}};
+}
+
 void print(const Json& report)
 {
     for (const Json& entry : report["instances"])
@@ -124,9 +134,13 @@ void print(const Json& report)
         std::printf("%-22s %s  passes %s  called by %s\n", entry["technique"].get<std::string>().c_str(),
                     entry["exists"].get<bool>() ? "exists" : "absent", entry["passes"].dump().c_str(),
                     entry["called_by"].dump().c_str());
-    std::printf("passes %s\n%llu bytes of textures, %.4f ms of simulation a step (estimated)\n",
-                report["passes"].dump().c_str(), report["bytes_textures"].get<unsigned long long>(),
-                report["ms_estimated"].get<double>());
+    std::printf("passes %s\nlevel of detail %s\n", report["passes"].dump().c_str(),
+                report["level_of_detail"].dump().c_str());
+    std::printf(
+        "%llu bytes of textures, %llu of them for the frame's passes (%llu if none shared memory), "
+        "%.4f ms of simulation a step (estimated)\n",
+        report["bytes_textures"].get<unsigned long long>(), report["bytes_frame"].get<unsigned long long>(),
+        report["bytes_frame_unshared"].get<unsigned long long>(), report["ms_estimated"].get<double>());
 }
 
 base::Status explain(const ExplainOptions& options)
@@ -138,6 +152,7 @@ base::Status explain(const ExplainOptions& options)
     FrameRendererOptions rendererOptions;
     rendererOptions.width = rendererOptions.height = options.size;
     rendererOptions.settings = file->view;
+    rendererOptions.settings.lod = {options.lodBias, options.impostorPixels};
     auto renderer = FrameRenderer::create(*file, rendererOptions);
     if (!renderer.ok())
         return renderer.status();
@@ -158,7 +173,10 @@ base::Status explain(const ExplainOptions& options)
                          {"instances", instances},
                          {"techniques", techniquesOf(*file, instances, counters.passes)},
                          {"passes", counters.passes},
+                         {"level_of_detail", levelsOf(counters.view)},
                          {"bytes_textures", counters.view.textureBytes},
+                         {"bytes_frame", counters.view.sharedBytes},
+                         {"bytes_frame_unshared", counters.view.unsharedBytes},
                          {"ms_estimated", stats.estimatedMilliseconds}};
     if (options.json)
         printJsonLine(withMachine(report, readMachine()));
@@ -180,6 +198,10 @@ void addExplainCommand(CLI::App& app, int& outExitCode)
         ->check(CLI::Range(0.0, 86400.0));
     command->add_option("--size", options->size, "[pixel] Width and height of the picture; default 256")
         ->check(CLI::Range(16, 4096));
+    command->add_option("--lod-bias", options->lodBias, "Level of detail, as of fx render; default 0")
+        ->check(CLI::Range(0.0f, 256.0f));
+    command->add_option("--impostors", options->impostorPixels, "As of fx render; default 0")
+        ->check(CLI::Range(0.0f, 13.0f));
     command->add_flag("--everything", options->everything, "As if everything were in sight");
     command->add_flag("--json", options->json, "One object");
     command->callback([options, &outExitCode] {

@@ -115,6 +115,16 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments)
                     "Estimated fragments a frame above which the layer scale falls; 0: never")
         ->check(CLI::Range(uint32_t(0), std::numeric_limits<uint32_t>::max()))
         ->capture_default_str();
+    command
+        .add_option("--lod-bias", arguments.lodBias,
+                    "Pixels of a far effect for which one particle of its media is drawn; 0: all are")
+        ->check(CLI::Range(0.0f, 256.0f))
+        ->capture_default_str();
+    command
+        .add_option("--impostors", arguments.impostorPixels,
+                    "[pixel] Radius below which effects are drawn as pictures of themselves; 0: none")
+        ->check(CLI::Range(0.0f, 13.0f))
+        ->capture_default_str();
     command.add_flag("--overdraw", arguments.overdraw,
                      "Count shaded fragments and covered pixels in the statistics");
     command.add_flag("--json", arguments.json, "Print one JSON object a frame");
@@ -169,6 +179,7 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
     settings.layerOutputs = linear;
     settings.countOverdraw = arguments.overdraw;
     settings.layerDivisor = int(std::lround(1.0 / std::stod(arguments.layerScale)));
+    settings.lod = {arguments.lodBias, arguments.impostorPixels};
     settings.fragmentBudget = arguments.fragmentBudget;
     settings.exposureEv100 = arguments.exposureEv100.value_or(settings.exposureEv100);
 }

@@ -36,6 +36,8 @@ struct RenderArguments
     std::optional<uint64_t> seed;
     std::optional<float> exposureEv100;
     std::string layerScale = "1";
+    float lodBias = 0.0f;
+    float impostorPixels = 0.0f; ///< [pixel]
     uint32_t fragmentBudget = 0; ///< 0: none
     bool noDazzle = false;
     bool noShimmer = false;

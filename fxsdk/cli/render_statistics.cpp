@@ -29,6 +29,15 @@ nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool 
         {"nonfinite", view.blobsNonFinite},
         {"estimated_fragments", view.estimatedFragments},
         {"layer_scale", view.layerScale},
+        {"lists_kept", view.keptLists != 0},
+        {"bytes_uploaded", view.uploadedBytes},
+        {"particles_sorted", view.sortedParticles},
+        {"bytes_frame", view.sharedBytes},
+        {"bytes_frame_unshared", view.unsharedBytes},
+        {"blobs_thinned", view.blobsThinned},
+        {"impostors", view.impostors},
+        {"impostors_taken", view.impostorsTaken},
+        {"lod_groups", {view.lodGroups[0], view.lodGroups[1], view.lodGroups[2], view.lodGroups[3]}},
         {"overflow", {view.overflow[0], view.overflow[1], view.overflow[2]}},
     };
     if (withOverdraw) {

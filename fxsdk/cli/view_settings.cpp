@@ -29,6 +29,8 @@ FxViewSettings toApi(const render::ViewSettings& settings)
     api.countOverdraw = settings.countOverdraw ? 1 : 0;
     api.layerScale = 1.0f / float(settings.layerDivisor);
     api.fragmentBudget = uint32_t(settings.fragmentBudget);
+    api.lodBias = settings.lod.bias;
+    api.lodImpostorPixels = settings.lod.impostorPixels;
     return api;
 }
 

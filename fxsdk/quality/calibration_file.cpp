@@ -39,6 +39,10 @@ Knobs readKnobs(const Json& setting)
         knobs.particles = it->get<float>();
     if (const auto it = setting.find("shimmer"); it != setting.end())
         knobs.shimmer = it->get<bool>();
+    if (const auto it = setting.find("lodBias"); it != setting.end())
+        knobs.lodBias = it->get<float>();
+    if (const auto it = setting.find("dazzle"); it != setting.end())
+        knobs.dazzle = it->get<bool>();
     return knobs;
 }
 
@@ -120,6 +124,10 @@ nlohmann::ordered_json toJson(const Knobs& knobs)
         json["particles"] = *knobs.particles;
     if (knobs.shimmer)
         json["shimmer"] = *knobs.shimmer;
+    if (knobs.lodBias)
+        json["lodBias"] = *knobs.lodBias;
+    if (knobs.dazzle)
+        json["dazzle"] = *knobs.dazzle;
     return json;
 }
 
@@ -139,17 +147,21 @@ std::string toText(const Knobs& knobs)
 {
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-    if (knobs.particles) {
-        char share[32];
-        std::snprintf(share, sizeof share, "particles %g", double(*knobs.particles));
-        add(share);
-    }
+    const auto addNumber = [&](const char* name, const std::optional<float>& value) {
+        char part[32];
+        if (value && std::snprintf(part, sizeof part, "%s %g", name, double(*value)) > 0)
+            add(part);
+    };
+    addNumber("particles", knobs.particles);
+    addNumber("lod bias", knobs.lodBias);
     if (knobs.billboards)
         add(kForms[size_t(*knobs.billboards)]);
     if (knobs.detail)
         add(*knobs.detail ? "detail on" : "detail off");
     if (knobs.shimmer)
         add(*knobs.shimmer ? "shimmer on" : "shimmer off");
+    if (knobs.dazzle)
+        add(*knobs.dazzle ? "dazzle on" : "dazzle off");
     return text;
 }
 

@@ -18,10 +18,12 @@ constexpr size_t kMostSteps = 16;  ///< of one ladder
 /// The switches of the renderer that a step sets; what is absent stays as the host has it.
 struct Knobs
 {
-    std::optional<render::BillboardForm> billboards;
-    std::optional<bool> detail;
-    std::optional<float> particles; ///< [1] share that is drawn, (0, 1]
-    std::optional<bool> shimmer;
+    std::optional<render::BillboardForm> billboards = std::nullopt;
+    std::optional<bool> detail = std::nullopt;
+    std::optional<float> particles = std::nullopt; ///< [1] share that is drawn, (0, 1]
+    std::optional<bool> shimmer = std::nullopt;
+    std::optional<float> lodBias = std::nullopt; ///< [1] of render::LodSettings, at least so much, [0, 256]
+    std::optional<bool> dazzle = std::nullopt;
 };
 
 /// One setting of a technique.

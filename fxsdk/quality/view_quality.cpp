@@ -32,7 +32,8 @@ Choice fromTag(uint64_t tag)
 
 constexpr const char* techniqueOf(PassGroup group)
 {
-    return group == PassGroup::Media ? "media" : group == PassGroup::Shimmer ? "shimmer" : "other";
+    constexpr const char* kNames[render::kPassGroups] = {"other", "media", "shimmer", "dazzle"};
+    return kNames[size_t(group)];
 }
 
 } // namespace
@@ -124,7 +125,10 @@ void ViewQuality::weigh(const render::ScreenShare& covered)
     weights_ = {};
     for (size_t i = 0; i < controller_->ladders().size(); ++i) {
         const std::string& technique = controller_->ladders()[i].technique;
-        weights_[i] = technique == "media" ? covered.media : technique == "shimmer" ? covered.hot : 0.0;
+        weights_[i] = technique == "media"     ? covered.media
+                      : technique == "shimmer" ? covered.hot
+                      : technique == "dazzle"  ? covered.media // glare is about as large as what is bright
+                                               : 0.0;
     }
 }
 

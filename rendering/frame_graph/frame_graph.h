@@ -126,6 +126,13 @@ public:
     } ///< whether this frame knows it
     std::span<const PhysicalTexture> physicalTextures() const { return physicalTextures_; }
     std::span<const size_t> physicalBuffers() const { return physicalBuffers_; } ///< [byte]
+    /// Memory of what lives within the frame, as planned; host's and imported resources do not count.
+    struct Memory
+    {
+        uint64_t unshared; ///< [byte] if each resource had memory of its own
+        uint64_t shared;   ///< [byte] as it is: those that live at different times share
+    };
+    Memory memory() const;
     std::span<const std::string_view> executedPasses() const { return executed_; }
     uint32_t culledPasses() const { return static_cast<uint32_t>(passes_.size() - executed_.size()); }
     /// Whether the executed pass of that index declared reading (writing) any version of the resource.

@@ -65,6 +65,23 @@ void FrameGraph::measureLifetimes()
     }
 }
 
+FrameGraph::Memory FrameGraph::memory() const
+{
+    const auto texels = [](int width, int height, Format format) {
+        return uint64_t(width) * uint64_t(height) * formatBytes(format);
+    };
+    Memory memory{0, 0};
+    for (const Resource& resource : resources_)
+        if (resource.physical != kNone)
+            memory.unshared += resource.isTexture ? texels(resource.width, resource.height, resource.format)
+                                                  : resource.bytes;
+    for (const PhysicalTexture& texture : physicalTextures_)
+        memory.shared += texels(texture.width, texture.height, texture.format);
+    for (const size_t bytes : physicalBuffers_)
+        memory.shared += bytes;
+    return memory;
+}
+
 void FrameGraph::orderByFirstUse()
 {
     order_.clear();

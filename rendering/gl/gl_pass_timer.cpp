@@ -8,6 +8,8 @@ PassGroup passGroupOf(std::string_view passName)
 {
     if (passName.starts_with("media") || passName == "blob upload" || passName.starts_with("layer"))
         return PassGroup::Media;
+    if (passName.starts_with("dazzle"))
+        return PassGroup::Dazzle;
     return passName.starts_with("heat") ? PassGroup::Shimmer : PassGroup::Other;
 }
 

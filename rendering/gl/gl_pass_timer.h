@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <string_view>
 
 namespace fx::render {
@@ -19,8 +20,9 @@ enum class PassGroup : uint8_t
     Other,
     Media,   ///< all blobs of fire, smoke and dust
     Shimmer, ///< heat
+    Dazzle,  ///< glare
 };
-constexpr size_t kPassGroups = 3;
+constexpr size_t kPassGroups = 4;
 PassGroup passGroupOf(std::string_view passName);
 
 enum class TimingClock : uint8_t
@@ -35,7 +37,10 @@ struct GroupTimes
 {
     uint64_t tag = 0; ///< what beginFrame() was given
     std::array<double, kPassGroups> milliseconds{};
-    double total() const { return milliseconds[0] + milliseconds[1] + milliseconds[2]; } ///< [ms]
+    double total() const ///< [ms]
+    {
+        return std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0);
+    }
 };
 
 /// A clock of the host. [ms] from any origin.

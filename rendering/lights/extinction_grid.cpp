@@ -9,36 +9,32 @@
 
 namespace fx::render {
 
-namespace {
-
-constexpr int kN = ExtinctionGrid::kCells;
-
-size_t cellIndex(int x, int y, int z)
-{
-    return (size_t(z) * kN + size_t(y)) * kN + size_t(x);
-}
-
-glm::ivec3 toCell(const glm::vec3& p)
-{
-    return glm::clamp(glm::ivec3(glm::floor(p)), glm::ivec3(0), glm::ivec3(kN - 1));
-}
-
-} // namespace
-
-ExtinctionGrid::ExtinctionGrid(std::pmr::memory_resource* memory) : cells_(size_t(kN) * kN * kN, 0.0f, memory)
+ExtinctionGrid::ExtinctionGrid(std::pmr::memory_resource* memory)
+    : cells_(size_t(kCells) * kCells * kCells, 0.0f, memory)
 {}
 
-void ExtinctionGrid::build(std::span<const GridBlob> blobs)
+size_t ExtinctionGrid::cellIndex(int x, int y, int z) const
 {
+    return (size_t(z) * size_t(n_) + size_t(y)) * size_t(n_) + size_t(x);
+}
+
+glm::ivec3 ExtinctionGrid::toCell(const glm::vec3& p) const
+{
+    return glm::clamp(glm::ivec3(glm::floor(p)), glm::ivec3(0), glm::ivec3(n_ - 1));
+}
+
+void ExtinctionGrid::build(std::span<const GridBlob> blobs, int cells)
+{
+    n_ = std::clamp(cells, 1, kCells);
     base::Bounds bounds;
     for (const GridBlob& blob : blobs)
         bounds.add(blob.center, blob.radius);
     empty_ = bounds.empty();
     if (empty_)
         return;
-    std::fill(cells_.begin(), cells_.end(), 0.0f);
+    std::fill_n(cells_.begin(), size_t(n_) * size_t(n_) * size_t(n_), 0.0f);
     origin_ = bounds.min;
-    cellSize_ = glm::max((bounds.max - bounds.min) / float(kN), glm::vec3(1e-6f));
+    cellSize_ = glm::max((bounds.max - bounds.min) / float(n_), glm::vec3(1e-6f));
     volume_ = cellSize_.x * cellSize_.y * cellSize_.z;
 
     for (const GridBlob& blob : blobs) {
@@ -58,8 +54,8 @@ void ExtinctionGrid::build(std::span<const GridBlob> blobs)
 double ExtinctionGrid::totalCrossSection() const
 {
     double sum = 0.0;
-    for (const float cell : cells_)
-        sum += double(cell);
+    for (size_t i = 0; i < size_t(n_) * size_t(n_) * size_t(n_); ++i)
+        sum += double(cells_[i]);
     return empty_ ? 0.0 : sum;
 }
 
@@ -72,7 +68,7 @@ float ExtinctionGrid::extinction(const glm::vec3& cell) const
     float sum = 0.0f;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::ivec3 c = i + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-        if (c.x < 0 || c.y < 0 || c.z < 0 || c.x >= kN || c.y >= kN || c.z >= kN)
+        if (c.x < 0 || c.y < 0 || c.z < 0 || c.x >= n_ || c.y >= n_ || c.z >= n_)
             continue;
         const float weight = (corner & 1 ? f.x : 1.0f - f.x) * (corner >> 1 & 1 ? f.y : 1.0f - f.y) *
                              (corner >> 2 ? f.z : 1.0f - f.z);
@@ -91,10 +87,11 @@ float ExtinctionGrid::transmittance(const glm::vec3& position, const glm::vec3& 
     const float cellsPerMetre = glm::length(perMetre);
     const float step = 1.0f / cellsPerMetre; // [m] one cell
     float opticalDepth = 0.0f;
-    for (float t = 1.5f * step; t < distance; t += step) { // what is nearer belongs to the blob itself
+    const float begin = step * float(n_) / float(kCells); // what is nearer belongs to the blob itself
+    for (float t = begin + 0.5f * step; t < distance; t += step) {
         const glm::vec3 p = start + perMetre * t;
         const bool outside = glm::any(glm::lessThan(p, glm::vec3(-0.5f))) ||
-                             glm::any(glm::greaterThan(p, glm::vec3(float(kN) + 0.5f)));
+                             glm::any(glm::greaterThan(p, glm::vec3(float(n_) + 0.5f)));
         if (outside || opticalDepth > 12.0f)
             break;
         opticalDepth += extinction(p) * step;

@@ -94,6 +94,10 @@ MediaPass::Outputs MediaPass::addTo(FrameGraph& graph, const Inputs& in, const O
         if (in.blobs.valid())
             builder.read(in.blobs);
         readBatches(builder, in.batches);
+        if (in.impostors.instances.valid()) {
+            builder.read(in.impostors.instances);
+            builder.read(in.impostors.atlas);
+        }
         builder.read(in.distance);
         for (size_t i = 0; i < targetCount; ++i) {
             const ResourceId before = in.layers ? under.layers[i] : under.media;
@@ -111,6 +115,9 @@ MediaPass::Outputs MediaPass::addTo(FrameGraph& graph, const Inputs& in, const O
             for (const MediaRun& run : in.runs) {
                 if (run.batch == MediaRun::kBlobs)
                     drawBlobs(backend, in, run, {targets.data(), targetCount});
+                else if (run.batch == MediaRun::kImpostors)
+                    drawImpostors(backend, in.impostors, run.first, run.count, in.view, in.distance,
+                                  {targets.data(), targetCount});
                 else
                     drawBatch(backend, in.batches[run.batch], run.first, run.count, in.view, in.layers,
                               in.distance, {targets.data(), targetCount});

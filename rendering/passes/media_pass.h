@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"
+#include "rendering/passes/impostor_pass.h"
 #include "rendering/passes/particle_batch.h"
 #include "rendering/passes/view_block.h"
 
@@ -39,7 +40,8 @@ public:
         BillboardForm form;
         bool detail;
         bool layers;
-        bool isSmall = false; ///< of a layer grid whose texels are larger than pixels
+        bool isSmall = false;        ///< of a layer grid whose texels are larger than pixels
+        ImpostorDraw impostors = {}; ///< effects that are drawn as pictures; not with layers
     };
     /// What `layers` asks for, in the order of media.frag.glsl.
     enum LayerTarget : size_t

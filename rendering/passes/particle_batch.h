@@ -73,7 +73,8 @@ struct ParticleBatch
 struct MediaRun
 {
     static constexpr uint32_t kBlobs = ~0u;
-    uint32_t batch; ///< kBlobs, or an index of the batches
+    static constexpr uint32_t kImpostors = ~0u - 1;
+    uint32_t batch; ///< kBlobs, kImpostors, or an index of the batches
     uint32_t first;
     uint32_t count;
 };

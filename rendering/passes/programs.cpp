@@ -4,6 +4,7 @@
 #include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/heat_offset_pass.h"
 #include "rendering/passes/heat_shimmer_pass.h"
+#include "rendering/passes/impostor_pass.h"
 #include "rendering/passes/layer_distance_pass.h"
 #include "rendering/passes/layer_over_pass.h"
 #include "rendering/passes/layer_resolve_pass.h"
@@ -27,7 +28,7 @@ constexpr const ProgramDesc* kSinglePrograms[] = {
     &kOverdrawProgram,      &kHeatOffsetProgram,    &kHeatShimmerProgram,    &kDazzleSumProgram,
     &kDazzleBudgetProgram,  &kDazzleDealProgram,    &kToneMapProgram,        &kToneMapDitherProgram,
     &kPresentProgram,       &kLayerDistanceProgram, &kLayerUpsampleProgram,  &kLayerSpreadProgram,
-    &kOverdrawSmallProgram, &kLayerOverProgram,
+    &kOverdrawSmallProgram, &kLayerOverProgram,     &kImpostorProgram,       &kImpostorKeepProgram,
 };
 
 } // namespace

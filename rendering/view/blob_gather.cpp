@@ -20,6 +20,7 @@ namespace column = base::blob_column;
 namespace constant = base::blob_constant;
 
 constexpr int kMostStreakBlobs = 10;
+constexpr uint32_t kFewestOfAnImpostor = 16; ///< blobs; fewer are cheaper than their picture
 
 float mix(float a, float b, float t)
 {
@@ -80,13 +81,6 @@ float seedOf(uint64_t id)
     return float(x >> 40) * 0x1.0p-24f;
 }
 
-/// [0, 1) another number of the id: the particles below a share of 1/2 are among those below 3/4.
-float thinningOf(uint64_t id)
-{
-    const uint64_t x = (id ^ (id >> 31)) * 0x94D049BB133111EBu;
-    return float((x ^ (x >> 29)) * 0xBF58476D1CE4E5B9u >> 40) * 0x1.0p-24f;
-}
-
 bool finite(const GatheredBlob& b, const glm::vec3& velocity)
 {
     const float values[] = {b.center.x, b.center.y, b.center.z, b.radius,     b.crossSection, b.temperature,
@@ -99,22 +93,35 @@ bool finite(const GatheredBlob& b, const glm::vec3& velocity)
 class GroupGather
 {
 public:
-    GroupGather(const CameraGeometry& camera, int height, float share,
+    GroupGather(const CameraGeometry& camera, int height, float share, LevelOfDetail* lod,
                 std::pmr::vector<GatheredBlob>& visible, std::pmr::vector<GridBlob>& medium,
                 GatherCounts& counts)
         : camera_(camera), volume_(camera),
-          pixelsPerSlope_(0.5f * float(height) * std::abs(camera.clipScale.y)), share_(share),
+          pixelsPerSlope_(0.5f * float(height) * std::abs(camera.clipScale.y)), share_(share), lod_(lod),
           visible_(visible), medium_(medium), counts_(counts)
     {}
+
+    /// [1] of the group that was run last, see LodLevel.
+    float shadowCoarse() const { return level_.shadowCoarse; }
+
+    /// Whether what is beside the view is left out.
+    void cullToView(bool isCulled) { isCulled_ = isCulled; }
 
     void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds)
     {
         const base::Placement place = placementAt(newer, older, t, camera_.eye);
+        level_ = lod_ ? lod_->levelOf(newer.info(), place) : LodLevel();
         const std::span<const float> constants = newer.constants();
         ElementReader reader(newer, older, t, stepSeconds);
         for (size_t i = 0; i < newer.count(); ++i) {
             if (!reader.select(i))
                 continue;
+            const float rank = birthRank(reader.id());
+            const float shadowWeight = weightOf(rank);
+            if (shadowWeight == 0.0f) {
+                ++counts_.thinned;
+                continue;
+            }
             GatheredBlob blob = read(reader, constants);
             blob.center = glm::vec3(place.position) + place.rotation * (reader.position() * place.scale);
             blob.radius *= place.scale;
@@ -126,10 +133,11 @@ public:
             }
             if (!(blob.crossSection > 0.0f && blob.radius > 0.0f))
                 continue;
-            medium_.push_back({blob.center, blob.radius, blob.crossSection});
-            if (share_ < 1.0f && thinningOf(reader.id()) >= share_)
+            medium_.push_back({blob.center, blob.radius, blob.crossSection * shadowWeight});
+            const float shownWeight = rank < share_ ? weightOf(rank / share_) : 0.0f; // uniform again
+            if (shownWeight == 0.0f)
                 continue;
-            blob.crossSection /= share_;
+            blob.crossSection *= shownWeight / share_;
             add(blob, velocity * constants[constant::Shutter]);
         }
     }
@@ -153,18 +161,26 @@ private:
         return blob;
     }
 
+    /// What a blob's cross section is multiplied by for the level of detail.
+    float weightOf(float rank) const
+    {
+        return level_.ramp.isAll() ? 1.0f : level_.ramp.weight(rank) / level_.ramp.mean();
+    }
+
     void add(GatheredBlob blob, const glm::vec3& streak)
     {
         const float depth = camera_.orthographic ? 1.0f : glm::length(blob.center);
-        const float leastRadius = kLeastPixels * depth / pixelsPerSlope_;
-        blob.radius = std::max(blob.radius, leastRadius);
+        const float pixel = depth / pixelsPerSlope_; // [m]
+        const float grown = std::min({blob.radius / std::sqrt(level_.ramp.mean()), level_.grownPixels * pixel,
+                                      blob.radius + level_.swollenPixels * pixel});
+        blob.radius = std::max({blob.radius, grown, kLeastPixels * pixel});
         const float length = glm::length(streak);
         const int pieces = std::clamp(int(length / blob.radius), 0, kMostStreakBlobs - 1) + 1;
         blob.crossSection /= float(pieces);
         const glm::vec3 head = blob.center;
         for (int k = 0; k < pieces; ++k) {
             blob.center = head - streak * (float(k) / float(pieces));
-            if (volume_.touches(blob.center, blob.radius))
+            if (!isCulled_ || volume_.touches(blob.center, blob.radius))
                 visible_.push_back(blob);
             else
                 ++counts_.culled;
@@ -175,17 +191,57 @@ private:
     ViewVolume volume_;
     float pixelsPerSlope_;
     float share_;
+    LevelOfDetail* lod_;
+    LodLevel level_;
+    bool isCulled_ = true;
     std::pmr::vector<GatheredBlob>& visible_;
     std::pmr::vector<GridBlob>& medium_;
     GatherCounts& counts_;
 };
+
+/// What is to be done with the instance whose first group of blobs is number `first`.
+ImpostorPlan planImpostor(const base::SnapshotPair& snapshots, size_t first, float t,
+                          const CameraGeometry& camera, int height, ImpostorField& impostors)
+{
+    const base::FrameSnapshot& newer = *snapshots.newer;
+    const base::GroupInfo& info = newer.group(first).info();
+    base::Bounds around;
+    uint32_t count = 0;
+    for (size_t g = first; g < newer.groupCount(); ++g) {
+        const base::SnapshotGroup& group = newer.group(g);
+        if (group.info().instance != info.instance)
+            break;
+        if (group.info().kind != info.kind || group.count() == 0)
+            continue;
+        if (group.info().bounds.empty())
+            return {};
+        const size_t same = findSameGroup(snapshots.older, group.info(), g);
+        const auto* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
+        const base::Placement place = placementAt(group, older, t, camera.eye);
+        const base::Bounds& bounds = group.info().bounds;
+        around.add(glm::vec3(place.position) +
+                       place.rotation * (0.5f * (bounds.min + bounds.max) * place.scale),
+                   0.5f * glm::length(bounds.max - bounds.min) * place.scale);
+        count += group.count();
+    }
+    if (count < kFewestOfAnImpostor || camera.orthographic)
+        return {};
+    ImpostorSubject subject{info.instance, 0.5f * (around.min + around.max), 0.0f, 0.0f};
+    subject.radius = 0.5f * std::max({around.max.x - around.min.x, around.max.y - around.min.y,
+                                      around.max.z - around.min.z});
+    if (!ViewVolume(camera).touches(subject.center, subject.radius))
+        return {};
+    subject.pixels = subject.radius * 0.5f * float(height) * std::abs(camera.clipScale.y) /
+                     std::max(glm::length(subject.center), 1e-6f);
+    return impostors.plan(subject);
+}
 
 } // namespace
 
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<GridBlob>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances,
-                         float share)
+                         float share, LevelOfDetail* lod, ImpostorField* impostors)
 {
     GatherCounts counts;
     if (!snapshots.newer)
@@ -195,17 +251,26 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
     const float t = float(glm::clamp(interpolation, 0.0, 1.0));
     const float stepSeconds =
         snapshots.older ? float(base::toSeconds(newer.tick() - snapshots.older->tick())) : 0.0f;
-    GroupGather gather(camera, height, share, outVisible, outMedium, counts);
+    GroupGather gather(camera, height, share, lod, outVisible, outMedium, counts);
     for (size_t g = 0; g < newer.groupCount(); ++g) {
         const base::SnapshotGroup& group = newer.group(g);
         if (group.info().kind != kind)
             continue;
-        if (outInstances.empty() || outInstances.back().instance != group.info().instance)
-            outInstances.push_back({group.info().instance, outVisible.size(), 0, outMedium.size(), 0});
+        if (outInstances.empty() || outInstances.back().instance != group.info().instance) {
+            const ImpostorPlan plan =
+                impostors ? planImpostor(snapshots, g, t, camera, height, *impostors) : ImpostorPlan();
+            outInstances.push_back({group.info().instance, outVisible.size(), outVisible.size(),
+                                    outMedium.size(), outMedium.size(), LodLevel::kCoarsest, plan});
+            gather.cullToView(!plan.isTaken);
+        }
+        const ImpostorPlan& plan = outInstances.back().plan;
+        if (plan.blobShare <= 0.0f && !plan.isTaken)
+            continue;
         const size_t same = findSameGroup(snapshots.older, group.info(), g);
         gather.run(group, same == kNoGroup ? nullptr : &snapshots.older->group(same), t, stepSeconds);
         outInstances.back().visibleEnd = outVisible.size();
         outInstances.back().mediumEnd = outMedium.size();
+        outInstances.back().shadowCoarse = std::min(outInstances.back().shadowCoarse, gather.shadowCoarse());
     }
     return counts;
 }

@@ -6,6 +6,8 @@
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/lights/extinction_grid.h"
 #include "rendering/passes/view_block.h"
+#include "rendering/view/impostor_field.h"
+#include "rendering/view/level_of_detail.h"
 
 #include <glm/vec3.hpp>
 
@@ -42,6 +44,8 @@ struct InstanceBlobs
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
     size_t mediumBegin, mediumEnd;
+    float shadowCoarse; ///< see LodLevel; the least of its groups
+    ImpostorPlan plan;  ///< what of it is drawn as a picture
 };
 
 /// What a gather left out.
@@ -49,6 +53,7 @@ struct GatherCounts
 {
     uint32_t culled = 0;
     uint32_t nonFinite = 0;
+    uint32_t thinned = 0; ///< for the level of detail
 };
 
 /// Appends to `outVisible` every blob that can be seen, in the order of groups and ids, and to `outMedium`
@@ -63,9 +68,13 @@ struct GatherCounts
 ///
 /// @param share of the particles that is appended to `outVisible`, (0, 1]: their ids decide which, so that a
 /// particle does not come and go; they take over the cross section of the others. All cast shadows.
+/// @param impostors decides which effects are pictures of themselves; null: none. What is drawn by a picture
+/// alone is not gathered, what is taken for one is gathered with all that is beside the view.
+/// @param lod thins out groups that are small on the picture, for shadows too; null: none
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<GridBlob>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances,
-                         float share = 1.0f);
+                         float share = 1.0f, LevelOfDetail* lod = nullptr,
+                         ImpostorField* impostors = nullptr);
 
 } // namespace fx::render

@@ -107,24 +107,23 @@ void ParticleBuffers::write(const base::FrameSnapshot& snapshot, Place& place)
     }
 }
 
-base::Status ParticleBuffers::makeResident(const base::FrameSnapshot& snapshot, Place*& out)
+base::Status ParticleBuffers::makeResident(const base::FrameSnapshot& snapshot, uint64_t stamp, Place*& out)
 {
-    const Content content{&snapshot, snapshot.sequence(), snapshot.tick()};
     for (Place& place : places_)
-        if (place.content == content) {
+        if (place.stamp == stamp) {
             place.usedFrame = frame_;
             out = &place;
             return {};
         }
     out = &*std::min_element(places_.begin(), places_.end(),
                              [](const Place& a, const Place& b) { return a.usedFrame < b.usedFrame; });
-    out->content = {};
+    out->stamp = 0;
     const uint64_t bytes = layOut(snapshot, out->groups);
     if (base::Status status = ensure(device_, out->buffer, std::max<uint64_t>(bytes, 1), "particle rows");
         !status)
         return status;
     write(snapshot, *out);
-    out->content = content;
+    out->stamp = stamp;
     out->usedFrame = frame_;
     return {};
 }
@@ -182,8 +181,8 @@ base::Status ParticleBuffers::findAssets(ParticleFrame& frame, const base::Asset
     return {};
 }
 
-base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, ParticleFrame& frame,
-                                      const base::AssetTable* assets)
+base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const StampPair& stamps,
+                                      ParticleFrame& frame, const base::AssetTable* assets)
 {
     uploadedBytes_ = 0;
     if (frame.groups().empty())
@@ -192,9 +191,9 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, Parti
     Place* older = nullptr;
     Place* newer = nullptr;
     if (snapshots.older)
-        if (base::Status status = makeResident(*snapshots.older, older); !status)
+        if (base::Status status = makeResident(*snapshots.older, stamps.older, older); !status)
             return status;
-    if (base::Status status = makeResident(*snapshots.newer, newer); !status)
+    if (base::Status status = makeResident(*snapshots.newer, stamps.newer, newer); !status)
         return status;
     if (base::Status status = writeOrders(frame); !status)
         return status;
@@ -218,7 +217,7 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, Parti
 void ParticleBuffers::fence()
 {
     for (Place& place : places_)
-        if (place.usedFrame == frame_ && place.content.snapshot)
+        if (place.usedFrame == frame_ && place.stamp != 0)
             place.buffer.fence();
     if (orders_[frame_ % orders_.size()].name() != 0)
         orders_[frame_ % orders_.size()].fence();

@@ -11,6 +11,7 @@
 #include "rendering/gl/gl_asset_cache.h"
 #include "rendering/gl/gl_mapped_buffer.h"
 #include "rendering/view/particle_frame.h"
+#include "rendering/view/snapshot_stamps.h"
 
 #include <array>
 #include <cstdint>
@@ -25,9 +26,12 @@ public:
     ParticleBuffers(GlDevice& device, std::pmr::memory_resource* memory);
 
     /// Writes what is not yet there and fills in the batches' buffers, textures and meshes.
+    /// @param stamps of the snapshots: equal ones share a place
     /// @return OutOfMemory, GlFailed, TooLarge (a group is larger than the context's storage buffers)
-    base::Status prepare(const base::SnapshotPair& snapshots, ParticleFrame& frame,
+    base::Status prepare(const base::SnapshotPair& snapshots, const StampPair& stamps, ParticleFrame& frame,
                          const base::AssetTable* assets);
+    /// Instead of prepare(): the frame draws what the last one has drawn.
+    void keep() { uploadedBytes_ = 0; }
     /// To be called when all draws of the frame have been issued.
     void fence();
 
@@ -41,24 +45,15 @@ private:
         uint64_t offset = 0, bytes = 0;
         std::array<int32_t, 16> columns{}; ///< in words from the offset; -1: not there
     };
-    /// Names what a snapshot holds: those of one ring differ in their number, those of two in their address.
-    struct Content
-    {
-        const base::FrameSnapshot* snapshot = nullptr; ///< never followed; null: none
-        uint64_t sequence = 0;
-        base::Ticks tick = 0;
-
-        bool operator==(const Content&) const = default;
-    };
     struct Place
     {
         GlMappedBuffer buffer;
-        Content content; ///< that is there
+        uint64_t stamp = 0; ///< of what is there; 0: nothing
         uint64_t usedFrame = 0;
         std::pmr::vector<GroupPlace> groups;
     };
 
-    base::Status makeResident(const base::FrameSnapshot& snapshot, Place*& out);
+    base::Status makeResident(const base::FrameSnapshot& snapshot, uint64_t stamp, Place*& out);
     uint64_t layOut(const base::FrameSnapshot& snapshot, std::pmr::vector<GroupPlace>& out) const;
     void write(const base::FrameSnapshot& snapshot, Place& place);
     base::Status writeOrders(ParticleFrame& frame);

@@ -16,6 +16,7 @@
 #include "rendering/passes/tone_map_pass.h"
 #include "rendering/view/layer_grid.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace fx::render {
@@ -41,7 +42,9 @@ public:
     ViewGraphOutputs build()
     {
         importTargets();
-        const bool media = !in_.blobs.empty() || !in_.batches.empty();
+        const bool media = !in_.blobs.empty() || !in_.batches.empty() || !in_.impostors.empty();
+        if (in_.impostorAtlas != 0 && (media || !in_.takenTiles.empty()))
+            addImpostors();
         if (media)
             addMedia();
         if (!readable_)
@@ -134,7 +137,7 @@ private:
         return MediaPass::addTo(graph_,
                                 {blobs_, in_.batches, in_.runs, distance, grid_.width, grid_.height,
                                  grid_.view, settings_.form, settings_.detail && in_.anyDetail,
-                                 settings_.layerOutputs, grid_.divisor > 1},
+                                 settings_.layerOutputs, grid_.divisor > 1, impostors_},
                                 under);
     }
 
@@ -186,12 +189,80 @@ private:
         }
     }
 
+    /// Takes the pictures of this frame and makes all of them ready to be drawn.
+    void addImpostors()
+    {
+        impostors_.atlas = graph_.importTexture(
+            {"impostors", kImpostorColumns * kImpostorTile, kImpostorRows * kImpostorTile, Format::RGBA16F},
+            in_.impostorAtlas);
+        if (!in_.takenTiles.empty())
+            takePictures();
+        if (in_.impostors.empty())
+            return;
+        impostors_.instances =
+            graph_.importBuffer({"impostors", std::bit_ceil(in_.impostors.size_bytes())}, in_.impostorBuffer);
+        if (in_.blobsAreIn)
+            return;
+        graph_.addPass("media impostor upload", [&](FrameGraph::Builder& builder) {
+            impostors_.instances = builder.write(impostors_.instances);
+            return [buffer = impostors_.instances, impostors = in_.impostors](Backend& backend) {
+                backend.upload(buffer, std::as_bytes(impostors));
+            };
+        });
+    }
+
+    void takePictures()
+    {
+        constexpr int kSide = kTakingColumns * kImpostorTile;
+        const ViewBlock view = [&] {
+            ViewBlock block = makeViewBlock(takingCamera(cameraGeometry(request_.camera)), kSide, kSide);
+            block.forward.w = settings_.detail ? 1.0f : 0.0f;
+            block.sunDirection = {settings_.lighting.sunDirection, block.sunDirection.w};
+            return block;
+        }();
+        ResourceId blobs;
+        ResourceId tiles;
+        graph_.addPass("media impostor blobs", [&](FrameGraph::Builder& builder) {
+            const size_t bytes = std::max(in_.takenBlobs.size_bytes(), sizeof(BlobInstance));
+            blobs = builder.write(builder.create(BufferDesc{"impostor blobs", std::bit_ceil(bytes)}));
+            tiles = builder.write(
+                builder.create(BufferDesc{"impostor tiles", std::bit_ceil(in_.takenTiles.size_bytes())}));
+            return [blobs, tiles, taken = in_.takenBlobs, kept = in_.takenTiles](Backend& backend) {
+                backend.upload(blobs, std::as_bytes(taken));
+                backend.upload(tiles, std::as_bytes(kept));
+            };
+        });
+        const ResourceId nothing = SceneDistancePass::addTo(graph_, {{}, kSide, kSide, view}).distance;
+        const auto taken = MediaPass::addTo(graph_,
+                                            {blobs,
+                                             {},
+                                             in_.takenRuns,
+                                             nothing,
+                                             kSide,
+                                             kSide,
+                                             view,
+                                             settings_.form,
+                                             settings_.detail && in_.anyDetail,
+                                             false},
+                                            {});
+        impostors_.atlas = ImpostorKeepPass::addTo(graph_, {taken.media, impostors_.atlas, tiles,
+                                                            uint32_t(in_.takenTiles.size())})
+                               .atlas;
+        graph_.keep(impostors_.atlas); // later frames show it
+        out_.anyPass = true;
+    }
+
     void uploadBlobs()
     {
         const size_t capacity =
             std::bit_ceil(in_.blobs.size_bytes()); // few sizes, so that the pool can reuse them
+        const BufferDesc desc{"blobs", capacity};
+        if (in_.blobBuffer != 0)
+            blobs_ = graph_.importBuffer(desc, in_.blobBuffer);
+        if (in_.blobBuffer != 0 && in_.blobsAreIn)
+            return;
         graph_.addPass("blob upload", [&](FrameGraph::Builder& builder) {
-            blobs_ = builder.write(builder.create(BufferDesc{"blobs", capacity}));
+            blobs_ = builder.write(in_.blobBuffer != 0 ? blobs_ : builder.create(desc));
             return [buffer = blobs_, blobs = in_.blobs](Backend& backend) {
                 backend.upload(buffer, std::as_bytes(blobs));
             };
@@ -256,6 +327,7 @@ private:
     ResourceId layerDistance_; ///< at the layers' size
     ResourceId blobs_;
     ResourceId media_;
+    ImpostorDraw impostors_;
     ViewGraphOutputs out_;
 };
 

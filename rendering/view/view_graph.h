@@ -4,6 +4,7 @@
 
 #include "rendering/frame_graph/frame_graph.h"
 #include "rendering/passes/blob_instance.h"
+#include "rendering/passes/impostor_pass.h"
 #include "rendering/passes/particle_batch.h"
 #include "rendering/view/view_types.h"
 
@@ -21,8 +22,16 @@ struct ViewGraphInputs
     std::span<const MediaRun> runs;   ///< of blobs and of batches that do not hide
     bool anyHeat;
     bool anyDetail;
-    uint32_t dazzleHistory; ///< GL buffer of sizeof(DazzleHistory); 0 when dazzle is off
-    int layerDivisor = 1;   ///< of this frame, >= that of the settings
+    uint32_t dazzleHistory;  ///< GL buffer of sizeof(DazzleHistory); 0 when dazzle is off
+    int layerDivisor = 1;    ///< of this frame, >= that of the settings
+    uint32_t blobBuffer = 0; ///< GL buffer for the blobs; 0: one of the graph's own
+    bool blobsAreIn = false; ///< that buffer holds them already, and the next that of the impostors
+    std::span<const ImpostorInstance> impostors = {}; ///< farthest first; must stay, as must the next three
+    std::span<const BlobInstance> takenBlobs = {};    ///< of pictures that are taken in this frame
+    std::span<const uint32_t> takenTiles = {};        ///< where each picture is kept
+    std::span<const MediaRun> takenRuns = {};         ///< one of all blobs, when a picture is taken
+    uint32_t impostorBuffer = 0;                      ///< GL buffer for the impostors
+    uint32_t impostorAtlas = 0;                       ///< GL texture of the pictures
 };
 
 /// Resources that exist after the frame besides the host's picture; invalid where they were not asked for.

@@ -1,16 +1,19 @@
 #include "rendering/view/view_renderer.h"
 
 #include "foundation/math/bits.h"
+#include "foundation/math/hash.h"
 #include "rendering/gl/gl_backend.h"
 #include "rendering/gl/gl_buffer.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/gl/gl_state_guard.h"
+#include "rendering/gl/gl_texture.h"
 #include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/programs.h"
 #include "rendering/passes/view_block.h"
 #include "rendering/view/fragment_estimate.h"
 #include "rendering/view/frame_builder.h"
+#include "rendering/view/frame_key.h"
 #include "rendering/view/layer_scale_control.h"
 #include "rendering/view/particle_buffers.h"
 #include "rendering/view/particle_frame.h"
@@ -19,6 +22,8 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <bit>
+#include <optional>
 #include <string>
 
 namespace fx::render {
@@ -33,6 +38,10 @@ struct ViewRenderer::Impl
     base::Status ensureHistory();
     base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
                         const ViewSettings& settings); ///< everything that is to be drawn
+    base::Status gatherAnew(const base::SnapshotPair& snapshots, const StampPair& stamps,
+                            const FrameRequest& request, const ViewSettings& settings);
+    base::Status makeRoom(GlBuffer& buffer, size_t bytes, const char* label);
+    base::Status makeRoomForImpostors();
     FrameStatistics rest();
     FrameStatistics count(int divisor);
     void readBack(FrameStatistics& statistics); ///< waits for the GPU
@@ -45,6 +54,13 @@ struct ViewRenderer::Impl
     ParticleBuffers buffers;
     DrawRuns runs;
     std::pmr::vector<DrawStream> streams;
+    std::span<const MediaRun> mediaRuns;
+    SnapshotStamps stamps;
+    std::optional<FrameKey> key; ///< of the lists above and of what is on the GPU; nothing: not to be used
+    bool keptLists = false;      ///< they were not made for this frame
+    GlBuffer blobBuffer;
+    GlBuffer impostorBuffer;
+    GlTexture impostorAtlas; ///< pictures of effects; nothing before the first
     const base::AssetTable* assets = nullptr;
     FragmentCounts fragments{}; ///< of this frame
     LayerScaleControl layerScale;
@@ -60,6 +76,14 @@ struct ViewRenderer::Impl
 namespace {
 
 constexpr uint32_t kIdleFrames = 300; ///< until textures and buffers are given back
+constexpr size_t kLeastBufferBytes = 4096;
+
+/// Names what a moment between two snapshots shows.
+uint64_t contentOf(const StampPair& stamps, double interpolation)
+{
+    const uint64_t moment = stamps.isSteady() ? 0 : std::bit_cast<uint64_t>(interpolation);
+    return base::hashWord(base::hashWord(stamps.newer, stamps.isSteady() ? 0 : stamps.older), moment);
+}
 
 base::Status invalid(std::string message)
 {
@@ -111,18 +135,77 @@ base::Status ViewRenderer::Impl::ensureHistory()
 base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
                                         const ViewSettings& settings)
 {
+    const StampPair now = stamps.stampsOf(snapshots);
+    const FrameKey wanted = frameKey(now, request, settings, assets);
+    keptLists = key == wanted && !request.resetHistory;
+    if (keptLists) {
+        buffers.keep();
+        return {};
+    }
+    key.reset();
+    base::SnapshotPair shown = snapshots;
+    if (now.isSteady())
+        shown.older = nullptr; // nothing moves between them
+    if (base::Status status = gatherAnew(shown, now, request, settings); !status)
+        return status;
+    if (builder.isSettled())
+        key = wanted;
+    return {};
+}
+
+base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots, const StampPair& now,
+                                            const FrameRequest& request, const ViewSettings& settings)
+{
     const CameraGeometry camera = cameraGeometry(request.camera);
-    builder.build(snapshots, request, settings, camera);
+    builder.build(snapshots, request, settings, camera, contentOf(now, request.interpolation));
     particles.build({&snapshots, &request, &settings, &camera, builder.lights()});
-    if (base::Status status = buffers.prepare(snapshots, particles, assets); !status)
+    if (base::Status status = buffers.prepare(snapshots, now, particles, assets); !status)
+        return status;
+    if (base::Status status = makeRoom(blobBuffer, builder.blobs().size_bytes(), "blobs"); !status)
+        return status;
+    if (base::Status status = makeRoomForImpostors(); !status)
         return status;
     streams.clear();
     if (builder.stream().count > 0)
         streams.push_back(builder.stream());
+    if (builder.impostorStream().count > 0)
+        streams.push_back(builder.impostorStream());
     streams.insert(streams.end(), particles.streams().begin(), particles.streams().end());
     fragments = estimateFragments(builder.blobs(), camera, request.targets.width, request.targets.height);
     for (size_t i = 0; i < fragments.size(); ++i)
         fragments[i] += particles.fragments()[i];
+    mediaRuns = runs.build(streams);
+    return {};
+}
+
+/// Such a buffer belongs to the view, so that what is in it is still there in the next frame.
+base::Status ViewRenderer::Impl::makeRoom(GlBuffer& buffer, size_t bytes, const char* label)
+{
+    if (bytes == 0)
+        return {};
+    if (buffer.bytes() >= bytes) {
+        device->gl.InvalidateBufferData(buffer.name()); // the GPU may still read it: do not wait
+        return {};
+    }
+    auto created = GlBuffer::create(*device, std::bit_ceil(std::max(bytes, kLeastBufferBytes)), label);
+    if (!created)
+        return created.status();
+    buffer = std::move(*created);
+    return {};
+}
+
+base::Status ViewRenderer::Impl::makeRoomForImpostors()
+{
+    if (base::Status status = makeRoom(impostorBuffer, builder.impostors().size_bytes(), "impostors");
+        !status)
+        return status;
+    if (builder.takenTiles().empty() || impostorAtlas.name() != 0)
+        return {};
+    auto created = GlTexture::create(*device, kImpostorColumns * kImpostorTile, kImpostorRows * kImpostorTile,
+                                     glInternalFormat(Format::RGBA16F), "impostors");
+    if (!created)
+        return created.status();
+    impostorAtlas = std::move(*created);
     return {};
 }
 
@@ -135,6 +218,11 @@ FrameStatistics ViewRenderer::Impl::rest()
     if (++idleFrames >= kIdleFrames && backend.pooledBytes() > 0) {
         const uint64_t before = device->callCount();
         backend.releasePool();
+        blobBuffer = {};
+        impostorBuffer = {};
+        impostorAtlas = {};
+        builder.forgetPictures();
+        key.reset();
         statistics.glCalls = device->callCount() - before;
     }
     statistics.textureBytes = backend.pooledBytes();
@@ -148,12 +236,26 @@ FrameStatistics ViewRenderer::Impl::count(int divisor)
     statistics.blobs = uint32_t(builder.blobs().size());
     statistics.blobsCulled = builder.counts().culled;
     statistics.blobsNonFinite = builder.counts().nonFinite;
+    statistics.blobsThinned = builder.counts().thinned;
+    std::copy(builder.lodCounts().begin(), builder.lodCounts().end(), statistics.lodGroups);
     statistics.particles = particles.rows();
     statistics.particlesOrdered = particles.orderedRows();
-    statistics.uploadedBytes = buffers.uploadedBytes();
+    statistics.keptLists = keptLists;
+    statistics.impostors = uint32_t(builder.impostors().size());
+    statistics.impostorsTaken = keptLists ? 0 : uint32_t(builder.takenTiles().size());
+    statistics.uploadedBytes = buffers.uploadedBytes() +
+                               (keptLists ? 0
+                                          : builder.blobs().size_bytes() + builder.impostors().size_bytes() +
+                                                builder.takenBlobs().size_bytes());
+    statistics.sortedElements = keptLists ? 0 : particles.orderedRows() + builder.blobs().size();
     statistics.passes = outputs.anyPass ? uint32_t(graph.executedPasses().size()) : 0;
     statistics.drawCalls = outputs.anyPass ? backend.drawCalls() : 0;
-    statistics.textureBytes = backend.pooledBytes() + buffers.bytes();
+    statistics.textureBytes = backend.pooledBytes() + buffers.bytes() + blobBuffer.bytes() +
+                              impostorBuffer.bytes() + impostorAtlas.bytes();
+    if (outputs.anyPass) {
+        statistics.unsharedBytes = graph.memory().unshared;
+        statistics.sharedBytes = graph.memory().shared;
+    }
     statistics.estimatedFragments = fragments[layerDivisorIndex(divisor)];
     statistics.layerDivisor = divisor;
     return statistics;
@@ -214,17 +316,21 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     FrameRequest request = asked;
     request.resetHistory = asked.resetHistory || s.historyFresh;
 
-    if (base::Status status = s.gather(snapshots, request, settings_); !status)
+    if (base::Status status = s.gather(snapshots, asked, settings_); !status)
         return status;
     s.timer.beginFrame(s.clock, s.tag);
     s.backend.setTimer(s.clock == TimingClock::Off ? nullptr : &s.timer);
-    const std::span<const MediaRun> runs = s.runs.build(s.streams);
     const int divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,
                                             asked.resetHistory);
     s.graph.begin();
-    s.outputs = buildViewGraph(s.graph,
-                               {&request, &settings_, s.builder.blobs(), s.particles.batches(), runs,
-                                s.builder.anyHeat(), s.builder.anyDetail(), s.dazzleHistory.name(), divisor});
+    s.outputs =
+        buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.particles.batches(), s.mediaRuns,
+                                 s.builder.anyHeat(), s.builder.anyDetail(), s.dazzleHistory.name(), divisor,
+                                 s.blobBuffer.name(), s.keptLists, s.builder.impostors(),
+                                 s.keptLists ? std::span<const BlobInstance>() : s.builder.takenBlobs(),
+                                 s.keptLists ? std::span<const uint32_t>() : s.builder.takenTiles(),
+                                 s.keptLists ? std::span<const MediaRun>() : s.builder.takenRuns(),
+                                 s.impostorBuffer.name(), s.impostorAtlas.name()});
     base::Status status;
     if (s.outputs.anyPass) {
         s.graph.compile();
@@ -238,8 +344,11 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     s.timer.endFrame(status.ok() && s.outputs.anyPass);
     if (s.clock != TimingClock::Off)
         covered_ = screenShare(s.builder.blobs(), cameraGeometry(request.camera));
-    if (!status)
-        s.outputs = {};                              // nothing of this frame can be handed out
+    if (!status) {
+        s.outputs = {}; // nothing of this frame can be handed out
+        s.key.reset();
+        s.builder.forgetPictures();
+    }
     s.historyFresh = !(status && s.outputs.dazzled); // glare that has paused begins anew
 
     statistics_ = s.count(divisor);

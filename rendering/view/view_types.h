@@ -27,6 +27,8 @@ struct CameraView
     DepthConvention depth = DepthConvention::Standard;
     bool zeroToOne = false; ///< clip space z in [0, w] (glClipControl GL_ZERO_TO_ONE) instead of [-w, w]
     bool upperLeftOrigin = false; ///< glClipControl GL_UPPER_LEFT
+
+    bool operator==(const CameraView&) const = default;
 };
 
 /// How a blob's optical depth is computed along the ray.
@@ -44,6 +46,8 @@ struct Lighting
     glm::vec3 sunIlluminance{0.0f}; ///< [lx] perpendicular to the direction, linear Rec. 709 weighted
     glm::vec3 skyLuminance{0.0f};   ///< [cd/m2] from all directions
     float groundAlbedo = 0.2f;      ///< [1] of the ground's reflected light from below
+
+    bool operator==(const Lighting&) const = default;
 };
 
 /// Heat shimmer.
@@ -66,6 +70,19 @@ struct DazzleSettings
     float fallTime = 0.4f;  ///< [s] when it fades
 };
 
+/// Less of what is far. What is simulated does not depend on it.
+struct LodSettings
+{
+    float bias = 0.0f; ///< [1] 0: everything is drawn. Otherwise an effect keeps one blob for so many pixels
+                       ///< of its disc on the picture, but at least twelve; those take over the others' light
+
+    float impostorPixels = 0.0f; ///< [pixel] 0: none. Effects whose ball has a smaller radius on the picture
+                                 ///< are drawn as pictures of themselves, at most kMostImpostorPixels
+    static constexpr float kMostImpostorPixels = 13.0f; ///< a picture has 32 texels, some of them a margin
+
+    bool operator==(const LodSettings&) const = default;
+};
+
 /// Everything that stays the same from frame to frame until the host changes it.
 struct ViewSettings
 {
@@ -82,6 +99,7 @@ struct ViewSettings
     bool layerOutputs = false; ///< keep fire, smoke, dust, depth and optical depth as textures of their own
     bool countOverdraw =
         false; ///< count contributing fragments and read statistics back: costs a pass and waits for the GPU
+    LodSettings lod;
     int layerDivisor = 1; ///< 1, 2, 4: media and particles are drawn at 1, 1/2, 1/4 of the width and height,
                           ///< at the most; what hides at 1
     uint64_t fragmentBudget = 0; ///< estimated fragments a frame above which they are drawn smaller; 0: never
@@ -114,17 +132,25 @@ struct FrameRequest
 /// Counters of one rendered frame; exact counts except for the times.
 struct FrameStatistics
 {
-    uint32_t blobs = 0;            ///< drawn after culling
-    uint32_t blobsCulled = 0;      ///< outside the view
-    uint32_t blobsNonFinite = 0;   ///< dropped because a value was not finite
-    uint64_t particles = 0;        ///< rows and pieces of ribbons that were drawn
-    uint64_t particlesOrdered = 0; ///< of those, in an order of depth or age
-    uint64_t uploadedBytes = 0;    ///< [byte] of particles, written for this frame
-    uint32_t passes = 0;           ///< executed
+    uint32_t blobs = 0;                   ///< drawn after culling
+    uint32_t blobsCulled = 0;             ///< outside the view
+    uint32_t blobsNonFinite = 0;          ///< dropped because a value was not finite
+    uint32_t blobsThinned = 0;            ///< left to others by the level of detail
+    uint32_t impostors = 0;               ///< effects drawn as pictures of themselves
+    uint32_t impostorsTaken = 0;          ///< pictures taken anew for this frame
+    uint32_t lodGroups[4] = {0, 0, 0, 0}; ///< groups of blobs drawn in full; at least half, an eighth; less
+    uint64_t particles = 0;               ///< rows and pieces of ribbons that were drawn
+    uint64_t particlesOrdered = 0;        ///< of those, in an order of depth or age
+    uint64_t uploadedBytes = 0;           ///< [byte] of blobs and particles, written for this frame
+    uint64_t sortedElements = 0;          ///< put into an order of distance or age for this frame
+    bool keptLists = false;               ///< what the last frame gathered, sorted and uploaded served again
+    uint32_t passes = 0;                  ///< executed
     uint64_t glCalls = 0;
     uint32_t drawCalls = 0;
     uint32_t programsCompiled = 0;   ///< during this frame; 0 after warm-up
     uint64_t textureBytes = 0;       ///< [byte] held by the view
+    uint64_t unsharedBytes = 0;      ///< [byte] of the frame's own resources if none shared memory
+    uint64_t sharedBytes = 0;        ///< [byte] of the same as they are
     uint64_t coveredPixels = 0;      ///< texels of the media's layers; with countOverdraw
     uint64_t shadedFragments = 0;    ///< at the layers' scale; with countOverdraw
     uint64_t estimatedFragments = 0; ///< of the rectangles of blobs and particles, at the layers' scale

@@ -126,6 +126,23 @@ TEST_F(SharingApi, aHundredIdenticalInstancesCostTheStepsOfOne)
     EXPECT_GT(one.neighborPairs, 0u);
 }
 
+TEST_F(SharingApi, identicalEmittersShareOneSimulationAndAnotherSeedDoesNot)
+{
+    blast_ = loadText(context_, R"({"version": 1, "ground": false, "emitters": [
+        {"shape": "sphere", "size": 0.5, "emission": {"rate": 60}, "lifetime": 1, "speed": 1, "radius": 0.2,
+         "forces": {"drag": 0.5, "gravity": 0.3, "curlStrength": 1}}]})");
+    addMany(20);
+    playBoth(60);
+    EXPECT_EQ(statistics().simulations, 1u);
+    EXPECT_EQ(aloneStatistics().simulations, 20u);
+    EXPECT_EQ(statistics().particleSteps * 20, aloneStatistics().particleSteps);
+    FxInstanceDef other = blastDef(30);
+    other.seed = 4;
+    add(other);
+    playBoth(10);
+    EXPECT_EQ(statistics().simulations, 2u);
+}
+
 TEST_F(SharingApi, sharedInstancesAreShownAtTheirOwnPlaces)
 {
     addMany(3);

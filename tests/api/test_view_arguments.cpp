@@ -46,6 +46,11 @@ TEST_F(ViewArguments, aSettingOutOfRangeIsRefusedByNameAndTheOldOnesStay)
     refuse("toneMap", [](FxViewSettings& s) { s.toneMap = 2; });
     refuse("layerOutputs", [](FxViewSettings& s) { s.layerOutputs = 2; });
     refuse("countOverdraw", [](FxViewSettings& s) { s.countOverdraw = 2; });
+    refuse("lodBias", [](FxViewSettings& s) { s.lodBias = -1.0f; });
+    refuse("lodBias", [](FxViewSettings& s) { s.lodBias = 257.0f; });
+    refuse("lodBias", [](FxViewSettings& s) { s.lodBias = kNan; });
+    refuse("lodImpostorPixels", [](FxViewSettings& s) { s.lodImpostorPixels = 14.0f; });
+    refuse("lodImpostorPixels", [](FxViewSettings& s) { s.lodImpostorPixels = kNan; });
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = 0.3f; });
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = 0.0f; });
     refuse("layerScale", [](FxViewSettings& s) { s.layerScale = kNan; });

@@ -99,6 +99,14 @@ typedef struct FxViewSettings
                               ///< what these settings say. Otherwise it may fall below, never rise above
                               ///< them; what is simulated does not depend on it.
     uint32_t budgetClock;     ///< FX_BUDGET_CLOCK_...; default FX_BUDGET_CLOCK_GPU
+    float lodBias; ///< [1] 0..256, level of detail: an effect keeps one particle of its media for so many
+                   ///< pixels of its disc on the picture, at least twelve, which take over the light of the
+                   ///< others without a jump; 1 is hardly to be seen, 16 is; 0 (default): everything is
+                   ///< drawn. What is simulated does not depend on it.
+    float lodImpostorPixels; ///< [pixel] 0..13, an effect whose ball has a smaller radius on the picture is
+                             ///< drawn as a picture of itself, which is taken anew ten times a second while
+                             ///< it changes, or when it is seen from elsewhere, and fades into the next; not
+                             ///< with layerOutputs or orthographic projections. 0 (default): none
 } FxViewSettings;
 
 /// Daylight exposure, no lights of its own, everything on.
@@ -185,7 +193,19 @@ typedef struct FxViewStatistics
     uint64_t estimatedFragments; ///< of the particles' covering rectangles, at layerScale; what
                                  ///< fragmentBudget is compared with
     float layerScale;            ///< [1] in use: that of the settings, or less to keep fragmentBudget
-    uint32_t reserved2;          ///< 0
+    uint32_t keptLists;     ///< 1: camera, settings and scene are as in the last frame, and what it gathered,
+                            ///< sorted and uploaded served again; 0: not
+    uint64_t uploadedBytes; ///< [byte] of particles, written to the GPU for the frame
+    uint64_t sortedParticles; ///< put into an order of distance or age for the frame
+    uint64_t unsharedBytes; ///< [byte] that the textures and buffers of the frame's passes would need if none
+                            ///< shared its memory with another
+    uint64_t sharedBytes;   ///< [byte] that they need: those that live at different times share
+    uint32_t blobsThinned;  ///< particles that lodBias left to others
+    uint32_t lodGroups[4];  ///< groups of particles of media by what lodBias leaves of them: all; at least
+                            ///< half; at least an eighth; less
+    uint32_t impostors;     ///< effects that lodImpostorPixels made pictures of themselves
+    uint32_t impostorsTaken; ///< pictures taken anew for the frame
+    uint32_t reserved3;      ///< 0
 } FxViewStatistics;
 
 /// Pictures that the last frame kept; GL names, 0 when settings.layerOutputs was 0. Fill structSize with

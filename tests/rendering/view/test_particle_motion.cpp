@@ -114,8 +114,10 @@ TEST_F(ParticleMotionTest, aSnapshotIsUploadedOnceAndCostsTwentyEightBytesARow)
     auto a = emptySnapshot(1.0);
     addParticles(a, many, column::kAlways);
     auto b = emptySnapshot(1.5);
+    many[7].center.x = 1.0f;
     addParticles(b, many, column::kAlways);
     auto c = emptySnapshot(2.0);
+    many[7].center.x = 2.0f;
     addParticles(c, many, column::kAlways);
     (void)draw(b, &a, 0.0);
     EXPECT_EQ(view_->statistics().uploadedBytes, 2u * 28'000u);

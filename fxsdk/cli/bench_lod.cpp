@@ -1,0 +1,276 @@
+// fx bench lod: what a level of detail saves, what it changes, and whether flying in shows it.
+#include "fxsdk/cli/bench_lod.h"
+
+#include "fxsdk/cli/bench_scene.h"
+#include "fxsdk/cli/exit_code.h"
+#include "fxsdk/cli/json_line.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+namespace {
+
+/// What is measured; the first is what the others are compared with.
+struct LodCase
+{
+    float bias;           ///< FxViewSettings::lodBias
+    float impostorPixels; ///< FxViewSettings::lodImpostorPixels
+};
+constexpr std::array<LodCase, 6> kCases{{{0, 0}, {1, 0}, {4, 0}, {16, 0}, {0, 13}, {4, 13}}};
+
+/// Until pictures have been taken and have replaced what they show.
+uint32_t warmFrames(const LodCase& what)
+{
+    return what.impostorPixels > 0 ? 30 : 1;
+}
+
+constexpr std::array<const char*, 4> kPresets{"smoke-column", "campfire", "steam", "gas-fire"};
+constexpr double kNearest = 150.0;  ///< [m]
+constexpr double kSpacing = 18.0;   ///< [m]
+constexpr uint32_t kSeeds = 16;     ///< instances with the same seed share a simulation
+constexpr int kSettleSteps = 420;   ///< until as many die as are born
+constexpr double kEyeHeight = 40.0; ///< [m]
+constexpr double kFlight = 60.0;    ///< [m] towards the field
+
+/// Of one case.
+struct LodRow
+{
+    LodCase what{};
+    double milliseconds = 0; ///< a frame, processor time of all threads
+    double submit = 0;       ///< [ms] a frame, of the calling thread
+    FxViewStatistics view = {};
+    double meanError = 0; ///< [1] sum of differences over sum of light
+    double mostError = 0; ///< [1] largest difference over the brightest value
+    double mostStep = 0;  ///< [1] the same from frame to frame of the flight
+    double meanStep = 0;  ///< [1]
+    double pop = 0; ///< [1] largest change of the difference to the same flight without, from frame to frame
+};
+
+double seconds(clockid_t clock)
+{
+    timespec time = {};
+    clock_gettime(clock, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+base::Status addField(BenchScene& scene, uint32_t count)
+{
+    std::array<FxPresetId, kPresets.size()> presets{};
+    for (size_t i = 0; i < kPresets.size(); ++i) {
+        const auto preset = scene.loadLibrary(kPresets[i]);
+        if (!preset.ok())
+            return preset.status();
+        presets[i] = *preset;
+    }
+    uint32_t placed = 0;
+    for (uint32_t row = 0; placed < count; ++row) { // as wide as the view at that distance
+        const double distance = kNearest + kSpacing * row;
+        const int half = int(0.3 * distance / kSpacing);
+        for (int column = -half; column <= half && placed < count; ++column, ++placed)
+            if (base::Status status = scene.add(presets[placed % presets.size()], kSpacing * column,
+                                                -distance, placed / presets.size() % kSeeds, 0);
+                !status)
+                return status;
+    }
+    return {};
+}
+
+FxViewSettings settingsOf(const LodCase& what)
+{
+    FxViewSettings settings = fxDefaultViewSettings();
+    settings.dazzle = 0;
+    for (int i = 0; i < 3; ++i) {
+        settings.sunIlluminance[i] = 60'000.0f;
+        settings.skyLuminance[i] = 3'000.0f;
+    }
+    settings.lodBias = what.bias;
+    settings.lodImpostorPixels = what.impostorPixels;
+    return settings;
+}
+
+/// Largest difference of two pictures in units of the brightest value, and the mean one of the light.
+void compare(const std::vector<float>& a, const std::vector<float>& b, double& outMost, double& outMean)
+{
+    double difference = 0, light = 0, most = 0, brightest = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        if (i % 4 == 3)
+            continue;
+        const double d = std::abs(double(a[i]) - double(b[i]));
+        difference += d;
+        light += std::abs(double(b[i]));
+        most = std::max(most, d);
+        brightest = std::max(brightest, std::abs(double(b[i])));
+    }
+    outMost = brightest > 0 ? most / brightest : 0.0;
+    outMean = light > 0 ? difference / light : 0.0;
+}
+
+/// Frames as a running scene has them: each shows another moment.
+base::Status drawTimed(BenchScene& scene, uint32_t frames, LodRow& row)
+{
+    const uint32_t warm = warmFrames(row.what);
+    for (uint32_t i = 0; i < frames + warm; ++i) {
+        if (base::Status status = scene.update(); !status)
+            return status;
+        scene.clear();
+        scene.finish();
+        const double all = seconds(CLOCK_PROCESS_CPUTIME_ID), own = seconds(CLOCK_THREAD_CPUTIME_ID);
+        if (base::Status status = scene.draw(); !status)
+            return status;
+        const double submit = seconds(CLOCK_THREAD_CPUTIME_ID) - own;
+        scene.finish();
+        if (i < warm)
+            continue;
+        row.submit += 1e3 * submit / frames;
+        row.milliseconds += 1e3 * (seconds(CLOCK_PROCESS_CPUTIME_ID) - all) / frames;
+        row.view = scene.viewStatistics();
+    }
+    return {};
+}
+
+/// The same moment until nothing changes by itself.
+base::Status drawStill(BenchScene& scene, const LodCase& what, std::vector<float>& outPicture)
+{
+    for (uint32_t i = 0; i < warmFrames(what); ++i) {
+        scene.clear();
+        if (base::Status status = scene.draw(); !status)
+            return status;
+    }
+    outPicture = scene.picture();
+    return {};
+}
+
+/// Largest change of (now - reference) since the frame before, in units of the brightest value.
+double popOf(const std::vector<float>& now, const std::vector<float>& before,
+             const std::vector<float>& reference, const std::vector<float>& referenceBefore)
+{
+    double most = 0, brightest = 0;
+    for (size_t i = 0; i < now.size(); ++i) {
+        if (i % 4 == 3)
+            continue;
+        most = std::max(most, std::abs((double(now[i]) - double(reference[i])) -
+                                       (double(before[i]) - double(referenceBefore[i]))));
+        brightest = std::max(brightest, std::abs(double(reference[i])));
+    }
+    return brightest > 0 ? most / brightest : 0.0;
+}
+
+/// @param ioReference pictures of the flight without a level of detail; empty: this is that flight
+base::Status fly(BenchScene& scene, const BenchLodOptions& options,
+                 std::vector<std::vector<float>>& ioReference, LodRow& row)
+{
+    const bool isReference = ioReference.empty();
+    std::vector<float> before;
+    scene.moveTo(0.0, kEyeHeight, 0.0);
+    if (base::Status status = drawStill(scene, row.what, before); !status || options.flight == 0)
+        return status;
+    before.clear();
+    for (uint32_t i = 0; i < options.flight; ++i) {
+        scene.moveTo(0.0, kEyeHeight, -kFlight * i / options.flight);
+        scene.clear();
+        if (base::Status status = scene.draw(); !status)
+            return status;
+        std::vector<float> picture = scene.picture();
+        double most = 0, mean = 0;
+        if (!before.empty())
+            compare(picture, before, most, mean);
+        row.mostStep = std::max(row.mostStep, most);
+        row.meanStep += mean / options.flight;
+        if (isReference)
+            ioReference.push_back(picture);
+        else if (i > 0)
+            row.pop = std::max(row.pop, popOf(picture, before, ioReference[i], ioReference[i - 1]));
+        before = std::move(picture);
+    }
+    return {};
+}
+
+base::Status measure(const BenchLodOptions& options, std::vector<LodRow>& outRows)
+{
+    auto made = BenchScene::create({true, true, options.pixels});
+    if (!made.ok())
+        return made.status();
+    BenchScene& scene = **made;
+    base::Status status = addField(scene, options.instances);
+    for (int i = 0; i < kSettleSteps && status.ok(); ++i)
+        status = scene.update();
+    for (const LodCase& what : kCases)
+        outRows.push_back({what});
+    if (status.ok())
+        status = scene.look(0.0);
+    scene.moveTo(0.0, kEyeHeight, 0.0);
+    const auto forAll = [&](auto&& measureRow) {
+        for (LodRow& row : outRows) {
+            if (status.ok())
+                status = scene.setView(settingsOf(row.what));
+            if (status.ok())
+                status = measureRow(row);
+        }
+    };
+    forAll([&](LodRow& row) { return drawTimed(scene, options.repeats, row); });
+    std::vector<float> reference;
+    forAll([&](LodRow& row) {
+        std::vector<float> picture;
+        base::Status drawn = drawStill(scene, row.what, picture);
+        if (reference.empty())
+            reference = picture;
+        compare(picture, reference, row.mostError, row.meanError);
+        return drawn;
+    });
+    std::vector<std::vector<float>> flight;
+    forAll([&](LodRow& row) { return fly(scene, options, flight, row); });
+    return status;
+}
+
+void print(const LodRow& row, const LodRow& full, const BenchLodOptions& options)
+{
+    const uint32_t* g = row.view.lodGroups;
+    if (options.json)
+        return printJsonLine(withMachine({{"name", "lod"},
+                                          {"bias", row.what.bias},
+                                          {"impostor_pixels", row.what.impostorPixels},
+                                          {"impostors", row.view.impostors},
+                                          {"impostors_taken", row.view.impostorsTaken},
+                                          {"count", options.instances},
+                                          {"pixels", options.pixels},
+                                          {"blobs", row.view.blobs},
+                                          {"groups", {g[0], g[1], g[2], g[3]}},
+                                          {"ms", row.milliseconds},
+                                          {"ms_submit", row.submit},
+                                          {"ratio", row.milliseconds / full.milliseconds},
+                                          {"ratio_submit", row.submit / full.submit},
+                                          {"error_mean", row.meanError},
+                                          {"error_most", row.mostError},
+                                          {"flight_step_most", row.mostStep},
+                                          {"flight_step_mean", row.meanStep},
+                                          {"flight_pop", row.pop}},
+                                         readMachine()));
+    std::printf("bias %3g, pictures %2g: %4u, %6u blobs, groups %4u %4u %4u %4u, %8.2f ms (%.3f), submit "
+                "%7.2f ms (%.3f), error "
+                "mean %.4f most %.4f, flight most %.4f mean %.4f pop %.4f\n",
+                double(row.what.bias), double(row.what.impostorPixels), row.view.impostors, row.view.blobs,
+                g[0], g[1], g[2], g[3], row.milliseconds, row.milliseconds / full.milliseconds, row.submit,
+                row.submit / full.submit, row.meanError, row.mostError, row.mostStep, row.meanStep, row.pop);
+}
+
+} // namespace
+
+int runBenchLod(const BenchLodOptions& options)
+{
+    std::vector<LodRow> rows;
+    if (const base::Status status = measure(options, rows); !status.ok()) {
+        std::fprintf(stderr, "fx bench lod: %s\n", status.message().c_str());
+        return kFailed;
+    }
+    for (const LodRow& row : rows)
+        print(row, rows.front(), options);
+    return kSuccess;
+}
+
+} // namespace fx::cli

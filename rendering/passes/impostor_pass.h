@@ -1,0 +1,82 @@
+/// @file impostor_pass.h
+/// Pictures of whole far effects: taken into tiles of one texture, and drawn as squares that face the eye.
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/passes/view_block.h"
+
+#include <cstdint>
+#include <span>
+
+namespace fx::render {
+
+constexpr int kImpostorTile = 32;    ///< [texel] width and height of a picture
+constexpr int kImpostorColumns = 64; ///< tiles side by side
+constexpr int kImpostorRows = 32;    ///< above each other
+constexpr uint32_t kImpostorTiles = uint32_t(kImpostorColumns * kImpostorRows);
+constexpr int kTakingColumns = 12; ///< pictures side by side that a frame can take
+constexpr uint32_t kImpostorTakings = uint32_t(kTakingColumns * kTakingColumns);
+
+/// One picture that is taken in this frame.
+struct ImpostorTaking
+{
+    glm::vec3 center; ///< [m] relative to the eye
+    float extent;     ///< [m] half the side of the square
+    glm::vec3 right, up, forward;
+    uint32_t tile; ///< where it is kept
+};
+
+/// One effect as it is drawn; layout of shaders/passes/impostor.vert.glsl.
+struct ImpostorInstance
+{
+    glm::vec4 center; ///< xyz [m] relative to the eye; w half the side of the square [m]
+    glm::vec4 right;  ///< xyz unit axis of the picture; w tile of the newer picture
+    glm::vec4 up;     ///< xyz unit; w tile of the older one
+    glm::vec4 look;   ///< x share of the newer; y share of the effect that is drawn; z radius [m]
+};
+static_assert(sizeof(ImpostorInstance) == 64);
+
+inline constexpr ProgramDesc kImpostorProgram{"impostors", "passes/impostor.vert.glsl",
+                                              "passes/impostor.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kImpostorKeepProgram{"impostor keep", "passes/impostor_keep.vert.glsl",
+                                                  "passes/impostor_keep.frag.glsl", nullptr, nullptr};
+
+/// The camera of all pictures that are taken in one frame: orthographic, with the axes of the view, one unit
+/// a texel. `place` moves a blob, given relative to the eye, to where its picture is.
+CameraView takingCamera(const CameraGeometry& view);
+glm::vec3 placeInTaking(const ImpostorTaking& taking, uint32_t slot, const CameraGeometry& view,
+                        const glm::vec3& blob, float& outScale);
+
+/// Copies the pictures that were just taken to the tiles where they are kept.
+///
+/// reads   taken     RGBA32F premultiplied radiance, kTakingColumns^2 pictures
+/// writes  atlas     RGBA16F, only the tiles of `takings`
+class ImpostorKeepPass
+{
+public:
+    struct Inputs
+    {
+        ResourceId taken;
+        ResourceId atlas;
+        ResourceId tiles; ///< buffer of one uint a picture
+        uint32_t count;
+    };
+    struct Outputs
+    {
+        ResourceId atlas;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+/// What drawing effects as pictures reads.
+struct ImpostorDraw
+{
+    ResourceId instances; ///< buffer of ImpostorInstance; invalid: there are none
+    ResourceId atlas;
+};
+
+/// Draws instances `first` to `first + count` into `targets`, premultiplied over what is there.
+void drawImpostors(Backend& backend, const ImpostorDraw& impostors, uint32_t first, uint32_t count,
+                   const ViewBlock& view, ResourceId distance, std::span<const ResourceId> targets);
+
+} // namespace fx::render

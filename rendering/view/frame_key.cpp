@@ -1,0 +1,22 @@
+#include "rendering/view/frame_key.h"
+
+namespace fx::render {
+
+FrameKey frameKey(const StampPair& stamps, const FrameRequest& request, const ViewSettings& settings,
+                  const base::AssetTable* assets)
+{
+    FrameKey key;
+    key.stamps = stamps;
+    key.interpolation = stamps.isSteady() ? 0.0 : request.interpolation;
+    key.camera = request.camera;
+    key.width = request.targets.width;
+    key.height = request.targets.height;
+    key.exposureEv100 = settings.exposureEv100;
+    key.lighting = settings.lighting;
+    key.particleShare = settings.particleShare;
+    key.lod = settings.lod;
+    key.assets = assets;
+    return key;
+}
+
+} // namespace fx::render

@@ -1,0 +1,33 @@
+/// @file frame_key.h
+/// All that the lists of a frame are made from: while it stays the same, what was gathered, sorted and
+/// uploaded for the last frame serves again.
+#pragma once
+
+#include "rendering/view/snapshot_stamps.h"
+#include "rendering/view/view_types.h"
+
+namespace fx::base {
+class AssetTable;
+}
+
+namespace fx::render {
+
+struct FrameKey
+{
+    StampPair stamps;
+    double interpolation = 0; ///< 0 where both snapshots hold the same: then no moment differs
+    CameraView camera;
+    int width = 0, height = 0; ///< [pixel]
+    float exposureEv100 = 0;
+    Lighting lighting;
+    float particleShare = 1;
+    LodSettings lod;
+    const base::AssetTable* assets = nullptr; ///< never followed
+
+    bool operator==(const FrameKey&) const = default;
+};
+
+FrameKey frameKey(const StampPair& stamps, const FrameRequest& request, const ViewSettings& settings,
+                  const base::AssetTable* assets);
+
+} // namespace fx::render

@@ -1,0 +1,29 @@
+#include "shared/view_block.glsl"
+
+// The picture of an effect between two that were taken. What of it lies behind opaque geometry is cut off in
+// proportion to the depth of its ball; the rest keeps its share of the optical depth.
+layout(binding = 0) uniform sampler2D sceneDistance; // [m] along the ray to the opaque surface, +inf for none
+layout(binding = 1) uniform sampler2D impostorAtlas; // premultiplied
+
+flat in vec4 impostorCenter;
+flat in vec4 impostorLook;
+flat in vec4 impostorTiles;
+in vec2 impostorPlace;
+layout(location = 0) out vec4 light;
+
+vec4 pictureAt(vec2 tile)
+{
+    vec2 texel = tile + clamp(impostorPlace * 32.0, vec2(0.5), vec2(31.5)); // never into the neighbor's tile
+    return textureLod(impostorAtlas, texel / vec2(64.0 * 32.0, 32.0 * 32.0), 0.0);
+}
+
+void main()
+{
+    vec4 picture = mix(pictureAt(impostorTiles.zw), pictureAt(impostorTiles.xy), impostorLook.x);
+    float surface = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r;
+    float before = clamp(0.5 + 0.5 * (surface - length(impostorCenter.xyz)) / impostorLook.z, 0.0, 1.0);
+    float share = impostorLook.y * before; // of the optical depth
+    float alpha = min(picture.a, 0.9999);
+    float shown = 1.0 - pow(1.0 - alpha, share);
+    light = alpha > 1e-6 ? picture * (shown / alpha) : picture * share;
+}
