@@ -152,6 +152,7 @@ void RunPool::reset(RunIndex index, const RunConditions& conditions)
 {
     unlink(index); // the chain is that of the old conditions
     runs_[index].conditions = conditions;
+    runs_[index].quietUntil = 0;
     welcome(index);
 }
 
@@ -193,6 +194,7 @@ void RunPool::touch(RunIndex index)
 {
     unlink(index);
     runs_[index].fresh = false;
+    runs_[index].quietUntil = 0; // of the conditions and the state before
 }
 
 void RunPool::welcome(RunIndex index)

@@ -53,15 +53,20 @@ struct Run
         HostEvent event;
     };
 
-    std::shared_ptr<const EffectDef> effect;
-    RunConditions conditions;
+    // What every step and publication reads stands together.
     std::vector<std::unique_ptr<Solver>> solvers; ///< none while released
-    uint32_t users = 0;                           ///< instances that it stands for; 0: unused
-    uint32_t hidden = 0; ///< users that are out of sight; when all are, the run is paused
+    Solver* only = nullptr;      ///< the solver, when there is one; else they are asked one after another
+    base::Ticks simulated = 0;   ///< scene time that the state has reached
+    base::Ticks restUntil = 0;   ///< scene time up to which steps would change nothing
+    base::Ticks quietUntil = 0;  ///< scene time up to which steps need not be taken, see Solver::passTo()
+    base::Ticks quietOffset = 0; ///< local minus scene time meanwhile
+    uint64_t steppedIn = 0;      ///< number of the last step that stepped it
+    uint32_t users = 0;          ///< instances that it stands for; 0: unused
+    uint32_t hidden = 0;         ///< users that are out of sight; when all are, the run is paused
     bool released =
         false; ///< its solvers are gone; `kept`, or nothing when it has not begun, says how it was
-    base::Ticks simulated = 0;                   ///< scene time that the state has reached
-    base::Ticks restUntil = 0;                   ///< scene time up to which steps would change nothing
+    std::shared_ptr<const EffectDef> effect;
+    RunConditions conditions;
     std::vector<Change> changes;                 ///< of a paused run, by tick
     std::vector<Told> told;                      ///< by the host, not heard yet, by tick
     std::shared_ptr<const DistanceField> field;  ///< keeps that of the conditions of a paused run
@@ -72,12 +77,13 @@ struct Run
 
     // of one step of the world
     uint64_t visitedIn = 0; ///< number of the last step that had it in its list
-    uint64_t steppedIn = 0; ///< number of the last step that stepped it
     uint64_t dividedIn = 0; ///< number of the last step that had only some of its users
     uint32_t visits = 0;    ///< users in the list of that step
     uint32_t division = 0;  ///< run of those users
 
     bool isPaused() const { return hidden == users; }
+    /// The solvers have been made or given away.
+    void meetSolvers() { only = solvers.size() == 1 ? solvers.front().get() : nullptr; }
     void save(StateWriter& writer) const;
     void restore(StateReader& reader);
 };

@@ -22,6 +22,7 @@ void RunPool::makeSolvers(Run& run)
         run.restore(reader);
         if (!reader.ok() || reader.left() != 0)
             throw std::logic_error("a solver does not take its first state: " + reader.status().message());
+        run.meetSolvers();
         return;
     }
     std::vector<std::unique_ptr<Solver>> solvers;
@@ -33,6 +34,7 @@ void RunPool::makeSolvers(Run& run)
     for (const std::unique_ptr<Solver>& solver : solvers)
         solver->save(*pristine);
     run.solvers = std::move(solvers);
+    run.meetSolvers();
     run.pristine = std::move(pristine);
 }
 
@@ -52,6 +54,7 @@ void RunPool::materialize(RunIndex index)
             throw std::logic_error("a solver does not take its own state: " + reader.status().message());
     }
     run.solvers = std::move(made.solvers);
+    run.meetSolvers();
     run.pristine = std::move(made.pristine);
     run.kept.reset();
     run.released = false;
@@ -81,6 +84,7 @@ void RunPool::putAside(Run& run, base::Ticks now)
     spares_.push_back(
         {run.effect, run.conditions.quality.level, std::move(run.solvers), std::move(run.pristine), now});
     run.solvers.clear();
+    run.meetSolvers();
 }
 
 void RunPool::trimSpares(base::Ticks tick)

@@ -67,6 +67,7 @@ struct ContactHook
                 float outNormal[3]) = nullptr;
 };
 
+class EmitterCrowd;
 class EventBoard;
 
 /// The host says that something happened.
@@ -94,6 +95,7 @@ struct StepContext
     const ContactHook* contactHook = nullptr; ///< null for none
     EventBoard* board = nullptr;              ///< what solvers tell each other in this step; null for nothing
     std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
+    EmitterCrowd* crowd = nullptr; ///< what is left to it is done before anybody looks; null: do it at once
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };
@@ -116,6 +118,18 @@ public:
     /// Local time, at least `tick`, up to which steps from `tick` on change nothing that is seen. canSeek()
     /// holds for any tick up to it.
     virtual base::Ticks restsUntil(base::Ticks tick) const { return tick; }
+    /// Local time, at least `tick`, up to which steps from `tick` on, under the conditions of the last one,
+    /// do nothing but let time pass, however much of what is seen changes with it: passTo() may stand for
+    /// them.
+    virtual base::Ticks quietUntil(base::Ticks tick) const { return tick; }
+    /// Steps to local time `tick`, at most quietUntil(), that need not be taken.
+    virtual void passTo(base::Ticks, StepCounters&) {}
+    /// publish(), but what is in the columns may be left to `crowd`. @return false, and nothing has happened,
+    /// when it wants nothing of it
+    virtual bool joinPublication(const base::GroupInfo&, base::FrameSnapshot&, EmitterCrowd&) const
+    {
+        return false;
+    }
     /// Adds what is to be seen to `snapshot`. `base` carries instance, solver and placement to copy into each
     /// group.
     /// A solver that holds nothing still adds its group: the memory is then there before the first element

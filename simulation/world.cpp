@@ -24,7 +24,7 @@ glm::vec3 toLocal(const base::Placement& placement, const glm::vec3& world)
 World::World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory,
              const Environment& environment, bool share)
     : environment_(environment), schema_(schema), tasks_(tasks), memory_(memory), share_(share),
-      scratch_(memory), runs_(schema, memory, share)
+      scratch_(memory), crowd_(memory), runs_(schema, memory, share)
 {}
 
 Slot World::add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden)
@@ -46,11 +46,11 @@ Slot World::takeSlot(const InstanceStart& start, RunIndex run)
     if (!free_.empty()) {
         const Slot slot = free_.back();
         free_.pop_back();
-        instances_[slot] = {start, run};
+        instances_[slot] = {run, false, start};
         return slot;
     }
     free_.reserve(instances_.size() + 1); // remove() must not fail
-    instances_.push_back({start, run});
+    instances_.push_back({run, false, start});
     return Slot(instances_.size() - 1);
 }
 
@@ -205,9 +205,11 @@ StepCounters World::step(std::span<const Slot> active, base::Ticks tick, base::T
         return counters;
     const base::FloatingPointScope floatingPoint;
     ++stepNumber_;
+    crowd_.forget();
     divideRuns(active);
-    for (const Slot slot : active) {
-        const RunIndex index = instances_[slot].run;
+    for (size_t k = 0; k < active.size(); ++k) {
+        fetchAhead(active, k);
+        const RunIndex index = instances_[active[k]].run;
         Run& run = runs_.at(index);
         if (run.steppedIn == stepNumber_)
             continue;
@@ -216,17 +218,77 @@ StepCounters World::step(std::span<const Slot> active, base::Ticks tick, base::T
             continue;
         }
         run.steppedIn = stepNumber_;
+        if (run.quietUntil >= now_ && run.simulated == tick) {
+            passQuietly(run, counters);
+            continue;
+        }
         endRest(index, tick);
-        stepRun(index, tick, stepTicks, counters);
-        const base::Ticks rest = mayRest_ ? restOf(run) : 0;
+        stepRun(index, tick, stepTicks, counters, &crowd_);
+        if (!mayRest_)
+            continue;
+        const base::Ticks rest = restOf(run);
         run.restUntil = rest > now_ ? rest : 0;
+        run.quietUntil = quietOf(run);
     }
+    crowd_.close();
     return counters;
+}
+
+/// Asks the memory for what is wanted of those that follow in a list.
+void World::fetchAhead(std::span<const Slot> active, size_t place) const
+{
+    constexpr size_t kLine = 64;
+    constexpr size_t kRunLead = 12;   // places between
+    constexpr size_t kSolverLead = 6; // of which the run is known by then
+    if (place + kRunLead < active.size()) {
+        const Instance& instance = instances_[active[place + kRunLead]];
+        const auto* run = reinterpret_cast<const char*>(&runs_.at(instance.run));
+        __builtin_prefetch(run);
+        __builtin_prefetch(run + kLine);
+        __builtin_prefetch(reinterpret_cast<const char*>(&instance) + kLine);
+    }
+    if (place + kSolverLead < active.size())
+        if (const Solver* const solver = runs_.at(instances_[active[place + kSolverLead]].run).only) {
+            const auto* state = reinterpret_cast<const char*>(solver);
+            for (size_t line = 0; line < 3; ++line)
+                __builtin_prefetch(state + line * kLine);
+        }
+}
+
+/// A step in which nothing happens but that time passes.
+void World::passQuietly(Run& run, StepCounters& counters)
+{
+    const base::Ticks local = now_ + run.quietOffset;
+    if (run.only)
+        run.only->passTo(local, counters);
+    else
+        for (const std::unique_ptr<Solver>& solver : run.solvers)
+            solver->passTo(local, counters);
+    run.simulated = now_;
+}
+
+/// Scene time up to which steps of the run, which has been stepped, need not be taken; 0 when they must.
+base::Ticks World::quietOf(Run& run) const
+{
+    const RunClock& clock = run.conditions.clock;
+    if (clock.rate != kNormalRate || run.effect->subSteps > 1 || !run.told.empty())
+        return 0;
+    run.quietOffset = clock.local - clock.scene;
+    const base::Ticks local = run.simulated + run.quietOffset;
+    base::Ticks until = INT64_MAX / 4;
+    for (const std::unique_ptr<Solver>& solver : run.solvers) {
+        until = std::min(until, solver->quietUntil(local));
+        if (until <= local)
+            return 0;
+    }
+    return until - run.quietOffset;
 }
 
 /// A run of which only some users are stepped is divided into those and the others.
 void World::divideRuns(std::span<const Slot> active)
 {
+    if (runs_.count() == instances_.size() - free_.size())
+        return; // none is shared
     for (const Slot slot : active) {
         Run& run = runs_.at(instances_[slot].run);
         run.visits = run.visitedIn == stepNumber_ ? run.visits + 1 : 1;
@@ -275,7 +337,9 @@ void World::withContext(RunIndex index, StepCounters& counters, F&& body)
     body(context, run);
 }
 
-void World::stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters)
+/// @param crowd null unless it is closed before anybody looks at the run
+void World::stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters,
+                    EmitterCrowd* crowd)
 {
     const RunClock clock = runs_.at(index).conditions.clock;
     if (runs_.at(index).fresh && clock.local > 0)
@@ -284,6 +348,7 @@ void World::stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, Ste
         const base::Ticks turns = (clock.rate + kNormalRate - 1) / kNormalRate;
         const base::Ticks parts =
             std::clamp<base::Ticks>(run.effect->subSteps, 1, 16) * std::max<base::Ticks>(turns, 1);
+        context.crowd = parts == 1 ? crowd : nullptr;
         for (base::Ticks part = 0; part < parts; ++part) {
             const base::Ticks from = std::max(tick + stepTicks * part / parts, clock.scene);
             const base::Ticks to = tick + stepTicks * (part + 1) / parts;
@@ -362,17 +427,27 @@ void World::replay(RunIndex index, base::Ticks from, base::Ticks to, base::Ticks
 void World::publish(std::span<const Slot> active, base::FrameSnapshot& snapshot) const
 {
     const base::FloatingPointScope floatingPoint;
-    for (const Slot slot : active) {
-        const Instance& instance = instances_[slot];
+    crowd_.beginPublication(snapshot, tasks_);
+    base::GroupInfo info;
+    const auto publishOne = [&](const Solver& solver) {
+        if (!solver.joinPublication(info, snapshot, crowd_))
+            solver.publish(info, snapshot);
+    };
+    for (size_t k = 0; k < active.size(); ++k) {
+        fetchAhead(active, k);
+        const Instance& instance = instances_[active[k]];
         const Run& run = runs_.at(instance.run);
-        base::GroupInfo info;
         info.instance = instance.start.instance;
         info.placement = instance.start.placement;
-        for (uint32_t i = 0; i < run.solvers.size(); ++i) {
-            info.solver = i;
-            run.solvers[i]->publish(info, snapshot);
+        info.solver = 0;
+        if (run.only) {
+            publishOne(*run.only);
+            continue;
         }
+        for (; info.solver < run.solvers.size(); ++info.solver)
+            publishOne(*run.solvers[info.solver]);
     }
+    crowd_.endPublication();
 }
 
 } // namespace fx::sim

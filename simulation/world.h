@@ -15,6 +15,7 @@
 #include "foundation/math/geometry.h"
 #include "foundation/memory/arena.h"
 #include "simulation/effect_def.h"
+#include "simulation/emitters/emitter_crowd.h"
 #include "simulation/run_pool.h"
 
 #include <cstdint>
@@ -162,9 +163,9 @@ public:
 private:
     struct Instance
     {
-        InstanceStart start;
         RunIndex run = kNoRun;
         bool hidden = false;
+        InstanceStart start;
     };
 
     RunConditions conditionsOf(const EffectDef& effect, const InstanceStart& start) const;
@@ -189,7 +190,11 @@ private:
     void isolate(Slot slot);
     std::span<const HostEvent> hear(RunIndex index, base::Ticks tick);
     void restoreTold(Run& run, StateReader& reader);
-    void stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters);
+    void stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters,
+                 EmitterCrowd* crowd = nullptr);
+    void fetchAhead(std::span<const Slot> active, size_t place) const;
+    void passQuietly(Run& run, StepCounters& counters);
+    base::Ticks quietOf(Run& run) const;
     RunIndex restoreRun(const Entry& first, StateReader& reader);
     RunIndex joinRun(RunIndex index, const Entry& entry, StateReader& reader);
 
@@ -199,6 +204,7 @@ private:
     std::pmr::memory_resource* memory_;
     bool share_;
     base::Arena scratch_;
+    mutable EmitterCrowd crowd_; ///< of the step or the publication in hand; empty otherwise
     RunPool runs_;
     std::vector<Instance> instances_;
     std::vector<Slot> free_;

@@ -36,6 +36,8 @@ void World::tell(Slot slot, const HostEvent& event)
 std::span<const HostEvent> World::hear(RunIndex index, base::Ticks tick)
 {
     Run& run = runs_.at(index);
+    if (run.told.empty())
+        return {};
     const base::Ticks until = std::max(tick, run.conditions.clock.scene);
     const auto end = std::find_if(run.told.begin(), run.told.end(),
                                   [until](const Run::Told& told) { return told.tick > until; });

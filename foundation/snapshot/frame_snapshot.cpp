@@ -46,29 +46,19 @@ void SnapshotGroup::prepare(const SnapshotSchema& schema, KindId kind, size_t ca
         storage_ = Column<float>(memory_, floats);
     if (desc.hasIds && ids_.size() < capacity)
         ids_.resize(capacity);
-    lines_.resize(desc.columns.size());
     size_t offset = 0;
     for (size_t c = 0; c < desc.columns.size(); ++c) {
         lines_[c] = uint32_t(offset / kRowsPerLine);
         offset += isIn(present, c) ? columnFloats(desc.columns[c].type, capacity) : 0;
     }
-    constants_.assign(desc.constants.size(), 0.0f);
+    constantCount_ = uint32_t(desc.constants.size());
+    forgetConstants();
     capacity_ = capacity;
     present_ = present;
     hasIds_ = desc.hasIds;
     isExact_ = bytes() == floats * sizeof(float) + (desc.hasIds ? capacity * sizeof(uint64_t) : 0);
     info_ = GroupInfo{};
     info_.kind = kind;
-}
-
-bool SnapshotGroup::prepareAgain(KindId kind, size_t capacity, ColumnSet present)
-{
-    if (!isExact_ || info_.kind != kind || capacity_ != capacity || present_ != present)
-        return false;
-    std::fill(constants_.begin(), constants_.end(), 0.0f);
-    info_ = GroupInfo{};
-    info_.kind = kind;
-    return true;
 }
 
 FrameSnapshot::FrameSnapshot(const SnapshotSchema* schema, std::pmr::memory_resource* memory)
@@ -82,10 +72,8 @@ void FrameSnapshot::begin(Ticks tick, uint64_t sequence)
     groupCount_ = 0;
 }
 
-SnapshotGroup& FrameSnapshot::addGroup(KindId kind, size_t capacity, ColumnSet present)
+SnapshotGroup& FrameSnapshot::findGroup(KindId kind, size_t capacity, ColumnSet present)
 {
-    if (groupCount_ < groups_.size() && groups_[groupCount_].prepareAgain(kind, capacity, present))
-        return groups_[groupCount_++]; // as in the snapshot before: there is none that fits better
     const KindDesc& desc = schema_->kind(kind);
     const size_t ids = desc.hasIds ? capacity * sizeof(uint64_t) : 0;
     const size_t least = floatsFor(desc, capacity, present) * sizeof(float) + ids;

@@ -13,6 +13,7 @@
 #include "foundation/time/ticks.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -33,13 +34,12 @@ struct GroupInfo
 };
 
 /// One group: column-wise elements, sorted by ascending id where the kind has ids. Columns begin at multiples
-/// of 64 bytes.
+/// of 64 bytes; those that the group has follow each other in the order of the kind, each with room for
+/// capacity() elements rounded up to 64 bytes.
 class SnapshotGroup
 {
 public:
-    SnapshotGroup(std::pmr::memory_resource* memory)
-        : memory_(memory), lines_(memory), ids_(memory), constants_(memory)
-    {}
+    SnapshotGroup(std::pmr::memory_resource* memory) : memory_(memory), ids_(memory) {}
 
     const GroupInfo& info() const { return info_; }
     uint32_t count() const { return info_.count; }
@@ -53,7 +53,7 @@ public:
         return {reinterpret_cast<const uint64_t*>(place(index)), has(index) ? info_.count : 0};
     }
     bool has(size_t index) const { return (present_ >> index & 1) != 0; }
-    std::span<const float> constants() const { return constants_; }
+    std::span<const float> constants() const { return {constants_.data(), constantCount_}; }
 
     // ---- for the writer, before publication ----
     GroupInfo& editInfo() { return info_; }
@@ -66,31 +66,64 @@ public:
     {
         return {reinterpret_cast<uint64_t*>(const_cast<float*>(place(index))), has(index) ? capacity_ : 0};
     }
-    std::span<float> editConstants() { return constants_; }
+    std::span<float> editConstants() { return {constants_.data(), constantCount_}; }
+    /// Room for all columns that it has.
+    float* editStorage() { return storage_.data(); }
+    size_t capacity() const { return capacity_; }
+    /// True when its constants are what the writer with the number `writer` has written into its memory
+    /// before and nobody has changed since: then they need not be written again. If not, they are zero, and
+    /// taken to be written now.
+    /// @param writer not 0; names what is written, for the life of the process
+    bool keepsConstants(uint64_t writer)
+    {
+        if (constantsWriter_ == writer)
+            return true;
+        constants_.fill(0.0f);
+        constantsWriter_ = writer;
+        return false;
+    }
     /// True when its memory is enough for `capacity` elements with the columns `present` of `kind`.
     bool fits(const KindDesc& kind, size_t capacity, ColumnSet present) const;
     size_t bytes() const { return storage_.capacity() * sizeof(float) + ids_.capacity() * sizeof(uint64_t); }
     /// Makes room for `capacity` elements of `kind`; keeps its memory when that is enough.
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present = kAllColumns);
     /// The same where it was prepared for the same the last time and its memory is exactly that; otherwise
-    /// false.
-    bool prepareAgain(KindId kind, size_t capacity, ColumnSet present);
+    /// false. Constants are left as they are for keepsConstants(), or are zero when `forgets`.
+    bool prepareAgain(KindId kind, size_t capacity, ColumnSet present, bool forgets)
+    {
+        if (!isExact_ || info_.kind != kind || capacity_ != capacity || present_ != present)
+            return false;
+        info_ = GroupInfo{};
+        info_.kind = kind;
+        if (forgets)
+            forgetConstants();
+        return true;
+    }
 
 private:
+    void forgetConstants()
+    {
+        constants_.fill(0.0f);
+        constantsWriter_ = 0;
+    }
+
     /// Where a column begins.
     const float* place(size_t index) const { return storage_.data() + size_t(lines_[index]) * kRowsPerLine; }
     static constexpr size_t kRowsPerLine = 16; ///< floats in 64 bytes
 
+    // What is read and written for each publication stands together in front.
     GroupInfo info_;
     size_t capacity_ = 0;
     ColumnSet present_ = 0;
+    Column<float> storage_;
+    uint64_t constantsWriter_ = 0;
+    uint32_t constantCount_ = 0;
     bool hasIds_ = true;
     bool isExact_ = false; ///< its memory is not larger than it needs
+    std::array<float, kMostConstants> constants_{};
+    std::array<uint32_t, kMostColumns> lines_{}; ///< of 64 bytes before each column
     std::pmr::memory_resource* memory_;
-    Column<float> storage_;
-    std::pmr::vector<uint32_t> lines_; ///< of 64 bytes before each column
     std::pmr::vector<uint64_t> ids_;
-    std::pmr::vector<float> constants_;
 };
 
 /// All groups after the step that ended at `tick`.
@@ -113,9 +146,26 @@ public:
     /// A group with room for `capacity` elements; fill it and set its info (count, bounds). The memory of a
     /// group of an earlier snapshot is reused when one is large enough, whatever its position was.
     /// @param present columns of the kind that the group is to have
-    SnapshotGroup& addGroup(KindId kind, size_t capacity, ColumnSet present = kAllColumns);
+    SnapshotGroup& addGroup(KindId kind, size_t capacity, ColumnSet present = kAllColumns)
+    {
+        if (groupCount_ < groups_.size() && groups_[groupCount_].prepareAgain(kind, capacity, present, true))
+            return groups_[groupCount_++]; // as in the snapshot before: there is none that fits better
+        return findGroup(kind, capacity, present);
+    }
+    /// The same for a writer that heeds SnapshotGroup::keepsConstants().
+    SnapshotGroup& addGroupAgain(KindId kind, size_t capacity, ColumnSet present)
+    {
+        if (groupCount_ + 2 < groups_.size())
+            __builtin_prefetch(&groups_[groupCount_ + 2], 1);
+        if (groupCount_ < groups_.size() && groups_[groupCount_].prepareAgain(kind, capacity, present, false))
+            return groups_[groupCount_++];
+        return findGroup(kind, capacity, present);
+    }
+    SnapshotGroup& editGroup(size_t index) { return groups_[index]; }
 
 private:
+    SnapshotGroup& findGroup(KindId kind, size_t capacity, ColumnSet present);
+
     const SnapshotSchema* schema_;
     std::pmr::memory_resource* memory_;
     Ticks tick_ = 0;

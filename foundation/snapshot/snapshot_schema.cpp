@@ -1,5 +1,7 @@
 #include "foundation/snapshot/snapshot_schema.h"
 
+#include <stdexcept>
+
 namespace fx::base {
 
 KindId SnapshotSchema::add(const KindDesc& kind)
@@ -7,6 +9,8 @@ KindId SnapshotSchema::add(const KindDesc& kind)
     const KindId known = find(kind.name);
     if (known != kNoKind)
         return known;
+    if (kind.columns.size() > kMostColumns || kind.constants.size() > kMostConstants)
+        throw std::length_error("a kind of the snapshot has too many columns or constants");
     kinds_.push_back(kind);
     return KindId(kinds_.size() - 1);
 }

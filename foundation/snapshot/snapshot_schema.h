@@ -40,6 +40,9 @@ struct KindDesc
                         ///< found again
 };
 
+constexpr size_t kMostColumns = 24;   ///< of a kind
+constexpr size_t kMostConstants = 24; ///< of a kind
+
 using KindId = uint32_t;
 constexpr KindId kNoKind = ~0u;
 
@@ -51,7 +54,8 @@ constexpr ColumnSet kAllColumns = ~ColumnSet(0);
 class SnapshotSchema
 {
 public:
-    /// Registers `kind` and returns its id; a name that is already there keeps its id.
+    /// Registers `kind` and returns its id; a name that is already there keeps its id. Throws
+    /// std::length_error when it has more columns or constants than a kind may have.
     KindId add(const KindDesc& kind);
     KindId find(std::string_view name) const; ///< kNoKind when absent
     const KindDesc& kind(KindId id) const { return kinds_[id]; }

@@ -103,7 +103,8 @@ std::string drawing(const std::vector<Line>& lines, const std::string& origin)
     return svg + "</svg>\n";
 }
 
-/// Exponent of time over number from 10^4 particles on, by least squares of the logarithms.
+/// Exponent of time over number, by least squares of the logarithms over all sizes. Above 1 where small
+/// numbers of particles stay in the caches and large ones wait for memory.
 double exponentOf(const Line& line)
 {
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;

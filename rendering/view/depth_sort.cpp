@@ -1,6 +1,7 @@
 #include "rendering/view/depth_sort.h"
 
 #include "rendering/view/depth_keys.h"
+#include "rendering/view/rising_run.h"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,8 @@ constexpr size_t kMostPasses = 3;
 constexpr size_t kProbe = 2048;       ///< elements after which a hopeless mending is given up
 constexpr size_t kAhead = 32;         ///< elements whose keys are fetched before they are looked at
 constexpr size_t kMostMovedShare = 6; ///< mending pays while less than one in so many has moved
+constexpr size_t kFew = 16384;        ///< elements that are sorted by small digits,
+constexpr uint32_t kFewDigitBits = 9; ///< because counting large ones would take longer
 
 uint64_t pairOf(uint32_t key, uint32_t index)
 {
@@ -29,10 +32,11 @@ struct Digits
     uint32_t lowest, beyond; ///< beyond: what absent keys become, one more than the highest
     uint32_t passes, bits, mask;
 
-    Digits(uint32_t low, uint32_t high) : lowest(low), beyond(high - low + 1)
+    Digits(uint32_t low, uint32_t high, uint32_t mostBits = kMostDigitBits)
+        : lowest(low), beyond(high - low + 1)
     {
         const uint32_t width = std::max<uint32_t>(uint32_t(std::bit_width(beyond)), 1);
-        passes = (width + kMostDigitBits - 1) / kMostDigitBits;
+        passes = (width + mostBits - 1) / mostBits;
         bits = (width + passes - 1) / passes;
         mask = (1u << bits) - 1;
     }
@@ -78,6 +82,7 @@ bool DepthSort::mendLastOrder()
     if (newcomers_ > limit)
         return false;
     moved_.resize(std::max(moved_.size(), limit + 1));
+    blockEnds_.resize(std::max(blockEnds_.size(), order_.size() / kChainBlock + 1));
     size_t kept = 0;
     size_t moved = 0;
     if (!splitLastOrder(limit - newcomers_, &kept, &moved))
@@ -97,47 +102,50 @@ bool DepthSort::mendLastOrder()
 bool DepthSort::splitLastOrder(size_t limit, size_t* outKept, size_t* outMoved)
 {
     constexpr uint64_t kNobody = uint64_t(kAbsentKey) << 32;
-    uint32_t* order = order_.data();
-    const uint32_t* keys = keys_.data();
-    const auto pairAt = [&](size_t place) { return pairOf(keys[order[place]], order[place]); };
-    size_t kept = 0;
-    size_t moved = 0;
+    Chain chain{keys_.data(), order_.data(), blockEnds_.data(), 0, 0, order_.size(), 0, moved_.data(), 0,
+                limit};
+    uint32_t* const order = chain.order;
+    const auto pairAt = [&](size_t place) { return pairOf(chain.keys[order[place]], order[place]); };
+    const auto keep = [&](uint64_t pair) {
+        chain.blockEnds[chain.kept / kChainBlock] = uint32_t(pair >> 32);
+        order[chain.kept++] = uint32_t(pair);
+        chain.last = pair;
+    };
     size_t misfits = 0; // one after another
-    uint64_t last = 0;
-    const size_t count = order_.size();
-    for (size_t i = 0; i < count; ++i) {
-        __builtin_prefetch(&keys[order[std::min(i + kAhead, count - 1)]]);
-        const uint64_t pair = pairAt(i);
-        if (pair >= last && pair < kNobody) [[likely]] {
-            order[kept++] = uint32_t(pair);
-            last = pair;
+    size_t nextRun = 0; // where a run of many is looked for again
+    for (; chain.at < chain.count; ++chain.at) {
+        if (chain.at >= nextRun && misfits == 0) {
+            keepRisingRun(chain);
+            if (chain.at == chain.count)
+                break;
+            nextRun = chain.at + kChainBlock;
+        }
+        __builtin_prefetch(&chain.keys[order[std::min(chain.at + kAhead, chain.count - 1)]]);
+        const uint64_t pair = pairAt(chain.at);
+        if (pair >= chain.last && pair < kNobody) [[likely]] {
+            keep(pair);
             misfits = 0;
             continue;
         }
         if (pair >= kNobody)
             continue;
         size_t inTheWay = 1;
-        while (inTheWay <= misfits && inTheWay < kept && pairAt(kept - 1 - inTheWay) > pair)
+        while (inTheWay <= misfits && inTheWay < chain.kept && pairAt(chain.kept - 1 - inTheWay) > pair)
             ++inTheWay;
-        const bool chainYields = inTheWay >= kept || pairAt(kept - 1 - inTheWay) <= pair;
+        const bool chainYields = inTheWay >= chain.kept || pairAt(chain.kept - 1 - inTheWay) <= pair;
         const size_t aside = chainYields ? inTheWay : 1;
-        if (moved + aside > limit || (i < kProbe && moved > kProbe / 4))
+        if (chain.asideCount + aside > limit || (chain.at < kProbe && chain.asideCount > kProbe / 4))
             return false;
+        for (size_t k = 1; k <= aside; ++k)
+            chain.aside[chain.asideCount++] = chainYields ? pairAt(chain.kept - k) : pair;
+        misfits = chainYields ? 0 : misfits + 1;
         if (chainYields) {
-            for (size_t k = 1; k <= inTheWay; ++k)
-                moved_[moved + k - 1] = pairAt(kept - k);
-            kept -= inTheWay;
-            order[kept++] = uint32_t(pair);
-            last = pair;
-            misfits = 0;
-        } else {
-            moved_[moved] = pair;
-            ++misfits;
+            chain.kept -= inTheWay;
+            keep(pair);
         }
-        moved += aside;
     }
-    *outKept = kept;
-    *outMoved = moved;
+    *outKept = chain.kept;
+    *outMoved = chain.asideCount;
     return true;
 }
 
@@ -154,10 +162,11 @@ void DepthSort::takeNewcomers(size_t* ioMoved)
 /// By key, digits from the lowest, then by index.
 void DepthSort::sortMoved(size_t count)
 {
-    const Digits digits(lowest_, highest_);
+    const Digits digits(lowest_, highest_, count < kFew ? kFewDigitBits : kMostDigitBits);
     scratch_.resize(std::max(scratch_.size(), moved_.size()));
+    Offsets offsets;
     for (uint32_t pass = 0; pass < digits.passes && count > 1; ++pass) {
-        Offsets offsets{};
+        std::fill_n(offsets.begin(), digits.mask + 1, 0u);
         for (size_t i = 0; i < count; ++i)
             ++offsets[digits.of(uint32_t(moved_[i] >> 32), pass)];
         accumulate(offsets, digits.mask);
@@ -174,30 +183,50 @@ void DepthSort::sortMoved(size_t count)
     }
 }
 
-/// From the end: each of those who moved has its place looked for ahead of the one before it, in steps that
-/// double, and what lies between moves up as a block.
+/// The first block of the chain, at most `block`, before which all blocks stand before `key`: found by the
+/// keys of the blocks' ends, which lie side by side. Asks for the keys of its elements.
+size_t DepthSort::blockOf(const Chain& chain, uint32_t key, size_t block)
+{
+    while (block > 0 && chain.blockEnds[block - 1] >= key)
+        --block;
+    const size_t end = std::min((block + 1) * kChainBlock, chain.kept);
+    for (size_t place = block * kChainBlock; place < end; ++place)
+        __builtin_prefetch(&chain.keys[chain.order[place]]);
+    return block;
+}
+
+/// How many of the first `end` of the chain stand before `pair`, from `block` on.
+size_t DepthSort::placeIn(const Chain& chain, uint64_t pair, size_t block, size_t end)
+{
+    for (size_t place = block * kChainBlock; place < end; place += kChainBlock) {
+        const size_t beyond = std::min(place + kChainBlock, end);
+        const size_t before = countBelow(chain, place, beyond, pair);
+        if (place + before < beyond)
+            return place + before;
+    }
+    return end;
+}
+
+/// From the end: each of those who moved has its place looked for ahead of the one before it, and what lies
+/// between moves up as a block. Blocks are looked for some elements ahead, so that keys have come by then.
 void DepthSort::merge(size_t kept, size_t moved)
 {
+    constexpr size_t kLead = 8;
     order_.resize(kept + moved);
     uint32_t* order = order_.data();
+    const Chain chain{keys_.data(), order, blockEnds_.data(), kept, kept, kept, 0, nullptr, 0, 0};
+    std::array<size_t, kLead> blocks{};
+    size_t block = (kept + kChainBlock - 1) / kChainBlock;
     size_t end = kept; // of the chain that is still in its old place
-    for (size_t left = moved; left > 0; --left) {
+    for (size_t step = 0; step < moved + kLead; ++step) {
+        const size_t known = blocks[step % kLead];
+        if (step < moved)
+            blocks[step % kLead] = block = blockOf(chain, uint32_t(moved_[moved - 1 - step] >> 32), block);
+        if (step < kLead)
+            continue;
+        const size_t left = moved + kLead - step;
         const uint64_t pair = moved_[left - 1];
-        const auto isBehind = [&](size_t place) { return pairOf(keys_[order[place]], order[place]) > pair; };
-        size_t step = 1;
-        size_t high = end; // all from here on are behind it
-        while (high >= step && isBehind(high - step)) {
-            high -= step;
-            step *= 2;
-        }
-        size_t low = high >= step ? high - step + 1 : 0;
-        while (low < high) {
-            const size_t middle = low + (high - low) / 2;
-            if (isBehind(middle))
-                high = middle;
-            else
-                low = middle + 1;
-        }
+        const size_t high = placeIn(chain, pair, known, end); // all from here on are behind it
         std::memmove(order + high + left, order + high, (end - high) * sizeof *order);
         order[high + left - 1] = uint32_t(pair);
         end = high;

@@ -22,7 +22,8 @@ public:
     static constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
 
     explicit DepthSort(std::pmr::memory_resource* memory)
-        : keys_(memory), lastKeys_(memory), order_(memory), pairs_(memory), moved_(memory), scratch_(memory)
+        : keys_(memory), lastKeys_(memory), order_(memory), blockEnds_(memory), pairs_(memory),
+          moved_(memory), scratch_(memory)
     {}
 
     /// @param distances [m] any sign; NaN leaves the element out
@@ -43,11 +44,14 @@ private:
     void sortAll();
     void sortMoved(size_t count);
     void merge(size_t kept, size_t moved);
+    static size_t blockOf(const struct Chain& chain, uint32_t key, size_t block);
+    static size_t placeIn(const struct Chain& chain, uint64_t pair, size_t block, size_t end);
 
     std::pmr::vector<uint32_t> keys_;     ///< rising order of these is asked for; ~0 for who is absent
     std::pmr::vector<uint32_t> lastKeys_; ///< of the call before
     std::pmr::vector<uint32_t> order_;
-    std::pmr::vector<uint64_t> pairs_; ///< key * 2^32 + index
+    std::pmr::vector<uint32_t> blockEnds_; ///< of the chain that mending keeps: the key of each block's last
+    std::pmr::vector<uint64_t> pairs_;     ///< key * 2^32 + index
     std::pmr::vector<uint64_t> moved_;
     std::pmr::vector<uint64_t> scratch_;
     uint32_t lowest_ = 0, highest_ = 0; ///< of the keys that are present

@@ -301,9 +301,10 @@ BirthCount BirthSchedule::advanceTo(const BirthWindow& window, const Outlet& out
     return writer.count;
 }
 
-void BirthSchedule::save(StateWriter& writer) const
+void BirthSchedule::save(StateWriter& writer, base::Ticks now) const
 {
-    const WideInt waiting = -progress_ - quiet_.rate * (quiet_.to - quiet_.from); // 0 <= -R < D < 2^78
+    const base::Ticks to = now > quiet_.to && now <= quiet_.until ? now : quiet_.to;
+    const WideInt waiting = -progress_ - quiet_.rate * (to - quiet_.from); // 0 <= -R < D < 2^78
     writer.value(uint64_t(waiting >> 32));
     writer.value(uint64_t(waiting & 0xFFFFFFFF));
     writer.value(nextIndex_);

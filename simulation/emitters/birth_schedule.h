@@ -98,11 +98,21 @@ public:
         };
         return advanceTo(window, {room, most, call, &take});
     }
+    /// Nobody is born before this local time, as long as the last window's conditions go on; 0 when that is
+    /// not known. Windows up to it may be left out.
+    base::Ticks quietUntil() const { return quiet_.until; }
+    /// Windows up to `tick` have been left out; nothing happens when it is not beyond them.
+    void passTo(base::Ticks tick)
+    {
+        if (tick > quiet_.to && tick <= quiet_.until)
+            quiet_.to = tick;
+    }
     /// True when nothing can be born from `tick` on.
     bool exhausted(base::Ticks tick) const;
 
     /// What has been born so far; rate and bursts are the definition's.
-    void save(StateWriter& writer) const;
+    /// @param now windows up to there have been left out, as passTo()
+    void save(StateWriter& writer, base::Ticks now = 0) const;
     void restore(StateReader& reader);
 
 private:
@@ -161,6 +171,7 @@ private:
     ScheduledBurst* nextBurst(base::Ticks end);
     bool happens(const ScheduledBurst& burst) const;
 
+    Quiet quiet_; ///< first: most steps look at nothing else
     float rate_;
     base::Ticks start_;
     base::Ticks end_;
@@ -171,7 +182,6 @@ private:
     uint32_t solverIndex_ = 0;
     WideInt progress_ = 0; ///< R
     uint64_t nextIndex_ = 0;
-    Quiet quiet_;
 };
 
 } // namespace fx::sim

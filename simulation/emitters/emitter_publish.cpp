@@ -1,5 +1,6 @@
 #include "simulation/emitters/emitter_solver.h"
 
+#include "simulation/emitters/emitter_crowd.h"
 #include "simulation/emitters/look_constants.h"
 #include "simulation/parallel.h"
 
@@ -13,8 +14,8 @@ namespace {
 
 namespace column = base::particle_column;
 
-constexpr uint32_t kChunk = 1024;        // rows that are handed to a thread together
-constexpr uint32_t kMinChunks = 8;       // fewer cost less than handing them to another thread
+constexpr uint32_t kChunk = 1024;                                 // rows that are handed to a thread together
+constexpr uint32_t kMinChunks = EmitterSolver::kFewRows / kChunk; // fewer cost less than another thread
 constexpr size_t kBeyondCache = 8 << 20; // [byte] of a group that is not kept in the cache of a core
 
 /// The columns of a group, null where it lacks one.
@@ -86,21 +87,11 @@ void writeConstants(const EmitterDef& def, const EmitterLook& look, float arcPer
     constants[constant::ArcPerTile] = arcPerTile;
 }
 
-namespace {
-
-/// [1] How far the farthest corner of what is drawn is from its center, over the half height.
-float cornerOf(const EmitterLook& look)
-{
-    constexpr float kRounding = 1.00002f; // of the arithmetic that draws
-    return kRounding *
-           (look.kind == Appearance::Mesh ? look.meshReach : std::sqrt(1.0f + look.aspect * look.aspect));
-}
-
-} // namespace
-
 LookJob EmitterSolver::lookJob() const
 {
-    return {&program_, &store_, store_.window(), now_, motionBegin_, conditions_.pull};
+    LookJob job;
+    fill(job);
+    return job;
 }
 
 void EmitterSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
@@ -119,17 +110,41 @@ void EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSna
 {
     if (kinds_.particle == base::kNoKind)
         return;
-    base::SnapshotGroup& group = snapshot.addGroup(kinds_.particle, store_.capacity(), program_.published);
     const LookJob job = lookJob();
-    base::GroupInfo& info = group.editInfo();
-    info = base;
-    info.kind = kinds_.particle;
-    info.count = job.rows.count;
-    writeConstants(def_, def_.look, 1.0f, group.editConstants());
-
+    base::SnapshotGroup& group = addParticles(base, job.rows.count, snapshot);
     LookBounds bounds = writeAll(job, columnsOf(group), tasks_);
-    bounds.radius *= cornerOf(def_.look);
+    bounds.radius *= program_.corner;
     group.editInfo().bounds = bounds.box();
+}
+
+/// The group, without what is in its columns.
+base::SnapshotGroup& EmitterSolver::addParticles(const base::GroupInfo& base, uint32_t rows,
+                                                 base::FrameSnapshot& snapshot) const
+{
+    base::SnapshotGroup& group =
+        snapshot.addGroupAgain(kinds_.particle, store_.capacity(), program_.published);
+    base::GroupInfo& info = group.editInfo();
+    info.instance = base.instance;
+    info.solver = base.solver;
+    info.count = rows;
+    info.placement = base.placement;
+    if (!group.keepsConstants(program_.number))
+        writeConstants(def_, def_.look, 1.0f, group.editConstants());
+    return group;
+}
+
+bool EmitterSolver::joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                                    EmitterCrowd& crowd) const
+{
+    if (!publishesWithMany_)
+        return false;
+    const uint32_t rows = store_.window().count;
+    base::SnapshotGroup& group = addParticles(base, rows, snapshot);
+    if (rows == 0)
+        return true;
+    store_.fetch();
+    fill(crowd.add(group));
+    return true;
 }
 
 } // namespace fx::sim

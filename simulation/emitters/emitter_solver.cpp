@@ -1,6 +1,7 @@
 #include "simulation/emitters/emitter_solver.h"
 
 #include "foundation/random/philox.h"
+#include "simulation/emitters/emitter_crowd.h"
 #include "simulation/parallel.h"
 #include "simulation/particles/birth_kernel.h"
 #include "simulation/particles/tile_step.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <optional>
+#include <utility>
 
 namespace fx::sim {
 
@@ -42,10 +44,20 @@ std::unique_ptr<Solver> EmitterDef::create(const base::SnapshotSchema& schema, c
 
 EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                              std::pmr::memory_resource* memory)
-    : def_(def), kinds_(kinds), shared_(def.program.of(def)), program_(*shared_),
-      schedule_(def.emission, memory), store_(program_, memory), interest_(def.events), lights_(memory),
-      rowsByBirth_(memory)
+    : EmitterSolver(def, kinds, def.program.of(def), memory)
+{}
+
+EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
+                             std::shared_ptr<const ParticleProgram> program,
+                             std::pmr::memory_resource* memory)
+    : def_(def), program_(*program), kinds_(kinds), store_(program_, memory), schedule_(def.emission, memory),
+      shared_(std::move(program)), interest_(def.events), lights_(memory), rowsByBirth_(memory)
 {
+    const bool isSmall = store_.capacity() <= kFewRows;
+    const bool isDrawn = def.look.kind == Appearance::Sprite || def.look.kind == Appearance::Mesh;
+    bornWithMany_ = isSmall && program_.ballistic && !isLinked() && !(def.trail.lifetime > 0.0f);
+    publishesWithMany_ = isSmall && isDrawn && kinds.particle != base::kNoKind &&
+                         !(def.trail.lifetime > 0.0f) && !def.light.given;
     if (def.trail.lifetime > 0.0f)
         trails_.emplace(def.trail, store_.capacity(), memory);
     if (def.light.given)
@@ -96,6 +108,7 @@ void EmitterSolver::heedConditions(const StepContext& context)
 
 void EmitterSolver::step(const StepContext& context)
 {
+    schedule_.passTo(now_);
     tasks_ = context.tasks;
     now_ = context.tick;
     if (!started_)
@@ -113,10 +126,14 @@ void EmitterSolver::step(const StepContext& context)
     now_ = end;
     if (trails_)
         trails_->follow(lookJob(), context.tick, end);
-    store_.retire(now_);
-    const uint64_t window = std::min<uint64_t>(store_.next() - store_.front(), store_.capacity());
-    context.counters->particleSteps += window;
-    highWater_ = std::max(highWater_, uint32_t(window));
+    if (!context.crowd || !context.crowd->waitsFor(*this))
+        endStep(*context.counters);
+}
+
+/// Whether births wait for those of others.
+bool EmitterSolver::joins(const StepContext& context) const
+{
+    return context.crowd && bornWithMany_ && store_.placed == program_.stores[stored::X];
 }
 
 void EmitterSolver::giveBirth(const StepContext& context, base::Ticks from, base::Ticks to)
@@ -134,14 +151,19 @@ void EmitterSolver::giveBirth(const StepContext& context, base::Ticks from, base
 
 void EmitterSolver::storeBatch(const StepContext& context, std::span<const Birth> births)
 {
+    if (joins(context) && births.size() <= EmitterCrowd::kMostAtOnce) {
+        context.crowd->wait(*this, context, births);
+        store_.advance(births.size());
+        return;
+    }
+    if (context.crowd && context.crowd->waitsFor(*this))
+        context.crowd->makeBirths(); // they come first
     std::atomic<uint32_t> living{0};
     parallelRows(*context.tasks, uint32_t(births.size()), kMinBirths, [&](uint32_t begin, uint32_t end) {
         living += storeBirths(program_, {context.seed, context.solverIndex},
                               births.subspan(begin, end - begin), store_);
     });
-    const uint64_t refused = births.size() - living;
-    context.counters->dropped += refused;
-    dropped_ += refused;
+    refuse(births.size() - living, *context.counters);
     store_.advance(births.size());
 }
 
@@ -190,6 +212,7 @@ bool EmitterSolver::canSeek(const StepContext& context, base::Ticks tick) const
 void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
 {
     tasks_ = context.tasks;
+    schedule_.passTo(now_);
     if (!started_ || tick < now_) {
         schedule_ = BirthSchedule(def_.emission, rowsByBirth_.get_allocator().resource());
         store_.clear(0);
@@ -227,7 +250,7 @@ void EmitterSolver::save(StateWriter& writer) const
     writer.flag(varied_);
     if (interest_.in(EventKind::Host))
         writer.value(hostEvents_);
-    schedule_.save(writer);
+    schedule_.save(writer, now_);
     store_.save(writer, now_);
     if (trails_)
         trails_->save(writer);

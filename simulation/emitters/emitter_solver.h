@@ -31,8 +31,19 @@ public:
     EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds, std::pmr::memory_resource* memory);
 
     void step(const StepContext& context) override;
+    base::Ticks quietUntil(base::Ticks tick) const override
+    {
+        return bornWithMany_ && started_ ? std::max(tick, schedule_.quietUntil()) : tick;
+    }
+    void passTo(base::Ticks tick, StepCounters& counters) override
+    {
+        now_ = tick;
+        endStep(counters);
+    }
     /// Spread over the threads of the last step; before it on the calling thread.
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
+    bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                         EmitterCrowd& crowd) const override;
     bool finished(base::Ticks tick) const override;
     uint32_t elementCount() const override { return store_.countAlive(now_); }
     /// Where motion has a closed form; backwards while the host has changed nothing since local time 0.
@@ -44,8 +55,30 @@ public:
     uint32_t highWater() const { return highWater_; } ///< the most rows that were in use after a step
     uint64_t dropped() const { return dropped_; }     ///< births that found their row taken
 
+    static constexpr uint32_t kFewRows = 8192; ///< emitters of so few do things together
+    // ---- for the crowd ----
+    ParticleStore& store() { return store_; }
+    const ParticleProgram& program() const { return program_; }
+    /// So many births found their row taken.
+    void refuse(uint64_t births, StepCounters& counters)
+    {
+        counters.dropped += births;
+        dropped_ += births;
+    }
+    /// All that were born until now_ are in their rows.
+    void endStep(StepCounters& counters)
+    {
+        store_.retire(now_);
+        const uint32_t rows = store_.rowsInUse();
+        counters.particleSteps += rows;
+        highWater_ = std::max(highWater_, rows);
+    }
+
 private:
+    EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
+                  std::shared_ptr<const ParticleProgram> program, std::pmr::memory_resource* memory);
     void begin(const StepContext& context);
+    bool joins(const StepContext& context) const;
     struct Conditions
     {
         glm::vec3 pull{0.0f}; ///< [m/s2] see LookJob
@@ -76,7 +109,18 @@ private:
     EventScan scanOf(const StepContext& context) const;
     bool neverDrops(double intensity) const;
     LookJob lookJob() const;
+    void fill(LookJob& job) const
+    {
+        job.program = &program_;
+        job.store = &store_;
+        job.rows = store_.window();
+        job.now = now_;
+        job.motionBegin = motionBegin_;
+        job.pull = conditions_.pull;
+    }
     void publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
+    base::SnapshotGroup& addParticles(const base::GroupInfo& base, uint32_t rows,
+                                      base::FrameSnapshot& snapshot) const;
     void publishTrails(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
     void publishLights(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
     struct Light
@@ -91,22 +135,25 @@ private:
     uint32_t sortLiving() const;
     void publishMedium(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
 
+    // What every step and publication of a small emitter reads stands together.
     const EmitterDef& def_;
-    EmitterKinds kinds_;
-    std::shared_ptr<const ParticleProgram> shared_;
     const ParticleProgram& program_;
-    BirthSchedule schedule_;
+    base::Ticks now_ = 0;         ///< end of the last step
+    base::Ticks motionBegin_ = 0; ///< see LookJob
+    Conditions conditions_;       ///< of the last step
+    uint32_t highWater_ = 0;
+    bool varied_ = false; ///< they were others before
+    bool started_ = false;
+    bool bornWithMany_;      ///< see EmitterCrowd
+    bool publishesWithMany_; ///< likewise
+    EmitterKinds kinds_;
     ParticleStore store_;
+    BirthSchedule schedule_;
+    std::shared_ptr<const ParticleProgram> shared_;
     EventInterest interest_;
     std::optional<RibbonStore> trails_;
     mutable std::pmr::vector<Light> lights_; ///< room for those that are published
     uint64_t hostEvents_ = 0;                ///< so many have been answered
-    base::Ticks now_ = 0;                    ///< end of the last step
-    base::Ticks motionBegin_ = 0;            ///< see LookJob
-    Conditions conditions_;                  ///< of the last step
-    bool varied_ = false;                    ///< they were others before
-    bool started_ = false;
-    uint32_t highWater_ = 0;
     uint64_t dropped_ = 0;
     base::TaskRunner* tasks_ = nullptr;              ///< of the last step
     mutable std::pmr::vector<uint32_t> rowsByBirth_; ///< room to sort what a medium publishes

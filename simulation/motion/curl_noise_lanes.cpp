@@ -49,17 +49,58 @@ HWY_INLINE Floats componentOf(Words bits)
     return hn::ConvertTo(kFloats, hn::BitCast(kInts, ten)) * all(2.0f / 1023.0f) - all(1.0f);
 }
 
+/// Products of lattice coordinates for the hash of the cell's two borders on one axis.
+struct BorderLanes
+{
+    Words product[2];
+
+    HWY_INLINE BorderLanes(Words cell, uint32_t factor)
+    {
+        product[0] = hn::Mul(cell, hn::Set(kWords, factor));
+        product[1] = hn::Add(product[0], hn::Set(kWords, factor)); // (cell + 1) factor, modulo 2^32
+    }
+};
+
+/// A table of 16 numbers, in registers where they are wide.
+class PhaseTable
+{
+public:
+    explicit HWY_INLINE PhaseTable(const float* table) : table_(table)
+    {
+        low_ = hn::LoadU(kFloats, table);
+        if constexpr (kWidth == 8)
+            high_ = hn::LoadU(kFloats, table + 8);
+    }
+    HWY_INLINE Floats at(hn::Vec<IntTag> place) const
+    {
+#if HWY_TARGET != HWY_SCALAR
+        if constexpr (kWidth == 16)
+            return hn::TableLookupLanes(low_, hn::IndicesFromVec(kFloats, place));
+        if constexpr (kWidth == 8) {
+            const auto within = hn::IndicesFromVec(kFloats, hn::And(place, hn::Set(kInts, 7)));
+            const Which isHigh = hn::RebindMask(kFloats, hn::Gt(place, hn::Set(kInts, 7)));
+            return hn::IfThenElse(isHigh, hn::TableLookupLanes(high_, within),
+                                  hn::TableLookupLanes(low_, within));
+        }
+#endif
+        return hn::GatherIndex(kFloats, table_, place);
+    }
+
+private:
+    const float* table_;
+    Floats low_;
+    Floats high_ = hn::Zero(kFloats);
+};
+
 /// Adds what one corner of the cell contributes to the slopes of the three potentials.
-HWY_INLINE void addCorner(const CurlNoise::Parts& parts, const AxisLanes* axes, uint32_t bits,
+HWY_INLINE void addCorner(uint32_t seed, const PhaseTable& cosine, const PhaseTable& sine,
+                          const AxisLanes* axes, const BorderLanes* borders, uint32_t bits,
                           Floats slope[3][3])
 {
     const uint32_t b[3] = {bits & 1u, (bits >> 1) & 1u, bits >> 2};
-    const auto at = [&](uint32_t a, uint32_t factor) HWY_ATTR {
-        return hn::Mul(hn::Add(axes[a].cell, hn::Set(kWords, b[a])), hn::Set(kWords, factor));
-    };
     const Words h =
-        hn::Add(hn::Add(hn::Add(hn::Set(kWords, parts.seed), at(0, 0x8DA6B343u)), at(1, 0xD8163841u)),
-                at(2, 0xCB1AB31Fu));
+        hn::Add(hn::Add(hn::Add(hn::Set(kWords, seed), borders[0].product[b[0]]), borders[1].product[b[1]]),
+                borders[2].product[b[2]]);
     Words word = mix(h);
     Words phase = hn::ShiftRight<30>(word);
     Floats gradient[3][3];
@@ -71,8 +112,8 @@ HWY_INLINE void addCorner(const CurlNoise::Parts& parts, const AxisLanes* axes, 
         phase = hn::Add(hn::ShiftLeft<2>(phase), hn::ShiftRight<30>(word));
     }
     const auto place = hn::BitCast(kInts, hn::And(phase, hn::Set(kWords, 15u)));
-    const Floats c = hn::GatherIndex(kFloats, parts.cosine, place);
-    const Floats s = hn::GatherIndex(kFloats, parts.sine, place);
+    const Floats c = cosine.at(place);
+    const Floats s = sine.at(place);
     Floats d[3];
     for (uint32_t a = 0; a < 3; ++a)
         d[a] = axes[a].f - all(float(b[a]));
@@ -93,15 +134,20 @@ HWY_INLINE void addCorner(const CurlNoise::Parts& parts, const AxisLanes* axes, 
 void addCurlLanes(const CurlNoise::Parts& parts, const std::array<const float*, 3>& position,
                   const std::array<float*, 3>& velocity, uint32_t count)
 {
+    const PhaseTable cosine(parts.cosine);
+    const PhaseTable sine(parts.sine);
     for (uint32_t i = 0; i < count; i += kWidth) {
         const Floats scale = all(parts.perScale);
         const AxisLanes axes[3] = {AxisLanes(hn::Load(kFloats, position[0] + i) * scale),
                                    AxisLanes(hn::Load(kFloats, position[1] + i) * scale),
                                    AxisLanes(hn::Load(kFloats, position[2] + i) * scale)};
+        const BorderLanes borders[3] = {BorderLanes(axes[0].cell, 0x8DA6B343u),
+                                        BorderLanes(axes[1].cell, 0xD8163841u),
+                                        BorderLanes(axes[2].cell, 0xCB1AB31Fu)};
         const Floats zero = hn::Zero(kFloats);
         Floats slope[3][3] = {{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero}};
         for (uint32_t bits = 0; bits < 8; ++bits)
-            addCorner(parts, axes, bits, slope);
+            addCorner(parts.seed, cosine, sine, axes, borders, bits, slope);
         const Floats curl[3] = {slope[2][1] - slope[1][2], slope[0][2] - slope[2][0],
                                 slope[1][0] - slope[0][1]}; // (3)
         for (size_t a = 0; a < 3; ++a)

@@ -3,7 +3,7 @@
 #include "foundation/math/elementary.h"
 #include "foundation/random/philox.h"
 #include "simulation/motion/blob_optics.h"
-#include "simulation/particles/birth_lanes.h"
+#include "simulation/particles/birth_rows.h"
 
 #include <algorithm>
 #include <bitset>
@@ -18,20 +18,15 @@ constexpr float kPi = 3.14159265f;
 constexpr float kSmallestBirthScale = 0.1f; // a curve that starts at size 0 still defines an optical depth
 
 /// A tile of births on its way into the store.
+template <class Rows>
 class BirthBatch
 {
 public:
-    BirthBatch(const ParticleProgram& program, const BirthKey& key, std::span<const Birth> births,
-               ParticleStore& store)
-        : program_(program), def_(program.def), key_(key), births_(births), store_(store)
+    BirthBatch(const ParticleProgram& program, const BirthKey& key, const Rows& rows)
+        : program_(program), def_(program.def), key_(key), rows_(rows)
     {
-        tile_.count = uint32_t(births.size());
-        const uint32_t padded = (tile_.count + kTilePadding - 1) / kTilePadding * kTilePadding;
-        for (uint32_t i = 0; i < padded; ++i) {
-            const uint64_t index = births[0].index + i;
-            tile_.indexLow[i] = uint32_t(index);
-            tile_.indexHigh[i] = uint32_t(index >> 32);
-        }
+        tile_.count = rows.count();
+        rows.prepare(tile_);
     }
 
     uint32_t run()
@@ -43,6 +38,7 @@ public:
         storeLooks();
         return uint32_t(free_.count());
     }
+    bool isFree(uint32_t i) const { return free_[i]; }
 
 private:
     void draw(RandomPurpose purpose) { drawUnits(tile_, key_.seed, key_.solver, uint32_t(purpose), tile_.u); }
@@ -55,39 +51,31 @@ private:
     void storeMedium();
     void storeRange(size_t column, const base::Range& range, uint32_t number);
     void put(size_t column, const float* values);
-    template <class T, class ValueOf>
-    void putEach(base::Column<T>& column, ValueOf valueOf);
 
     const ParticleProgram& program_;
     const EmitterDef& def_;
     const BirthKey key_;
-    std::span<const Birth> births_;
-    ParticleStore& store_;
+    const Rows& rows_;
     std::bitset<kTileRows> free_; ///< births that find their row free
     BirthTile tile_;
 };
 
-template <class T, class ValueOf>
-void BirthBatch::putEach(base::Column<T>& column, ValueOf valueOf)
+template <class Rows>
+void BirthBatch<Rows>::put(size_t column, const float* values)
 {
-    uint32_t row = store_.rowOf(births_[0].index);
-    for (uint32_t i = 0; i < tile_.count; ++i) {
-        if (free_[i])
-            column[row] = valueOf(i);
-        row = row + 1 == store_.capacity() ? 0 : row + 1;
+    float* const run = free_.count() == tile_.count ? rows_.run(column) : nullptr;
+    if (run) {
+        std::copy_n(values, tile_.count, run);
+        return;
     }
+    rows_.forEach([&](ParticleStore& store, uint32_t row, uint32_t i) {
+        if (free_[i])
+            store.values[column][row] = values[i];
+    });
 }
 
-void BirthBatch::put(size_t column, const float* values)
-{
-    const uint32_t row = store_.rowOf(births_[0].index);
-    if (free_.count() == tile_.count && row + tile_.count <= store_.capacity())
-        std::copy_n(values, tile_.count, store_.values[column].data() + row);
-    else
-        putEach(store_.values[column], [values](uint32_t i) { return values[i]; });
-}
-
-void BirthBatch::storeRange(size_t column, const base::Range& range, uint32_t number)
+template <class Rows>
+void BirthBatch<Rows>::storeRange(size_t column, const base::Range& range, uint32_t number)
 {
     if (!stores(column))
         return;
@@ -96,22 +84,25 @@ void BirthBatch::storeRange(size_t column, const base::Range& range, uint32_t nu
     put(column, tile_.value);
 }
 
-void BirthBatch::findRows()
+template <class Rows>
+void BirthBatch<Rows>::findRows()
 {
-    uint32_t row = store_.rowOf(births_[0].index);
-    for (uint32_t i = 0; i < tile_.count; ++i) {
-        free_[i] = !store_.isAlive(row, births_[i].tick);
-        row = row + 1 == store_.capacity() ? 0 : row + 1;
-    }
-    putEach(store_.index, [this](uint32_t i) { return births_[i].index; });
-    putEach(store_.born, [this](uint32_t i) { return births_[i].tick; });
-    if (store_.bornShort.data())
-        putEach(store_.bornShort, [this](uint32_t i) { return uint32_t(births_[i].tick); });
-    if (store_.flags.data())
-        putEach(store_.flags, [](uint32_t) { return 0u; });
+    rows_.forEach([this](ParticleStore& store, uint32_t row, uint32_t i) {
+        const Birth& birth = rows_.birth(i);
+        free_[i] = !store.isAlive(row, birth.tick);
+        if (!free_[i])
+            return;
+        store.index[row] = birth.index;
+        store.born[row] = birth.tick;
+        if (store.bornShort.data())
+            store.bornShort[row] = uint32_t(birth.tick);
+        if (store.flags.data())
+            store.flags[row] = 0;
+    });
 }
 
-void BirthBatch::samplePlaces()
+template <class Rows>
+void BirthBatch<Rows>::samplePlaces()
 {
     const EmitterShape shape = def_.shape;
     if (def_.births || shape != EmitterShape::Point)
@@ -146,11 +137,12 @@ void BirthBatch::samplePlaces()
     }
 }
 
-void BirthBatch::storeMotion()
+template <class Rows>
+void BirthBatch<Rows>::storeMotion()
 {
     samplePlaces();
     const glm::vec3 center = def_.births ? glm::vec3(0.0f) : def_.position; // they know their own
-    if (store_.placed)
+    if (rows_.first().placed)
         for (size_t a = 0; a < 3; ++a) {
             for (uint32_t i = 0; i < tile_.count; ++i)
                 tile_.position[a][i] += center[int(a)];
@@ -173,7 +165,8 @@ void BirthBatch::storeMotion()
     put(stored::PerLife, tile_.value);
 }
 
-void BirthBatch::storeMedium()
+template <class Rows>
+void BirthBatch<Rows>::storeMedium()
 {
     const float birthScale = std::max(def_.sizeOverLife.at(0.0f)[0], kSmallestBirthScale);
     for (uint32_t i = 0; i < tile_.count; ++i) {
@@ -184,7 +177,8 @@ void BirthBatch::storeMedium()
     put(stored::Amount, tile_.value);
 }
 
-void BirthBatch::storeLooks()
+template <class Rows>
+void BirthBatch<Rows>::storeLooks()
 {
     const bool medium = def_.look.kind == Appearance::Medium;
     if (stores(stored::Radius) || stores(stored::Amount) || stores(stored::Excess) ||
@@ -221,9 +215,22 @@ uint32_t storeBirths(const ParticleProgram& program, const BirthKey& key, std::s
     uint32_t living = 0;
     for (size_t begin = 0; begin < births.size(); begin += kTileRows) {
         const size_t size = std::min<size_t>(births.size() - begin, kTileRows);
-        living += BirthBatch(program, key, births.subspan(begin, size), store).run();
+        const RowsOfOne rows(births.subspan(begin, size), store);
+        living += BirthBatch<RowsOfOne>(program, key, rows).run();
     }
     return living;
+}
+
+void storeScattered(const ParticleProgram& program, uint32_t solver, std::span<ScatteredBirth> births)
+{
+    for (size_t begin = 0; begin < births.size(); begin += kTileRows) {
+        const size_t size = std::min<size_t>(births.size() - begin, kTileRows);
+        const RowsOfMany rows(births.subspan(begin, size));
+        BirthBatch<RowsOfMany> batch(program, {0, solver}, rows);
+        static_cast<void>(batch.run());
+        for (uint32_t i = 0; i < size; ++i)
+            births[begin + i].isStored = batch.isFree(i);
+    }
 }
 
 } // namespace fx::sim

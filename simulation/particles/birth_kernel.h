@@ -22,4 +22,18 @@ struct BirthKey
 uint32_t storeBirths(const ParticleProgram& program, const BirthKey& key, std::span<const Birth> births,
                      ParticleStore& store);
 
+/// A birth in one of many emitters of one definition.
+struct ScatteredBirth
+{
+    ParticleStore* store;
+    uint64_t seed;
+    Birth birth;
+    uint32_t row;  ///< where it belongs, as ParticleStore::rowOf() says
+    bool isStored; ///< out: false when its row was taken
+};
+
+/// The same for births in different emitters: what one emitter alone would get, bit for bit. Births of one
+/// emitter stand in order and have different rows.
+void storeScattered(const ParticleProgram& program, uint32_t solver, std::span<ScatteredBirth> births);
+
 } // namespace fx::sim

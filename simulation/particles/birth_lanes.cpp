@@ -41,17 +41,18 @@ void drawUnitsLanes(const BirthTile& tile, uint64_t seed, uint32_t solver, uint3
         Words c1 = hn::Load(kWords, tile.indexHigh + i);
         Words c2 = hn::Set(kWords, solver);
         Words c3 = hn::Set(kWords, purpose);
-        uint32_t k0 = uint32_t(seed);
-        uint32_t k1 = uint32_t(seed >> 32);
+        Words k0 = tile.seedsDiffer ? hn::Load(kWords, tile.seedLow + i) : hn::Set(kWords, uint32_t(seed));
+        Words k1 =
+            tile.seedsDiffer ? hn::Load(kWords, tile.seedHigh + i) : hn::Set(kWords, uint32_t(seed >> 32));
         for (int round = 0; round < 10; ++round) { // philox4x32-10
             const WidePair p0 = multiplyWide(c0, 0xD2511F53u);
             const WidePair p1 = multiplyWide(c2, 0xCD9E8D57u);
-            c0 = hn::Xor(hn::Xor(p1.high, c1), hn::Set(kWords, k0));
-            c2 = hn::Xor(hn::Xor(p0.high, c3), hn::Set(kWords, k1));
+            c0 = hn::Xor(hn::Xor(p1.high, c1), k0);
+            c2 = hn::Xor(hn::Xor(p0.high, c3), k1);
             c1 = p1.low;
             c3 = p0.low;
-            k0 += 0x9E3779B9u;
-            k1 += 0xBB67AE85u;
+            k0 = hn::Add(k0, hn::Set(kWords, 0x9E3779B9u));
+            k1 = hn::Add(k1, hn::Set(kWords, 0xBB67AE85u));
         }
         hn::Store(unitFloats(c0), kFloats, out[0] + i);
         hn::Store(unitFloats(c1), kFloats, out[1] + i);

@@ -34,10 +34,14 @@ struct alignas(64) BirthTile
     float value[kTileRows];
     uint32_t indexLow[kTileRows];
     uint32_t indexHigh[kTileRows];
+    uint32_t seedLow[kTileRows]; ///< of each birth; only where seeds differ
+    uint32_t seedHigh[kTileRows];
     uint32_t count;
+    bool seedsDiffer = false;
 };
 
 /// Four uniform numbers for each birth, as base::randomUnit4.
+/// @param seed of all, unless they differ
 void drawUnits(const BirthTile& tile, uint64_t seed, uint32_t solver, uint32_t purpose,
                float (*out)[kTileRows]);
 

@@ -2,7 +2,7 @@
 
 #include "foundation/random/philox.h"
 #include "simulation/motion/curl_noise.h"
-#include "simulation/motion/ground_contact.h"
+#include "simulation/motion/ground_lanes.h"
 
 #include <algorithm>
 #include <new>
@@ -88,6 +88,10 @@ public:
     void run(const TileContext& context, const void*, Tile& tile) const override
     {
         const GroundContact ground{context.step.groundHeight, restitution_, friction_};
+        if (!context.step.collider) {
+            bounceTile(ground, tile);
+            return;
+        }
         for (uint32_t i = 0; i < tile.count; ++i) {
             if ((tile.flags[i] & (tile_flag::Empty | tile_flag::Stuck)) == 0)
                 bounceRow(context, ground, tile, i);

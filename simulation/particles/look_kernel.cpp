@@ -41,12 +41,83 @@ LookBounds writeLooksLanes(const LookJob& job, const LookColumns& out, uint32_t 
     return bounds;
 }
 
+/// The columns that a program publishes, in the storage of a group.
+class ColumnPlaces
+{
+public:
+    explicit ColumnPlaces(const ParticleProgram& program)
+    {
+        namespace column = base::particle_column;
+        const size_t rows = (std::max<size_t>(program.def.maxParticles, 1) + 15) / 16 * 16;
+        size_t at = 0;
+        for (size_t c = 0; c < column::Count; ++c)
+            if ((program.published >> c & 1) != 0) {
+                places_[c] = at;
+                at += rows * base::columnElementSize(base::kParticleColumns[c].type) / sizeof(float);
+            }
+        published_ = program.published;
+    }
+    HWY_INLINE void point(float* storage, bool always, LookColumns& out) const
+    {
+        namespace column = base::particle_column;
+        out.x = storage + places_[column::PositionX];
+        out.y = storage + places_[column::PositionY];
+        out.z = storage + places_[column::PositionZ];
+        out.age = storage + places_[column::Age];
+        out.radius = storage + places_[column::Radius];
+        out.color = reinterpret_cast<uint64_t*>(storage + places_[column::Color]);
+        if (always)
+            return;
+        const auto floats = [&](size_t c) {
+            return (published_ >> c & 1) != 0 ? storage + places_[c] : nullptr;
+        };
+        for (size_t a = 0; a < 3; ++a)
+            out.velocity[a] = floats(column::VelocityX + a);
+        out.angle = floats(column::Angle);
+        out.frame = floats(column::Frame);
+        for (size_t a = 0; a < 4; ++a)
+            out.orientation[a] = floats(column::OrientationX + a);
+    }
+
+private:
+    std::array<size_t, base::particle_column::Count> places_{};
+    base::ColumnSet published_;
+};
+
+template <bool kBallistic, bool kBrief, bool kPlain>
+void writeParts(std::span<LookPart> parts)
+{
+    LookColumns out{};
+    Looks looks(parts[0].job, out);
+    MotionReader<kBallistic, kBrief> reader(parts[0].job);
+    const ColumnPlaces places(*parts[0].job.program);
+    for (LookPart& part : parts) {
+        places.point(part.storage, kPlain, out);
+        looks.turnTo(part.job);
+        reader.turnTo(part.job);
+        looks.runWith<kPlain, false>(reader, 0, part.job.rows.count, part.bounds);
+    }
+    Looks::leaveVectors();
+}
+
+/// @param parts of one program
+void writePartsLanes(std::span<LookPart> parts)
+{
+    const ParticleProgram& program = *parts[0].job.program;
+    if (!program.ballistic)
+        program.brief ? writeParts<false, true, false>(parts) : writeParts<false, false, false>(parts);
+    else if (program.plain)
+        program.brief ? writeParts<true, true, true>(parts) : writeParts<true, false, true>(parts);
+    else
+        program.brief ? writeParts<true, true, false>(parts) : writeParts<true, false, false>(parts);
+}
+
 template <bool kBallistic, bool kBrief>
 void readTile(const LookJob& job, uint32_t row, uint32_t count, MotionTile& out)
 {
     const MotionReader<kBallistic, kBrief> reader(job);
     for (uint32_t i = 0; i < count; i += kWidth) {
-        const MotionLanes motion = reader.template read<true>(row + i);
+        const MotionLanes motion = reader.template read<true, false>(row + i);
         for (uint32_t a = 0; a < 3; ++a) {
             hn::Store(motion.position[a], kFloats, out.position[a] + i);
             hn::Store(motion.velocity[a], kFloats, out.velocity[a] + i);
@@ -77,6 +148,7 @@ namespace fx::sim {
 namespace particles {
 namespace {
 HWY_EXPORT(writeLooksLanes);
+HWY_EXPORT(writePartsLanes);
 HWY_EXPORT(readMotionLanes);
 } // namespace
 } // namespace particles
@@ -105,6 +177,18 @@ LookBounds writeLooks(const LookJob& job, const LookColumns& out, uint32_t begin
     using namespace particles;
     base::applyInstructionSetLimit();
     return HWY_DYNAMIC_DISPATCH(writeLooksLanes)(job, out, begin, end);
+}
+
+void writeManyLooks(std::span<LookPart> parts)
+{
+    using namespace particles;
+    base::applyInstructionSetLimit();
+    for (size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
+        const ParticleProgram* const program = parts[begin].job.program;
+        for (end = begin + 1; end < parts.size() && parts[end].job.program == program;)
+            ++end;
+        HWY_DYNAMIC_DISPATCH(writePartsLanes)(parts.subspan(begin, end - begin));
+    }
 }
 
 void readMotion(const LookJob& job, uint32_t row, uint32_t count, MotionTile& out)

@@ -29,6 +29,7 @@
 #include "simulation/particles/particle_store.h"
 
 #include <limits>
+#include <span>
 
 namespace fx::sim {
 
@@ -77,6 +78,19 @@ struct LookBounds
 /// Writes the rows [begin, end); begin is a multiple of kTilePadding, end too or the window's count. Rows
 /// that hold nobody are zero throughout.
 LookBounds writeLooks(const LookJob& job, const LookColumns& out, uint32_t begin, uint32_t end);
+
+/// One of many groups that are written together.
+struct LookPart
+{
+    LookJob job;
+    float* storage; ///< see base::SnapshotGroup::editStorage(); columns are those that the program publishes
+    size_t group;   ///< of the snapshot
+    LookBounds bounds; ///< out
+};
+
+/// The same as writeLooks() for all rows of each part, bit for bit; much cheaper where parts are small. Parts
+/// of one program that follow each other share the most.
+void writeManyLooks(std::span<LookPart> parts);
 
 /// Where particles are and how they move, for rows that are read one by one.
 struct alignas(64) MotionTile

@@ -55,7 +55,7 @@ class Looks
 {
 public:
     Looks(const LookJob& job, const LookColumns& out)
-        : job_(job), look_(job.program->def.look), out_(out), radius_(*job.store, stored::Radius),
+        : job_(&job), look_(job.program->def.look), out_(out), radius_(*job.store, stored::Radius),
           amount_(*job.store, stored::Amount), brightness_(*job.store, stored::Brightness),
           angle_(*job.store, stored::Angle), spin_(*job.store, stored::Spin),
           frame_(*job.store, stored::Frame), axis_{{*job.store, stored::AxisX},
@@ -68,20 +68,41 @@ public:
                        : 0.0f)
     {}
 
+    /// Goes on with another job of the same program.
+    HWY_INLINE void turnTo(const LookJob& job)
+    {
+        job_ = &job;
+        radius_.turnTo(*job_->store, stored::Radius);
+        amount_.turnTo(*job_->store, stored::Amount);
+        if (job_->program->plain)
+            return;
+        brightness_.turnTo(*job_->store, stored::Brightness);
+        angle_.turnTo(*job_->store, stored::Angle);
+        spin_.turnTo(*job_->store, stored::Spin);
+        frame_.turnTo(*job_->store, stored::Frame);
+        for (size_t a = 0; a < 3; ++a)
+            axis_[a].turnTo(*job_->store, stored::AxisX + a);
+    }
+
     /// @tparam kPlain ParticleProgram::plain
     /// @tparam kStream whether what is plain is written past the caches; otherwise LookColumns says
     template <bool kBallistic, bool kBrief, bool kPlain, bool kStream>
     void run(uint32_t begin, uint32_t end, LookBounds& outBounds) const
     {
-        const MotionReader<kBallistic, kBrief> reader(job_);
-        const bool moving = !kPlain && (out_.velocity[0] || job_.program->bySpeed);
+        runWith<kPlain, kStream>(MotionReader<kBallistic, kBrief>(*job_), begin, end, outBounds);
+        leaveVectors();
+    }
+    template <bool kPlain, bool kStream, class Reader>
+    HWY_INLINE void runWith(const Reader& reader, uint32_t begin, uint32_t end, LookBounds& outBounds) const
+    {
+        const bool moving = !kPlain && (out_.velocity[0] || job_->program->bySpeed);
         BoundsLanes bounds;
         Pieces pieces;
         for (uint32_t row = begin; row < end;) {
             const uint32_t inside = std::min(insideFrom(row), end);
             for (; row < inside; row += kWidth) {
                 const MotionLanes motion =
-                    moving ? reader.template read<true>(row) : reader.template read<false>(row);
+                    moving ? reader.template read<true, true>(row) : reader.template read<false, true>(row);
                 const Which alive = hn::Lt(motion.life, all(1.0f)); // false for NaN
                 if (HWY_LIKELY(hn::AllTrue(kFloats, alive)))
                     write<kPlain, kStream, true>(row, alive, motion, pieces, bounds);
@@ -90,18 +111,22 @@ public:
             }
             if (row >= end)
                 break;
-            if (row >= job_.rows.gapBegin && row + kWidth <= job_.rows.gapEnd) {
+            if (row >= job_->rows.gapBegin && row + kWidth <= job_->rows.gapEnd) {
                 writeNobody(row);
             } else {
                 const MotionLanes motion =
-                    moving ? reader.template read<true>(row) : reader.template read<false>(row);
+                    moving ? reader.template read<true, true>(row) : reader.template read<false, true>(row);
                 const Which alive = hn::And(hn::Lt(motion.life, all(1.0f)), inWindow(row));
                 write<kPlain, kStream, false>(row, alive, motion, pieces, bounds);
             }
             row += kWidth;
         }
         bounds.store(outBounds);
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 // the compiler forgets it here; mixed code waits for 60 ns without
+    }
+    /// The compiler forgets it here; mixed code waits for 60 ns without.
+    static HWY_INLINE void leaveVectors()
+    {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
         _mm256_zeroupper();
 #endif
     }
@@ -139,15 +164,15 @@ private:
     HWY_INLINE Which inWindow(uint32_t row) const
     {
         const auto rows = hn::Add(hn::Iota(kInts, 0), hn::Set(kInts, int32_t(row)));
-        const auto lower = hn::Lt(rows, hn::Set(kInts, int32_t(job_.rows.gapBegin)));
-        const auto upper = hn::And(hn::Gt(rows, hn::Set(kInts, int32_t(job_.rows.gapEnd) - 1)),
-                                   hn::Lt(rows, hn::Set(kInts, int32_t(job_.rows.count))));
+        const auto lower = hn::Lt(rows, hn::Set(kInts, int32_t(job_->rows.gapBegin)));
+        const auto upper = hn::And(hn::Gt(rows, hn::Set(kInts, int32_t(job_->rows.gapEnd) - 1)),
+                                   hn::Lt(rows, hn::Set(kInts, int32_t(job_->rows.count))));
         return hn::RebindMask(kFloats, hn::Or(lower, upper));
     }
     /// The end of the vectors from `row` on that lie in the window with all their rows.
     uint32_t insideFrom(uint32_t row) const
     {
-        const RowWindow& rows = job_.rows;
+        const RowWindow& rows = job_->rows;
         if (rows.gapBegin < rows.gapEnd && row < rows.gapEnd)
             return std::max(row, std::min(rows.gapBegin, rows.count) / kWidth * kWidth);
         return std::max(row, rows.count / kWidth * kWidth);
@@ -164,7 +189,7 @@ private:
     HWY_INLINE void writeOrientation(uint32_t row, Which alive, Floats angle) const;
     HWY_INLINE Floats frameAt(uint32_t row, const MotionLanes& motion) const;
 
-    const LookJob& job_;
+    const LookJob* job_;
     const EmitterLook& look_;
     const LookColumns& out_;
     Source radius_, amount_, brightness_, angle_, spin_, frame_;
@@ -179,15 +204,15 @@ HWY_INLINE void Looks::write(uint32_t row, Which alive, const MotionLanes& motio
                              BoundsLanes& bounds) const
 {
     const auto ofAlive = [alive](Floats x) HWY_ATTR { return kFull ? x : hn::IfThenElseZero(alive, x); };
-    const CurveLanes looks(job_.program->looks, motion.life, pieces.life);
+    const CurveLanes looks(job_->program->looks, motion.life, pieces.life);
     Floats radius = radius_.at(row) * hn::Max(looks.value(look_channel::Size), all(1e-4f));
     Floats rgb[3] = {looks.value(look_channel::Red), looks.value(look_channel::Green),
                      looks.value(look_channel::Blue)};
     Floats opacity = amount_.at(row) * looks.value(look_channel::Opacity);
-    if (!kPlain && job_.program->bySpeed) {
+    if (!kPlain && job_->program->bySpeed) {
         const Floats* v = motion.velocity;
         const Floats speed = hn::Sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        const CurveLanes fast(*job_.program->bySpeed, hn::Min(speed * all(1.0f / look_.fastest), all(1.0f)),
+        const CurveLanes fast(*job_->program->bySpeed, hn::Min(speed * all(1.0f / look_.fastest), all(1.0f)),
                               pieces.speed);
         radius = radius * hn::Max(fast.value(look_channel::Size), all(1e-4f));
         opacity = opacity * fast.value(look_channel::Opacity);
@@ -246,7 +271,7 @@ HWY_INLINE void Looks::writeMore(uint32_t row, Which alive, const MotionLanes& m
         put(hn::IfThenElseZero(alive, frameAt(row, motion)), out_.frame + row);
     if (out_.index)
         for (uint32_t i = 0; i < kWidth; ++i)
-            out_.index[row + i] = job_.store->index[row + i];
+            out_.index[row + i] = job_->store->index[row + i];
 }
 
 /// The rotation by an angle about the particle's axis.

@@ -22,6 +22,7 @@ struct Source
     HWY_INLINE Source(const ParticleStore& store, size_t column)
         : rows(store.values[column].data()), constant(store.constant[column])
     {}
+    HWY_INLINE void turnTo(const ParticleStore& store, size_t column) { rows = store.values[column].data(); }
     HWY_INLINE Floats at(uint32_t row) const { return rows ? hn::Load(kFloats, rows + row) : all(constant); }
 };
 
@@ -39,30 +40,42 @@ class MotionReader
 {
 public:
     explicit MotionReader(const LookJob& job)
-        : store_(*job.store), perLife_(store_, stored::PerLife), x_{{store_, stored::X},
-                                                                    {store_, stored::Y},
-                                                                    {store_, stored::Z}},
-          v_{store_.values[stored::VelocityX].data(), store_.values[stored::VelocityY].data(),
-             store_.values[stored::VelocityZ].data()},
-          now_(job.now), drag_(dragOf(job)), hasDrag_(drag_ > 0.0f), perDrag_(hasDrag_ ? 1.0f / drag_ : 0.0f),
-          pull_(job.pull), longest_(float(base::toSeconds(job.now - job.motionBegin)))
+        : perLife_(*job.store, stored::PerLife), x_{{*job.store, stored::X},
+                                                    {*job.store, stored::Y},
+                                                    {*job.store, stored::Z}},
+          drag_(dragOf(job)), hasDrag_(drag_ > 0.0f), perDrag_(hasDrag_ ? 1.0f / drag_ : 0.0f)
     {
-        if (!store_.placed)
-            for (Source& source : x_)
-                source.rows = nullptr;
+        turnTo(job);
+    }
+    /// Goes on with another job of the same program.
+    HWY_INLINE void turnTo(const LookJob& job)
+    {
+        const ParticleStore& store = *job.store;
+        bornShort_ = store.bornShort.data();
+        born_ = store.born.data();
+        perLife_.turnTo(store, stored::PerLife);
+        for (size_t a = 0; a < 3; ++a) {
+            x_[a].rows = store.placed ? store.values[stored::X + a].data() : nullptr;
+            v_[a] = store.values[stored::VelocityX + a].data();
+        }
+        now_ = job.now;
+        pull_ = job.pull;
+        longest_ = float(base::toSeconds(job.now - job.motionBegin));
     }
 
-    template <bool kVelocity>
+    /// @tparam kDeadStay the dead may be anywhere: they have not moved, which takes less than where they were
+    template <bool kVelocity, bool kDeadStay>
     HWY_INLINE MotionLanes read(uint32_t row) const
     {
         MotionLanes m;
         if constexpr (kBrief)
-            m.age = secondsOf(store_.bornShort.data() + row, uint32_t(now_));
+            m.age = secondsOf(bornShort_ + row, uint32_t(now_));
         else
-            m.age = secondsOf(store_.born.data() + row, now_);
+            m.age = secondsOf(born_ + row, now_);
         m.life = m.age * perLife_.at(row);
         if constexpr (kBallistic) {
-            const Floats t = hn::Min(m.age, all(longest_));
+            const Floats moving = hn::Min(m.age, all(longest_));
+            const Floats t = kDeadStay ? hn::IfThenElseZero(hn::Lt(m.life, all(1.0f)), moving) : moving;
             const DragLanes step =
                 hasDrag_ ? dragLanes<kVelocity>(all(drag_), all(perDrag_), t) : freeLanes(t);
             for (int a = 0; a < 3; ++a) {
@@ -89,7 +102,8 @@ private:
     }
     static HWY_INLINE DragLanes freeLanes(Floats t) { return {all(1.0f), t, all(0.5f) * t * t}; }
 
-    const ParticleStore& store_;
+    const uint32_t* bornShort_;
+    const base::Ticks* born_;
     Source perLife_;
     Source x_[3];
     const float* v_[3];

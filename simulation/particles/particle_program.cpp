@@ -3,6 +3,8 @@
 #include "simulation/particles/builtin_ops.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 
 namespace fx::sim {
 
@@ -59,6 +61,20 @@ base::ColumnSet publishedColumns(const EmitterLook& look)
     if (look.frames != FrameClock::None || look.firstFrame.min != 0 || varies(look.firstFrame))
         set |= column::kFrame;
     return set;
+}
+
+/// Programs are made by several threads.
+uint64_t nextNumber()
+{
+    static std::atomic<uint64_t> last{0};
+    return ++last;
+}
+
+float cornerOf(const EmitterLook& look)
+{
+    constexpr float kRounding = 1.00002f; // of the arithmetic that draws
+    return kRounding *
+           (look.kind == Appearance::Mesh ? look.meshReach : std::sqrt(1.0f + look.aspect * look.aspect));
 }
 
 /// Whether the pass that only has to do what most emitters need does all that this one needs.
@@ -131,10 +147,11 @@ std::shared_ptr<const ParticleProgram> SharedProgram::of(const EmitterDef& def) 
 }
 
 ParticleProgram::ParticleProgram(const EmitterDef& definition)
-    : def(definition), ballistic(isBallistic(definition)), brief(sim::longestLife(definition) <= kBrief),
-      mortal(!definition.modules.empty()), longestLife(base::toTicks(double(sim::longestLife(definition)))),
+    : def(definition), number(nextNumber()), ballistic(isBallistic(definition)),
+      brief(sim::longestLife(definition) <= kBrief), mortal(!definition.modules.empty()),
+      longestLife(base::toTicks(double(sim::longestLife(definition)))),
       published(publishedColumns(definition.look)), looks(lookCurves(definition)),
-      bySpeed(speedCurves(definition.look)), plain(isPlain(*this))
+      bySpeed(speedCurves(definition.look)), corner(cornerOf(definition.look)), plain(isPlain(*this))
 {
     if (!ballistic) {
         addBuiltinOps(definition, ops);

@@ -57,9 +57,10 @@ struct ParticleProgram
     explicit ParticleProgram(const EmitterDef& definition);
 
     const EmitterDef& def;
-    bool ballistic; ///< motion has a closed form: gravity, linear drag, wind
-    bool brief;     ///< no life exceeds 3 s: ages fit into 32 bits of ticks
-    bool mortal;    ///< a module may end lives
+    uint64_t number; ///< of the programs of the process, from 1
+    bool ballistic;  ///< motion has a closed form: gravity, linear drag, wind
+    bool brief;      ///< no life exceeds 3 s: ages fit into 32 bits of ticks
+    bool mortal;     ///< a module may end lives
     std::array<bool, stored::Count> stores{};
     std::array<float, stored::Count> constant{}; ///< the value of what is not stored
     base::Ticks longestLife;
@@ -70,6 +71,8 @@ struct ParticleProgram
     base::ColumnSet published = 0;       ///< columns of the kind "particle"
     RampCurves looks;                    ///< over life
     std::unique_ptr<RampCurves> bySpeed; ///< over speed, null when not used
+    float
+        corner; ///< [1] how far the farthest corner of what is drawn is from its center, over the half height
     bool plain; ///< no optional columns, looks over life alone, colors need no bounds to be binary16
 };
 

@@ -1,6 +1,8 @@
 #include "simulation/particles/particle_store.h"
 
 #include <algorithm>
+#include <optional>
+#include <type_traits>
 
 namespace fx::sim {
 
@@ -8,37 +10,62 @@ namespace {
 
 constexpr uint64_t kMostIndex = uint64_t(1) << 62;
 
+constexpr size_t kFewRows = 1024;
+constexpr size_t kSkew = 320; ///< [byte] between large columns: else all of them meet in the same cache sets
+
 bool isPlace(size_t column)
 {
     return column >= stored::X && column <= stored::Z;
 }
 
+/// Cuts memory into columns of `rows` rows; only measures as long as there is none.
+class Columns
+{
+public:
+    Columns(std::byte* memory, size_t rows) : memory_(memory), rows_(rows) {}
+
+    template <class T>
+    void place(StoredColumn<T>& column, std::optional<std::type_identity_t<T>> first)
+    {
+        if (memory_) {
+            column = StoredColumn<T>(reinterpret_cast<T*>(memory_ + bytes_));
+            if (first)
+                std::fill_n(column.data(), rows_, *first);
+        }
+        bytes_ += rows_ * sizeof(T) + (rows_ > kFewRows ? kSkew : 0);
+    }
+    size_t bytes() const { return bytes_; }
+
+private:
+    std::byte* memory_;
+    size_t rows_;
+    size_t bytes_ = 0;
+};
+
 } // namespace
 
 ParticleStore::ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory)
-    : constant(program.constant), placed(program.stores[stored::X]),
-      capacity_(std::max(program.def.maxParticles, 1u)), brief_(program.brief), mortal_(program.mortal)
+    : capacity_(std::max(program.def.maxParticles, 1u)), brief_(program.brief), mortal_(program.mortal),
+      placed(program.stores[stored::X]), constant(program.constant)
 {
     // Kernels work on whole vectors: every column can be read and written up to the next multiple.
     const size_t rows = (size_t(capacity_) + kTilePadding - 1) / kTilePadding * kTilePadding;
-    index = base::Column<uint64_t>(memory, rows);
-    born = base::Column<base::Ticks>(memory, rows);
-    std::fill_n(index.data(), rows, kNobody);
-    std::fill_n(born.data(), rows, 0);
-    if (brief_) {
-        bornShort = base::Column<uint32_t>(memory, rows);
-        std::fill_n(bornShort.data(), rows, 0u);
-    }
-    if (program.keepsFlags) {
-        flags = base::Column<uint32_t>(memory, rows);
-        std::fill_n(flags.data(), rows, 0u);
-    }
-    for (size_t c = 0; c < stored::Count; ++c) {
-        if (!program.stores[c] && !isPlace(c))
-            continue;
-        values[c] = base::Column<float>(memory, rows);
-        if (program.stores[c]) // the place is not touched before it is needed
-            std::fill_n(values[c].data(), rows, c == stored::PerLife ? kNoLife : 0.0f);
+    for (const bool isSized : {false, true}) { // how much, then where
+        Columns columns(memory_.data(), rows);
+        if (brief_)
+            columns.place(bornShort, 0u);
+        for (size_t c = 0; c < stored::Count; ++c)
+            if (program.stores[c])
+                columns.place(values[c], c == stored::PerLife ? kNoLife : 0.0f);
+        columns.place(index, kNobody);
+        columns.place(born, base::Ticks(0));
+        if (program.keepsFlags)
+            columns.place(flags, 0u);
+        for (size_t c = stored::X; c <= stored::Z; ++c)
+            if (!program.stores[c])
+                columns.place(values[c], std::nullopt); // not touched before it is needed
+        if (!isSized)
+            memory_ = base::Column<std::byte>(memory, columns.bytes());
     }
 }
 
@@ -59,23 +86,8 @@ bool ParticleStore::isAlive(uint32_t row, base::Ticks now) const
     return ageOf(row, now) * value(stored::PerLife, row) < 1.0f;
 }
 
-RowWindow ParticleStore::window() const
+void ParticleStore::retireFront(base::Ticks now)
 {
-    if (empty())
-        return {};
-    if (next_ - front_ >= capacity_)
-        return {capacity_, capacity_, capacity_};
-    const uint32_t first = rowOf(front_);
-    const uint32_t end = rowOf(next_);
-    if (first < end)
-        return {end, 0, first};
-    return {capacity_, end, first};
-}
-
-void ParticleStore::retire(base::Ticks now)
-{
-    if (now < frontUntil_)
-        return;
     if (next_ - front_ > 2 * uint64_t(capacity_)) // births were dropped: most indices in between never lived
         searchFront(now);
     for (; front_ < next_; ++front_)

@@ -153,3 +153,24 @@ TEST(FrameSnapshot, itsHashHeedsColumnsOf64Bits)
     group.editColumn64(particle::Color)[2] ^= uint64_t(1) << 63;
     EXPECT_NE(snapshot.hash(), before);
 }
+
+TEST_F(SnapshotTest, constantsStayForTheirWriterAndForNobodyElse)
+{
+    FrameSnapshot snapshot(&schema_, &memory_);
+    const auto groupOf = [&](ColumnSet present) -> SnapshotGroup& {
+        snapshot.begin(1, 1);
+        return snapshot.addGroupAgain(kind_, 8, present);
+    };
+    SnapshotGroup& first = groupOf(kAllColumns);
+    EXPECT_FALSE(first.keepsConstants(7));
+    first.editConstants()[0] = 3.0f;
+    EXPECT_TRUE(groupOf(kAllColumns).keepsConstants(7));
+    EXPECT_EQ(snapshot.group(0).constants()[0], 3.0f);
+    EXPECT_FALSE(groupOf(kAllColumns).keepsConstants(8)); // another writer
+    EXPECT_EQ(snapshot.group(0).constants()[0], 0.0f);
+    EXPECT_TRUE(groupOf(kAllColumns).keepsConstants(8));
+    snapshot.begin(2, 2);
+    snapshot.addGroup(kind_, 8); // one that writes all of them each time
+    EXPECT_FALSE(groupOf(kAllColumns).keepsConstants(8));
+    EXPECT_FALSE(groupOf(1).keepsConstants(8)); // other columns
+}

@@ -83,3 +83,27 @@ TEST(DepthSort, absentElementsAreLeftOutAndBothWaysAreReversed)
     const auto near = sort.nearestFirst(distances);
     EXPECT_EQ(std::vector<uint32_t>(near.begin(), near.end()), (std::vector<uint32_t>{3, 0, 2}));
 }
+
+TEST(DepthSort, aFewThatMoveInALongListAreMendedInPlace)
+{
+    const auto unit = [](uint64_t stream, size_t i) {
+        return fx::base::randomUnit4(stream, 0, i, fx::base::RandomPurpose::Position)[0];
+    };
+    std::vector<float> distances(20000);
+    for (size_t i = 0; i < distances.size(); ++i)
+        distances[i] = std::floor(unit(1, i) * 9000.0f); // some are equally far
+    DepthSort mended(std::pmr::get_default_resource());
+    (void)mended.farthestFirst(distances);
+    for (size_t frame = 2; frame < 12; ++frame) {
+        const size_t stride = size_t(20) << (frame % 6); // one in so many, some side by side in the order
+        for (size_t i = frame; i < distances.size(); i += stride)
+            distances[i] = frame % 3 == 0 ? distances[i] + 1.0f : std::floor(unit(frame, i) * 9000.0f);
+        if (frame % 4 == 1)
+            distances[frame * 100] = DepthSort::kAbsent;
+        DepthSort anew(std::pmr::get_default_resource());
+        const auto want = anew.farthestFirst(distances);
+        const auto order = mended.farthestFirst(distances);
+        EXPECT_TRUE(std::equal(order.begin(), order.end(), want.begin(), want.end())) << frame;
+        EXPECT_LT(mended.sortedElements(), 3 * distances.size() / stride + 50) << frame;
+    }
+}

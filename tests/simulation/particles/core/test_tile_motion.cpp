@@ -1,10 +1,13 @@
+#include "foundation/random/philox.h"
 #include "simulation/motion/curl_noise.h"
+#include "simulation/motion/ground_lanes.h"
 #include "simulation/particles/tile_motion.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 using namespace fx;
 using namespace fx::sim;
@@ -91,4 +94,52 @@ TEST(TileMotion, turbulenceInLanesIsThatOfOnePlaceBitForBit)
         ASSERT_EQ(tile.uy[i], want.y) << i;
         ASSERT_EQ(tile.uz[i], want.z) << i;
     }
+}
+
+TEST(TileMotion, theGroundReflectsATileAsItReflectsEachRow)
+{
+    const sim::GroundContact ground{0.25f, 0.6f, 0.3f};
+    auto tile = std::make_unique<sim::Tile>();
+    tile->count = 250;
+    tile->padded = 256;
+    for (uint32_t i = 0; i < sim::kTileRows; ++i) {
+        const auto u = base::randomUnit4(1, 0, i, base::RandomPurpose::Position);
+        const auto w = base::randomUnit4(2, 0, i, base::RandomPurpose::Position);
+        tile->fromX[i] = u[0];
+        tile->fromY[i] = u[1]; // a quarter of them begin below
+        tile->fromZ[i] = u[2];
+        tile->fromVX[i] = 4.0f * u[3] - 2.0f;
+        tile->fromVY[i] = 4.0f * w[0] - 3.0f;
+        tile->fromVZ[i] = 4.0f * w[1] - 2.0f;
+        tile->x[i] = tile->fromX[i] + 0.1f * tile->fromVX[i];
+        tile->y[i] = i % 17 == 0 ? tile->fromY[i] : tile->fromY[i] + 0.2f * tile->fromVY[i];
+        tile->z[i] = tile->fromZ[i] + 0.1f * tile->fromVZ[i];
+        tile->vx[i] = tile->fromVX[i] * 0.9f;
+        tile->vy[i] = tile->fromVY[i] - 1.0f;
+        tile->vz[i] = tile->fromVZ[i] * 0.9f;
+        tile->seconds[i] = 0.1f * w[2];
+        tile->contact[i] = 0.5f;
+        const uint32_t still = i % 5 == 3 ? sim::tile_flag::Stuck : sim::tile_flag::Empty;
+        tile->flags[i] = i % 5 > 2 || i >= tile->count ? still : 0;
+    }
+    const sim::Tile before = *tile;
+    sim::bounceTile(ground, *tile);
+    uint32_t bounced = 0;
+    for (uint32_t i = 0; i < tile->count; ++i) {
+        const glm::vec3 position(before.x[i], before.y[i], before.z[i]);
+        const glm::vec3 velocity(before.vx[i], before.vy[i], before.vz[i]);
+        sim::MotionState want{position, velocity};
+        const bool hits = before.flags[i] == 0 && position.y < ground.height;
+        if (hits)
+            want = sim::bounce({{before.fromX[i], before.fromY[i], before.fromZ[i]},
+                                {before.fromVX[i], before.fromVY[i], before.fromVZ[i]}},
+                               want, before.seconds[i], ground);
+        bounced += hits ? 1 : 0;
+        EXPECT_EQ(glm::vec3(tile->x[i], tile->y[i], tile->z[i]), want.position) << i;
+        EXPECT_EQ(glm::vec3(tile->vx[i], tile->vy[i], tile->vz[i]), want.velocity) << i;
+        const uint32_t marks = hits ? sim::tile_flag::Hit | sim::tile_flag::Collided : 0u;
+        EXPECT_EQ(tile->flags[i], before.flags[i] | marks) << i;
+        EXPECT_TRUE(hits ? tile->contact[i] >= 0.0f && tile->contact[i] <= 1.0f : tile->contact[i] == 0.5f);
+    }
+    EXPECT_GT(bounced, 30u);
 }
