@@ -4,7 +4,10 @@
 // the tree: density with its search for the support, and forces. One thread, CPU time of the fastest of
 // `repeat` runs, instruction sets interleaved (or only the widest). Supports start 1 % beside their solution,
 // as a time step leaves them. Prints one JSON object per case. The hash of all results must be the same for
-// every instruction set.
+// every instruction set. `share_of_flops` compares the operations with what the same instruction set does at
+// most in multiplications and additions that are not fused, `share_of_reading` the records read with what one
+// thread reads from 1 MiB of memory nearby, both measured at the end.
+#include "benchmarks/machine_peak.h"
 #include "foundation/math/hash.h"
 #include "foundation/simd/instruction_set.h"
 #include "fxsdk/cli/json_line.h"
@@ -58,6 +61,9 @@ struct Case
 constexpr double kMassFlops = 20;
 constexpr double kAllFlops = 75;
 constexpr double kForceFlops = 110;
+/// [1] Numbers of a neighbor's record that are read once: position, support, velocity, mass; all of it.
+constexpr double kDensityNumbers = 8;
+constexpr double kForceNumbers = 16;
 
 template <class T>
 Case timeDensity(const test::GasStage<T>& stage, const Options& options)
@@ -111,8 +117,17 @@ std::string hexadecimal(uint64_t hash)
     return text;
 }
 
+/// What a loop does for each entry of a list, and what the machine can do at most.
+struct Work
+{
+    double flops;     ///< [1]
+    double bytes;     ///< [B]
+    double peakFlops; ///< [1/s]
+    double peakBytes; ///< [B/s]
+};
+
 void print(const char* name, const char* precision, base::InstructionSet set, const Options& options,
-           const Case& c, double entries, double flops)
+           const Case& c, double entries, const Work& work)
 {
     const double particles = double(options.size) * options.size * options.size;
     cli::printJsonLine(cli::withMachine(
@@ -125,7 +140,11 @@ void print(const char* name, const char* precision, base::InstructionSet set, co
          {"ns_per_pair", 1e9 * c.seconds / double(c.pairs)},
          {"pairs_per_particle", double(c.pairs) / particles},
          {"entries_per_particle", entries / particles},
-         {"gflops", 1e-9 * flops * entries / c.seconds},
+         {"gflops", 1e-9 * work.flops * entries / c.seconds},
+         {"gflops_at_most", 1e-9 * work.peakFlops},
+         {"share_of_flops", work.flops * entries / c.seconds / work.peakFlops},
+         {"bytes_per_entry", work.bytes},
+         {"share_of_reading", work.bytes * entries / c.seconds / work.peakBytes},
          {"hash", hexadecimal(c.hash)}},
         machine()));
 }
@@ -151,12 +170,16 @@ bool runPrecision(const char* precision, const Options& options, uint64_t& ioHas
     bool isSame = true;
     const double entries = double(stage.entries());
     for (uint32_t set = first; set <= uint32_t(widest); ++set) {
+        base::limitInstructionSet(base::InstructionSet(set));
+        const bench::MachinePeak peak = bench::measureMachinePeak();
+        const double flops = sizeof(T) == sizeof(float) ? peak.floatFlops : peak.doubleFlops;
         print("pair_loops.density", precision, base::InstructionSet(set), options, density[set], entries,
-              kMassFlops + kAllFlops);
+              {kMassFlops + kAllFlops, kDensityNumbers * sizeof(T), flops, peak.nearBytes});
         print("pair_loops.forces", precision, base::InstructionSet(set), options, forces[set], entries,
-              kForceFlops);
+              {kForceFlops, kForceNumbers * sizeof(T), flops, peak.nearBytes});
         isSame = isSame && density[set].hash == density[first].hash && forces[set].hash == forces[first].hash;
     }
+    base::limitInstructionSet(widest);
     ioHash = base::hashWord(base::hashWord(ioHash, density[first].hash), forces[first].hash);
     return isSame;
 }

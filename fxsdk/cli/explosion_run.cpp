@@ -3,7 +3,10 @@
 #include "foundation/snapshot/blob_kind.h"
 #include "fxsdk/presets/preset_loader.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 namespace fx::cli {
 namespace {
@@ -95,6 +98,33 @@ ExplosionState ExplosionRun::look()
         return {};
     return {sum.height / count, std::sqrt(sum.radius / count), std::sqrt(sum.speed / count),
             sum.temperature / count};
+}
+
+double ExplosionRun::nearestOverSpacing()
+{
+    using namespace base::blob_column;
+    snapshot_.begin(frame_ * kStep, snapshot_.sequence() + 1);
+    solver_->publish({}, snapshot_);
+    if (snapshot_.groupCount() == 0)
+        return 0;
+    const base::SnapshotGroup& group = snapshot_.group(0);
+    const auto x = group.column(PositionX), y = group.column(PositionY), z = group.column(PositionZ);
+    const double neighbors = double(sim::Quality{}.neighbors);
+    const double perRadius = 2.0 / double(def_.growth) / std::cbrt(0.75 * neighbors / std::numbers::pi);
+    std::vector<double> nearest;
+    for (size_t i = 0; i < group.count(); ++i) {
+        float least = 1e30f;
+        for (size_t j = 0; j < group.count(); ++j) {
+            const float dx = x[i] - x[j], dy = y[i] - y[j], dz = z[i] - z[j];
+            const float square = dx * dx + dy * dy + dz * dz;
+            least = std::min(least, j == i ? least : square);
+        }
+        nearest.push_back(std::sqrt(double(least)) / (perRadius * double(group.column(Radius)[i])));
+    }
+    if (nearest.empty())
+        return 0;
+    std::nth_element(nearest.begin(), nearest.begin() + std::ptrdiff_t(nearest.size() / 2), nearest.end());
+    return nearest[nearest.size() / 2];
 }
 
 } // namespace fx::cli

@@ -20,6 +20,10 @@ constexpr float kGroundClearance = 0.15f;  ///< [1] of the support between the g
 constexpr float kGroundRestitution = 0.1f; ///< [1] also of the host's geometry
 constexpr double kLargestGrowth = 4.0;     ///< [1] largest support over that of an even fireball
 
+constexpr double kShift = 0.8;         ///< [1] strength of particle-shifting
+constexpr double kLongestShift = 0.06; ///< [1] of a spacing, between two exchanges with the air
+constexpr double kNudge = 1.25; ///< [1] change of the pressure scale that waits for the next evaluation
+
 constexpr double kMostSlices = 64.0; ///< exchanges with the air in a step
 
 void count(const AdvanceReport& report, StepCounters& counters)
@@ -76,7 +80,8 @@ GasDynamicsDef dynamicsOf(const GasDef& def, const ChargePlan& plan, const Quali
     dynamics.viscosity.alphaMax = std::max(double(def.viscosity), dynamics.viscosity.alphaMin);
     dynamics.viscosity.decay = 0.1;        // soon: rolls are to last
     dynamics.viscosity.conductivity = 0.0; // mixing is entrainment's
-    dynamics.courant = 0.5;
+    dynamics.courant = 0.6;
+    dynamics.exact = quality.level == QualityLevel::Reference;
     dynamics.volumeChange = 0.5; // a look, not a measurement
     dynamics.maxSubSteps = kMostGasSubSteps;
     dynamics.smallestSupport =
@@ -154,10 +159,12 @@ bool GasSolver::release(const StepContext& context)
     return true;
 }
 
-/// Exchanges with the air for the time in which the gas moves a third of the cloud's size, at least
+/// Spreads the particles evenly: less far than any is from geometry, see settle(), so that none gets through.
+/// Then exchanges with the air for the time in which the gas moves a third of the cloud's size, at least
 /// `shortest`, at most `longest` seconds; returns it.
 double GasSolver::exchange(const StepContext& context, double longest, double shortest)
 {
+    gas_.shift(kShift, kLongestShift, *context.tasks);
     const GasView<float> view = gas_.view();
     const GasAir air(def_, context, measureThermal(view, context.gravity, context.wind));
     const FlowSpeeds speeds = speedsOf(context, air.thermal());
@@ -168,10 +175,20 @@ double GasSolver::exchange(const StepContext& context, double longest, double sh
     parallelRows(*context.tasks, view.count, kMinBatch, [&](uint32_t begin, uint32_t end) {
         exchangeWithAir(exchange, view, parcels_, float(slice), begin, end);
     });
-    gas_.edited();
     const double reduction = speeds.reducedSound / speeds.sound;
-    gas_.setPressureScale(reduction * reduction);
+    takeIn(reduction * reduction, *context.tasks);
     return slice;
+}
+
+/// Lets the gas go on from what the air has made of it.
+void GasSolver::takeIn(double scale, base::TaskRunner& tasks)
+{
+    if (scale < kNudge * gas_.pressureScale() && gas_.pressureScale() < kNudge * scale) {
+        gas_.nudged(scale, tasks);
+    } else {
+        gas_.edited();
+        gas_.setPressureScale(scale);
+    }
 }
 
 /// Sound need not be faster than lets pressure follow the flow, and carry the gas's weight, at the quality's

@@ -42,6 +42,7 @@ private:
     };
     FlowSpeeds speedsOf(const StepContext& context, const ThermalFlow& thermal) const;
     double exchange(const StepContext& context, double longest, double shortest);
+    void takeIn(double pressureScale, base::TaskRunner& tasks);
     /// @param before [m] of each parcel by id, where its way began; empty without geometry
     void settle(const StepContext& context, float seconds, std::span<const glm::vec3> before);
     void retireWhenDissolved();

@@ -69,8 +69,8 @@ Shape shapeOf(Stage& stage)
     return Shape(stage.look().group(0));
 }
 
-/// Median over particles of the distance to the nearest other, in units of the spacing that their supports
-/// stand for.
+/// Median over particles of the distance to the nearest other, in units of the particle's own spacing
+/// (m / rho)^(1/3), to which its support is in proportion.
 double medianNearest(const base::SnapshotGroup& group, double growth)
 {
     constexpr double kSupportInSpacings = 2.40; // of 58 neighbors: (3 58 / (4 pi))^(1/3)
@@ -156,7 +156,7 @@ TEST(GasSolver, fireNeedsAir)
         return shapeOf(stage).temperature;
     };
     EXPECT_LT(hottest(0.0f), 450.0); // petrol vapor as it boils, and what its burst rubs into it
-    EXPECT_GT(hottest(4.0f), 650.0);
+    EXPECT_GT(hottest(4.0f), 570.0);
 }
 
 TEST(GasSolver, radiationCoolsIt)
@@ -203,7 +203,9 @@ TEST(GasSolver, slowerSoundNeedsFewerStepsAndGivesACloudOfSimilarSize)
 
 TEST(GasSolver, itsParticlesStayFartherApartThanChanceWouldHaveThem)
 {
-    constexpr double kByChance = 0.55; // median of points strewn evenly without order
+    // By chance 0.55. In a small cloud nearly all particles are near the surface, where the density sum sees
+    // too little gas and so takes the spacing for wider; tests/tool/test_explosion_run.cpp has a larger one.
+    constexpr double kByChance = 0.55;
     auto def = std::make_unique<sim::GasDef>();
     def->energy = 60e6;
     def->particles = 800;
@@ -215,7 +217,7 @@ TEST(GasSolver, itsParticlesStayFartherApartThanChanceWouldHaveThem)
     stage.add({}, std::move(def));
     for (int quarter = 1; quarter <= 6; ++quarter) {
         stage.play(15);
-        EXPECT_GT(medianNearest(stage.look().group(0), growth), 1.05 * kByChance)
+        EXPECT_GT(medianNearest(stage.look().group(0), growth), 1.3 * kByChance)
             << quarter << " quarters of a second";
     }
 }

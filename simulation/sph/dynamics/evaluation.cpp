@@ -142,7 +142,7 @@ void updateRates(DynamicsState<T>& s, uint32_t i)
     gas.energyRate[i] = heating - T(s.def.state.gamma - 1.0) * gas.energy[i] * gas.divergence[i];
     const T square = gas.ax[i] * gas.ax[i] + gas.ay[i] * gas.ay[i] + gas.az[i] * gas.az[i];
     T signal = s.signalSpeed[i];
-    if (s.def.steps == StepScheme::Block) // as fast as for the faster one of the pair
+    if (s.def.steps == StepScheme::Block && s.def.exact) // as fast as for the faster one of the pair
         signal = std::max(signal, T(2) * (signal - s.records[i].sound));
     gas.wantedStep[i] = longestStep(
         StepLimits<T>{T(s.def.courant), T(s.def.volumeChange)},
@@ -183,7 +183,7 @@ void evaluateDensity(DynamicsState<T>& s, base::TaskRunner& tasks)
         searchNeighbors(s, s.activePlaces(), reach, tasks);
     }
     fillSeen(s, s.activePlaces(), tasks);
-    if (sumDensities(s, s.activePlaces(), reach, tasks))
+    if (sumDensities(s, s.activePlaces(), reach, tasks) && s.def.exact)
         sumWanting(s, tasks);
     else
         measureGrowth(s, tasks);

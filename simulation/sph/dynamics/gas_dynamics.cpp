@@ -4,7 +4,9 @@
 #include "foundation/simd/floating_point_scope.h"
 #include "simulation/sph/dynamics/frame.h"
 #include "simulation/sph/dynamics/heat_input.h"
+#include "simulation/sph/dynamics/nudge.h"
 #include "simulation/sph/dynamics/particle_check.h"
+#include "simulation/sph/dynamics/shifting.h"
 #include "simulation/sph/dynamics/state_bytes.h"
 #include "simulation/sph/dynamics/totals.h"
 
@@ -142,6 +144,20 @@ void GasDynamics<T>::setPressureScale(double scale)
     state_->pressureScale = scale;
     state_->soundScale = std::sqrt(scale);
     state_->stale = true;
+}
+
+template <class T>
+void GasDynamics<T>::nudged(double pressureScale, base::TaskRunner& tasks)
+{
+    const base::FloatingPointScope floatingPoint;
+    acceptNudge(*state_, pressureScale, tasks);
+}
+
+template <class T>
+void GasDynamics<T>::shift(double strength, double longest, base::TaskRunner& tasks)
+{
+    const base::FloatingPointScope floatingPoint;
+    shiftParticles(*state_, strength, longest, tasks);
 }
 
 template <class T>

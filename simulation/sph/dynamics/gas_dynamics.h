@@ -66,6 +66,10 @@ struct GasDynamicsDef
     double volumeChange = 0.025; ///< [1] of a particle in a step, at most
     double neighborStepRatio =
         4; ///< [1] limiter of steps between neighbors; infinity switches it off (tests)
+    /// false, for a look: block steps take no care of pairs with unlike steps, gas-step, and a support that
+    /// grows faster than lists foresee takes the rest in the next steps: fewer steps and searches, less exact
+    /// energy.
+    bool exact = true;
     uint32_t maxSubSteps = 1u << 30; ///< >= 1, of one advance(); what is left is debt
     double smallestSupport = 0;      ///< [m] 0: a ten-thousandth of the first median
     double largestSupport = 1e30;    ///< [m] 1e30: two hundred times the first median
@@ -153,8 +157,18 @@ public:
     void injectLater(uint32_t id, double joules, double delay);
     /// Sets the internal energy of particle `id` [J/kg] at its density.
     void setEnergy(uint32_t id, double energy);
-    /// Must be called after anything has been written through view().
+    /// Must be called after anything has been written through view(), unless nudged() is.
     void edited();
+    /// Instead of edited() and setPressureScale(), after small changes: pressure, energy and speed of sound
+    /// follow at once, densities and rates with the next evaluation. So the first half kick of the next steps
+    /// has the forces from before the change, an error of first order in the step, and advance() needs no
+    /// evaluation before it.
+    void nudged(double pressureScale, base::TaskRunner& tasks);
+    /// Moves particles that have come too close apart, particle-shifting, by at most `longest` spacings each;
+    /// densities follow with the next evaluation. edited() or nudged() has to follow. Nothing to do
+    /// before initialize(). Pointers of views are not valid afterwards.
+    /// @param strength [1] > 0 @param longest [1] > 0
+    void shift(double strength, double longest, base::TaskRunner& tasks);
 
     /// Reduced speed of sound: pressure forces are multiplied by `scale` in (0, 1] and the speed of sound in
     /// signal speeds by its square root, so that steps grow. A deviation from physics: flows whose Mach

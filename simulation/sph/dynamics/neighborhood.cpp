@@ -11,6 +11,7 @@ namespace fx::sim {
 namespace {
 
 constexpr double kSmallMargin = 0.03; ///< of lists that serve once: room for supports to grow
+constexpr double kOnlyMargin = 0.05;  ///< the same where no second search follows
 constexpr double kLargeMargin = 0.14; ///< of lists that serve several steps
 constexpr double kSlowStep = 0.015;   ///< way per step, in supports, below which lists serve several steps
 constexpr double kLastMargin = 0.08;  ///< of lists at the end of a frame, which serve the next beginning
@@ -124,7 +125,7 @@ template <class T>
 double marginOfLists(const DynamicsState<T>& s)
 {
     if (s.activeCount < s.count)
-        return kSmallMargin;
+        return s.def.exact ? kSmallMargin : kOnlyMargin;
     if (s.listState.perStep < kSlowStep)
         return kLargeMargin;
     return s.now == kFrameTicks ? kLastMargin : kSmallMargin;

@@ -63,6 +63,7 @@ uint64_t hashDefinition(const GasDynamicsDef& def, size_t elementSize)
                               def.gravity.z,
                               def.ambientPressure,
                               double(def.tension),
+                              double(def.exact),
                               double(elementSize)};
     return base::hashBytes(0, numbers, sizeof(numbers));
 }

@@ -25,7 +25,8 @@
 /// @deviation (1) is the usual 2 C h / v_sig with h = H / 2. With block steps v_sig is at least 2 (v_sig -
 /// c_i):
 ///            beside hot gas the cold takes the step of the hot, else the pair exchanges heat and momentum
-///            unequally (energy error of a point blast in 32^3 particles 2e-2 instead of 5e-4)
+///            unequally (energy error of a point blast in 32^3 particles 2e-2 instead of 5e-4);
+///            GasDynamicsDef::exact = false does without
 /// @valid     finite input, H > 0
 /// @accuracy  evaluated in the particles' own precision
 /// @tests     tests/simulation/dynamics/test_step_clock.cpp

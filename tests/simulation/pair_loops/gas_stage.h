@@ -6,6 +6,7 @@
 #include "foundation/math/elementary.h"
 #include "foundation/random/philox.h"
 #include "foundation/simd/floating_point_scope.h"
+#include "simulation/sph/pair_loops/crowding_loop.h"
 #include "simulation/sph/pair_loops/force_loop.h"
 
 #include <cmath>
@@ -92,6 +93,12 @@ struct Forces
 };
 
 template <class T>
+struct Crowdings
+{
+    std::vector<T> x, y, z, outwardX, outwardY, outwardZ;
+};
+
+template <class T>
 class GasStage
 {
 public:
@@ -130,6 +137,16 @@ public:
     {
         Forces<T> at = sized<Forces<T>>();
         sumForces(rules, at);
+        return inOrderGiven(at);
+    }
+
+    Crowdings<T> crowding(double range) const
+    {
+        Crowdings<T> at = sized<Crowdings<T>>();
+        const base::FloatingPointScope floatingPoint;
+        sim::sumCrowding<T>(range, lists_, records_.data(), domain_, places_,
+                            {at.x.data(), at.y.data(), at.z.data(), at.outwardX.data(), at.outwardY.data(),
+                             at.outwardZ.data()});
         return inOrderGiven(at);
     }
 
@@ -201,6 +218,11 @@ private:
     static void eachColumn(Forces<T>& r, F&& f)
     {
         f(r.ax), f(r.ay), f(r.az), f(r.heating), f(r.signalSpeed), f(r.fastestNeighbor), f(r.pairs);
+    }
+    template <class F>
+    static void eachColumn(Crowdings<T>& r, F&& f)
+    {
+        f(r.x), f(r.y), f(r.z), f(r.outwardX), f(r.outwardY), f(r.outwardZ);
     }
     template <class Results>
     Results inOrderGiven(Results at) const

@@ -1,0 +1,138 @@
+#include "simulation/sph/pair_loops/crowding_loop.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simulation/sph/pair_loops/crowding_loop.cpp"
+#include <hwy/foreach_target.h> // before everything that is compiled for each target
+
+#include "foundation/simd/instruction_set.h"
+#include "simulation/sph/pair_loops/neighbors-inl.h"
+#include "simulation/sph/pair_loops/parting.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace fx::sim::pairs::HWY_NAMESPACE {
+namespace {
+
+constexpr uint32_t kCrowdingSums = 6; ///< three of (1), three of (2)
+
+/// The particle that a list belongs to, in all lanes.
+template <class T>
+struct CrowdedOwner
+{
+    CrowdedOwner(double reach, const GasRecord<T>& own, uint32_t place, const ImageRules<T>& images)
+        : owner(own, place, images), support(own.support), mass(own.mass), range(reach),
+          perSquare(Pack<T>(1.0) / (support * support))
+    {}
+    Owner<T> owner;
+    Pack<T> support, mass, range, perSquare;
+};
+
+/// One vector of pairs. Padding is the owner itself, which has no direction.
+template <class T>
+HWY_INLINE void addCrowding(const CrowdedOwner<T>& i, const GasRecord<T>* records, const uint32_t* entries,
+                            Pack<T>* sum)
+{
+    const Pack<T> none(0.0), one(1.0), two(2.0);
+    const Entries<T> lanes(entries);
+    const Quad<T> where = loadQuad(records, entries, 0);  // x, y, z, support
+    const Quad<T> motion = loadQuad(records, entries, 1); // velocity, mass
+    const Pack<T> x[3] = {where.a, where.b, where.c};
+    const Pack<T> v[3] = {motion.a, motion.b, motion.c};
+    const Relative<T> pair(i.owner, lanes, x, v);
+    const Pack<T>* d = pair.d;
+    const Pack<T> square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    const Pack<T> range = i.range * larger(i.support, where.d);
+    const Pack<T> r = larger(root(square), range * Pack<T>(kCoincident));
+    const Pack<T> near = larger(one - r / range, none);
+    const Pack<T> push = range / r * (near * near) * (two * motion.d / (i.mass + motion.d)); // (1)
+    const Pack<T> inside = larger(one - square * i.perSquare, none);                         // (2)
+    for (uint32_t a = 0; a < 3; ++a) {
+        sum[a] += push * d[a];
+        sum[3 + a] += inside * d[a];
+    }
+}
+
+template <class T>
+void addPiece(const CrowdedOwner<T>& owner, const GasRecord<T>* records, const uint32_t* entries,
+              uint32_t count, LaneSums<T, kCrowdingSums>& sums)
+{
+    for (uint32_t p = 0; p < kLanes; p += Pack<T>::kWidth) {
+        Pack<T> sum[kCrowdingSums];
+        for (uint32_t s = 0; s < kCrowdingSums; ++s)
+            sum[s] = Pack<T>::load(sums.lane[s] + p);
+        for (uint32_t k = 0; k < count; k += kLanes)
+            addCrowding(owner, records, entries + k + p, sum);
+        for (uint32_t s = 0; s < kCrowdingSums; ++s)
+            sum[s].store(sums.lane[s] + p);
+    }
+}
+
+template <class T>
+void sumAll(double range, const NeighborLists<T>& lists, const GasRecord<T>* records, const Domain& domain,
+            std::span<const uint32_t> places, const CrowdingResults<T>& out)
+{
+    const ImageRules<T> images(domain);
+    for (const uint32_t place : places) {
+        const CrowdedOwner<T> owner(range, records[place], place, images);
+        LaneSums<T, kCrowdingSums> sums;
+        sums.clear();
+        lists.forEachPiece(place, [&](const uint32_t* entries, uint32_t count, bool)
+                                      HWY_ATTR { addPiece(owner, records, entries, count, sums); });
+        T total[kCrowdingSums];
+        combineRows<kCrowdingSums>(sums, 0, total, Adding());
+        out.x[place] = total[0];
+        out.y[place] = total[1];
+        out.z[place] = total[2];
+        out.outwardX[place] = total[3];
+        out.outwardY[place] = total[4];
+        out.outwardZ[place] = total[5];
+    }
+}
+
+void sumFloats(double range, const NeighborLists<float>& lists, const GasRecord<float>* records,
+               const Domain& domain, std::span<const uint32_t> places, const CrowdingResults<float>& results)
+{
+    sumAll(range, lists, records, domain, places, results);
+}
+void sumDoubles(double range, const NeighborLists<double>& lists, const GasRecord<double>* records,
+                const Domain& domain, std::span<const uint32_t> places,
+                const CrowdingResults<double>& results)
+{
+    sumAll(range, lists, records, domain, places, results);
+}
+
+} // namespace
+} // namespace fx::sim::pairs::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fx::sim {
+
+namespace pairs {
+namespace {
+HWY_EXPORT(sumFloats);
+HWY_EXPORT(sumDoubles);
+} // namespace
+} // namespace pairs
+
+template <>
+void sumCrowding(double range, const NeighborLists<float>& lists, const GasRecord<float>* records,
+                 const Domain& domain, std::span<const uint32_t> places,
+                 const CrowdingResults<float>& results)
+{
+    base::applyInstructionSetLimit();
+    using namespace pairs;
+    HWY_DYNAMIC_DISPATCH(sumFloats)(range, lists, records, domain, places, results);
+}
+
+template <>
+void sumCrowding(double range, const NeighborLists<double>& lists, const GasRecord<double>* records,
+                 const Domain& domain, std::span<const uint32_t> places,
+                 const CrowdingResults<double>& results)
+{
+    base::applyInstructionSetLimit();
+    using namespace pairs;
+    HWY_DYNAMIC_DISPATCH(sumDoubles)(range, lists, records, domain, places, results);
+}
+
+} // namespace fx::sim
+#endif
