@@ -11,6 +11,7 @@
 #include "rendering/passes/view_block.h"
 #include "rendering/view/fragment_estimate.h"
 #include "rendering/view/frame_builder.h"
+#include "rendering/view/group_merger.h"
 #include "rendering/view/layer_scale_control.h"
 #include "rendering/view/particle_buffers.h"
 #include "rendering/view/particle_frame.h"
@@ -25,14 +26,23 @@ namespace fx::render {
 
 struct ViewRenderer::Impl
 {
-    Impl(GlDevice* d, std::pmr::memory_resource* memory)
-        : device(d), graph(memory), backend(*d, memory), builder(memory), particles(memory),
-          buffers(*d, memory), runs(memory), streams(memory), timer(*d)
+    Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory)
+        : device(d), graph(memory), backend(*d, memory), builder(memory),
+          merger(schema, memory), single{ParticleFrame(memory), ParticleBuffers(*d, memory)},
+          joined{ParticleFrame(memory), ParticleBuffers(*d, memory)}, batches(memory), runs(memory),
+          streams(memory), timer(*d)
     {}
+
+    struct Particles
+    {
+        ParticleFrame frame;
+        ParticleBuffers buffers;
+    };
 
     base::Status ensureHistory();
     base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
                         const ViewSettings& settings); ///< everything that is to be drawn
+    base::Status add(Particles& particles, const ParticleFrameInputs& inputs);
     FrameStatistics rest();
     FrameStatistics count(int divisor);
     void readBack(FrameStatistics& statistics); ///< waits for the GPU
@@ -41,8 +51,10 @@ struct ViewRenderer::Impl
     FrameGraph graph;
     GlBackend backend;
     FrameBuilder builder;
-    ParticleFrame particles;
-    ParticleBuffers buffers;
+    GroupMerger merger;
+    Particles single; ///< groups as they are
+    Particles joined; ///< small groups that are drawn alike
+    std::pmr::vector<ParticleBatch> batches;
     DrawRuns runs;
     std::pmr::vector<DrawStream> streams;
     const base::AssetTable* assets = nullptr;
@@ -113,16 +125,32 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
 {
     const CameraGeometry camera = cameraGeometry(request.camera);
     builder.build(snapshots, request, settings, camera);
-    particles.build({&snapshots, &request, &settings, &camera, builder.lights()});
-    if (base::Status status = buffers.prepare(snapshots, particles, assets); !status)
-        return status;
     streams.clear();
+    batches.clear();
     if (builder.stream().count > 0)
         streams.push_back(builder.stream());
-    streams.insert(streams.end(), particles.streams().begin(), particles.streams().end());
     fragments = estimateFragments(builder.blobs(), camera, request.targets.width, request.targets.height);
+    merger.build(snapshots);
+    const base::SnapshotPair merged = merger.merged();
+    if (base::Status status =
+            add(single, {&snapshots, &request, &settings, &camera, builder.lights(), merger.taken()});
+        !status)
+        return status;
+    return add(joined, {&merged, &request, &settings, &camera, builder.lights()});
+}
+
+base::Status ViewRenderer::Impl::add(Particles& particles, const ParticleFrameInputs& inputs)
+{
+    particles.frame.build(inputs);
+    if (base::Status status = particles.buffers.prepare(*inputs.snapshots, particles.frame, assets); !status)
+        return status;
+    for (DrawStream stream : particles.frame.streams()) {
+        stream.batch += uint32_t(batches.size());
+        streams.push_back(stream);
+    }
+    batches.insert(batches.end(), particles.frame.batches().begin(), particles.frame.batches().end());
     for (size_t i = 0; i < fragments.size(); ++i)
-        fragments[i] += particles.fragments()[i];
+        fragments[i] += particles.frame.fragments()[i];
     return {};
 }
 
@@ -148,12 +176,12 @@ FrameStatistics ViewRenderer::Impl::count(int divisor)
     statistics.blobs = uint32_t(builder.blobs().size());
     statistics.blobsCulled = builder.counts().culled;
     statistics.blobsNonFinite = builder.counts().nonFinite;
-    statistics.particles = particles.rows();
-    statistics.particlesOrdered = particles.orderedRows();
-    statistics.uploadedBytes = buffers.uploadedBytes();
+    statistics.particles = single.frame.rows() + joined.frame.rows();
+    statistics.particlesOrdered = single.frame.orderedRows() + joined.frame.orderedRows();
+    statistics.uploadedBytes = single.buffers.uploadedBytes() + joined.buffers.uploadedBytes();
     statistics.passes = outputs.anyPass ? uint32_t(graph.executedPasses().size()) : 0;
     statistics.drawCalls = outputs.anyPass ? backend.drawCalls() : 0;
-    statistics.textureBytes = backend.pooledBytes() + buffers.bytes();
+    statistics.textureBytes = backend.pooledBytes() + single.buffers.bytes() + joined.buffers.bytes();
     statistics.estimatedFragments = fragments[layerDivisorIndex(divisor)];
     statistics.layerDivisor = divisor;
     return statistics;
@@ -176,8 +204,9 @@ void ViewRenderer::Impl::readBack(FrameStatistics& statistics)
     }
 }
 
-ViewRenderer::ViewRenderer(GlDevice* device, const base::SnapshotSchema*, std::pmr::memory_resource* memory)
-    : impl_(std::make_unique<Impl>(device, memory))
+ViewRenderer::ViewRenderer(GlDevice* device, const base::SnapshotSchema* schema,
+                           std::pmr::memory_resource* memory)
+    : impl_(std::make_unique<Impl>(device, schema, memory))
 {}
 
 ViewRenderer::~ViewRenderer() = default;
@@ -223,8 +252,8 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
                                             asked.resetHistory);
     s.graph.begin();
     s.outputs = buildViewGraph(s.graph,
-                               {&request, &settings_, s.builder.blobs(), s.particles.batches(), runs,
-                                s.builder.anyHeat(), s.builder.anyDetail(), s.dazzleHistory.name(), divisor});
+                               {&request, &settings_, s.builder.blobs(), s.batches, runs, s.builder.anyHeat(),
+                                s.builder.anyDetail(), s.dazzleHistory.name(), divisor});
     base::Status status;
     if (s.outputs.anyPass) {
         s.graph.compile();
@@ -232,7 +261,8 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         s.timer.beginPasses();
         if (s.backend.beginFrame(s.graph))
             s.graph.execute(s.backend);
-        s.buffers.fence();
+        s.single.buffers.fence();
+        s.joined.buffers.fence();
         status = s.backend.endFrame();
     }
     s.timer.endFrame(status.ok() && s.outputs.anyPass);

@@ -103,8 +103,11 @@ LookJob EmitterSolver::lookJob() const
     return {&program_, &store_, store_.window(), now_, motionBegin_, conditions_.pull};
 }
 
-void EmitterSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+void EmitterSolver::publish(const base::GroupInfo& instance, base::FrameSnapshot& snapshot) const
 {
+    base::GroupInfo base = instance;
+    if (space_ && started_)
+        base.placement = space_->home();
     if (def_.look.kind == Appearance::Medium)
         publishMedium(base, snapshot);
     else if (def_.look.kind != Appearance::None)

@@ -43,11 +43,13 @@ std::unique_ptr<Solver> EmitterDef::create(const base::SnapshotSchema& schema, c
 EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                              std::pmr::memory_resource* memory)
     : def_(def), kinds_(kinds), shared_(def.program.of(def)), program_(*shared_),
-      schedule_(def.emission, memory), store_(program_, memory), interest_(def.events), lights_(memory),
-      rowsByBirth_(memory)
+      schedule_(def.emission, memory), store_(program_, memory), interest_(def.events, program_.longestLife),
+      lights_(memory), rowsByBirth_(memory)
 {
     if (def.trail.lifetime > 0.0f)
         trails_.emplace(def.trail, store_.capacity(), memory);
+    if (def.inWorld)
+        space_.emplace();
     if (def.light.given)
         lights_.resize(store_.capacity());
     if (def.look.kind == Appearance::Medium)
@@ -96,6 +98,17 @@ void EmitterSolver::heedConditions(const StepContext& context)
 
 void EmitterSolver::step(const StepContext& context)
 {
+    if (!space_)
+        return stepHere(context);
+    if (!started_)
+        space_->begin(context.placement);
+    space_->moveTo(context.placement);
+    inHome(context, [this](const StepContext& home) { stepHere(home); });
+}
+
+/// In the space of the particles.
+void EmitterSolver::stepHere(const StepContext& context)
+{
     tasks_ = context.tasks;
     now_ = context.tick;
     if (!started_)
@@ -139,6 +152,8 @@ void EmitterSolver::storeBatch(const StepContext& context, std::span<const Birth
         living += storeBirths(program_, {context.seed, context.solverIndex},
                               births.subspan(begin, end - begin), store_);
     });
+    if (space_ && !isLinked())
+        carryBirths(context, births);
     const uint64_t refused = births.size() - living;
     context.counters->dropped += refused;
     dropped_ += refused;
@@ -152,7 +167,7 @@ void EmitterSolver::move(const StepContext& context, uint64_t firstIndex, EventR
     TileStep step(program_, context);
     std::optional<EventWatch> watch;
     if (room)
-        step.watchBy(&watch.emplace(interest_, *room));
+        step.watchBy(&watch.emplace(def_, interest_, *room));
     step.onlyFrom(firstIndex);
     const RowWindow rows = store_.window();
     const uint32_t tiles = (rows.count + kTileRows - 1) / kTileRows;
@@ -183,11 +198,29 @@ bool EmitterSolver::neverDrops(double intensity) const
 bool EmitterSolver::canSeek(const StepContext& context, base::Ticks tick) const
 {
     const bool isForwards = tick >= now_ || !started_;
-    return program_.ballistic && !isLinked() && !trails_ &&
-           (isForwards || (!varied_ && conditionsOf(context) == conditions_));
+    if (!program_.ballistic || isLinked() || trails_)
+        return false;
+    if (!space_)
+        return isForwards || (!varied_ && conditionsOf(context) == conditions_);
+    if (!started_)
+        return true;
+    // Where the host has moved the instance, only steps know the way.
+    return space_->stands(context.placement) && (isForwards || !varied_) &&
+           inHome(context,
+                  [&](const StepContext& home) { return isForwards || conditionsOf(home) == conditions_; });
 }
 
 void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
+{
+    if (!space_)
+        return seekHere(context, tick);
+    if (!started_ || tick < now_)
+        space_->begin(context.placement);
+    space_->moveTo(context.placement);
+    inHome(context, [&](const StepContext& home) { seekHere(home, tick); });
+}
+
+void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
 {
     tasks_ = context.tasks;
     if (!started_ || tick < now_) {
@@ -229,6 +262,8 @@ void EmitterSolver::save(StateWriter& writer) const
         writer.value(hostEvents_);
     schedule_.save(writer);
     store_.save(writer, now_);
+    if (space_)
+        space_->save(writer);
     if (trails_)
         trails_->save(writer);
 }
@@ -246,6 +281,8 @@ void EmitterSolver::restore(StateReader& reader)
         hostEvents_ = reader.value<uint64_t>();
     schedule_.restore(reader);
     store_.restore(reader, now_);
+    if (space_)
+        space_->restore(reader);
     if (trails_)
         trails_->restore(reader);
 }

@@ -5,9 +5,11 @@
 #include "simulation/emitters/birth_schedule.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/emitters/event_scan.h"
+#include "simulation/emitters/moved_space.h"
 #include "simulation/emitters/ribbon_store.h"
 #include "simulation/particles/look_kernel.h"
 #include "simulation/particles/particle_store.h"
+#include "simulation/placed_contact.h"
 
 #include <optional>
 
@@ -46,6 +48,7 @@ public:
 
 private:
     void begin(const StepContext& context);
+    void stepHere(const StepContext& context);
     struct Conditions
     {
         glm::vec3 pull{0.0f}; ///< [m/s2] see LookJob
@@ -55,6 +58,7 @@ private:
     };
     Conditions conditionsOf(const StepContext& context) const;
     void heedConditions(const StepContext& context);
+    void seekHere(const StepContext& context, base::Ticks tick);
     void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to);
     void storeBatch(const StepContext& context, std::span<const Birth> births);
     void move(const StepContext& context, uint64_t firstIndex = 0, EventRoom* room = nullptr);
@@ -63,8 +67,27 @@ private:
     {
         glm::vec3 position{0.0f}; ///< [m] added to where the birth's own shape puts it
         glm::vec3 velocity{0.0f}; ///< [m/s] likewise
-        bool fed = false;         ///< an event gave birth to it
+        glm::vec3 tint{1.0f};     ///< [1] multiplies its color
+        bool fed = false;         ///< what a particle went through gave birth to it
+        bool byClock = true;
     };
+    // where particles stay behind
+    template <class F>
+    auto inHome(const StepContext& context, F&& body) const
+    {
+        StepContext home = context;
+        std::optional<Collider> collider;
+        std::optional<PlacedContact> contact;
+        toHome(home, collider);
+        if (home.contactHook) {
+            const auto& asked = *static_cast<const PlacedContact*>(home.contactHook->user);
+            home.contactHook = &contact.emplace(asked.host(), space_->home(), asked.faults()).hook();
+        }
+        return body(home);
+    }
+    void toHome(StepContext& context, std::optional<Collider>& collider) const;
+    void carryBirths(const StepContext& context, std::span<const Birth> births);
+    void carryBirth(const StepContext& context, const Birth& birth, uint32_t row, bool byClock);
     bool isLinked() const { return def_.fed || !def_.events.empty(); }
     void stepWithEvents(const StepContext& context);
     void giveLinkedBirth(const StepContext& context, EventList& out);
@@ -99,6 +122,7 @@ private:
     ParticleStore store_;
     EventInterest interest_;
     std::optional<RibbonStore> trails_;
+    std::optional<MovedSpace> space_;        ///< of particles that stay where they are
     mutable std::pmr::vector<Light> lights_; ///< room for those that are published
     uint64_t hostEvents_ = 0;                ///< so many have been answered
     base::Ticks now_ = 0;                    ///< end of the last step
