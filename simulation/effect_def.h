@@ -37,6 +37,13 @@ struct EffectDef
         return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->collides(); });
     }
 
+    /// True when what happens depends on where the host has put the instance, even without geometry.
+    bool heedsPlacement() const
+    {
+        return std::any_of(solvers.begin(), solvers.end(),
+                           [](const auto& def) { return def->heedsPlacement(); });
+    }
+
     /// The preset's choice, or the most careful one that a solver asks for.
     CatchUp catchUp() const
     {
@@ -55,8 +62,12 @@ struct EffectDef
             return bound;
         const float seconds = duration > 0 ? float(base::toSeconds(duration)) : 1e6f;
         float most = 0;
-        for (const auto& def : solvers)
-            most = std::max(most, def->reach(gravity, windSpeed, seconds));
+        std::vector<BirthReach> births(solvers.size());
+        for (size_t i = 0; i < solvers.size(); ++i) {
+            const size_t solver = order.empty() ? i : order[i]; // causes first
+            most = std::max(
+                most, solvers[solver]->reachFrom({gravity, windSpeed, seconds}, births[solver], births));
+        }
         return most;
     }
 

@@ -17,7 +17,8 @@
 namespace fx::sim {
 
 /// Everything that decides what a run computes, as its solvers see it. Position and scale are not in it, nor
-/// is a rotation that leaves gravity and wind as they are, unless the run meets the host's geometry.
+/// is a rotation that leaves gravity and wind as they are, unless the run meets the host's geometry or
+/// its effect heeds its placement.
 struct RunConditions
 {
     uint64_t seed = 0;
@@ -28,7 +29,7 @@ struct RunConditions
     float groundHeight = 0;               ///< [m] local y; -infinity for none
     InstanceParameters parameters;        ///< intensity and emission; its wind is 0, being part of `wind`
     const DistanceField* field = nullptr; ///< the host's geometry; null for none
-    base::Placement placement;            ///< in that geometry; default without
+    base::Placement placement;            ///< where it is heeded; default elsewhere
 
     /// Bit for bit.
     bool equals(const RunConditions& other) const;

@@ -16,6 +16,7 @@
 #include "simulation/state/state_reader.h"
 #include "simulation/state/state_writer.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -68,6 +69,14 @@ struct ContactHook
 };
 
 class EmitterCrowd;
+/// The same in the world, as the host gives it.
+struct HostContact
+{
+    void* user = nullptr;
+    int (*meet)(void* user, const double from[3], const double to[3], float* outShare,
+                float outNormal[3]) = nullptr;
+};
+
 class EventBoard;
 
 /// The host says that something happened.
@@ -96,6 +105,9 @@ struct StepContext
     EventBoard* board = nullptr;              ///< what solvers tell each other in this step; null for nothing
     std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
     EmitterCrowd* crowd = nullptr; ///< what is left to it is done before anybody looks; null: do it at once
+    base::Placement
+        placement{}; ///< of the instance at the end of the step; default unless the effect heeds it
+    glm::vec3 worldGravity{0.0f}; ///< [m/s2] world
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };
@@ -147,6 +159,27 @@ public:
     virtual void restore(StateReader& reader) = 0;
 };
 
+/// What decides how far things get.
+struct ReachConditions
+{
+    float gravity = 0; ///< [m/s2] magnitude
+    float wind = 0;    ///< [m/s] magnitude
+    float seconds = 0; ///< after the start
+};
+
+/// Where events of other solvers may give birth.
+struct BirthReach
+{
+    float distance = 0; ///< [m] from the origin, at most
+    float speed = 0;    ///< [m/s] that is inherited, at most
+
+    void add(const BirthReach& more)
+    {
+        distance = std::max(distance, more.distance);
+        speed = std::max(speed, more.speed);
+    }
+};
+
 /// Immutable recipe of a solver; shared by all instances of a preset.
 class SolverDef
 {
@@ -159,6 +192,8 @@ public:
     virtual uint32_t capacity() const = 0;
     /// True when its solvers heed StepContext::collider.
     virtual bool collides() const { return false; }
+    /// True when its solvers heed StepContext::placement.
+    virtual bool heedsPlacement() const { return false; }
     /// What becomes of it out of sight, unless the preset says.
     virtual CatchUp catchUp() const { return CatchUp::Replay; }
     /// [m] distance from the instance's origin that no element passes within `seconds` after the start, with
@@ -167,6 +202,13 @@ public:
     virtual float reach(float /*gravity*/, float /*wind*/, float /*seconds*/) const
     {
         return std::numeric_limits<float>::infinity();
+    }
+    /// The same where events give birth.
+    /// @param births in it  @param ioOthers by solver index: gains where it gives birth in others
+    virtual float reachFrom(const ReachConditions& conditions, const BirthReach& /*births*/,
+                            std::span<BirthReach> /*ioOthers*/) const
+    {
+        return reach(conditions.gravity, conditions.wind, conditions.seconds);
     }
 };
 

@@ -1,6 +1,7 @@
 #include "simulation/world.h"
 
 #include "foundation/simd/floating_point_scope.h"
+#include "simulation/placed_contact.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -106,7 +107,9 @@ RunConditions World::conditionsOf(const EffectDef& effect, const InstanceStart& 
     const bool hasGround = environment_.hasGround && effect.hasGround;
     conditions.groundHeight = hasGround ? 0.0f : -std::numeric_limits<float>::infinity();
     conditions.parameters = {start.parameters.intensity, glm::vec3(0.0f), start.parameters.emitting};
-    if (environment_.field && effect.collides()) {
+    if (effect.heedsPlacement())
+        conditions.placement = start.placement;
+    if (effect.collides() && (environment_.field || contact_.meet)) {
         conditions.field = environment_.field.get();
         conditions.placement = start.placement;
     }
@@ -148,6 +151,21 @@ void World::setField(std::shared_ptr<const DistanceField> field)
         if (instance.run != kNoRun && isLagging(runs_.at(instance.run)) && !runs_.at(instance.run).field)
             runs_.at(instance.run).field = environment_.field;
     std::swap(environment_.field, field); // the old one lives on until no run names it
+    tellAll();
+}
+
+void World::setContact(const HostContact& contact)
+{
+    endRests();
+    if (contact.meet)
+        divideByPlacement();
+    contact_ = contact;
+    tellAll();
+}
+
+/// All runs are told what holds from now on.
+void World::tellAll()
+{
     for (const Instance& instance : instances_) {
         if (instance.run == kNoRun)
             continue;
@@ -327,10 +345,15 @@ void World::withContext(RunIndex index, StepCounters& counters, F&& body)
     context.wind = run.conditions.wind;
     context.groundHeight = run.conditions.groundHeight;
     std::optional<Collider> collider;
+    PlacedContact contact(contact_, run.conditions.placement, contactFaults_);
+    if (contact_.meet)
+        context.contactHook = &contact.hook();
     if (run.conditions.field)
         collider.emplace(*run.conditions.field, run.conditions.placement);
     context.collider = collider ? &*collider : nullptr;
     context.parameters = &run.conditions.parameters;
+    context.placement = run.conditions.placement;
+    context.worldGravity = environment_.gravity;
     context.tasks = tasks_;
     context.scratch = &scratch_;
     context.counters = &counters;

@@ -18,6 +18,7 @@
 #include "simulation/emitters/emitter_crowd.h"
 #include "simulation/run_pool.h"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
@@ -105,6 +106,13 @@ public:
     /// Exchanges the geometry of the host, from the next step on; null for none. Strong guarantee; needs
     /// memory when instances at different places were simulated as one.
     void setField(std::shared_ptr<const DistanceField> field);
+
+    /// What stands in the way of particles that ask the host, from the next step on; without `meet` nothing.
+    /// As setField().
+    void setContact(const HostContact& contact);
+    const HostContact& contact() const { return contact_; }
+    /// Answers of the host since the last call that were none.
+    uint64_t takeContactFaults() { return contactFaults_.exchange(0); }
 
     // Strong guarantee; both may need memory when the instance no longer comes out like others.
     void setPlacement(Slot slot, const base::Placement& placement);
@@ -198,7 +206,11 @@ private:
     RunIndex restoreRun(const Entry& first, StateReader& reader);
     RunIndex joinRun(RunIndex index, const Entry& entry, StateReader& reader);
 
+    void tellAll();
+
     Environment environment_;
+    HostContact contact_;
+    std::atomic<uint64_t> contactFaults_{0};
     const base::SnapshotSchema* schema_;
     base::TaskRunner* tasks_;
     std::pmr::memory_resource* memory_;

@@ -56,9 +56,10 @@ enum : size_t
     PositionY,
     PositionZ,
     HalfWidth,
-    Arc,
+    Arc, ///< from the particle's birth; with ArcPerTile 0 instead 0 at the end of the strip to 1 at its head
     Color,
     Strip,
+    Age, ///< since the particle was there
     Count
 };
 }
@@ -136,7 +137,8 @@ enum : size_t
     Motion,      ///< id in the AssetTable of the motion vectors (red, green: 0.5 none), 0: none
     MotionScale, ///< [1] of the frame's width that a vector of 1 means
     Mesh,        ///< id in the AssetTable, 0: none
-    ArcPerTile,  ///< [m] length of a ribbon that one width of texture covers
+    ArcPerTile,  ///< [m] length of a ribbon that one width of texture covers; 0: the strip's own
+    Edge,        ///< [1] share of a ribbon's half width over which it fades to its edges, 0..1
     Count
 };
 }
@@ -160,6 +162,7 @@ inline constexpr ColumnDesc kRibbonColumns[ribbon_column::Count] = {
     {"arc", "m"},
     {"color", "1", ColumnType::U64},
     {"strip", "1", ColumnType::U64},
+    {"age", "s"},
 };
 
 inline constexpr ColumnDesc kLightColumns[light_column::Count] = {
@@ -172,7 +175,7 @@ inline constexpr ColumnDesc kParticleConstants[particle_constant::Count] = {
     {"axisZ", "1"},     {"aspect", "1"},     {"stretch", "s"}, {"luminance", "cd/m2"},
     {"lit", "1"},       {"softness", "m"},   {"texture", "1"}, {"tileColumns", "1"},
     {"tileRows", "1"},  {"frameBlend", "1"}, {"motion", "1"},  {"motionScale", "1"},
-    {"mesh", "1"},      {"arcPerTile", "m"},
+    {"mesh", "1"},      {"arcPerTile", "m"}, {"edge", "1"},
 };
 
 inline constexpr KindDesc kParticleKind{"particle", kParticleColumns, kParticleConstants, false};

@@ -1,4 +1,4 @@
-// The function of fx_scene.h that takes the host's geometry.
+// The functions of fx_scene.h that take the host's geometry.
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/api/versioned_struct.h"
 
@@ -55,5 +55,22 @@ FxResult fxScene_SetCollisionMesh(FxScene* scene, const FxCollisionMesh* mesh)
         if (known.indices)
             triangles.indices = {known.indices, known.indexCount};
         return scene->scene.setCollisionMesh(&triangles, known.cellSize);
+    });
+}
+
+FxResult fxScene_SetContactHook(FxScene* scene, const FxContactHook* hook)
+{
+    return fx::api::insideScene("fxScene_SetContactHook", scene, [&]() -> Status {
+        FxContactHook known = fxDefaultContactHook();
+        if (hook) {
+            if (Status status = fx::api::readStruct(hook, "hook", fxDefaultContactHook(), known); !status)
+                return status;
+            fx::api::Checks check;
+            check.that(known.meet != nullptr, "hook.meet is null");
+            if (!check.status())
+                return check.status();
+        }
+        scene->scene.setContact({known.user, known.meet});
+        return {};
     });
 }

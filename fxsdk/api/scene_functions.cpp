@@ -152,7 +152,15 @@ FxResult fxScene_Update(FxScene* scene, double dtSeconds)
         const bool accepted = scene->scene.update(dtSeconds);
         scene->catchingUp.store(dtSeconds > scene->longestFrame);
         scene->updateAllocations = scene->context->memory.allocationCount() - before;
-        return accepted ? Status() : fx::api::invalid("dtSeconds is negative or not finite");
+        if (!accepted)
+            return fx::api::invalid("dtSeconds is negative or not finite");
+        const uint64_t faults = scene->scene.takeContactFaults();
+        if (faults > 0)
+            return {fx::base::Code::Schema,
+                    "the contact hook gave " + std::to_string(faults) +
+                        " answers that are none; needed are a share in 0..1 and a normal that is finite and "
+                        "not zero, or the return value 0 for a free way"};
+        return {};
     });
 }
 

@@ -57,7 +57,8 @@ public:
     void add(const base::FrameSnapshot& snapshot)
     {
         for (size_t g = 0; g < snapshot.groupCount(); ++g)
-            add(snapshot.group(g));
+            if (snapshot.group(g).info().kind == snapshot.schema().find(base::kBlobKind.name))
+                add(snapshot.group(g));
     }
     void add(const std::vector<glm::vec4>& places)
     {

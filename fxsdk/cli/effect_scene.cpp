@@ -32,7 +32,7 @@ FxInstanceDef definitionOf(const scene_file::SceneInstance& instance, FxPresetId
     return def;
 }
 
-/// Copies one group of blobs that the C API hands out.
+/// Copies one group of blobs or lights that the C API hands out.
 base::Status copyGroup(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, uint32_t index,
                        const FxSnapshotGroup& source, base::SnapshotGroup& target)
 {
@@ -44,7 +44,8 @@ base::Status copyGroup(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, uin
     info.placement.rotation =
         glm::quat(source.rotation[3], source.rotation[0], source.rotation[1], source.rotation[2]);
     info.placement.scale = source.scale;
-    std::copy_n(source.ids, source.count, target.editIds().begin());
+    if (source.ids)
+        std::copy_n(source.ids, source.count, target.editIds().begin());
     std::copy_n(source.constants, source.constantCount, target.editConstants().begin());
     for (uint32_t c = 0; c < source.columnCount; ++c) {
         FxSnapshotColumn column = {};
@@ -58,7 +59,7 @@ base::Status copyGroup(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, uin
 }
 
 base::Status copyGroups(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, const FxSnapshotInfo& info,
-                        base::KindId blobs, base::FrameSnapshot& target)
+                        base::FrameSnapshot& target)
 {
     const bool isNewer = step == FX_SNAPSHOT_NEWER;
     target.begin(isNewer ? info.tickNewer : info.tickOlder, 1);
@@ -68,9 +69,10 @@ base::Status copyGroups(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, co
         group.structSize = sizeof group;
         if (FxResult result = fxScene_GetSnapshotGroup(scene, id, step, i, &group); result != FX_OK)
             return toStatus(result);
-        if (group.kind != base::kBlobKind.name)
+        const base::KindId kind = target.schema().find(group.kind);
+        if (kind == base::kNoKind)
             continue;
-        if (base::Status status = copyGroup(scene, id, step, i, group, target.addGroup(blobs, group.count));
+        if (base::Status status = copyGroup(scene, id, step, i, group, target.addGroup(kind, group.count));
             !status)
             return status;
     }
@@ -112,6 +114,7 @@ base::Status addPlaces(FxScene* scene, FxSnapshotId id, uint32_t index, std::vec
 EffectScene::EffectScene()
 {
     schema_.add(base::kBlobKind);
+    schema_.add(base::kLightKind);
     copy_ = std::make_unique<base::FrameSnapshot>(&schema_, std::pmr::get_default_resource());
     older_ = std::make_unique<base::FrameSnapshot>(&schema_, std::pmr::get_default_resource());
 }
@@ -215,13 +218,12 @@ base::Result<SceneMoment> EffectScene::moment()
         return status;
     FxSnapshotInfo info = {};
     info.structSize = sizeof info;
-    const base::KindId blobs = schema_.find(base::kBlobKind.name);
     base::Status copied = toStatus(fxScene_GetSnapshotInfo(scene_, id, &info));
     if (copied.ok())
-        copied = copyGroups(scene_, id, FX_SNAPSHOT_NEWER, info, blobs, *copy_);
+        copied = copyGroups(scene_, id, FX_SNAPSHOT_NEWER, info, *copy_);
     const bool hasOlder = copied.ok() && info.tickOlder < info.tickNewer;
     if (hasOlder)
-        copied = copyGroups(scene_, id, FX_SNAPSHOT_OLDER, info, blobs, *older_);
+        copied = copyGroups(scene_, id, FX_SNAPSHOT_OLDER, info, *older_);
     const base::Status released = toStatus(fxScene_ReleaseSnapshot(scene_, id));
     if (!copied)
         return copied;

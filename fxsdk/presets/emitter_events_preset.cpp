@@ -112,6 +112,14 @@ void EventLinks::readRule(const PresetValue& value, uint32_t emitter)
     double age = 0;
     value.read("age", age);
     rule.age = base::toTicks(age);
+    double every = 0;
+    value.read("every", every);
+    rule.every = base::toTicks(every);
+    if (value.has("every") && rule.on != sim::EventKind::Age)
+        value.error("every", "found a repetition; only the event age has one");
+    if (every > 0 && double(emitters_[emitter].lifetime.max) > every * double(sim::kMostAges))
+        value.error("every", "found more than " + std::to_string(sim::kMostAges) +
+                                 " repetitions in the longest life; a longer time between them is needed");
     if ((rule.on == sim::EventKind::Age) != value.has("age"))
         value.error("age", value.has("age") ? "found an age; only the event age has one"
                                             : "found no age; the event age needs one");
@@ -130,10 +138,16 @@ void EventLinks::readRule(const PresetValue& value, uint32_t emitter)
     rule.most = uint32_t(std::max(count.max, 0.0f));
     value.read("probability", rule.probability);
     value.read("inheritVelocity", rule.inheritVelocity);
+    value.read("inheritColor", rule.inheritColor);
     hasRules_ = true;
     if (!findTarget(value, rule.target))
         return;
-    emitters_[rule.target].fed = true;
+    sim::EmitterDef& target = emitters_[rule.target];
+    if (target.inWorld != emitters_[emitter].inWorld)
+        value.error("emit",
+                    "found \"" + target.name + "\" in another space; give both emitters the same \"space\"");
+    target.fed = true;
+    target.tinted = target.tinted || rule.inheritColor > 0.0f;
     emitters_[emitter].events.push_back(rule);
 }
 

@@ -105,6 +105,17 @@ void readColors(const PresetValue& value, sim::EmitterLook& out)
     value.read("opacityOverSpeed", out.opacityOverSpeed);
 }
 
+void readTrailTexture(const PresetValue& trail, sim::RibbonDef& out)
+{
+    bool isTiled = true;
+    readName(trail, "textureMode", Names<bool, 2>{{{"tile", true}, {"stretch", false}}}, isTiled);
+    if (!isTiled)
+        out.arcPerTile = 0.0f;
+    out.look.texture = readAssetId(trail, "texture", [&](const std::string& name, std::string& warning) {
+        return trail.assets()->image(name, asset::ImageUse::Color, 1, 1, warning);
+    });
+}
+
 } // namespace
 
 void readEmitterLook(const PresetValue& appearance, sim::EmitterLook& out)
@@ -139,6 +150,9 @@ void readEmitterTrail(const PresetValue& trail, sim::RibbonDef& out)
     trail.read("minDistance", out.minDistance);
     trail.read("maxPoints", out.maxPoints);
     trail.read("arcPerTile", out.arcPerTile);
+    trail.read("edge", out.edge);
+    trail.read("softEnds", out.softEnds);
+    readTrailTexture(trail, out);
     trail.read("widthAlong", out.widthAlong);
     trail.read("colorAlong", out.colorAlong);
     trail.read("opacityAlong", out.opacityAlong);

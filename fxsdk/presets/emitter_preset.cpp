@@ -60,6 +60,17 @@ void readCurves(const PresetValue& element, sim::EmitterDef& emitter)
     element.read("emissionOverLife", emitter.emissionOverLife);
 }
 
+void readSpace(const PresetValue& element, sim::EmitterDef& emitter)
+{
+    constexpr std::array<std::pair<std::string_view, bool>, 2> kSpaces{{{"local", false}, {"world", true}}};
+    element.read("space", std::span<const std::pair<std::string_view, bool>>(kSpaces), emitter.inWorld);
+    element.read("inheritVelocity", emitter.inheritVelocity);
+    if (emitter.inheritVelocity > 0.0f && !emitter.inWorld)
+        element.error("inheritVelocity",
+                      "found an inherited velocity of particles that move with the instance "
+                      "anyway; add \"space\": \"world\"");
+}
+
 /// The largest value of a curve.
 float peakOf(const base::ScalarCurve& curve)
 {
@@ -101,6 +112,7 @@ void buildEmitter(const PresetValue& element, sim::EffectDef& effect)
     element.read("speed", emitter->speed);
     element.read("radius", emitter->radius);
     readEmitterShape(element, *emitter);
+    readSpace(element, *emitter);
     readMedium(element, *emitter);
     readEmitterForces(element, *emitter);
     readCurves(element, *emitter);

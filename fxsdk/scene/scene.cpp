@@ -18,7 +18,7 @@ Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, ba
       world_(schema, tasks, memory, options.environment, options.shareInstances),
       instances_(memory, options.maxInstances), dormant_(memory), active_(memory), waking_(memory),
       denied_(memory), coarse_(memory), tree_(memory), alarms_(memory), focus_(memory), candidates_(memory),
-      ring_(schema, memory)
+      moved_(memory), ring_(schema, memory)
 {
     world_.allowRest(options.culling);
     ring_.beginWrite(0); // so that acquire() always has something to show
@@ -108,6 +108,7 @@ bool Scene::update(double dt)
     for (uint32_t k = 0; k < plan.steps; ++k) {
         const base::Ticks from = plan.firstStep + base::Ticks(k) * clock_.stepTicks();
         try {
+            moveOn(k + 1, plan.steps);
             step(from);
             if (k + 2 >= plan.steps)
                 publish(from + clock_.stepTicks(), k + 1 == plan.steps ? clock_.interpolation() : 0.0);
@@ -115,6 +116,8 @@ bool Scene::update(double dt)
             memoryFailed_ = true;
         }
     }
+    if (plan.steps > 0)
+        endMoves();
     if (plan.steps == 0) {
         std::lock_guard lock(presentation_);
         show(clock_.simulated(), clock_.interpolation());

@@ -93,6 +93,8 @@ struct InstanceSetup
     uint64_t seed = 0;
     base::Ticks startTick = 0; ///< what is past means the next step
     base::Placement placement;
+    /// Where it stood at the last step, when the host has moved it since; only where the effect heeds it.
+    std::optional<base::Placement> cameFrom = {};
     sim::InstanceParameters parameters;
     bool destroyWhenFinished = false;
     sim::QualityLevel quality = sim::QualityLevel::Medium;
@@ -176,6 +178,11 @@ public:
     /// @return what building the field fails with
     base::Status setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize);
 
+    /// What stands in the way of particles that ask the host; see sim::World::setContact().
+    void setContact(const sim::HostContact& contact) { world_.setContact(contact); }
+    /// Answers of the host since the last call that were none.
+    uint64_t takeContactFaults() { return world_.takeContactFaults(); }
+
     /// Advances by dt [s] and publishes the last two of the steps taken.
     /// Throws std::bad_alloc after all steps when memory ran out in one: time has advanced, and what needed
     /// the memory is missing.
@@ -233,6 +240,8 @@ private:
     void wake(base::Ticks until);
     void enterWorld(uint32_t index);
     void step(base::Ticks from);
+    void moveOn(uint32_t step, uint32_t steps);
+    void endMoves();
     void retireFinished(base::Ticks now);
     void finish(uint32_t index);
 
@@ -296,7 +305,8 @@ private:
     activation::FocusSet focus_;
     activation::Budget budget_;
     std::pmr::vector<activation::Candidate> candidates_; ///< scratch
-    bool lookAgain_ = false;                             ///< something moved, or somebody looks elsewhere
+    std::pmr::vector<LocalId> moved_; ///< instances with InstanceSetup::cameFrom, and perhaps others
+    bool lookAgain_ = false;          ///< something moved, or somebody looks elsewhere
     bool memoryFailed_ = false;
     UpdateCounters update_;
     uint32_t emptyPublications_ = 0; ///< one after the other

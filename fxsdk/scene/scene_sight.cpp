@@ -124,8 +124,13 @@ void Scene::setHints(LocalId id, const ActivationHints& hints)
 void Scene::setPlacement(LocalId id, const base::Placement& placement)
 {
     Instance& instance = *instances_.find(id);
-    if (instance.state != InstanceState::Dormant && instance.state != InstanceState::Finished)
-        world_.setPlacement(instance.slot, placement); // may throw
+    if (instance.state != InstanceState::Dormant && instance.state != InstanceState::Finished) {
+        if (instance.setup.effect->heedsPlacement() && !instance.setup.cameFrom)
+            moved_.push_back(id); // may throw, as the next may
+        world_.setPlacement(instance.slot, placement);
+        if (instance.setup.effect->heedsPlacement() && !instance.setup.cameFrom)
+            instance.setup.cameFrom = instance.setup.placement;
+    }
     instance.setup.placement = placement;
     measure(instance);
     lookAgain_ = true;

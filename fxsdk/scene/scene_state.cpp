@@ -12,13 +12,21 @@ constexpr base::Ticks kLatestTick = INT64_MAX / 4; ///< no clock and no start go
 constexpr double kFarthest = 1e9;                  ///< [m]
 constexpr int kHasGround = 1, kHasField = 2;       ///< bits of a byte of the rules
 
+void savePlacement(sim::StateWriter& writer, const base::Placement& placement)
+{
+    writer.vector(placement.position);
+    writer.rotation(placement.rotation);
+    writer.value(placement.scale);
+}
+
 void saveSetup(sim::StateWriter& writer, const InstanceSetup& setup)
 {
     writer.value(setup.seed);
     writer.value(setup.startTick);
-    writer.vector(setup.placement.position);
-    writer.rotation(setup.placement.rotation);
-    writer.value(setup.placement.scale);
+    savePlacement(writer, setup.placement);
+    writer.flag(setup.cameFrom.has_value());
+    if (setup.cameFrom)
+        savePlacement(writer, *setup.cameFrom);
     writer.value(setup.parameters.intensity);
     writer.vector(setup.parameters.wind);
     writer.flag(setup.parameters.emitting);
@@ -32,15 +40,30 @@ void saveSetup(sim::StateWriter& writer, const InstanceSetup& setup)
     writer.value(clock.rate);
 }
 
+base::Placement restorePlacement(sim::StateReader& reader)
+{
+    base::Placement placement;
+    placement.position = reader.doubleVector();
+    placement.rotation = reader.rotation();
+    placement.scale = reader.value<float>(1e-3f, 1e3f, "an instance's scale is out of range");
+    const glm::dvec3 distance = glm::abs(placement.position);
+    reader.require(std::max({distance.x, distance.y, distance.z}) <= kFarthest,
+                   "an instance is too far away");
+    const glm::quat& q = placement.rotation;
+    const float length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    reader.require(length2 > 0.99f && length2 < 1.01f, "a rotation is not a unit quaternion");
+    return placement;
+}
+
 /// All but the effect.
 InstanceSetup restoreSetup(sim::StateReader& reader)
 {
     InstanceSetup setup;
     setup.seed = reader.value<uint64_t>();
     setup.startTick = reader.value<base::Ticks>(0, kLatestTick, "an instance starts out of range");
-    setup.placement.position = reader.doubleVector();
-    setup.placement.rotation = reader.rotation();
-    setup.placement.scale = reader.value<float>(1e-3f, 1e3f, "an instance's scale is out of range");
+    setup.placement = restorePlacement(reader);
+    if (reader.flag())
+        setup.cameFrom = restorePlacement(reader);
     setup.parameters.intensity = reader.value<float>(0.0f, 1e3f, "an intensity is out of range");
     setup.parameters.wind = reader.vector();
     setup.parameters.emitting = reader.flag();
@@ -55,12 +78,6 @@ InstanceSetup restoreSetup(sim::StateReader& reader)
     clock.rate = reader.value<uint32_t>(0, sim::kHighestRate, "a rate is out of range");
     if (hasClock)
         setup.clock = clock;
-    const glm::dvec3 distance = glm::abs(setup.placement.position);
-    reader.require(std::max({distance.x, distance.y, distance.z}) <= kFarthest,
-                   "an instance is too far away");
-    const glm::quat& q = setup.placement.rotation;
-    const float length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    reader.require(length2 > 0.99f && length2 < 1.01f, "a rotation is not a unit quaternion");
     return setup;
 }
 
@@ -92,9 +109,12 @@ struct Scene::Restored
 {
     explicit Restored(const Scene& scene)
         : instances(scene.memory_, scene.options_.maxInstances), dormant(scene.memory_),
-          active(scene.memory_), world(scene.schema_, scene.tasks_, scene.memory_, scene.world_.environment(),
-                                       scene.options_.shareInstances)
-    {}
+          active(scene.memory_), moved(scene.memory_),
+          world(scene.schema_, scene.tasks_, scene.memory_, scene.world_.environment(),
+                scene.options_.shareInstances)
+    {
+        world.setContact(scene.world_.contact());
+    }
 
     base::ClockState clock;
     SceneCounters counters;
@@ -102,6 +122,7 @@ struct Scene::Restored
     IdTable<Instance> instances;
     activation::WakeQueue dormant;
     activation::ActiveList active;
+    std::pmr::vector<LocalId> moved;
     sim::World world;
 };
 
@@ -267,6 +288,8 @@ void Scene::restoreWorld(sim::StateReader& reader, Restored& state) const
             entries.push_back({instance.setup.effect, startOf(state.instances, index)});
             awake.push_back(index);
         }
+        if (instance.setup.cameFrom)
+            state.moved.push_back(state.instances.idAt(index));
         if (instance.state == InstanceState::Dormant)
             state.dormant.add({instance.setup.startTick, serial, index});
         if (instance.state == InstanceState::Finished)
@@ -311,6 +334,7 @@ void Scene::take(Restored& state)
     world_.swap(state.world);
     world_.setNow(simulated);
     forgetSight();
+    std::swap(moved_, state.moved);
     std::lock_guard lock(presentation_);
     ring_.publish();
     ring_.forgetOlder();

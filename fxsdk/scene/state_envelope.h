@@ -16,7 +16,7 @@ namespace fx::scene {
 constexpr size_t kStateHeaderBytes = 32;
 
 /// Raised with every change of what a state consists of between two versions of the SDK.
-constexpr uint32_t kStateLayout = 1;
+constexpr uint32_t kStateLayout = 2;
 
 /// @param sdkVersion as FX_VERSION
 /// @param out room for kStateHeaderBytes

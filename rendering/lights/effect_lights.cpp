@@ -2,6 +2,7 @@
 
 #include "foundation/math/bits.h"
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/particle_kind.h"
 #include "rendering/optics/black_body.h"
 
 #include <glm/geometric.hpp>
@@ -16,7 +17,8 @@ namespace {
 
 namespace column = base::blob_column;
 
-constexpr float kDarkest = 1e-3f; // [cd] a group below this is no light
+constexpr float kDarkest = 1e-3f;     // [cd] a group below this is no light
+constexpr float kLeastExtent = 0.05f; // [m] of particles, which have no size as lights
 
 /// (1 - exp(-t)) / t, 1 at t = 0.
 float escape(float t)
@@ -80,41 +82,87 @@ Incidence BallLight::at(const glm::vec3& position) const
     return incidence;
 }
 
+namespace {
+
+/// Sums over the lights that particles shed.
+Glow sumLights(const base::SnapshotGroup& g)
+{
+    namespace light = base::light_column;
+    Glow glow;
+    for (size_t i = 0; i < g.count(); ++i) {
+        const glm::vec3 position(g.column(light::PositionX)[i], g.column(light::PositionY)[i],
+                                 g.column(light::PositionZ)[i]);
+        const glm::vec3 intensity(g.column(light::IntensityR)[i], g.column(light::IntensityG)[i],
+                                  g.column(light::IntensityB)[i]);
+        const double weight = double(intensity.x + intensity.y + intensity.z);
+        if (!base::isFinite(weight) || !base::isFinite(glm::dot(position, position)))
+            continue;
+        glow.intensity += intensity;
+        glow.moment += weight * glm::dvec3(position);
+        glow.weight += weight;
+        glow.spread += weight * double(glm::dot(position, position));
+    }
+    return glow;
+}
+
+/// What glows already as a medium is not counted again.
+bool isShownAsMedium(const base::FrameSnapshot& snapshot, base::KindId blobs, const base::GroupInfo& info)
+{
+    for (size_t g = 0; g < snapshot.groupCount(); ++g) {
+        const base::GroupInfo& other = snapshot.group(g).info();
+        if (other.kind == blobs && other.instance == info.instance && other.solver == info.solver)
+            return true;
+    }
+    return false;
+}
+
+/// Puts a light where its brightness belongs, if there is room for it.
+void insert(const EffectLight& light, std::span<EffectLight> out, size_t& ioCount)
+{
+    const auto brightness = [](const EffectLight& l) {
+        return l.intensity.x + l.intensity.y + l.intensity.z;
+    };
+    size_t at = ioCount;
+    while (at > 0 && brightness(out[at - 1]) < brightness(light))
+        --at;
+    if (at == out.size())
+        return;
+    ioCount = std::min(ioCount + 1, out.size());
+    for (size_t i = ioCount - 1; i > at; --i)
+        out[i] = out[i - 1];
+    out[at] = light;
+}
+
+} // namespace
+
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<EffectLight> out)
 {
     size_t count = 0;
     const base::KindId blobs = snapshot.schema().find(base::kBlobKind.name);
+    const base::KindId lights = snapshot.schema().find(base::kLightKind.name);
     for (size_t g = 0; g < snapshot.groupCount() && !out.empty(); ++g) {
         const base::SnapshotGroup& group = snapshot.group(g);
-        if (group.info().kind != blobs || group.count() == 0)
+        const base::KindId kind = group.info().kind;
+        const bool isLights = kind == lights && lights != base::kNoKind;
+        if ((kind != blobs && !isLights) || group.count() == 0)
             continue;
-        const Glow glow = sumGroup(group);
-        if (!(glow.weight > double(kDarkest)))
+        const Glow glow = isLights ? sumLights(group) : sumGroup(group);
+        if (!(glow.weight > double(kDarkest)) || (isLights && isShownAsMedium(snapshot, blobs, group.info())))
             continue;
         const base::Placement& placement = group.info().placement;
         const glm::dvec3 center = glow.moment / glow.weight;
+        const float least = isLights ? kLeastExtent * kLeastExtent : 1e-6f;
         const float extent =
-            float(std::sqrt(std::max(glow.spread / glow.weight - glm::dot(center, center), 1e-6)));
+            float(std::sqrt(std::max(glow.spread / glow.weight - glm::dot(center, center), double(least))));
         const float face = std::numbers::pi_v<float> * extent * extent;
-        const float screen = escape(float(glow.crossSection) / face); // neighbors hide each other
+        const float screen = // neighbors hide each other
+            isLights ? 1.0f : escape(float(glow.crossSection) / face);
         const float scale = placement.scale;
         EffectLight light;
         light.position = placement.position + glm::dvec3(placement.rotation * (glm::vec3(center) * scale));
         light.intensity = glow.intensity * (screen * scale * scale);
         light.radius = extent * scale;
-
-        const auto brightness = [](const EffectLight& l) {
-            return l.intensity.x + l.intensity.y + l.intensity.z;
-        };
-        size_t at = count;
-        while (at > 0 && brightness(out[at - 1]) < brightness(light))
-            --at;
-        if (at == out.size())
-            continue;
-        count = std::min(count + 1, out.size());
-        for (size_t i = count - 1; i > at; --i)
-            out[i] = out[i - 1];
-        out[at] = light;
+        insert(light, out, count);
     }
     return count;
 }

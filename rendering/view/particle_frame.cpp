@@ -100,6 +100,8 @@ void ParticleFrame::build(const ParticleFrameInputs& in)
     const base::KindId particles = newer.schema().find(base::kParticleKind.name);
     const base::KindId ribbons = newer.schema().find(base::kRibbonKind.name);
     for (size_t g = 0; g < newer.groupCount(); ++g) {
+        if (g < in.left.size() && in.left[g] != 0)
+            continue;
         const base::GroupInfo& info = newer.group(g).info();
         const bool isRibbon = info.kind == ribbons && ribbons != base::kNoKind;
         if ((info.kind == particles && particles != base::kNoKind && info.count > 0) ||
@@ -136,7 +138,7 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
     const bool isMesh = !isRibbon && constants[constant::Shape] == float(base::ParticleShape::Mesh);
     batch.shape = isRibbon ? BatchShape::Ribbon : isMesh ? BatchShape::Mesh : BatchShape::Sprite;
     batch.isSolid = constants[constant::Blend] == float(base::ParticleBlend::Opaque);
-    batch.repeats = isRibbon;
+    batch.repeats = isRibbon && constants[constant::ArcPerTile] > 0.0f;
     batch.instances = newer.count() - (isRibbon ? 1 : 0);
     if (isRibbon)
         group.columns = group.rows = 1;
@@ -174,9 +176,10 @@ void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placeme
 {
     const auto c = group.newer->constants();
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
+    const bool isRibbon = batch.shape == BatchShape::Ribbon;
+    const bool hasPast = group.older || (isRibbon && in.snapshots->older);
     const float seconds =
-        group.older ? float(base::toSeconds(in.snapshots->newer->tick() - in.snapshots->older->tick()))
-                    : 0.0f;
+        hasPast ? float(base::toSeconds(in.snapshots->newer->tick() - in.snapshots->older->tick())) : 0.0f;
     const glm::vec3 axis =
         place.rotation * glm::vec3(c[constant::AxisX], c[constant::AxisY], c[constant::AxisZ]);
     ParticleBlock& b = batch.block;
@@ -188,11 +191,11 @@ void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placeme
     b.alignAxis = {axis, c[constant::Alignment]};
     b.look = {c[constant::Aspect], c[constant::Stretch], c[constant::Softness], c[constant::Blend]};
     b.shine = {c[constant::Luminance] * exposure, c[constant::Lit], c[constant::Layer], 0.0f};
-    b.moment = {float(glm::clamp(in.request->interpolation, 0.0, 1.0)), seconds, group.older ? 1.0f : 0.0f,
+    b.moment = {float(glm::clamp(in.request->interpolation, 0.0, 1.0)), seconds, hasPast ? 1.0f : 0.0f,
                 kLeastHalfSide};
     b.atlas = {float(group.columns * group.rows), c[constant::FrameBlend], c[constant::MotionScale],
                group.texture ? 1.0f : 0.0f};
-    b.strip = {group.motion ? 1.0f : 0.0f, c[constant::ArcPerTile], 0.0f, 0.0f};
+    b.strip = {group.motion ? 1.0f : 0.0f, c[constant::ArcPerTile], 0.0f, c[constant::Edge]};
     fillLights(in, b);
 }
 

@@ -37,6 +37,7 @@ struct ParticleFrameInputs
     const ViewSettings* settings;
     const CameraGeometry* camera;
     std::span<const EffectLight> lights; ///< at most four are used
+    std::span<const uint8_t> left = {};  ///< by group of the newer snapshot: 1 where it is left out
 };
 
 /// Owns the orders of one view; they and all memory are kept from frame to frame.

@@ -14,6 +14,7 @@
 #include "rendering/view/fragment_estimate.h"
 #include "rendering/view/frame_builder.h"
 #include "rendering/view/frame_key.h"
+#include "rendering/view/group_merger.h"
 #include "rendering/view/layer_scale_control.h"
 #include "rendering/view/particle_buffers.h"
 #include "rendering/view/particle_frame.h"
@@ -30,10 +31,18 @@ namespace fx::render {
 
 struct ViewRenderer::Impl
 {
-    Impl(GlDevice* d, std::pmr::memory_resource* memory)
-        : device(d), graph(memory), backend(*d, memory), builder(memory), particles(memory),
-          buffers(*d, memory), runs(memory), streams(memory), timer(*d)
+    Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory)
+        : device(d), graph(memory), backend(*d, memory), builder(memory),
+          merger(schema, memory), single{ParticleFrame(memory), ParticleBuffers(*d, memory)},
+          joined{ParticleFrame(memory), ParticleBuffers(*d, memory)}, batches(memory), runs(memory),
+          streams(memory), timer(*d)
     {}
+
+    struct Particles
+    {
+        ParticleFrame frame;
+        ParticleBuffers buffers;
+    };
 
     base::Status ensureHistory();
     base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
@@ -42,6 +51,7 @@ struct ViewRenderer::Impl
                             const FrameRequest& request, const ViewSettings& settings);
     base::Status makeRoom(GlBuffer& buffer, size_t bytes, const char* label);
     base::Status makeRoomForImpostors();
+    base::Status add(Particles& particles, const ParticleFrameInputs& inputs, const StampPair& stamps);
     FrameStatistics rest();
     FrameStatistics count(int divisor);
     void readBack(FrameStatistics& statistics); ///< waits for the GPU
@@ -50,8 +60,10 @@ struct ViewRenderer::Impl
     FrameGraph graph;
     GlBackend backend;
     FrameBuilder builder;
-    ParticleFrame particles;
-    ParticleBuffers buffers;
+    GroupMerger merger;
+    Particles single; ///< groups as they are
+    Particles joined; ///< small groups that are drawn alike
+    std::pmr::vector<ParticleBatch> batches;
     DrawRuns runs;
     std::pmr::vector<DrawStream> streams;
     std::span<const MediaRun> mediaRuns;
@@ -139,7 +151,8 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     const FrameKey wanted = frameKey(now, request, settings, assets);
     keptLists = key == wanted && !request.resetHistory;
     if (keptLists) {
-        buffers.keep();
+        single.buffers.keep();
+        joined.buffers.keep();
         return {};
     }
     key.reset();
@@ -158,23 +171,41 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
 {
     const CameraGeometry camera = cameraGeometry(request.camera);
     builder.build(snapshots, request, settings, camera, contentOf(now, request.interpolation));
-    particles.build({&snapshots, &request, &settings, &camera, builder.lights()});
-    if (base::Status status = buffers.prepare(snapshots, now, particles, assets); !status)
-        return status;
-    if (base::Status status = makeRoom(blobBuffer, builder.blobs().size_bytes(), "blobs"); !status)
-        return status;
-    if (base::Status status = makeRoomForImpostors(); !status)
-        return status;
     streams.clear();
+    batches.clear();
     if (builder.stream().count > 0)
         streams.push_back(builder.stream());
     if (builder.impostorStream().count > 0)
         streams.push_back(builder.impostorStream());
-    streams.insert(streams.end(), particles.streams().begin(), particles.streams().end());
     fragments = estimateFragments(builder.blobs(), camera, request.targets.width, request.targets.height);
-    for (size_t i = 0; i < fragments.size(); ++i)
-        fragments[i] += particles.fragments()[i];
+    merger.build(snapshots, now);
+    const base::SnapshotPair merged = merger.merged();
+    if (base::Status status =
+            add(single, {&snapshots, &request, &settings, &camera, builder.lights(), merger.taken()}, now);
+        !status)
+        return status;
+    if (base::Status status =
+            add(joined, {&merged, &request, &settings, &camera, builder.lights()}, merger.stamps());
+        !status)
+        return status;
     mediaRuns = runs.build(streams);
+    return {};
+}
+
+base::Status ViewRenderer::Impl::add(Particles& particles, const ParticleFrameInputs& inputs,
+                                     const StampPair& stamps)
+{
+    particles.frame.build(inputs);
+    if (base::Status status = particles.buffers.prepare(*inputs.snapshots, stamps, particles.frame, assets);
+        !status)
+        return status;
+    for (DrawStream stream : particles.frame.streams()) {
+        stream.batch += uint32_t(batches.size());
+        streams.push_back(stream);
+    }
+    batches.insert(batches.end(), particles.frame.batches().begin(), particles.frame.batches().end());
+    for (size_t i = 0; i < fragments.size(); ++i)
+        fragments[i] += particles.frame.fragments()[i];
     return {};
 }
 
@@ -238,20 +269,20 @@ FrameStatistics ViewRenderer::Impl::count(int divisor)
     statistics.blobsNonFinite = builder.counts().nonFinite;
     statistics.blobsThinned = builder.counts().thinned;
     std::copy(builder.lodCounts().begin(), builder.lodCounts().end(), statistics.lodGroups);
-    statistics.particles = particles.rows();
-    statistics.particlesOrdered = particles.orderedRows();
+    statistics.particles = single.frame.rows() + joined.frame.rows();
+    statistics.particlesOrdered = single.frame.orderedRows() + joined.frame.orderedRows();
     statistics.keptLists = keptLists;
     statistics.impostors = uint32_t(builder.impostors().size());
     statistics.impostorsTaken = keptLists ? 0 : uint32_t(builder.takenTiles().size());
-    statistics.uploadedBytes = buffers.uploadedBytes() +
+    statistics.uploadedBytes = single.buffers.uploadedBytes() + joined.buffers.uploadedBytes() +
                                (keptLists ? 0
                                           : builder.blobs().size_bytes() + builder.impostors().size_bytes() +
                                                 builder.takenBlobs().size_bytes());
-    statistics.sortedElements = keptLists ? 0 : particles.orderedRows() + builder.blobs().size();
+    statistics.sortedElements = keptLists ? 0 : statistics.particlesOrdered + builder.blobs().size();
     statistics.passes = outputs.anyPass ? uint32_t(graph.executedPasses().size()) : 0;
     statistics.drawCalls = outputs.anyPass ? backend.drawCalls() : 0;
-    statistics.textureBytes = backend.pooledBytes() + buffers.bytes() + blobBuffer.bytes() +
-                              impostorBuffer.bytes() + impostorAtlas.bytes();
+    statistics.textureBytes = backend.pooledBytes() + single.buffers.bytes() + joined.buffers.bytes() +
+                              blobBuffer.bytes() + impostorBuffer.bytes() + impostorAtlas.bytes();
     if (outputs.anyPass) {
         statistics.unsharedBytes = graph.memory().unshared;
         statistics.sharedBytes = graph.memory().shared;
@@ -278,8 +309,9 @@ void ViewRenderer::Impl::readBack(FrameStatistics& statistics)
     }
 }
 
-ViewRenderer::ViewRenderer(GlDevice* device, const base::SnapshotSchema*, std::pmr::memory_resource* memory)
-    : impl_(std::make_unique<Impl>(device, memory))
+ViewRenderer::ViewRenderer(GlDevice* device, const base::SnapshotSchema* schema,
+                           std::pmr::memory_resource* memory)
+    : impl_(std::make_unique<Impl>(device, schema, memory))
 {}
 
 ViewRenderer::~ViewRenderer() = default;
@@ -324,7 +356,7 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
                                             asked.resetHistory);
     s.graph.begin();
     s.outputs =
-        buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.particles.batches(), s.mediaRuns,
+        buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.batches, s.mediaRuns,
                                  s.builder.anyHeat(), s.builder.anyDetail(), s.dazzleHistory.name(), divisor,
                                  s.blobBuffer.name(), s.keptLists, s.builder.impostors(),
                                  s.keptLists ? std::span<const BlobInstance>() : s.builder.takenBlobs(),
@@ -338,7 +370,8 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         s.timer.beginPasses();
         if (s.backend.beginFrame(s.graph))
             s.graph.execute(s.backend);
-        s.buffers.fence();
+        s.single.buffers.fence();
+        s.joined.buffers.fence();
         status = s.backend.endFrame();
     }
     s.timer.endFrame(status.ok() && s.outputs.anyPass);

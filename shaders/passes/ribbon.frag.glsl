@@ -13,6 +13,10 @@ void main()
     if (atlas.w > 0.5)
         texel = texture(frames, vec3(fragmentTexture, 0.0));
     float alpha = fragmentColor.a * texel.a;
+    if (strip.w > 0.0) {
+        float inward = clamp((1.0 - abs(2.0 * fragmentTexture.x - 1.0)) / strip.w, 0.0, 1.0);
+        alpha *= inward * inward * (3.0 - 2.0 * inward);
+    }
     float left = leftOver(fragmentPlace);
 #if FX_SOLID
     alpha = left > 0.0 && alpha >= 0.5 ? 1.0 : 0.0;

@@ -8,7 +8,7 @@ out vec3 fragmentPlace;
 out vec2 fragmentTexture;     // x across, 0 to 1; y [m] along, in lengths of the texture
 out vec4 fragmentColor;
 
-// Columns of the kind: x y z halfWidth arc color strip.
+// Columns of the kind: x y z halfWidth arc color strip age.
 vec3 pointAt(int row) { return placed(newerVector(0, row)); }
 bool sameStrip(int a, int b)
 {
@@ -41,12 +41,24 @@ void main()
     bool isSecond = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
     float side = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4 ? 1.0 : -1.0;
     int at = isSecond ? row + 1 : row;
-    vec3 center = pointAt(at);
-    float halfWidth = newerValue(3, at) * placePosition.w;
+    // The way that lies after the moment of the frame is not seen yet: the piece in which the moment lies ends there.
+    float later = 0.0;
+    float back = moment.z > 0.5 ? (1.0 - moment.x) * moment.y : 0.0;
+    if (back > 0.0 && newerPlace(7) >= 0) {
+        float young = newerValue(7, row);
+        float old = newerValue(7, row + 1);
+        if (old <= back)
+            return;
+        if (!isSecond && young < back)
+            later = (back - young) / (old - young);
+    }
+    vec3 center = mix(pointAt(at), pointAt(row + 1), later);
+    float halfWidth = mix(newerValue(3, at), newerValue(3, row + 1), later) * placePosition.w;
     float shown = max(halfWidth, moment.w * pixelSize(center));
-    vec4 color = newerColor(5, at);
+    vec4 color = mix(newerColor(5, at), newerColor(5, row + 1), later);
     fragmentPlace = center + acrossAt(at) * (side * shown);
-    fragmentTexture = vec2(0.5 + 0.5 * side, newerValue(4, at) / max(strip.y, 1e-6));
+    float arc = mix(newerValue(4, at), newerValue(4, row + 1), later);
+    fragmentTexture = vec2(0.5 + 0.5 * side, strip.y > 0.0 ? arc / strip.y : arc);
     vec3 white = vec3(shine.x);
     if (shine.y > 0.0)
         white += shine.y * scatteredByBall(center);

@@ -72,6 +72,7 @@ class Collider
 public:
     Collider(const DistanceField& field, const base::Placement& placement);
 
+    const DistanceField& field() const { return field_; }
     /// [m] local
     DistanceField::Sample sample(const glm::vec3& position) const;
 

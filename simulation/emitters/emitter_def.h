@@ -97,6 +97,9 @@ struct EmitterDef final : SolverDef
     glm::vec3 size{0.0f};     ///< [m] see EmitterShape
     float angle = 0.0f;       ///< [rad] half angle of the cone, 0..pi
     Emission emission;
+    /// Particles stay where they are when the host moves the instance; else they move with it.
+    bool inWorld = false;
+    float inheritVelocity = 0.0f; ///< [1] 0..1 of the velocity with which the host moves it; with inWorld
 
     base::Range lifetime{1, 1};            ///< [s] > 0
     std::shared_ptr<const ShapeOp> births; ///< where and whereto particles are born, instead of `shape`
@@ -120,6 +123,7 @@ struct EmitterDef final : SolverDef
 
     std::vector<EventRule> events; ///< what happens to its particles gives birth in other emitters
     bool fed = false;              ///< events of other emitters' particles give birth in this one
+    bool tinted = false;           ///< what gives birth to its particles may color them
 
     RibbonDef trail;
     LightDef light;
@@ -137,7 +141,13 @@ struct EmitterDef final : SolverDef
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return maxParticles; }
     bool collides() const override;
-    float reach(float gravity, float wind, float seconds) const override;
+    bool heedsPlacement() const override { return inWorld; }
+    float reach(float gravity, float wind, float seconds) const override
+    {
+        return reachFrom({gravity, wind, seconds}, {}, {});
+    }
+    float reachFrom(const ReachConditions& conditions, const BirthReach& births,
+                    std::span<BirthReach> ioOthers) const override;
 };
 
 constexpr float kAirTemperature = 293.15f; ///< [K] of the ambient air

@@ -109,7 +109,8 @@ void EmitterSolver::giveLinkedBirth(const StepContext& context, EventList& out)
             addClock();
         for (uint32_t k = 0; k < event.count && fed < room; ++k, ++fed) {
             births[count] = {store_.next() + count, event.cause.tick};
-            origins[count++] = {event.cause.position, event.cause.velocity, !event.cause.scheduled};
+            origins[count++] = {event.cause.position, event.cause.velocity, event.cause.color,
+                                !event.cause.scheduled, false};
         }
     }
     while (byClock < scheduled.size())
@@ -130,13 +131,17 @@ void EmitterSolver::storeLinked(const StepContext& context, std::span<const Birt
                                 std::span<const Origin> origins, EventList& out)
 {
     storeBatch(context, births);
-    for (size_t i = 0; i < births.size() && def_.fed; ++i) {
+    for (size_t i = 0; i < births.size() && (def_.fed || space_); ++i) {
         const uint32_t row = store_.rowOf(births[i].index);
         if (store_.index[row] != births[i].index)
             continue;
+        if (space_)
+            carryBirth(context, births[i], row, origins[i].byClock);
         for (size_t a = 0; a < 3; ++a) {
             store_.values[stored::X + a][row] += origins[i].position[int(a)];
             store_.values[stored::VelocityX + a][row] += origins[i].velocity[int(a)];
+            if (def_.tinted)
+                store_.values[stored::TintRed + a][row] = origins[i].tint[int(a)];
         }
     }
     if (def_.events.empty())
@@ -155,7 +160,7 @@ void EmitterSolver::hearHost(const StepContext& context, EventList& out)
             event.index = hostEvents_++;
             event.emitter = context.solverIndex;
             event.kind = EventKind::Host;
-            event.position = def_.position;
+            event.position = space_ ? space_->placed(def_.position) : def_.position;
             event.scheduled = true;
             event.number = said.event;
             out.add(event);
@@ -185,6 +190,7 @@ void EmitterSolver::answerEvents(const StepContext& context, std::span<const Eve
                 return;
             EventBirth birth{event, number, drawCount(context, rule, number, event)};
             birth.cause.velocity *= rule.inheritVelocity;
+            birth.cause.color = glm::vec3(1.0f) + rule.inheritColor * (event.color - glm::vec3(1.0f));
             if (birth.count > 0)
                 births[size++] = birth;
         };

@@ -94,8 +94,11 @@ LookJob EmitterSolver::lookJob() const
     return job;
 }
 
-void EmitterSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+void EmitterSolver::publish(const base::GroupInfo& instance, base::FrameSnapshot& snapshot) const
 {
+    base::GroupInfo base = instance;
+    if (space_ && started_)
+        base.placement = space_->home();
     if (def_.look.kind == Appearance::Medium)
         publishMedium(base, snapshot);
     else if (def_.look.kind != Appearance::None)

@@ -51,15 +51,19 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                              std::shared_ptr<const ParticleProgram> program,
                              std::pmr::memory_resource* memory)
     : def_(def), program_(*program), kinds_(kinds), store_(program_, memory), schedule_(def.emission, memory),
-      shared_(std::move(program)), interest_(def.events), lights_(memory), rowsByBirth_(memory)
+      shared_(std::move(program)), interest_(def.events, program_.longestLife), lights_(memory),
+      rowsByBirth_(memory)
 {
     const bool isSmall = store_.capacity() <= kFewRows;
     const bool isDrawn = def.look.kind == Appearance::Sprite || def.look.kind == Appearance::Mesh;
-    bornWithMany_ = isSmall && program_.ballistic && !isLinked() && !(def.trail.lifetime > 0.0f);
-    publishesWithMany_ = isSmall && isDrawn && kinds.particle != base::kNoKind &&
+    bornWithMany_ =
+        isSmall && program_.ballistic && !def.inWorld && !isLinked() && !(def.trail.lifetime > 0.0f);
+    publishesWithMany_ = isSmall && isDrawn && !def.inWorld && kinds.particle != base::kNoKind &&
                          !(def.trail.lifetime > 0.0f) && !def.light.given;
     if (def.trail.lifetime > 0.0f)
         trails_.emplace(def.trail, store_.capacity(), memory);
+    if (def.inWorld)
+        space_.emplace();
     if (def.light.given)
         lights_.resize(store_.capacity());
     if (def.look.kind == Appearance::Medium)
@@ -107,6 +111,17 @@ void EmitterSolver::heedConditions(const StepContext& context)
 }
 
 void EmitterSolver::step(const StepContext& context)
+{
+    if (!space_)
+        return stepHere(context);
+    if (!started_)
+        space_->begin(context.placement);
+    space_->moveTo(context.placement);
+    inHome(context, [this](const StepContext& home) { stepHere(home); });
+}
+
+/// In the space of the particles.
+void EmitterSolver::stepHere(const StepContext& context)
 {
     schedule_.passTo(now_);
     tasks_ = context.tasks;
@@ -163,6 +178,8 @@ void EmitterSolver::storeBatch(const StepContext& context, std::span<const Birth
         living += storeBirths(program_, {context.seed, context.solverIndex},
                               births.subspan(begin, end - begin), store_);
     });
+    if (space_ && !isLinked())
+        carryBirths(context, births);
     refuse(births.size() - living, *context.counters);
     store_.advance(births.size());
 }
@@ -174,7 +191,7 @@ void EmitterSolver::move(const StepContext& context, uint64_t firstIndex, EventR
     TileStep step(program_, context);
     std::optional<EventWatch> watch;
     if (room)
-        step.watchBy(&watch.emplace(interest_, *room));
+        step.watchBy(&watch.emplace(def_, interest_, *room));
     step.onlyFrom(firstIndex);
     const RowWindow rows = store_.window();
     const uint32_t tiles = (rows.count + kTileRows - 1) / kTileRows;
@@ -205,11 +222,29 @@ bool EmitterSolver::neverDrops(double intensity) const
 bool EmitterSolver::canSeek(const StepContext& context, base::Ticks tick) const
 {
     const bool isForwards = tick >= now_ || !started_;
-    return program_.ballistic && !isLinked() && !trails_ &&
-           (isForwards || (!varied_ && conditionsOf(context) == conditions_));
+    if (!program_.ballistic || isLinked() || trails_)
+        return false;
+    if (!space_)
+        return isForwards || (!varied_ && conditionsOf(context) == conditions_);
+    if (!started_)
+        return true;
+    // Where the host has moved the instance, only steps know the way.
+    return space_->stands(context.placement) && (isForwards || !varied_) &&
+           inHome(context,
+                  [&](const StepContext& home) { return isForwards || conditionsOf(home) == conditions_; });
 }
 
 void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
+{
+    if (!space_)
+        return seekHere(context, tick);
+    if (!started_ || tick < now_)
+        space_->begin(context.placement);
+    space_->moveTo(context.placement);
+    inHome(context, [&](const StepContext& home) { seekHere(home, tick); });
+}
+
+void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
 {
     tasks_ = context.tasks;
     schedule_.passTo(now_);
@@ -252,6 +287,8 @@ void EmitterSolver::save(StateWriter& writer) const
         writer.value(hostEvents_);
     schedule_.save(writer, now_);
     store_.save(writer, now_);
+    if (space_)
+        space_->save(writer);
     if (trails_)
         trails_->save(writer);
 }
@@ -269,6 +306,8 @@ void EmitterSolver::restore(StateReader& reader)
         hostEvents_ = reader.value<uint64_t>();
     schedule_.restore(reader);
     store_.restore(reader, now_);
+    if (space_)
+        space_->restore(reader);
     if (trails_)
         trails_->restore(reader);
 }

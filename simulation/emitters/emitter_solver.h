@@ -5,9 +5,11 @@
 #include "simulation/emitters/birth_schedule.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/emitters/event_scan.h"
+#include "simulation/emitters/moved_space.h"
 #include "simulation/emitters/ribbon_store.h"
 #include "simulation/particles/look_kernel.h"
 #include "simulation/particles/particle_store.h"
+#include "simulation/placed_contact.h"
 
 #include <optional>
 
@@ -79,6 +81,7 @@ private:
                   std::shared_ptr<const ParticleProgram> program, std::pmr::memory_resource* memory);
     void begin(const StepContext& context);
     bool joins(const StepContext& context) const;
+    void stepHere(const StepContext& context);
     struct Conditions
     {
         glm::vec3 pull{0.0f}; ///< [m/s2] see LookJob
@@ -88,6 +91,7 @@ private:
     };
     Conditions conditionsOf(const StepContext& context) const;
     void heedConditions(const StepContext& context);
+    void seekHere(const StepContext& context, base::Ticks tick);
     void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to);
     void storeBatch(const StepContext& context, std::span<const Birth> births);
     void move(const StepContext& context, uint64_t firstIndex = 0, EventRoom* room = nullptr);
@@ -96,8 +100,27 @@ private:
     {
         glm::vec3 position{0.0f}; ///< [m] added to where the birth's own shape puts it
         glm::vec3 velocity{0.0f}; ///< [m/s] likewise
-        bool fed = false;         ///< an event gave birth to it
+        glm::vec3 tint{1.0f};     ///< [1] multiplies its color
+        bool fed = false;         ///< what a particle went through gave birth to it
+        bool byClock = true;
     };
+    // where particles stay behind
+    template <class F>
+    auto inHome(const StepContext& context, F&& body) const
+    {
+        StepContext home = context;
+        std::optional<Collider> collider;
+        std::optional<PlacedContact> contact;
+        toHome(home, collider);
+        if (home.contactHook) {
+            const auto& asked = *static_cast<const PlacedContact*>(home.contactHook->user);
+            home.contactHook = &contact.emplace(asked.host(), space_->home(), asked.faults()).hook();
+        }
+        return body(home);
+    }
+    void toHome(StepContext& context, std::optional<Collider>& collider) const;
+    void carryBirths(const StepContext& context, std::span<const Birth> births);
+    void carryBirth(const StepContext& context, const Birth& birth, uint32_t row, bool byClock);
     bool isLinked() const { return def_.fed || !def_.events.empty(); }
     void stepWithEvents(const StepContext& context);
     void giveLinkedBirth(const StepContext& context, EventList& out);
@@ -152,6 +175,7 @@ private:
     std::shared_ptr<const ParticleProgram> shared_;
     EventInterest interest_;
     std::optional<RibbonStore> trails_;
+    std::optional<MovedSpace> space_;        ///< of particles that stay where they are
     mutable std::pmr::vector<Light> lights_; ///< room for those that are published
     uint64_t hostEvents_ = 0;                ///< so many have been answered
     uint64_t dropped_ = 0;

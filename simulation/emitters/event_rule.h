@@ -8,17 +8,21 @@
 
 namespace fx::sim {
 
+constexpr uint32_t kMostAges = 256; ///< of one emitter, repetitions included
+
 /// Something that happens to particles of one emitter gives birth to particles of another one.
 struct EventRule
 {
     EventKind on = EventKind::Death;
     base::Ticks age = 0;    ///< with EventKind::Age: how old a particle is then, > 0
+    base::Ticks every = 0;  ///< > 0: and again whenever it has become so much older
     uint32_t hostEvent = 0; ///< with EventKind::Host: number in EffectDef::hostEvents
     uint32_t target = 0;    ///< solver index of the emitter that gives birth
     uint32_t fewest = 1;    ///< births of one event, drawn from [fewest, most]
     uint32_t most = 1;
     float probability = 1.0f;     ///< [1] 0..1 that anything is born
     float inheritVelocity = 0.0f; ///< [1] 0..1 of the particle's velocity that those who are born have too
+    float inheritColor = 0.0f;    ///< [1] 0..1: from their own color to that times the particle's
 };
 
 /// What one event asks of the emitter that it gives birth in.

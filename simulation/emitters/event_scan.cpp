@@ -38,12 +38,28 @@ base::Ticks deathTick(const ParticleStore& store, uint32_t row, base::Ticks from
     return to;
 }
 
-EventInterest::EventInterest(std::span<const EventRule> rules)
+glm::vec3 colorAt(const EmitterDef& def, const ParticleStore& store, uint32_t row, base::Ticks tick)
+{
+    const float life = std::clamp(store.ageOf(row, tick) * store.value(stored::PerLife, row), 0.0f, 1.0f);
+    const bool medium = def.look.kind == Appearance::Medium;
+    const auto color = (medium ? def.albedoOverLife : def.look.colorOverLife).at(life);
+    glm::vec3 tinted;
+    for (size_t a = 0; a < 3; ++a)
+        tinted[int(a)] = color[a] * store.value(stored::TintRed + a, row);
+    return tinted;
+}
+
+EventInterest::EventInterest(std::span<const EventRule> rules, base::Ticks longest)
 {
     for (const EventRule& rule : rules) {
         kinds_[size_t(rule.on)] = true;
-        if (rule.on == EventKind::Age)
-            ages_.push_back(rule.age);
+        colors_ = colors_ || rule.inheritColor != 0.0f;
+        if (rule.on != EventKind::Age)
+            continue;
+        ages_.push_back(rule.age);
+        for (base::Ticks age = rule.age + rule.every;
+             rule.every > 0 && age < longest && ages_.size() < kMostAges; age += rule.every)
+            ages_.push_back(age);
     }
     std::stable_sort(ages_.begin(), ages_.end());
     ages_.erase(std::unique(ages_.begin(), ages_.end()), ages_.end());
@@ -53,8 +69,10 @@ bool EventInterest::answers(const EventRule& rule, const ParticleEvent& event) c
 {
     if (rule.on != event.kind)
         return false;
-    if (rule.on == EventKind::Age)
-        return rule.age == ages_[event.number];
+    if (rule.on == EventKind::Age) {
+        const base::Ticks beyond = ages_[event.number] - rule.age;
+        return beyond == 0 || (rule.every > 0 && beyond > 0 && beyond % rule.every == 0);
+    }
     return rule.on != EventKind::Host || rule.hostEvent == event.number;
 }
 
@@ -79,6 +97,8 @@ void EventScan::addAt(uint32_t row, base::Ticks tick, ParticleEvent event, Event
         event.position[a] = motion.position[a][row - first];
         event.velocity[a] = motion.velocity[a][row - first];
     }
+    if (interest.inColor())
+        event.color = colorAt(job.program->def, store, row, tick);
     out.add(event);
 }
 
@@ -87,10 +107,10 @@ void EventScan::scanAges(uint32_t row, base::Ticks from, EventList& out) const
     const base::Ticks born = store.born[row];
     const bool dies = !store.isAlive(row, end);
     const base::Ticks death = dies ? deathTick(store, row, from, end) : kForever;
-    for (uint32_t k = 0; k < interest.ages().size(); ++k) {
+    for (uint32_t k = interest.firstAfter(from - born); k < interest.ages().size(); ++k) {
         const base::Ticks tick = born + interest.ages()[k];
-        if (tick <= from || tick > end || tick >= death) // (1)
-            continue;
+        if (tick > end || tick >= death) // (1)
+            break;
         ParticleEvent event = eventOf(tick, store.index[row], emitter, EventKind::Age);
         event.number = k;
         addAt(row, tick, event, out);
@@ -147,12 +167,18 @@ void EventWatch::see(const TileContext& context, const Tile& tile, const Particl
             event.position = begin + share * (glm::vec3(tile.x[i], tile.y[i], tile.z[i]) - begin);
             event.velocity = {tile.vx[i], tile.vy[i], tile.vz[i]};
             event.number = number;
+            if (interest_.inColor())
+                event.color = colorAt(def_, store, row, tick);
             out.add(event);
         };
-        for (uint32_t k = 0; k < interest_.ages().size(); ++k)
-            if (const base::Ticks tick = born + interest_.ages()[k];
-                tick > from && tick <= context.end && tick < last)
-                add(tick, EventKind::Age, k);
+        for (uint32_t k = interest_.firstAfter(from - born); k < interest_.ages().size(); ++k) {
+            const base::Ticks tick = born + interest_.ages()[k];
+            if (tick > context.end || tick >= last)
+                break;
+            add(tick, EventKind::Age, k);
+        }
+        if (touches && interest_.inColor())
+            contact.color = colorAt(def_, store, row, contact.tick);
         contact.kind = EventKind::Collision;
         if ((flags & tile_flag::Hit) != 0 && contact.tick < death && interest_.in(EventKind::Collision))
             out.add(contact);

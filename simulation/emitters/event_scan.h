@@ -6,7 +6,7 @@
 ///
 /// symbol   unit   meaning
 ///   b        tick   birth
-///   g        tick   an age that a rule names
+///   g        tick   an age that a rule names, or that it repeats
 ///   d        tick   death: the first tick at which the particle no longer lives
 ///   s, e     tick   begin and end of the step
 /// @derivation
@@ -31,6 +31,7 @@
 #include "simulation/particles/look_kernel.h"
 #include "simulation/particles/tile_step.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -41,14 +42,25 @@ namespace fx::sim {
 /// `to`. (2)
 base::Ticks deathTick(const ParticleStore& store, uint32_t row, base::Ticks from, base::Ticks to);
 
+/// [1] linear Rec. 709: the color over life of the particle in `row`, or its albedo where it is a medium, at
+/// `tick`, with what it has inherited; without its brightness.
+glm::vec3 colorAt(const EmitterDef& def, const ParticleStore& store, uint32_t row, base::Ticks tick);
+
 /// What an emitter's rules want to know of its particles.
 class EventInterest
 {
 public:
-    explicit EventInterest(std::span<const EventRule> rules);
+    /// @param longest [tick] no particle becomes older
+    EventInterest(std::span<const EventRule> rules, base::Ticks longest);
 
     bool in(EventKind kind) const { return kinds_[size_t(kind)]; }
-    std::span<const base::Ticks> ages() const { return ages_; } ///< ascending, each once
+    bool inColor() const { return colors_; }                    ///< of the particle
+    std::span<const base::Ticks> ages() const { return ages_; } ///< ascending, each once, at most kMostAges
+    /// Number of the first age beyond `age`.
+    uint32_t firstAfter(base::Ticks age) const
+    {
+        return uint32_t(std::upper_bound(ages_.begin(), ages_.end(), age) - ages_.begin());
+    }
     /// Events that one particle can have in one step.
     uint32_t mostOfOne() const { return 3 + uint32_t(ages_.size()); }
     /// True when an event is what `rule` is about.
@@ -56,6 +68,7 @@ public:
 
 private:
     std::array<bool, 5> kinds_{};
+    bool colors_ = false;
     std::vector<base::Ticks> ages_;
 };
 
@@ -97,10 +110,13 @@ private:
 class EventWatch final : public TileWatch
 {
 public:
-    EventWatch(const EventInterest& interest, EventRoom& room) : interest_(interest), room_(room) {}
+    EventWatch(const EmitterDef& def, const EventInterest& interest, EventRoom& room)
+        : def_(def), interest_(interest), room_(room)
+    {}
     void see(const TileContext& context, const Tile& tile, const ParticleStore& store) override;
 
 private:
+    const EmitterDef& def_;
     const EventInterest& interest_;
     EventRoom& room_;
 };

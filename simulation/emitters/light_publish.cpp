@@ -18,6 +18,7 @@ void EmitterSolver::publishTrails(const base::GroupInfo& base, base::FrameSnapsh
     group.editInfo() = base;
     group.editInfo().kind = kinds_.ribbon;
     writeConstants(def_, def_.trail.look, def_.trail.arcPerTile, group.editConstants());
+    group.editConstants()[base::particle_constant::Edge] = def_.trail.edge;
     group.editInfo().count = trails_->publish(now_, group);
 }
 
@@ -38,7 +39,7 @@ EmitterSolver::Light EmitterSolver::lightOf(uint32_t row, uint32_t i, const Moti
     light.row = row;
     for (int a = 0; a < 3; ++a) {
         light.position[a] = motion.position[a][i];
-        light.intensity[a] = strength * color[size_t(a)];
+        light.intensity[a] = strength * color[size_t(a)] * store_.value(stored::TintRed + size_t(a), row);
     }
     light.sum = light.intensity.x + light.intensity.y + light.intensity.z;
     return light;

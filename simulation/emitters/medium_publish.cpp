@@ -44,8 +44,9 @@ public:
         const std::array<float, 3> albedo = def_.albedoOverLife.at(t);
         const std::array<float, 3> emission = def_.emissionOverLife.at(t);
         for (size_t k = 0; k < 3; ++k) {
-            writer_.column(blob::AlbedoR + k)[to] = albedo[k];
-            writer_.column(blob::EmissionR + k)[to] = emission[k];
+            const float tint = store_.value(stored::TintRed + k, row);
+            writer_.column(blob::AlbedoR + k)[to] = std::min(albedo[k] * tint, 1.0f);
+            writer_.column(blob::EmissionR + k)[to] = emission[k] * tint;
         }
         writer_.column(blob::Age)[to] = motion.age[i];
     }

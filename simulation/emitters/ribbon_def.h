@@ -17,6 +17,8 @@ struct RibbonDef
     float minDistance = 0;   ///< [m] between points
     uint32_t maxPoints = 32; ///< 2..256
     float arcPerTile = 1.0f; ///< [m] see base::particle_constant
+    float edge = 0.0f;       ///< [1] see base::particle_constant
+    float softEnds = 0.0f;   ///< [m] over which both ends fade
     EmitterLook look;        ///< blend, order, luminance, lit, softness and texture of the ribbon
     base::ScalarCurve widthAlong{std::array{1.0f}};            ///< t in [0, 1]: age of the point / lifetime
     base::ColorCurve colorAlong{std::array{1.0f, 1.0f, 1.0f}}; ///< linear Rec. 709

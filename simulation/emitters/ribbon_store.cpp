@@ -10,6 +10,8 @@ namespace fx::sim {
 
 namespace {
 
+constexpr double kSecondsPerTick = 1.0 / double(base::kTicksPerSecond);
+
 /// Where the particle in `row` is at `tick`.
 glm::vec3 placeOf(const LookJob& job, uint32_t row, base::Ticks tick, glm::vec3* outVelocity = nullptr)
 {
@@ -71,6 +73,8 @@ void RibbonStore::begin(const LookJob& job, uint32_t row)
     Trail& trail = trails_[row];
     trail = Trail{};
     trail.index = job.store->index[row];
+    for (size_t a = 0; a < 3; ++a)
+        trail.tint[int(a)] = job.store->value(stored::TintRed + a, row);
     trail.head.tick = job.store->born[row];
     glm::vec3 velocity;
     trail.head.position = placeOf(job, row, trail.head.tick, &velocity);
@@ -153,17 +157,35 @@ struct RibbonStore::Writer
         namespace column = base::ribbon_column;
         const float t = float(double(now - point.tick) * perLife);
         const float half = 0.5f * def.width * std::max(def.widthAlong.at(t)[0], 0.0f);
-        const auto color = def.colorAlong.at(t);
         group.editColumn(column::PositionX)[count] = point.position.x;
         group.editColumn(column::PositionY)[count] = point.position.y;
         group.editColumn(column::PositionZ)[count] = point.position.z;
         group.editColumn(column::HalfWidth)[count] = half;
         group.editColumn(column::Arc)[count] = point.arc;
-        group.editColumn64(column::Color)[count] =
-            base::packHalfs(color[0], color[1], color[2], def.opacityAlong.at(t)[0]);
         group.editColumn64(column::Strip)[count] = strip;
+        group.editColumn(column::Age)[count] = float(double(now - point.tick) * kSecondsPerTick);
         bounds.add(point.position, half);
         ++count;
+    }
+
+    /// The rows from `first` on are a strip.
+    void finish(uint32_t first, const glm::vec3& tint)
+    {
+        namespace column = base::ribbon_column;
+        const auto arc = group.editColumn(column::Arc);
+        const float head = count > first ? arc[first] : 0.0f;
+        const float end = count > first ? arc[count - 1] : 0.0f;
+        for (uint32_t i = first; i < count; ++i) {
+            const float t = std::min(group.column(column::Age)[i] * float(perLife / kSecondsPerTick), 1.0f);
+            float opacity = def.opacityAlong.at(t)[0];
+            if (def.softEnds > 0.0f)
+                opacity *= std::min(std::min(head - arc[i], arc[i] - end) / def.softEnds, 1.0f); // (4)
+            const auto color = def.colorAlong.at(t);
+            group.editColumn64(column::Color)[i] =
+                base::packHalfs(color[0] * tint.x, color[1] * tint.y, color[2] * tint.z, opacity);
+            if (def.arcPerTile <= 0.0f)
+                arc[i] = head > end ? (arc[i] - end) / (head - end) : 0.0f; // (5)
+        }
     }
 };
 
@@ -174,6 +196,7 @@ uint32_t RibbonStore::publish(base::Ticks now, base::SnapshotGroup& group) const
         const Trail& trail = trails_[row];
         if (trail.count == 0)
             continue;
+        const uint32_t begin = out.count;
         if (trail.head.tick > pointOf(row, trail.count - 1).tick)
             out.put(trail.head, trail.index);
         const Point* younger = &trail.head;
@@ -194,6 +217,7 @@ uint32_t RibbonStore::publish(base::Ticks now, base::SnapshotGroup& group) const
             }
             younger = &point;
         }
+        out.finish(begin, trail.tint);
     }
     group.editInfo().bounds = out.bounds;
     return out.count;
@@ -216,6 +240,7 @@ void RibbonStore::save(StateWriter& writer) const
         writer.value(trail.count);
         writer.value(trail.next);
         writer.flag(trail.ended);
+        writer.vector(trail.tint);
         put(trail.head);
         for (uint32_t k = 0; k < trail.count; ++k)
             put(pointOf(row, k));
@@ -244,6 +269,7 @@ void RibbonStore::restore(StateReader& reader)
         const uint32_t points = reader.value<uint32_t>(1, def_.maxPoints, "a trail has too many points");
         trail.next = reader.value<uint64_t>(0, uint64_t(1) << 40, "a trail is out of range");
         trail.ended = reader.flag();
+        trail.tint = reader.vector();
         trail.head = get();
         for (uint32_t k = 0; k < points && reader.ok(); ++k)
             keep(row, get());

@@ -19,6 +19,11 @@
 ///   so that a point never changes its arc length while it is seen. The head lies where the particle is, or
 ///   where it died, with (2) from the newest point. The tail ends at the age T: between the last point that
 ///   is younger and the first that is not, place and arc length are interpolated in proportion to time (3)
+///   Near its ends, at arc length s between the tail's s_t and the head's s_h, a strip whose ends are soft
+///   over f has its opacity times
+///       min(s_h - s, s - s_t, f) / f                                                        (4)
+///   and a texture that is as long as the strip is read at
+///       (s - s_t) / (s_h - s_t)                                                             (5)
 ///   Where motion is integrated, x_k lies on the straight way of its step, in proportion to time.
 /// @source    elementary
 /// @deviation none
@@ -69,6 +74,7 @@ private:
         uint32_t count = 0;
         uint64_t next = 0; ///< k of the next point
         bool ended = false;
+        glm::vec3 tint{1.0f}; ///< of the particle
     };
     const Point& pointOf(uint32_t row, uint32_t k) const ///< 0: the oldest
     {

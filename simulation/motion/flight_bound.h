@@ -17,6 +17,8 @@
 ///       |v(t)| <= max(v, u + a / k), and |v(t)| <= v + (a + k u) t                             (2)
 ///   so that the way is at most the smaller of
 ///       s1 = max(v, u + a / k) T,  s2 = v T + (a + k u) T^2 / 2                                (3)
+///   What is faster than w = u + a / k comes near to it, |v(t)| <= w + (v - w) exp(-k t), hence also
+///       s3 = w T + max(v - w, 0) / k                                                           (4)
 /// @source    elementary (comparison of differential inequalities)
 /// @deviation none
 /// @valid     all arguments finite and >= 0
@@ -44,6 +46,8 @@ inline double flightBound(const FlightBound& b)
     if (b.drag > 0) {
         const double fastest = std::max(b.speed, b.air + b.acceleration / b.drag); // (2)
         way = std::min(way, fastest * b.seconds);                                  // (3) s1
+        const double final = b.air + b.acceleration / b.drag;
+        way = std::min(way, final * b.seconds + std::max(b.speed - final, 0.0) / b.drag); // (4)
     }
     return way * (1.0 + 1e-6);
 }

@@ -61,6 +61,8 @@ public:
           frame_(*job.store, stored::Frame), axis_{{*job.store, stored::AxisX},
                                                    {*job.store, stored::AxisY},
                                                    {*job.store, stored::AxisZ}},
+          tint_{
+              {*job.store, stored::TintRed}, {*job.store, stored::TintGreen}, {*job.store, stored::TintBlue}},
           frames_(float(look_.tileColumns * look_.tileRows)),
           bright_(brightness_.rows || brightness_.constant != 1.0f),
           stretch_(look_.alignment == base::SpriteAlignment::Velocity && look_.kind == Appearance::Sprite
@@ -194,6 +196,7 @@ private:
     const LookColumns& out_;
     Source radius_, amount_, brightness_, angle_, spin_, frame_;
     Source axis_[3];
+    Source tint_[3];
     float frames_;
     bool bright_;
     float stretch_; ///< [s] half of it lengthens a sprite to each side
@@ -219,6 +222,9 @@ HWY_INLINE void Looks::write(uint32_t row, Which alive, const MotionLanes& motio
         for (uint32_t c = 0; c < 3; ++c)
             rgb[c] = rgb[c] * fast.value(c);
     }
+    if (!kPlain && tint_[0].rows)
+        for (uint32_t c = 0; c < 3; ++c)
+            rgb[c] = rgb[c] * tint_[c].at(row);
     for (Floats& c : rgb) {
         if (!kPlain && bright_)
             c = c * brightness_.at(row);

@@ -82,7 +82,8 @@ bool isPlain(const ParticleProgram& program)
 {
     const EmitterLook& look = program.def.look;
     bool plain = program.published == base::particle_column::kAlways && !program.bySpeed &&
-                 !program.looks.byTable && look.brightness.min == 1.0f && !varies(look.brightness);
+                 !program.looks.byTable && look.brightness.min == 1.0f && !varies(look.brightness) &&
+                 !program.def.tinted;
     for (uint32_t c = look_channel::Red; c <= look_channel::Blue; ++c) // more than rounding within the bounds
         plain = plain && program.looks.lowest(c) > 1e-3f * program.looks.highest(c) &&
                 program.looks.highest(c) < 6e4f;
@@ -98,12 +99,15 @@ void chooseColumns(ParticleProgram& program)
         program.constant[column] = range.min;
     };
     const bool medium = def.look.kind == Appearance::Medium;
-    const bool fixed = def.shape == EmitterShape::Point && !def.births && !def.fed && program.ballistic;
+    const bool fixed =
+        def.shape == EmitterShape::Point && !def.births && !def.fed && !def.inWorld && program.ballistic;
     for (size_t a = 0; a < 3; ++a) {
         program.stores[stored::X + a] = !fixed;
         program.constant[stored::X + a] = def.position[int(a)];
         program.stores[stored::VelocityX + a] = true;
         program.stores[stored::AxisX + a] = def.look.kind == Appearance::Mesh;
+        program.stores[stored::TintRed + a] = def.tinted;
+        program.constant[stored::TintRed + a] = 1.0f;
     }
     choose(stored::PerLife, def.lifetime);
     program.constant[stored::PerLife] = perLifeOf(def.lifetime.min);

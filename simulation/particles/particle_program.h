@@ -33,6 +33,9 @@ enum : size_t
     AxisX,      ///< [1] unit axis that a mesh turns about
     AxisY,
     AxisZ,
+    TintRed, ///< [1] multiplies the color
+    TintGreen,
+    TintBlue,
     Count
 };
 }

@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace fx::sim {
 
@@ -90,6 +91,14 @@ enum class TilePhase : uint8_t
     Event,     ///< looks at flags and contacts
 };
 
+/// The most that a module does to a particle.
+struct TileBound
+{
+    float acceleration = std::numeric_limits<float>::infinity(); ///< [m/s2]
+    float air = 0.0f;                                            ///< [m/s] that it adds to the air
+    bool followsAir = false; ///< it takes particles to the speed of the air, other than by linear drag
+};
+
 /// One module, compiled. Immutable: shared by all instances and threads.
 class TileOp
 {
@@ -100,6 +109,8 @@ public:
     virtual size_t scratchBytes() const { return 0; }
     virtual void prepare(const TileContext&, void* /*scratch*/) const {}
     virtual void run(const TileContext& context, const void* scratch, Tile& tile) const = 0;
+    /// For how far particles may get; without one nobody knows.
+    virtual TileBound bound() const { return {}; }
     /// True when the tile flags Stuck or Collided must survive the step.
     virtual bool keepsFlags() const { return false; }
     /// True when it heeds StepContext::collider.
@@ -121,6 +132,8 @@ public:
         uint32_t count;
     };
     virtual void sample(const Births& births) const = 0;
+    /// [m] no birth is farther from the origin; infinite when nobody knows.
+    virtual float extent() const { return std::numeric_limits<float>::infinity(); }
 };
 
 } // namespace fx::sim

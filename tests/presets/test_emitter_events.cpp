@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 
 using namespace fx;
@@ -90,4 +91,50 @@ TEST(EmitterEventsPreset, trailsLightsAndPrewarmAreRead)
     EXPECT_EQ(emitter.light.maxLights, 4u);
     EXPECT_TRUE(emitter.light.merged);
     EXPECT_EQ(emitter.light.intensity, 3.0f);
+}
+
+TEST(EmitterEventsPreset, spacesRepetitionsAndColorsAreReadAndMistakesExplained)
+{
+    const auto loaded = load(R"({"name":"sparks","space":"world"},{"name":"rocket","space":"world",
+        "inheritVelocity":0.75,"emission":{"rate":1},"lifetime":2,"events":[
+        {"on":"age","age":0.5,"every":0.25,"emit":"sparks","inheritColor":0.5}]})");
+    ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+    const auto& sparks = dynamic_cast<const sim::EmitterDef&>(*loaded->effect->solvers[0]);
+    const auto& rocket = dynamic_cast<const sim::EmitterDef&>(*loaded->effect->solvers[1]);
+    EXPECT_TRUE(sparks.tinted);
+    EXPECT_TRUE(rocket.inWorld);
+    EXPECT_EQ(rocket.inheritVelocity, 0.75f);
+    EXPECT_EQ(rocket.events[0].every, base::kTicksPerSecond / 4);
+    EXPECT_EQ(rocket.events[0].inheritColor, 0.5f);
+    EXPECT_NE(messageOf(R"({"emission":{"rate":1},"inheritVelocity":1})").find("\"space\": \"world\""),
+              std::string::npos);
+    EXPECT_NE(messageOf(kSparks + R"(,{"name":"r","space":"world","emission":{"rate":1},
+        "events":[{"on":"death","emit":"sparks"}]})")
+                  .find("in another space"),
+              std::string::npos);
+    EXPECT_NE(messageOf(kSparks + R"(,{"name":"r","emission":{"rate":1},"lifetime":100,
+        "events":[{"on":"age","age":1,"every":0.01,"emit":"sparks"}]})")
+                  .find("repetitions"),
+              std::string::npos);
+}
+
+TEST(EmitterEventsPreset, theReachOfAChainAddsUp)
+{
+    const auto reachOf = [](const std::string& emitters) {
+        const auto loaded = load(emitters);
+        EXPECT_TRUE(loaded.ok()) << loaded.status().message();
+        return loaded.ok() ? loaded->effect->reach(9.81f, 0.0f) : 0.0f;
+    };
+    const std::string rocket = R"({"name":"rocket","emission":{"rate":1},"lifetime":2,"speed":10,"radius":0.1,
+        "forces":{"gravity":0},"appearance":{"kind":"none"},"events":[{"on":"death","emit":"star")";
+    const std::string star =
+        R"(]},{"name":"star","lifetime":1,"speed":3,"radius":0.5,"forces":{"gravity":0}})";
+    EXPECT_NEAR(reachOf(rocket + "}" + star), 20 + 3 + 0.5, 1e-3);
+    EXPECT_NEAR(reachOf(rocket + R"(,"inheritVelocity":0.5})" + star), 20 + 3 + 5 + 0.5, 1e-3);
+    const std::string smoke = R"({"emission":{"rate":1},"radius":0.5,"forces":{"gravity":0,)";
+    EXPECT_NEAR(reachOf(smoke + R"("drag":1,"vortices":[{"radius":2,"speed":4,"lift":1}]}})"),
+                0.5 * 1 * 5 + 0.5, 1e-3); // accelerates towards air of 5 m/s
+    EXPECT_EQ(reachOf(smoke + R"("attractors":[{"strength":1,"falloff":"spring"}]}})"),
+              std::numeric_limits<float>::infinity());
+    EXPECT_EQ(reachOf(R"({"emission":{"rate":1},"space":"world"})"), std::numeric_limits<float>::infinity());
 }

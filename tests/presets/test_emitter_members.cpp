@@ -44,7 +44,8 @@ Fields fieldsOf(const fx::sim::SolverDef& solver)
                   e.emission.duration, double(e.opticalDepthGiven),
                   e.fireShare,         e.heat,
                   e.detailAmount,      e.detailScale,
-                  e.anisotropy,        e.shutter};
+                  e.anisotropy,        e.shutter,
+                  double(e.inWorld),   e.inheritVelocity};
     for (const glm::vec3& v : {e.position, e.size})
         add(fields, v);
     for (const fx::base::Range& range : {e.lifetime, e.speed, e.radius, e.crossSection, e.temperature})
@@ -130,9 +131,13 @@ TEST(EmitterMembers, eachIsReadAndHasTheDefaultThatItsSchemaDocuments)
 {
     const std::set<std::string> ofShapes{"inner", "surface", "height", "tube", "closed"};
     const Json schema = emitterSchema();
-    Json plain = only(schema, ofShapes, false);
+    std::set<std::string> elsewhere = ofShapes;
+    elsewhere.insert("inheritVelocity");
+    Json plain = only(schema, elsewhere, false);
     plain["properties"]["shape"]["enum"] = {"point", "disc"}; // others need more than their name
     probeMembers("emitters", plain, kLeast, "", fieldsOf);
+    probeMembers("emitters", only(schema, {"inheritVelocity"}), with(kLeast, {{"space", "world"}}), "",
+                 fieldsOf);
     const Json torus = with(kLeast, {{"shape", "torus"}, {"size", 8000}});
     probeMembers("emitters", only(schema, {"tube"}), torus, "", fieldsOf);
     probeMembers("emitters", only(schema, {"inner", "surface"}), with(torus, {{"tube", 1000}}), "", fieldsOf);

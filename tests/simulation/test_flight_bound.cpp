@@ -29,6 +29,12 @@ TEST(FlightBound, noIntegratedFlightPassesIt)
     }
 }
 
+TEST(FlightBound, dragStopsWhatIsFast)
+{
+    const double way = 40.0 / 2.0 + (9.81 / 2.0) * 3.0; // the whole way of a throw, and falling for ever
+    EXPECT_NEAR(flightBound({3.0, 40.0, 9.81, 0.0, 2.0}), way - (9.81 / 2.0) / 2.0, 1e-4 * way);
+}
+
 TEST(FlightBound, strongDragKeepsItNearTheSpeedOfTheAir)
 {
     EXPECT_LE(flightBound({10.0, 0.0, 9.81, 2.0, 100.0}), (2.0 + 0.0981) * 10.0 * 1.00001);

@@ -148,6 +148,40 @@ static inline FxCollisionMesh fxDefaultCollisionMesh(void)
     return mesh;
 }
 
+/// Asks the host what stands in the way of one particle. Must not throw, block for long, or change what it
+/// answers from.
+///
+/// Threads: called by several threads at once, those of the context's tasks and the scene thread, while
+/// fxScene_Update() or fxScene_SeekInstance() runs. It may call nothing of this scene: that fails with
+/// FX_ERROR_RE_ENTRANT on the scene thread and with FX_ERROR_WRONG_THREAD on others, and changes nothing.
+/// Equal questions need equal answers through a whole call; for equal bits on every machine, always. What was
+/// out of sight and is replayed asks now about ways of the past.
+/// @param user      what FxContactHook says
+/// @param from, to  [m] world, a straight way of at most one step
+/// @param outShare  [1] 0..1, how much of the way is free
+/// @param outNormal normal of what is met, world, of any length above 0, against the way
+/// @return 0 when the way is free, then nothing else is read; otherwise 1
+typedef int (*FxContactFunction)(void* user, const double from[3], const double to[3], float* outShare,
+                                 float outNormal[3]);
+
+/// Geometry that only the host knows, for presets with an obstacle of the shape "hook". Fill with
+/// fxDefaultContactHook().
+typedef struct FxContactHook
+{
+    uint32_t structSize;    ///< set by fxDefaultContactHook(); do not touch
+    uint32_t reserved;      ///< 0
+    FxContactFunction meet; ///< required
+    void* user;             ///< handed to it; the host's own, default null
+} FxContactHook;
+
+/// A hook without a function.
+static inline FxContactHook fxDefaultContactHook(void)
+{
+    FxContactHook hook = FX_ZEROED;
+    hook.structSize = sizeof(FxContactHook);
+    return hook;
+}
+
 /// Where an instance is in its life.
 typedef enum FxInstanceState
 {
@@ -216,7 +250,8 @@ FX_API FxResult fxScene_AdoptThread(FxScene* scene);
 /// past. An instance that starts with the next step takes its memory here, a later one when it wakes.
 /// Instances of one preset with the same start, seed, quality, intensity and emission, and with the same
 /// gravity and wind once these are turned and scaled into their own space, share one simulation until one of
-/// them is changed: they are stepped once, and shown each at its own place. [scene thread]
+/// them is changed: they are stepped once, and shown each at its own place. Those with emitters of "space":
+/// "world" also need the same placement. [scene thread]
 /// @param outInstance receives the id; untouched on failure
 /// @return FX_OK, FX_ERROR_STALE_ID (preset), FX_ERROR_INVALID_ARGUMENT (not finite or out of range),
 ///         FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (maxInstances), FX_ERROR_OUT_OF_MEMORY,
@@ -239,7 +274,9 @@ FX_API uint32_t fxScene_IsValid(FxScene* scene, FxInstanceId instance);
 FX_API FxResult fxScene_GetInstanceState(FxScene* scene, FxInstanceId instance, FxInstanceState* outState,
                                          uint32_t* outParticles);
 
-/// Moves an instance with all its particles; seen from the next step on. [scene thread]
+/// Moves an instance with all its particles; seen from the next step on. Particles of emitters with "space":
+/// "world" stay where they are: there the move is taken as a straight one over the steps of the next
+/// fxScene_Update() that takes any, and births lie evenly along it. [scene thread]
 /// @param position [m] world, each within +-1e9
 /// @param rotation unit quaternion x, y, z, w (length within 1e-3 of 1; it is normalized)
 /// @param scale    [1] 1e-3..1e3
@@ -300,12 +337,24 @@ FX_API FxResult fxScene_TriggerEvent(FxScene* scene, FxInstanceId instance, cons
 ///         A failure leaves the scene as it was.
 FX_API FxResult fxScene_SetCollisionMesh(FxScene* scene, const FxCollisionMesh* mesh);
 
+/// Sets what particles ask about the host's own geometry, from the next step on; instances of presets that
+/// have no obstacle of the shape "hook" do not. Saved states do not contain it: set it before restoring one.
+/// [scene thread]
+/// @param hook null: nothing is in the way any more. The function must be callable until another is set or
+///             the scene is destroyed
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null or without a function), FX_ERROR_VERSION (structSize),
+///         FX_ERROR_OUT_OF_MEMORY, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT. A failure leaves the scene as
+///         it was.
+FX_API FxResult fxScene_SetContactHook(FxScene* scene, const FxContactHook* hook);
+
 /// Adds time and takes the steps that are due, then publishes the last two of them for views and hosts.
 /// Allocates nothing once the scene is warm, except when an instance wakes. [scene thread]
 /// @param dtSeconds [s] >= 0; 0 changes nothing; more than maxFrameTicks is shortened to it and counted
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (negative or not finite: counted, nothing advances),
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (time has advanced, and what
-///         the allocator refused is missing from the picture until it gives again)
+///         the allocator refused is missing from the picture until it gives again), FX_ERROR_SCHEMA (time has
+///         advanced, but the contact hook gave answers that are none: a share that is not in 0..1, a normal
+///         that is zero or not finite. The message says how many; they counted as free ways)
 FX_API FxResult fxScene_Update(FxScene* scene, double dtSeconds);
 
 /// Reads the counters of the scene. [scene thread]

@@ -75,11 +75,12 @@ public:
         for (const CollisionDef& def : defs.first(std::min(defs.size(), kMostObstacles))) {
             entries_.push_back({makeObstacle(def), def.response, std::clamp(def.restitution, 0.0f, 1.0f),
                                 std::clamp(def.friction, 0.0f, 1.0f)});
-            heedsScene_ = heedsScene_ || def.kind == ObstacleKind::Scene;
+            heedsScene_ = heedsScene_ || def.kind == ObstacleKind::Scene || def.kind == ObstacleKind::Hook;
             holds_ = holds_ || def.response == ContactResponse::Stick;
         }
     }
 
+    TileBound bound() const override { return {0.0f}; } // no contact makes anything faster
     TilePhase phase() const override { return TilePhase::Contact; }
     bool collides() const override { return heedsScene_; }
     bool keepsFlags() const override { return holds_; }

@@ -24,6 +24,7 @@
 #include "simulation/particles/forces/tile_lanes-inl.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
@@ -91,6 +92,21 @@ class AttractorOp final : public TileOp
 {
 public:
     explicit AttractorOp(const AttractorDef& def) : def_(def) { def_.radius = std::max(def.radius, 1e-4f); }
+    TileBound bound() const override
+    {
+        const float s = std::abs(def_.strength), ratio = def_.radius / std::max(def_.softening, 1e-30f);
+        switch (def_.falloff) {
+        case Falloff::Spring: // grows without end unless it ends somewhere
+            return def_.reach > 0.0f ? TileBound{s * def_.reach / def_.radius} : TileBound{};
+        case Falloff::Constant:
+            return {s};
+        case Falloff::Inverse:
+            return {s * ratio};
+        case Falloff::InverseSquare:
+            break;
+        }
+        return {s * ratio * ratio};
+    }
     TilePhase phase() const override { return TilePhase::Force; }
     void run(const TileContext&, const void*, Tile& tile) const override
     {

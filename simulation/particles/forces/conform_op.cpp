@@ -27,6 +27,7 @@
 #include "simulation/particles/forces/tile_lanes-inl.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
@@ -130,6 +131,12 @@ public:
     {
         def_.stiffness = std::max(def.stiffness, 0.0f);
         def_.damping = std::max(def.damping, 0.0f);
+    }
+    TileBound bound() const override
+    {
+        if (def_.stiffness > 0.0f && !(def_.reach > 0.0f))
+            return {};
+        return {def_.stiffness * (def_.reach + std::abs(def_.distance))};
     }
     TilePhase phase() const override { return TilePhase::Force; }
     void run(const TileContext&, const void*, Tile& tile) const override

@@ -17,6 +17,8 @@
 #include "foundation/random/philox.h"
 #include "simulation/particles/forces/force_ops.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +31,7 @@ class GustOp final : public TileOp
 public:
     explicit GustOp(const GustDef& def) : def_(def) {}
 
+    TileBound bound() const override { return {0.0f, glm::length(def_.strength), false}; }
     TilePhase phase() const override { return TilePhase::Force; }
     size_t scratchBytes() const override { return sizeof(glm::vec3); }
     void prepare(const TileContext& context, void* scratch) const override
@@ -59,6 +62,7 @@ class QuadraticDragOp final : public TileOp
 public:
     explicit QuadraticDragOp(float coefficient) : coefficient_(std::max(coefficient, 0.0f)) {}
 
+    TileBound bound() const override { return {0.0f, 0.0f, coefficient_ > 0.0f}; }
     TilePhase phase() const override { return TilePhase::Force; }
     void run(const TileContext&, const void*, Tile& tile) const override
     {

@@ -8,6 +8,7 @@
 #include "simulation/particles/forces/tile_lanes-inl.h"
 
 #include <algorithm>
+#include <cmath>
 
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::modules::HWY_NAMESPACE {
@@ -93,6 +94,16 @@ class VectorFieldOp final : public TileOp
 {
 public:
     explicit VectorFieldOp(const VectorFieldDef& def) : def_(def) { def_.scale = std::max(def.scale, 1e-6f); }
+    TileBound bound() const override
+    {
+        float longest = 0.0f;
+        for (size_t i = 0; i + 2 < def_.grid->values.size(); i += 3) {
+            const float* v = &def_.grid->values[i];
+            longest = std::max(longest, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        }
+        longest = std::sqrt(longest) * std::abs(def_.strength);
+        return def_.isAcceleration ? TileBound{longest} : TileBound{0.0f, longest, false};
+    }
     TilePhase phase() const override { return TilePhase::Force; }
     void run(const TileContext&, const void*, Tile& tile) const override
     {

@@ -32,6 +32,7 @@
 #include "simulation/particles/forces/tile_lanes-inl.h"
 
 #include <algorithm>
+#include <cmath>
 
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::modules::HWY_NAMESPACE {
@@ -85,6 +86,11 @@ public:
         def_.axis = unitOrUp(def.axis);
         def_.radius = std::max(def.radius, 1e-4f);
         def_.hold = std::clamp(def.hold, 0.0f, 1.0f);
+    }
+    TileBound bound() const override
+    {
+        const float air = std::abs(def_.speed) + std::abs(def_.lift) + std::abs(def_.pull);
+        return {def_.hold * def_.speed * def_.speed / def_.radius, air, false};
     }
     TilePhase phase() const override { return TilePhase::Force; }
     void run(const TileContext&, const void*, Tile& tile) const override

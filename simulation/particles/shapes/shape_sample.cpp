@@ -193,6 +193,15 @@ public:
         }
     }
 
+    float extent() const override
+    {
+        if (def_.kind > ShapeKind::Torus)
+            return std::numeric_limits<float>::infinity();
+        const float wider = def_.height > 0.0f ? std::tan(std::min(def_.angle, 1.57f)) : 0.0f;
+        return 1.0001f * (glm::length(def_.position) + glm::length(def_.size) + def_.tube +
+                          def_.height * (1.0f + wider));
+    }
+
 private:
     ShapeDef def_;
 };

@@ -1,4 +1,5 @@
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/particle_kind.h"
 #include "rendering/lights/effect_lights.h"
 #include "rendering/lights/extinction_grid.h"
 #include "rendering/optics/black_body.h"
@@ -142,4 +143,30 @@ TEST(EffectLights, thickGasShowsOnlyItsFace)
     const float pi = std::numbers::pi_v<float>;
     const float expected = s * blackBodyLuminance(1500.0f).x * escape(3.5f * s / pi) * escape(s / pi);
     EXPECT_NEAR(lights[0].intensity.x / expected, 1.0f, 0.01f);
+}
+
+TEST(EffectLights, aListOfParticleLightsShinesAsOneLightInItsMiddle)
+{
+    namespace light = fx::base::light_column;
+    fx::base::SnapshotSchema schema = blobSchema();
+    schema.add(fx::base::kLightKind);
+    fx::base::FrameSnapshot snapshot(&schema, std::pmr::get_default_resource());
+    snapshot.begin(0, 1);
+    auto& group = snapshot.addGroup(schema.find("light"), 2);
+    group.editInfo().count = 2;
+    group.editInfo().placement.position = {0.0, 10.0, 0.0};
+    group.editInfo().placement.scale = 2.0f;
+    for (uint32_t i = 0; i < 2; ++i)
+        for (size_t c = 0; c < light::Count; ++c)
+            group.editColumn(c)[i] = 0.0f;
+    group.editColumn(light::PositionX)[1] = 4.0f;
+    group.editColumn(light::IntensityR)[0] = 100.0f;
+    group.editColumn(light::IntensityG)[1] = 300.0f;
+    std::array<EffectLight, 4> out;
+    ASSERT_EQ(effectLights(snapshot, out), 1u);
+    EXPECT_NEAR(out[0].position.x, 6.0, 1e-5); // 3/4 of the way, twice as large
+    EXPECT_NEAR(out[0].position.y, 10.0, 1e-5);
+    EXPECT_NEAR(out[0].intensity.r, 400.0f, 1e-3f); // lengths are doubled, luminances are not
+    EXPECT_NEAR(out[0].intensity.g, 1200.0f, 1e-3f);
+    EXPECT_NEAR(out[0].radius, 2.0f * std::sqrt(3.0f), 1e-4f); // rms distance of 1/4 at 3 m, 3/4 at 1 m
 }

@@ -88,6 +88,7 @@ base::SnapshotGroup& ParticleTest::addRibbon(base::FrameSnapshot& snapshot,
         group.editColumn(column::Arc)[i] = p.arc;
         group.editColumn64(column::Color)[i] = packColor(p.color);
         group.editColumn64(column::Strip)[i] = p.strip;
+        group.editColumn(column::Age)[i] = p.age;
     }
     setDefaults(group, uint32_t(points.size()), nextSolver_++, render::exposureFromEv100(kEv100));
     return group;

@@ -32,6 +32,7 @@ struct TestPoint
     float arc = 0.0f;
     glm::vec4 color{1.0f};
     uint64_t strip = 1;
+    float age = 0.0f;
 };
 
 /// Four binary16 numbers.

@@ -117,6 +117,48 @@ TEST_F(RibbonTest, theTextureRunsAlongTheArcAndStaysWhenTheRibbonGrows)
     EXPECT_LT(shorter.at(35, 50)[0], 0.06f);
 }
 
+TEST_F(RibbonTest, betweenTwoSnapshotsTheHeadIsWhereItsParticleIs)
+{
+    // The particle goes along +X with 2 m in the 1 s between the snapshots; points are half a second apart.
+    auto older = emptySnapshot(1.0);
+    addRibbon(older, {{{-1, 0, 0}, 0.5f}, {{-3, 0, 0}, 0.5f}});
+    auto newer = emptySnapshot(2.0);
+    std::vector<TestPoint> points;
+    for (int i = 0; i <= 4; ++i) {
+        points.push_back({{1.0f - float(i), 0, 0}, 0.5f});
+        points.back().age = 0.5f * float(i);
+    }
+    addRibbon(newer, points);
+    for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
+        setPicture(std::vector<float>(size_t(kSide) * kSide * 4, 0.0f));
+        const Picture picture = renderPair(newer, &older, share, flatCamera());
+        const double head = -1.0 + 2.0 * share; // [m]; 10 pixels a meter, the middle at 50
+        EXPECT_NEAR(sum(picture), (head + 3.0) * 10 * 10, 6.0) << share;
+        EXPECT_EQ(picture.at(int(50 + 10 * head) + 1, 50)[0], 0.0f);
+        EXPECT_GT(picture.at(int(50 + 10 * head) - 2, 50)[0], 0.9f);
+    }
+}
+
+TEST_F(RibbonTest, aSoftEdgeFadesAcrossAndAStretchedTextureDoesNotRepeat)
+{
+    auto snapshot = emptySnapshot();
+    auto& group = addRibbon(snapshot, {{{4, 0, 0}, 2.0f, 1.0f}, {{-4, 0, 0}, 2.0f, 0.0f}});
+    set(group, constant::Edge, 0.5f);
+    const Picture soft = draw(snapshot);
+    EXPECT_NEAR(soft.at(50, 50)[0], 1.0f, 1e-3f);
+    EXPECT_NEAR(soft.at(50, 50 + 15)[0], 0.5f, 0.16f); // half way into the outer half
+    EXPECT_LT(soft.at(50, 50 + 19)[0], 0.05f);
+
+    const std::vector<uint8_t> halves{255, 255, 255, 255, 0, 0, 0, 255};
+    auto stretched = emptySnapshot();
+    auto& other = addRibbon(stretched, {{{4, 0, 0}, 2.0f, 1.0f}, {{-4, 0, 0}, 2.0f, 0.0f}});
+    set(other, constant::Texture, float(*assets_.addImage(1, 2, true, halves)));
+    set(other, constant::ArcPerTile, 0.0f);
+    const Picture picture = draw(stretched);
+    EXPECT_GT(picture.at(88, 50)[0], 0.99f); // the upper end of the image is the head, up to its very end
+    EXPECT_LT(picture.at(12, 50)[0], 0.01f);
+}
+
 TEST_F(RibbonTest, aMeshIsAsLargeAsItsRadiusAndTurnedByItsOrientation)
 {
     auto snapshot = emptySnapshot();

@@ -190,3 +190,34 @@ TEST(EventBoard, isReadInTheOrderOfTicks)
     EXPECT_EQ(read[3].cause.tick, 5);
     EXPECT_TRUE(board.read(0).empty());
 }
+
+TEST(EmitterEvents, aRepeatedAgeHappensAgainAndAgainForAnySteps)
+{
+    const auto marksAfter = [](base::Ticks part, bool integrated) {
+        auto ball = burstEmitter(1);
+        ball->lifetime = {0.9f, 0.9f};
+        ball->shape = EmitterShape::Box;
+        ball->speed = {2, 2};
+        ball->forces.gravity = 0;
+        if (integrated)
+            ball->modules = {std::make_shared<Idle>()};
+        ball->events = {ruleOf(EventKind::Age, 1)};
+        ball->events[0].age = kTicksPerSecond / 10;
+        ball->events[0].every = kTicksPerSecond / 5;
+        Stage stage;
+        stage.add({}, linkedEffect(std::move(ball), fedEmitter()));
+        for (base::Ticks now = 0; now < 2 * kTicksPerSecond; now += part)
+            stage.step(std::min(part, 2 * kTicksPerSecond - now));
+        std::vector<float> heights;
+        for (const Seen& seen : particlesOf(stage.look(), 1))
+            heights.push_back(seen.position.y);
+        return heights;
+    };
+    for (const bool integrated : {false, true})
+        for (const base::Ticks part : {kTicksPerSecond / 60, kTicksPerSecond / 7}) {
+            const auto heights = marksAfter(part, integrated);
+            ASSERT_EQ(heights.size(), 4u); // at 0.1, 0.3, 0.5, 0.7 s; dead at 0.9 s
+            for (size_t i = 0; i < 4; ++i)
+                EXPECT_NEAR(heights[i], 0.2f + 0.4f * float(i), 1e-4f);
+        }
+}

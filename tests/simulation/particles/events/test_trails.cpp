@@ -245,3 +245,66 @@ TEST(Lights, theBrightestAreKeptAndMergingKeepsTheSum)
     ASSERT_EQ(merged.size(), 1u);
     EXPECT_NEAR(merged[0], sum, 1e-3 * sum);
 }
+
+namespace {
+
+/// Rows of a ribbon group: arc, age and opacity.
+struct RibbonRow
+{
+    float arc, age, opacity;
+};
+
+std::vector<RibbonRow> rowsOf(const base::SnapshotGroup& group)
+{
+    namespace column = base::ribbon_column;
+    std::vector<RibbonRow> rows;
+    for (uint32_t i = 0; i < group.info().count; ++i) {
+        const uint32_t half = uint32_t(group.column64(column::Color)[i] >> 48);
+        const float opacity =
+            half == 0 ? 0.0f : std::ldexp(1.0f + float(half & 0x3FFu) / 1024.0f, int(half >> 10 & 31u) - 15);
+        rows.push_back({group.column(column::Arc)[i], group.column(column::Age)[i], opacity});
+    }
+    return rows;
+}
+
+} // namespace
+
+TEST(Trails, knowHowLongAgoTheirParticleWasThere)
+{
+    Pictures pictures(comet());
+    for (int i = 0; i < 60; ++i)
+        pictures.step();
+    const auto rows = rowsOf(pictures.groupOf(base::kRibbonKind));
+    ASSERT_GT(rows.size(), 3u);
+    EXPECT_EQ(rows.front().age, 0.0f);
+    EXPECT_NEAR(rows.back().age, 0.5f, 1e-6f);
+    for (const RibbonRow& row : rows)
+        EXPECT_NEAR(3.0f - row.arc, 3.0f * row.age, 1e-4f); // 3 m/s
+}
+
+TEST(Trails, softEndsFadeOverTheirLength)
+{
+    auto def = comet();
+    def->trail.softEnds = 0.5f;
+    Pictures pictures(std::move(def));
+    for (int i = 0; i < 60; ++i)
+        pictures.step();
+    for (const RibbonRow& row : rowsOf(pictures.groupOf(base::kRibbonKind))) {
+        const float inside = std::min(3.0f - row.arc, row.arc - 1.5f);
+        EXPECT_NEAR(row.opacity, std::min(inside / 0.5f, 1.0f), 2e-3f) << row.arc;
+    }
+}
+
+TEST(Trails, aStretchedTextureRunsFromTheEndToTheHead)
+{
+    auto def = comet();
+    def->trail.arcPerTile = 0.0f;
+    Pictures pictures(std::move(def));
+    for (int i = 0; i < 60; ++i)
+        pictures.step();
+    const auto rows = rowsOf(pictures.groupOf(base::kRibbonKind));
+    EXPECT_EQ(rows.front().arc, 1.0f);
+    EXPECT_EQ(rows.back().arc, 0.0f);
+    for (const RibbonRow& row : rows)
+        EXPECT_NEAR(row.arc, 1.0f - row.age / 0.5f, 1e-4f);
+}
