@@ -55,8 +55,16 @@ struct EffectDef
             return bound;
         const float seconds = duration > 0 ? float(base::toSeconds(duration)) : 1e6f;
         float most = 0;
-        for (const auto& def : solvers)
-            most = std::max(most, def->reach(gravity, windSpeed, seconds));
+        Flight cause;
+        for (size_t i = 0; i < solvers.size(); ++i) { // causes before effects
+            const SolverDef& def = *solvers[order.size() == solvers.size() ? order[i] : i];
+            const Flight flight = def.flight(gravity, windSpeed, seconds, cause);
+            most = std::max(most, flight.reach);
+            if (!flight.causes)
+                continue;
+            cause.reach = std::max(cause.reach, flight.reach);
+            cause.speed = std::max(cause.speed, flight.speed);
+        }
         return most;
     }
 

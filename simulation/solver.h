@@ -133,6 +133,14 @@ public:
     virtual void restore(StateReader& reader) = 0;
 };
 
+/// How far elements get and how fast they are, and whether events of theirs give birth in other solvers.
+struct Flight
+{
+    float reach = 0;     ///< [m] from the instance's origin, with the radius; infinite when it cannot be told
+    float speed = 0;     ///< [m/s] most that those who are born of its events inherit
+    bool causes = false; ///< such events exist
+};
+
 /// Immutable recipe of a solver; shared by all instances of a preset.
 class SolverDef
 {
@@ -153,6 +161,12 @@ public:
     virtual float reach(float /*gravity*/, float /*wind*/, float /*seconds*/) const
     {
         return std::numeric_limits<float>::infinity();
+    }
+    /// The same with what solvers before it cause in it.
+    /// @param cause the largest reach and speed of all that may give birth in it
+    virtual Flight flight(float gravity, float wind, float seconds, const Flight& /*cause*/) const
+    {
+        return {reach(gravity, wind, seconds), 0.0f, false};
     }
 };
 

@@ -115,6 +115,10 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments)
                     "Estimated fragments a frame above which the layer scale falls; 0: never")
         ->check(CLI::Range(uint32_t(0), std::numeric_limits<uint32_t>::max()))
         ->capture_default_str();
+    command.add_flag(
+        "--overlay", arguments.overlay,
+        "Look through the scene's camera only, and draw the boxes of all effects in the color of "
+        "their state: green active, red hidden, blue resting");
     command.add_flag("--overdraw", arguments.overdraw,
                      "Count shaded fragments and covered pixels in the statistics");
     command.add_flag("--json", arguments.json, "Print one JSON object a frame");
@@ -168,6 +172,7 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
     settings.toneMap = !linear;
     settings.layerOutputs = linear;
     settings.countOverdraw = arguments.overdraw;
+    settings.overlay = arguments.overlay;
     settings.layerDivisor = int(std::lround(1.0 / std::stod(arguments.layerScale)));
     settings.fragmentBudget = arguments.fragmentBudget;
     settings.exposureEv100 = arguments.exposureEv100.value_or(settings.exposureEv100);

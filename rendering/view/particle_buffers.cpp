@@ -13,6 +13,7 @@ namespace fx::render {
 namespace {
 
 constexpr uint64_t kSmallest = 1 << 16; ///< [byte]
+constexpr uint32_t kIdleFrames = 300;   ///< until the memory is given back
 
 uint64_t roundUp(uint64_t value, uint64_t step)
 {
@@ -186,8 +187,11 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, Parti
                                       const base::AssetTable* assets)
 {
     uploadedBytes_ = 0;
-    if (frame.groups().empty())
+    if (frame.groups().empty()) {
+        idle();
         return {};
+    }
+    idleFrames_ = 0;
     ++frame_;
     Place* older = nullptr;
     Place* newer = nullptr;
@@ -213,6 +217,19 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, Parti
         }
     }
     return findAssets(frame, assets);
+}
+
+void ParticleBuffers::idle()
+{
+    if (++idleFrames_ != kIdleFrames)
+        return;
+    for (Place& place : places_) {
+        place.buffer = {};
+        place.content = {};
+    }
+    for (GlMappedBuffer& order : orders_)
+        order = {};
+    assets_.release();
 }
 
 void ParticleBuffers::fence()

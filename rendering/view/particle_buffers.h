@@ -28,6 +28,8 @@ public:
     /// @return OutOfMemory, GlFailed, TooLarge (a group is larger than the context's storage buffers)
     base::Status prepare(const base::SnapshotPair& snapshots, ParticleFrame& frame,
                          const base::AssetTable* assets);
+    /// A frame without particles; after many in a row everything is deleted, until the next prepare().
+    void idle();
     /// To be called when all draws of the frame have been issued.
     void fence();
 
@@ -69,6 +71,7 @@ private:
     std::array<GlMappedBuffer, 3> orders_;
     GlAssetCache assets_;
     uint64_t frame_ = 0;
+    uint32_t idleFrames_ = 0; ///< one after the other
     uint64_t uploadedBytes_ = 0;
 };
 

@@ -91,7 +91,7 @@ bool leavesPictureAlone(const base::SnapshotPair& snapshots, const FrameRequest&
         return !snapshot || snapshot->groupCount() == 0;
     };
     return isEmpty(snapshots.newer) && isEmpty(snapshots.older) && !settings.dazzle.enabled &&
-           !settings.toneMap && !request.targets.useFramebuffer;
+           !settings.toneMap && !request.targets.useFramebuffer && request.overlay.empty();
 }
 
 } // namespace
@@ -132,12 +132,12 @@ FrameStatistics ViewRenderer::Impl::rest()
     outputs = {};
     historyFresh = true; // glare that has paused begins anew
     FrameStatistics statistics;
-    if (++idleFrames >= kIdleFrames && backend.pooledBytes() > 0) {
-        const uint64_t before = device->callCount();
+    const uint64_t before = device->callCount();
+    if (++idleFrames >= kIdleFrames && backend.pooledBytes() > 0)
         backend.releasePool();
-        statistics.glCalls = device->callCount() - before;
-    }
-    statistics.textureBytes = backend.pooledBytes();
+    buffers.idle();
+    statistics.glCalls = device->callCount() - before;
+    statistics.textureBytes = backend.pooledBytes() + buffers.bytes();
     return statistics;
 }
 

@@ -137,7 +137,20 @@ struct EmitterDef final : SolverDef
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return maxParticles; }
     bool collides() const override;
-    float reach(float gravity, float wind, float seconds) const override;
+    /// Motion has a closed form: gravity, linear drag and wind alone.
+    bool isBallistic() const
+    {
+        return modules.empty() && forces.buoyancy == 0.0f && !(forces.curlStrength > 0.0f) &&
+               forces.bounce < 0.0f;
+    }
+    /// True when its solvers can jump to any later time: closed motion, no events, no trails.
+    bool seeks() const { return isBallistic() && !fed && events.empty() && !(trail.lifetime > 0.0f); }
+    CatchUp catchUp() const override { return seeks() ? CatchUp::Analytic : CatchUp::Replay; }
+    float reach(float gravity, float wind, float seconds) const override
+    {
+        return flight(gravity, wind, seconds, {}).reach;
+    }
+    Flight flight(float gravity, float wind, float seconds, const Flight& cause) const override;
 };
 
 constexpr float kAirTemperature = 293.15f; ///< [K] of the ambient air

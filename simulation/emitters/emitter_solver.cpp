@@ -106,7 +106,7 @@ void EmitterSolver::step(const StepContext& context)
     if (isLinked()) {
         stepWithEvents(context);
     } else {
-        giveBirth(context, context.tick, end);
+        giveBirth(context, context.tick, end, birthRoom(context));
         if (!program_.ballistic)
             move(context);
     }
@@ -119,9 +119,14 @@ void EmitterSolver::step(const StepContext& context)
     highWater_ = std::max(highWater_, uint32_t(window));
 }
 
-void EmitterSolver::giveBirth(const StepContext& context, base::Ticks from, base::Ticks to)
+std::span<Birth> EmitterSolver::birthRoom(const StepContext& context) const
 {
-    const std::span<Birth> room = context.scratch->allocate<Birth>(std::min(kBirthBatch, store_.capacity()));
+    return context.scratch->allocate<Birth>(std::min(kBirthBatch, store_.capacity()));
+}
+
+void EmitterSolver::giveBirth(const StepContext& context, base::Ticks from, base::Ticks to,
+                              std::span<Birth> room)
+{
     const BirthWindow window{from, to, double(context.parameters->intensity), context.parameters->emitting};
     uint64_t left = kMostLapsPerStep * std::max(store_.capacity(), kBirthBatch);
     const BirthCount count = schedule_.advance(
@@ -183,8 +188,19 @@ bool EmitterSolver::neverDrops(double intensity) const
 bool EmitterSolver::canSeek(const StepContext& context, base::Ticks tick) const
 {
     const bool isForwards = tick >= now_ || !started_;
-    return program_.ballistic && !isLinked() && !trails_ &&
-           (isForwards || (!varied_ && conditionsOf(context) == conditions_));
+    const Conditions conditions = conditionsOf(context);
+    if (def_.seeks())
+        return isForwards || (!varied_ && conditions == conditions_);
+    return isForwards && conditions.intensity == conditions_.intensity &&
+           conditions.emitting == conditions_.emitting && restsUntil(now_) > now_ && tick <= restsUntil(now_);
+}
+
+base::Ticks EmitterSolver::restsUntil(base::Ticks tick) const
+{
+    const bool isEmpty = store_.empty() && !(trails_ && !trails_->empty());
+    if (!isEmpty || !started_ || tick != now_ || interest_.in(EventKind::Host))
+        return tick;
+    return std::max(tick, schedule_.quietUntil(tick, double(conditions_.intensity), conditions_.emitting));
 }
 
 void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
@@ -210,8 +226,10 @@ void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
             from = dead;
         }
     }
-    for (const base::Ticks part = base::kTicksPerSecond / 60; from < tick; from += part)
-        giveBirth(context, from, std::min(from + part, tick));
+    const base::Ticks part =
+        restsUntil(from) >= tick ? tick - from : base::kTicksPerSecond / 60; // a rest is one window
+    for (const std::span<Birth> room = birthRoom(context); from < tick; from += part)
+        giveBirth(context, from, std::min(from + part, tick), room);
     now_ = tick;
     store_.retire(now_);
 }

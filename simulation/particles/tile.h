@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace fx::sim {
 
@@ -90,6 +91,13 @@ enum class TilePhase : uint8_t
     Event,     ///< looks at flags and contacts
 };
 
+/// The most that a module adds to what moves particles; infinite when it cannot be told.
+struct TilePush
+{
+    float air = 0;          ///< [m/s]
+    float acceleration = 0; ///< [m/s2]
+};
+
 /// One module, compiled. Immutable: shared by all instances and threads.
 class TileOp
 {
@@ -104,6 +112,12 @@ public:
     virtual bool keepsFlags() const { return false; }
     /// True when it heeds StepContext::collider.
     virtual bool collides() const { return false; }
+    /// What happens on contact takes speed away.
+    virtual TilePush mostPush() const
+    {
+        const float unknown = std::numeric_limits<float>::infinity();
+        return phase() == TilePhase::Force ? TilePush{unknown, unknown} : TilePush{};
+    }
 };
 
 /// Places and directions of births from uniform numbers, many at once.
@@ -121,6 +135,8 @@ public:
         uint32_t count;
     };
     virtual void sample(const Births& births) const = 0;
+    /// [m] from the instance's origin to the farthest place; infinite when it cannot be told.
+    virtual float extent() const { return std::numeric_limits<float>::infinity(); }
 };
 
 } // namespace fx::sim

@@ -99,6 +99,11 @@ typedef struct FxViewSettings
                               ///< what these settings say. Otherwise it may fall below, never rise above
                               ///< them; what is simulated does not depend on it.
     uint32_t budgetClock;     ///< FX_BUDGET_CLOCK_...; default FX_BUDGET_CLOCK_GPU
+    /// 1: the boxes that instances are judged by are drawn over the picture, as of the last update: green
+    /// active, yellow catching up, blue resting, gray not started, red hidden (out of view, too far or too
+    /// small), orange occluded, magenta beyond the budget. Where the extent is not known the box is 1 m wide.
+    /// Each update then visits all instances; for people who look for a fault. Default 0.
+    uint32_t activationOverlay;
 } FxViewSettings;
 
 /// Daylight exposure, no lights of its own, everything on.

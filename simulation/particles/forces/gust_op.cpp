@@ -17,6 +17,8 @@
 #include "foundation/random/philox.h"
 #include "simulation/particles/forces/force_ops.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,6 +32,7 @@ public:
     explicit GustOp(const GustDef& def) : def_(def) {}
 
     TilePhase phase() const override { return TilePhase::Force; }
+    TilePush mostPush() const override { return {glm::length(def_.strength), 0.0f}; }
     size_t scratchBytes() const override { return sizeof(glm::vec3); }
     void prepare(const TileContext& context, void* scratch) const override
     {
@@ -60,6 +63,7 @@ public:
     explicit QuadraticDragOp(float coefficient) : coefficient_(std::max(coefficient, 0.0f)) {}
 
     TilePhase phase() const override { return TilePhase::Force; }
+    TilePush mostPush() const override { return {}; } // it only takes speed away
     void run(const TileContext&, const void*, Tile& tile) const override
     {
         for (uint32_t i = 0; i < tile.padded; ++i)
