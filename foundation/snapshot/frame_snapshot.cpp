@@ -100,6 +100,8 @@ uint64_t FrameSnapshot::hash() const
     for (size_t g = 0; g < groupCount_; ++g) {
         const SnapshotGroup& group = groups_[g];
         const GroupInfo& info = group.info();
+        if (group.count() == 0)
+            continue; // it shows nothing, so it is as if it were not there
         h = hashWord(h, info.kind);
         h = hashWord(h, info.instance);
         h = hashWord(h, info.solver);

@@ -18,7 +18,9 @@ FrameSnapshot& SnapshotRing::beginWrite(Ticks tick)
     std::lock_guard lock(mutex_);
     writing_ = nullptr;
     for (Slot& slot : slots_)
-        if (slot.readers == 0 && slot.snapshot.get() != newest_ && slot.snapshot.get() != previous_) {
+        if (slot.readers == 0 && slot.snapshot.get() != newest_ && slot.snapshot.get() != previous_ &&
+            slot.snapshot.get() != staged_)
+        {
             writing_ = slot.snapshot.get();
             break;
         }
@@ -26,7 +28,7 @@ FrameSnapshot& SnapshotRing::beginWrite(Ticks tick)
         slots_.push_back({std::make_unique<FrameSnapshot>(schema_, memory_), 0});
         writing_ = slots_.back().snapshot.get();
     }
-    writing_->begin(tick, sequence_ + 1);
+    writing_->begin(tick, sequence_ + (staged_ ? 2 : 1));
     return *writing_;
 }
 
@@ -35,10 +37,18 @@ void SnapshotRing::publish()
     std::lock_guard lock(mutex_);
     if (!writing_)
         return;
-    previous_ = newest_;
+    previous_ = staged_ ? staged_ : newest_;
+    sequence_ += staged_ ? 2 : 1;
+    staged_ = nullptr;
     newest_ = writing_;
     writing_ = nullptr;
-    ++sequence_;
+}
+
+void SnapshotRing::stageOlder()
+{
+    std::lock_guard lock(mutex_);
+    staged_ = writing_;
+    writing_ = nullptr;
 }
 
 void SnapshotRing::forgetOlder()

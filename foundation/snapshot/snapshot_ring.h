@@ -29,6 +29,9 @@ public:
     FrameSnapshot& beginWrite(Ticks tick);
     /// Makes what was written the newest. It must not be changed after this.
     void publish();
+    /// What was written becomes the predecessor of what is written next, in place of the newest one of now:
+    /// nobody sees it before that is published.
+    void stageOlder();
     /// The newest has no predecessor any more: time did not lead from that one to it.
     void forgetOlder();
 
@@ -50,6 +53,7 @@ private:
     FrameSnapshot* writing_ = nullptr;
     FrameSnapshot* newest_ = nullptr;
     FrameSnapshot* previous_ = nullptr;
+    FrameSnapshot* staged_ = nullptr; ///< becomes previous_ with the next publication; null: newest_ does
     uint64_t sequence_ = 0;
 };
 

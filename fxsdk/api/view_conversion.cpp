@@ -52,6 +52,7 @@ void checkSwitches(fx::api::Checks& check, const FxViewSettings& given)
     check.flag(given.toneMap, "settings.toneMap");
     check.flag(given.layerOutputs, "settings.layerOutputs");
     check.flag(given.countOverdraw, "settings.countOverdraw");
+    check.flag(given.activationOverlay, "settings.activationOverlay");
     check.that(given.layerScale == 1.0f || given.layerScale == 0.5f || given.layerScale == 0.25f,
                "settings.layerScale is not 1, 0.5 or 0.25");
     check.range(given.lodBias, 0.0f, 256.0f, "settings.lodBias");
@@ -99,6 +100,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     settings.toneMap = given.toneMap != 0;
     settings.layerOutputs = given.layerOutputs != 0;
     settings.countOverdraw = given.countOverdraw != 0;
+    settings.overlay = given.activationOverlay != 0;
     settings.layerDivisor = int(1.0f / given.layerScale);
     settings.fragmentBudget = given.fragmentBudget;
     settings.lod = {given.lodBias, given.lodImpostorPixels};

@@ -1,4 +1,5 @@
 // The functions of fx_view.h.
+#include "fxsdk/api/overlay.h"
 #include "fxsdk/api/text.h"
 #include "fxsdk/api/versioned_struct.h"
 #include "fxsdk/api/view_object.h"
@@ -167,7 +168,7 @@ FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings)
             return status;
         if (Status status = view->quality.setOptions(budget); !status)
             return status;
-        view->renderer.settings() = known;
+        view->setSettings(known);
         return {};
     });
 }
@@ -185,6 +186,11 @@ FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
         const ShownSnapshots shown(view->scene->scene);
         request.interpolation = shown->interpolation;
         request.time = shown->time;
+        if (view->renderer.settings().overlay) {
+            view->scene->scene.copyMarks(view->marks);
+            fx::api::makeOverlay(view->marks, request.camera.origin, view->overlay);
+            request.overlay = view->overlay;
+        }
         const FrameQuality quality(*view, known);
         Status status = view->renderer.render(shown->snapshots, request);
         view->allocations = view->context->memory.allocationCount() - before;

@@ -8,22 +8,39 @@
 #include "fxsdk/quality/view_quality.h"
 #include "rendering/view/view_renderer.h"
 
+#include <memory_resource>
+#include <vector>
+
 struct FxView
 {
     FxView(FxScene* shown, const fx::render::ViewSettings& settings)
-        : context(shown->context), scene(shown),
+        : context(shown->context), scene(shown), marks(&context->memory), overlay(&context->memory),
           renderer(context->device.get(), &context->schema, &context->memory)
     {
-        renderer.settings() = settings;
+        setSettings(settings);
         renderer.setAssets(&context->assets);
         scene->views.fetch_add(1);
     }
-    ~FxView() { scene->views.fetch_sub(1); }
+    ~FxView()
+    {
+        setSettings({});
+        scene->views.fetch_sub(1);
+    }
     FxView(const FxView&) = delete;
     FxView& operator=(const FxView&) = delete;
 
+    /// The scene leaves marks while a view shows them.
+    void setSettings(const fx::render::ViewSettings& settings)
+    {
+        if (settings.overlay != renderer.settings().overlay)
+            scene->scene.wantMarks(settings.overlay);
+        renderer.settings() = settings;
+    }
+
     FxContext* context;
     FxScene* scene;
+    std::pmr::vector<fx::scene::Mark> marks; ///< room for what the overlay shows
+    std::pmr::vector<fx::render::OverlayBox> overlay;
     fx::render::ViewRenderer renderer;
     fx::quality::ViewQuality quality;
     uint64_t allocations = 0; ///< during the last frame

@@ -15,41 +15,9 @@
 namespace fx::cli {
 namespace {
 
-constexpr int kPresets = 12;
 constexpr double kSpacing = 25.0; ///< [m] between neighbors
 constexpr double kNearest = 30.0; ///< [m] a square about the camera is empty
 constexpr int kRepeats = 3;
-
-/// Twelve fountains that differ in what costs time.
-std::string presetText(int index)
-{
-    return R"({"version": 1, "ground": false, "bound": 6, "offscreen": "replay", "emitters": [{"maxParticles": )" +
-           std::to_string(64 + 16 * index) + R"(, "shape": "sphere", "size": 0.5, "emission": {"rate": )" +
-           std::to_string(20 + 5 * index) + R"(}, "lifetime": )" + std::to_string(1.0 + 0.1 * index) +
-           R"(, "speed": 1, "radius": 0.2, "forces": {"drag": 0.5, "gravity": 0.1, "curlStrength": )" +
-           std::to_string(index % 3 ? 0 : 1) + "}}]}";
-}
-
-struct Place
-{
-    double x, z;
-    uint32_t number;
-};
-
-/// A square grid about the camera; the camera's field holds about a hundredth of what is near.
-std::vector<Place> placesOf(uint32_t count)
-{
-    std::vector<Place> places;
-    const auto side = int(std::ceil(std::sqrt(double(count)))) + 4;
-    for (int row = 0; row < side && places.size() < count; ++row)
-        for (int column = 0; column < side && places.size() < count; ++column) {
-            const double x = kSpacing * (column - side / 2) + 3.0 * (row % 5);
-            const double z = kSpacing * (row - side / 2) + 3.0 * (column % 7);
-            if (std::max(std::abs(x), std::abs(z)) > kNearest)
-                places.push_back({x, z, uint32_t(places.size())});
-        }
-    return places;
-}
 
 struct CityRun
 {
@@ -83,23 +51,23 @@ base::Status frame(BenchScene& scene, uint32_t number, CityRun& run)
     return status;
 }
 
-base::Status play(const BenchCityOptions& options, const std::vector<Place>& places, CityRun& run)
+base::Status play(const BenchCityOptions& options, const std::vector<CityPlace>& places, CityRun& run)
 {
     auto made = BenchScene::create({options.gl, true, 128});
     if (!made.ok())
         return made.status();
     BenchScene& scene = **made;
     std::vector<FxPresetId> presets;
-    for (int i = 0; i < kPresets; ++i) {
-        const auto preset = scene.load(presetText(i));
+    for (int i = 0; i < kCityPresets; ++i) {
+        const auto preset = scene.load(cityPreset(i, "replay", false));
         if (!preset.ok())
             return preset.status();
         presets.push_back(*preset);
     }
     base::Status status = scene.look(0);
-    for (const Place& place : places)
+    for (const CityPlace& place : places)
         if (status.ok())
-            status = scene.add(presets[place.number % kPresets], place.x, place.z, place.number, 0);
+            status = scene.add(presets[place.number % kCityPresets], place.x, place.z, place.number, 0);
     FxActivationHints hints = fxDefaultActivationHints();
     hints.maxDistance = 250.0f;
     for (const FxInstanceId id : scene.instances())
@@ -120,7 +88,7 @@ base::Status play(const BenchCityOptions& options, const std::vector<Place>& pla
     return status;
 }
 
-CityRun measure(const BenchCityOptions& options, const std::vector<Place>& places)
+CityRun measure(const BenchCityOptions& options, const std::vector<CityPlace>& places)
 {
     CityRun run;
     run.update.assign(options.frames, 1e30);
@@ -141,11 +109,38 @@ double sum(const std::vector<double>& values)
 
 } // namespace
 
+std::string cityPreset(int index, const std::string& offscreen, bool ballistic)
+{
+    const bool curls = !ballistic && index % 3 == 0;
+    return R"({"version": 1, "ground": false, "bound": 6, "offscreen": ")" + offscreen +
+           R"(", "emitters": [{"maxParticles": )" + std::to_string(64 + 16 * index) +
+           R"(, "shape": "sphere", "size": 0.5, "emission": {"rate": )" + std::to_string(20 + 5 * index) +
+           R"(}, "lifetime": )" + std::to_string(1.0 + 0.1 * index) +
+           R"(, "speed": 1, "radius": 0.2, "forces": {"drag": 0.5, "gravity": 0.1, "curlStrength": )" +
+           std::to_string(curls ? 1 : 0) + "}}]}";
+}
+
+std::vector<CityPlace> cityPlaces(uint32_t count)
+{
+    std::vector<CityPlace> places;
+    const auto side = int(std::ceil(std::sqrt(double(count)))) + 4;
+    for (int row = 0; row < side && places.size() < count; ++row)
+        for (int column = 0; column < side && places.size() < count; ++column) {
+            const double x = kSpacing * (column - side / 2) + 3.0 * (row % 5);
+            const double z = kSpacing * (row - side / 2) + 3.0 * (column % 7);
+            if (std::max(std::abs(x), std::abs(z)) > kNearest)
+                places.push_back({x, z, uint32_t(places.size())});
+        }
+    return places;
+}
+
 int runBenchCity(const BenchCityOptions& options)
 {
-    const std::vector<Place> city = placesOf(options.instances);
+    if (options.check)
+        return checkCity(options);
+    const std::vector<CityPlace> city = cityPlaces(options.instances);
     const CityRun all = measure(options, city);
-    std::vector<Place> seen;
+    std::vector<CityPlace> seen;
     for (size_t i = 0; i < city.size(); ++i)
         if (all.wasActive[i])
             seen.push_back(city[i]);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace fx::cli {
 
@@ -10,11 +12,31 @@ struct BenchCityOptions
 {
     uint32_t instances = 10'000;
     uint32_t frames = 240;
-    bool gl = false; ///< draw each frame as well
+    bool gl = false;    ///< draw each frame as well
+    bool check = false; ///< compare with a city that hides nothing, instead of measuring time
     bool json = false;
 };
 
 /// @return exit code
 int runBenchCity(const BenchCityOptions& options);
+
+constexpr int kCityPresets = 12;
+
+struct CityPlace
+{
+    double x, z; ///< [m]
+    uint32_t number;
+};
+
+/// A square grid about the camera, which is alone within 30 m.
+std::vector<CityPlace> cityPlaces(uint32_t count);
+
+/// One of twelve fountains that differ in what costs time.
+/// @param offscreen their policy @param ballistic false: one in three has turbulence
+std::string cityPreset(int index, const std::string& offscreen, bool ballistic);
+
+/// Hashes, memory and pictures of the city against one that hides nothing.
+/// @return exit code: 0, or 1 when one differs that must not
+int checkCity(const BenchCityOptions& options);
 
 } // namespace fx::cli

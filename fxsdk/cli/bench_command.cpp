@@ -8,6 +8,7 @@
 #include "fxsdk/cli/bench_idle.h"
 #include "fxsdk/cli/bench_lod.h"
 #include "fxsdk/cli/bench_plot.h"
+#include "fxsdk/cli/bench_soak.h"
 #include "fxsdk/cli/commands.h"
 
 #include <CLI/CLI.hpp>
@@ -47,6 +48,10 @@ void addCity(CLI::App& bench, int& outExitCode)
         ->check(CLI::Range(100, 1000000));
     command->add_option("--frames", options->frames, "Frames to measure")->check(CLI::Range(1, 100000));
     command->add_flag("--gl", options->gl, "A view draws each frame as well");
+    command->add_flag(
+        "--check", options->check,
+        "Compare hashes, memory and pictures with a city that hides nothing; fail where an exact "
+        "policy differs");
     command->add_flag("--json", options->json, "One object a line");
     command->callback([options, &outExitCode] { outExitCode = runBenchCity(*options); });
 }
@@ -66,6 +71,22 @@ void addLod(CLI::App& bench, int& outExitCode)
         ->check(CLI::Range(0, 100000));
     command->add_flag("--json", options->json, "One object a level");
     command->callback([options, &outExitCode] { outExitCode = runBenchLod(*options); });
+}
+
+void addSoak(CLI::App& bench, int& outExitCode)
+{
+    auto options = std::make_shared<BenchSoakOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "soak",
+        "Many frames of coming and going: memory and instructions a frame, at the begin and at the end");
+    command->add_option("--frames", options->frames, "To play; a whole number of rounds of 600 is used")
+        ->check(CLI::Range(2400, 100000000));
+    command->add_flag("--gl", options->gl, "A view draws each frame as well");
+    command->add_flag("--leak", options->leak, "Leave an instance behind each round: the gates' control");
+    command->add_flag("--check", options->check, "Fail when memory or instructions grow");
+    command->add_flag("--json", options->json, "One object");
+    command->add_flag("--count-work", options->countWork)->group(""); // for callgrind
+    command->callback([options, &outExitCode] { outExitCode = runBenchSoak(*options); });
 }
 
 void addBudget(CLI::App& bench, int& outExitCode)
@@ -106,6 +127,7 @@ void addBenchCommand(CLI::App& app, int& outExitCode)
     addIdle(*bench, outExitCode);
     addCity(*bench, outExitCode);
     addLod(*bench, outExitCode);
+    addSoak(*bench, outExitCode);
     addBudget(*bench, outExitCode);
 }
 

@@ -153,6 +153,42 @@ base::Status BenchScene::draw()
     return toStatus(fxView_Render(view_, &frame_));
 }
 
+void BenchScene::clearPicture()
+{
+    constexpr float kGray[4] = {0.5f, 0.5f, 0.5f, 1.0f};
+    if (device_)
+        device_->gl.ClearTexImage(color_.name(), 0, GL_RGBA, GL_FLOAT, kGray);
+}
+
+std::vector<float> BenchScene::picture()
+{
+    if (!device_)
+        return {};
+    return render::readTexture(*device_, color_.name(), options_.pixels, options_.pixels, 4);
+}
+
+uint64_t BenchScene::bytesInUse() const
+{
+    FxMemoryStats stats = {};
+    stats.structSize = sizeof stats;
+    fxContext_GetMemoryStats(context_, &stats);
+    return stats.bytesInUse;
+}
+
+FxFrameStats BenchScene::frameStats() const
+{
+    FxFrameStats stats = {};
+    stats.structSize = sizeof stats;
+    fxScene_GetFrameStats(scene_, &stats);
+    return stats;
+}
+
+void BenchScene::remove(size_t index)
+{
+    fxScene_DestroyInstance(scene_, instances_[index]);
+    instances_.erase(instances_.begin() + std::ptrdiff_t(index));
+}
+
 void BenchScene::finish()
 {
     if (device_)

@@ -44,6 +44,12 @@ public:
     void clear();                 ///< the picture before draw(): black
     std::vector<float> picture(); ///< RGBA
 
+    void clearPicture();          ///< to an even gray
+    std::vector<float> picture(); ///< RGBA, row by row; empty without GL
+    uint64_t bytesInUse() const;  ///< [byte] of the context
+    FxFrameStats frameStats() const;
+    void remove(size_t index); ///< of instances()
+
     FxScene* scene() const { return scene_; }
     const std::vector<FxInstanceId>& instances() const { return instances_; }
     FxSceneStatistics statistics() const;

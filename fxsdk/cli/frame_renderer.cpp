@@ -81,16 +81,31 @@ base::Status FrameRenderer::start(const FrameRendererOptions& options)
     return toStatus(fxCreateView(effects_->context(), effects_->scene(), &settings, &view_));
 }
 
+/// With the overlay, what the camera does not see is hidden.
+base::Status FrameRenderer::lookThrough(const render::CameraView& camera)
+{
+    if (!options_.settings.overlay)
+        return {};
+    FxFocus focus = fxDefaultFocus();
+    focus.height = float(options_.height);
+    std::copy_n(glm::value_ptr(camera.origin), 3, focus.origin);
+    std::copy_n(glm::value_ptr(camera.view), 16, focus.view);
+    std::copy_n(glm::value_ptr(camera.projection), 16, focus.projection);
+    return toStatus(fxScene_SetFocus(effects_->scene(), &focus, 1));
+}
+
 base::Status FrameRenderer::render(base::Ticks tick)
 {
     Clock::time_point start = Clock::now();
+    const float aspect = float(options_.width) / float(options_.height);
+    const render::CameraView camera = cameraAt(file_.camera, base::toSeconds(tick), aspect);
+    if (base::Status status = lookThrough(camera); !status)
+        return status;
     if (base::Status status = effects_->showMoment(tick); !status)
         return status;
     counters_.millisecondsSimulate = millisecondsSince(start);
 
     start = Clock::now();
-    const float aspect = float(options_.width) / float(options_.height);
-    const render::CameraView camera = cameraAt(file_.camera, base::toSeconds(tick), aspect);
     if (base::Status status = drawStage(camera); !status)
         return status;
     if (options_.settings.layerOutputs)

@@ -69,6 +69,7 @@ public:
 private:
     explicit FrameRenderer(const scene_file::SceneFile& file) : file_(file) {}
     base::Status start(const FrameRendererOptions& options);
+    base::Status lookThrough(const render::CameraView& camera);
     base::Status drawStage(const render::CameraView& camera);
     base::Status drawEffects(const render::CameraView& camera, base::Ticks tick);
     base::Status count();

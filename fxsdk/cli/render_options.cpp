@@ -125,6 +125,10 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments)
                     "[pixel] Radius below which effects are drawn as pictures of themselves; 0: none")
         ->check(CLI::Range(0.0f, 13.0f))
         ->capture_default_str();
+    command.add_flag(
+        "--overlay", arguments.overlay,
+        "Look through the scene's camera only, and draw the boxes of all effects in the color of "
+        "their state: green active, red hidden, blue resting");
     command.add_flag("--overdraw", arguments.overdraw,
                      "Count shaded fragments and covered pixels in the statistics");
     command.add_flag("--json", arguments.json, "Print one JSON object a frame");
@@ -178,6 +182,7 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
     settings.toneMap = !linear;
     settings.layerOutputs = linear;
     settings.countOverdraw = arguments.overdraw;
+    settings.overlay = arguments.overlay;
     settings.layerDivisor = int(std::lround(1.0 / std::stod(arguments.layerScale)));
     settings.lod = {arguments.lodBias, arguments.impostorPixels};
     settings.fragmentBudget = arguments.fragmentBudget;

@@ -42,6 +42,7 @@ struct RenderArguments
     bool noDazzle = false;
     bool noShimmer = false;
     bool overdraw = false;
+    bool overlay = false;
     bool json = false;
     ReferenceArguments reference;
 };

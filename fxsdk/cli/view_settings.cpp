@@ -27,6 +27,7 @@ FxViewSettings toApi(const render::ViewSettings& settings)
     api.toneMap = settings.toneMap ? 1 : 0;
     api.layerOutputs = settings.layerOutputs ? 1 : 0;
     api.countOverdraw = settings.countOverdraw ? 1 : 0;
+    api.activationOverlay = settings.overlay ? 1 : 0;
     api.layerScale = 1.0f / float(settings.layerDivisor);
     api.fragmentBudget = uint32_t(settings.fragmentBudget);
     api.lodBias = settings.lod.bias;

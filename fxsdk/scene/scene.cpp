@@ -18,7 +18,7 @@ Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, ba
       world_(schema, tasks, memory, options.environment, options.shareInstances),
       instances_(memory, options.maxInstances), dormant_(memory), active_(memory), waking_(memory),
       denied_(memory), coarse_(memory), tree_(memory), alarms_(memory), focus_(memory), candidates_(memory),
-      moved_(memory), ring_(schema, memory)
+      moved_(memory), ring_(schema, memory), marks_(memory)
 {
     world_.allowRest(options.culling);
     ring_.beginWrite(0); // so that acquire() always has something to show
@@ -100,11 +100,12 @@ bool Scene::update(double dt)
         ++counters_.refusedUpdates;
         return false;
     }
-    counters_.droppedTicks =
-        std::min(counters_.droppedTicks, kMostDropped - plan.droppedTicks) + plan.droppedTicks;
+    if (plan.droppedTicks > 0)
+        counters_.droppedTicks =
+            std::min(counters_.droppedTicks, kMostDropped - plan.droppedTicks) + plan.droppedTicks;
     memoryFailed_ = false; // must not stop the steps that follow: the clock has already counted them
     if (plan.steps > 0)
-        reconsider();
+        reconsider(plan);
     for (uint32_t k = 0; k < plan.steps; ++k) {
         const base::Ticks from = plan.firstStep + base::Ticks(k) * clock_.stepTicks();
         try {
@@ -122,6 +123,8 @@ bool Scene::update(double dt)
         std::lock_guard lock(presentation_);
         show(clock_.simulated(), clock_.interpolation());
     }
+    if (marksWanted_.load(std::memory_order_relaxed) > 0)
+        leaveMarks();
     if (memoryFailed_)
         throw std::bad_alloc();
     return true;
@@ -243,6 +246,18 @@ void Scene::publish(base::Ticks tick, double interpolation)
     std::lock_guard lock(presentation_);
     ring_.publish();
     show(tick, interpolation);
+}
+
+/// Those who have come back were not in the last publication, from which views interpolate: it is made again.
+void Scene::stageReturned(base::Ticks tick)
+{
+    try {
+        world_.publish(active_.slots(), ring_.beginWrite(tick));
+        ring_.stageOlder();
+        emptyPublications_ = 0;
+    } catch (const std::bad_alloc&) {
+        memoryFailed_ = true; // they appear a step later
+    }
 }
 
 void Scene::show(base::Ticks newest, double interpolation)

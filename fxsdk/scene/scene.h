@@ -14,6 +14,7 @@
 #include "fxsdk/scene/id_table.h"
 #include "simulation/world.h"
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -64,6 +65,15 @@ enum class Reason : uint32_t
     CatchingUp, ///< its past is being simulated
     NothingMoves,
     Ended,
+};
+
+/// What a debug overlay shows of an instance.
+struct Mark
+{
+    glm::dvec3 position; ///< [m] world
+    double reach;        ///< [m] world; infinite when unknown
+    InstanceState state;
+    Reason reason;
 };
 
 /// What the host says about how much an instance matters.
@@ -216,6 +226,12 @@ public:
         instances_.forEach([&](uint32_t index, const Instance&) { f(instances_.idAt(index)); });
     }
 
+    /// While somebody wants them, each update() leaves a mark of every instance, which costs a visit to all.
+    /// [any thread]
+    void wantMarks(bool more) { marksWanted_.fetch_add(more ? 1 : -1); }
+    /// Those of the last update(). [any thread]
+    void copyMarks(std::pmr::vector<Mark>& out);
+
     Presentation acquire();
     void release(const base::SnapshotPair& snapshots) { ring_.release(snapshots); }
 
@@ -252,7 +268,7 @@ private:
     uint64_t particlesOf(const Instance& instance) const;
     void measure(Instance& instance) const; ///< how far it reaches
     Reason judge(const Instance& instance, bool isSeen);
-    void reconsider();
+    void reconsider(const base::StepPlan& plan);
     void lookAround();
     void lookAtDenied();
     void keepBudget();
@@ -272,8 +288,10 @@ private:
     void settleOne(uint32_t index, bool alsoInexact);
     base::Ticks endOf(const Instance& instance) const;
     void measureTime(double seconds, uint64_t particleSteps);
+    void leaveMarks();
 
     void publish(base::Ticks tick, double interpolation);
+    void stageReturned(base::Ticks tick);
     void show(base::Ticks newest, double interpolation); ///< with presentation_ held
     static sim::InstanceStart startOf(const IdTable<Instance>& instances, uint32_t index);
 
@@ -320,6 +338,8 @@ private:
     std::mutex presentation_; ///< makes publication and the members below one change for acquire()
     double interpolation_ = 0;
     double shownTime_ = 0;
+    std::pmr::vector<Mark> marks_;
+    std::atomic<int> marksWanted_{0};
 };
 
 } // namespace fx::scene

@@ -50,4 +50,21 @@ void Scene::measureTime(double seconds, uint64_t particleSteps)
     measuredNanoseconds_ += kForgetting * (now - measuredNanoseconds_);
 }
 
+void Scene::leaveMarks()
+{
+    std::lock_guard lock(presentation_);
+    marks_.clear();
+    instances_.forEach([this](uint32_t, const Instance& instance) {
+        if (instance.state != InstanceState::Finished)
+            marks_.push_back(
+                {instance.setup.placement.position, instance.reach, instance.state, instance.reason});
+    });
+}
+
+void Scene::copyMarks(std::pmr::vector<Mark>& out)
+{
+    std::lock_guard lock(presentation_);
+    out.assign(marks_.begin(), marks_.end());
+}
+
 } // namespace fx::scene

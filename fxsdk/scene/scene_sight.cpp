@@ -155,15 +155,18 @@ void Scene::setParameters(LocalId id, const sim::InstanceParameters& parameters)
         comeBack(indexOf(id));
 }
 
-void Scene::reconsider()
+void Scene::reconsider(const base::StepPlan& plan)
 {
     update_ = {};
     if (lookAgain_)
         lookAround();
     if (budget_.any())
         keepBudget();
-    if (waking_.size() > 0)
-        catchUpWaking();
+    if (waking_.size() == 0)
+        return;
+    catchUpWaking();
+    if (plan.steps == 1 && update_.returned > 0)
+        stageReturned(plan.firstStep);
 }
 
 void Scene::lookAround()

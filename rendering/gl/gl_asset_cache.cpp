@@ -61,8 +61,16 @@ void cutFrame(const base::ImageAsset& image, int x0, int y0, int width, int heig
 
 GlAssetCache::~GlAssetCache()
 {
+    release();
+}
+
+void GlAssetCache::release()
+{
     for (const Atlas& held : atlases_)
         device_.gl.DeleteTextures(1, &held.atlas.texture);
+    atlases_.clear();
+    meshes_.clear();
+    bytes_ = 0;
 }
 
 base::Result<GlAtlas> GlAssetCache::atlas(const base::AssetTable* table, base::AssetId id, int columns,

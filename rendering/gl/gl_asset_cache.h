@@ -51,6 +51,7 @@ public:
     /// @return OutOfMemory, NotFound for an id that names no mesh
     base::Result<GlMesh> mesh(const base::AssetTable* table, base::AssetId id);
 
+    void release();                           ///< deletes all; what is asked for again is made again
     uint64_t bytes() const { return bytes_; } ///< [byte] held
 
 private:

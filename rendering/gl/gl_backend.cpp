@@ -53,6 +53,8 @@ void GlBackend::fail(base::Code code, std::initializer_list<std::string_view> pa
 void GlBackend::releasePool()
 {
     pool_.release(framebuffers_);
+    framebuffers_.clear();
+    uniforms_.release();
     graph_ = nullptr;
 }
 

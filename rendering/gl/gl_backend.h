@@ -55,8 +55,9 @@ public:
     uint32_t textureName(ResourceId texture) const;
     uint32_t bufferName(ResourceId buffer) const;
 
-    uint32_t drawCalls() const { return drawCalls_; }      ///< draws and dispatches of the last frame
-    uint64_t pooledBytes() const { return pool_.bytes(); } ///< [byte] of textures and buffers held
+    uint32_t drawCalls() const { return drawCalls_; } ///< draws and dispatches of the last frame
+    /// [byte] of textures and buffers held
+    uint64_t pooledBytes() const { return pool_.bytes() + uniforms_.bytes(); }
     /// Tells `timer` which passes begin; null for none. It must outlive its use.
     void setTimer(GlPassTimer* timer) { timer_ = timer; }
     void releasePool(); ///< deletes what is pooled, until the next frame

@@ -37,6 +37,7 @@ public:
     /// @return GlFailed with what is wrong with the attachments
     base::Result<uint32_t> find(const GlAttachments& attachments, bool foreign);
 
+    void clear() { entries_.clear(); } ///< deletes all
     /// To be called before a texture is deleted.
     void forget(uint32_t texture);
 

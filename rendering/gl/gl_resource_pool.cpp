@@ -55,19 +55,20 @@ base::Status GlResourcePool::realiseTexture(const PhysicalTexture& wanted)
     return {};
 }
 
-/// Sizes follow particle counts, so buffers grow to powers of two and never shrink.
+/// Sizes follow particle counts, so buffers grow to powers of two and do not shrink while they are used.
 base::Status GlResourcePool::realiseBuffer(size_t index, size_t bytes)
 {
     if (index == buffers_.size())
         buffers_.emplace_back();
-    if (buffers_[index].bytes() >= bytes)
+    buffers_[index].usedFrame = frame_;
+    if (buffers_[index].buffer.bytes() >= bytes)
         return {};
     const size_t capacity =
         bytes > (size_t(1) << 62) ? bytes : std::bit_ceil(std::max(bytes, kSmallestBuffer));
     base::Result<GlBuffer> buffer = GlBuffer::create(device_, capacity, "frame buffer");
     if (!buffer)
         return buffer.status();
-    buffers_[index] = std::move(*buffer);
+    buffers_[index].buffer = std::move(*buffer);
     return {};
 }
 
@@ -79,6 +80,8 @@ void GlResourcePool::deleteUnused(GlFramebufferCache& framebuffers)
             framebuffers.forget(pooled.texture.name());
         return unused;
     });
+    while (!buffers_.empty() && frame_ - buffers_.back().usedFrame > kFramesKept)
+        buffers_.pop_back();
 }
 
 void GlResourcePool::release(GlFramebufferCache& framebuffers)
@@ -95,8 +98,8 @@ uint64_t GlResourcePool::bytes() const
     uint64_t sum = 0;
     for (const PooledTexture& pooled : textures_)
         sum += pooled.texture.bytes();
-    for (const GlBuffer& buffer : buffers_)
-        sum += buffer.bytes();
+    for (const PooledBuffer& pooled : buffers_)
+        sum += pooled.buffer.bytes();
     return sum;
 }
 

@@ -20,13 +20,14 @@ public:
     GlResourcePool(GlDevice& device, std::pmr::memory_resource* memory);
 
     /// Gives every physical resource of the graph an object: the one it had last frame when nothing has
-    /// changed. Textures that several frames have not used are deleted, and `framebuffers` told so.
+    /// changed. Textures and buffers that several frames have not used are deleted, and `framebuffers` told
+    /// so.
     base::Status realise(const FrameGraph& graph, GlFramebufferCache& framebuffers);
     /// Deletes everything; the next realise() starts anew.
     void release(GlFramebufferCache& framebuffers);
 
     uint32_t texture(uint32_t physical) const { return textures_[assigned_[physical]].texture.name(); }
-    uint32_t buffer(uint32_t physical) const { return buffers_[physical].name(); }
+    uint32_t buffer(uint32_t physical) const { return buffers_[physical].buffer.name(); }
     uint64_t bytes() const; ///< [byte]
 
 private:
@@ -36,14 +37,20 @@ private:
         uint64_t usedFrame;
     };
 
+    struct PooledBuffer
+    {
+        GlBuffer buffer;
+        uint64_t usedFrame = 0;
+    };
+
     base::Status realiseTexture(const PhysicalTexture& wanted);
     base::Status realiseBuffer(size_t index, size_t bytes);
     void deleteUnused(GlFramebufferCache& framebuffers);
 
     GlDevice& device_;
     std::pmr::vector<PooledTexture> textures_;
-    std::pmr::vector<uint32_t> assigned_; ///< physical index -> index of textures_
-    std::pmr::vector<GlBuffer> buffers_;  ///< by physical index
+    std::pmr::vector<uint32_t> assigned_;    ///< physical index -> index of textures_
+    std::pmr::vector<PooledBuffer> buffers_; ///< by physical index
     uint64_t frame_ = 0;
 };
 

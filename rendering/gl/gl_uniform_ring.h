@@ -22,6 +22,13 @@ public:
     /// 0.
     /// @return TooLarge when the context's uniform blocks are smaller, OutOfMemory
     base::Status bind(std::span<const std::byte> bytes);
+    /// Deletes the buffer, until the next bind().
+    void release()
+    {
+        buffer_ = {};
+        cursor_ = 0;
+    }
+    uint64_t bytes() const { return buffer_.bytes(); } ///< [byte] held
 
 private:
     GlDevice& device_;

@@ -11,6 +11,7 @@
 #include "rendering/passes/layer_upsample_pass.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overdraw_pass.h"
+#include "rendering/passes/overlay_pass.h"
 #include "rendering/passes/present_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
 #include "rendering/passes/tone_map_pass.h"
@@ -29,6 +30,7 @@ constexpr const ProgramDesc* kSinglePrograms[] = {
     &kDazzleBudgetProgram,  &kDazzleDealProgram,    &kToneMapProgram,        &kToneMapDitherProgram,
     &kPresentProgram,       &kLayerDistanceProgram, &kLayerUpsampleProgram,  &kLayerSpreadProgram,
     &kOverdrawSmallProgram, &kLayerOverProgram,     &kImpostorProgram,       &kImpostorKeepProgram,
+    &kOverlayProgram,
 };
 
 } // namespace

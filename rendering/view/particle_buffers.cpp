@@ -13,6 +13,7 @@ namespace fx::render {
 namespace {
 
 constexpr uint64_t kSmallest = 1 << 16; ///< [byte]
+constexpr uint32_t kIdleFrames = 300;   ///< until the memory is given back
 
 uint64_t roundUp(uint64_t value, uint64_t step)
 {
@@ -185,8 +186,11 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
                                       ParticleFrame& frame, const base::AssetTable* assets)
 {
     uploadedBytes_ = 0;
-    if (frame.groups().empty())
+    if (frame.groups().empty()) {
+        idle();
         return {};
+    }
+    idleFrames_ = 0;
     ++frame_;
     Place* older = nullptr;
     Place* newer = nullptr;
@@ -212,6 +216,26 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
         }
     }
     return findAssets(frame, assets);
+}
+
+void ParticleBuffers::keep(const ParticleFrame& frame)
+{
+    uploadedBytes_ = 0;
+    if (frame.groups().empty())
+        idle();
+}
+
+void ParticleBuffers::idle()
+{
+    if (++idleFrames_ != kIdleFrames)
+        return;
+    for (Place& place : places_) {
+        place.buffer = {};
+        place.stamp = 0;
+    }
+    for (GlMappedBuffer& order : orders_)
+        order = {};
+    assets_.release();
 }
 
 void ParticleBuffers::fence()

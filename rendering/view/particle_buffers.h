@@ -31,7 +31,9 @@ public:
     base::Status prepare(const base::SnapshotPair& snapshots, const StampPair& stamps, ParticleFrame& frame,
                          const base::AssetTable* assets);
     /// Instead of prepare(): the frame draws what the last one has drawn.
-    void keep() { uploadedBytes_ = 0; }
+    void keep(const ParticleFrame& frame);
+    /// A frame without particles; after many in a row everything is deleted, until the next prepare().
+    void idle();
     /// To be called when all draws of the frame have been issued.
     void fence();
 
@@ -64,6 +66,7 @@ private:
     std::array<GlMappedBuffer, 3> orders_;
     GlAssetCache assets_;
     uint64_t frame_ = 0;
+    uint32_t idleFrames_ = 0; ///< one after the other
     uint64_t uploadedBytes_ = 0;
 };
 

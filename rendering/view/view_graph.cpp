@@ -10,6 +10,7 @@
 #include "rendering/passes/layer_upsample_pass.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overdraw_pass.h"
+#include "rendering/passes/overlay_pass.h"
 #include "rendering/passes/present_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
 #include "rendering/passes/solid_pass.h"
@@ -309,7 +310,12 @@ private:
         out_.anyPass = true;
     }
 
-    void finish(ResourceId result) { graph_.keep(result); }
+    void finish(ResourceId result)
+    {
+        out_.anyPass |= !request_.overlay.empty();
+        graph_.keep(OverlayPass::addTo(graph_, {result, request_.overlay, &request_.camera, width_, height_})
+                        .picture);
+    }
 
     FrameGraph& graph_;
     const ViewGraphInputs& in_;

@@ -52,6 +52,9 @@ struct ViewRenderer::Impl
     base::Status makeRoom(GlBuffer& buffer, size_t bytes, const char* label);
     base::Status makeRoomForImpostors();
     base::Status add(Particles& particles, const ParticleFrameInputs& inputs, const StampPair& stamps);
+    void releaseBlobs();
+    void releaseImpostors();
+    void releaseUnused();
     FrameStatistics rest();
     FrameStatistics count(int divisor);
     void readBack(FrameStatistics& statistics); ///< waits for the GPU
@@ -71,6 +74,8 @@ struct ViewRenderer::Impl
     std::optional<FrameKey> key; ///< of the lists above and of what is on the GPU; nothing: not to be used
     bool keptLists = false;      ///< they were not made for this frame
     GlBuffer blobBuffer;
+    uint32_t blobsUnused = 0; ///< frames, one after the other
+    uint32_t impostorsUnused = 0;
     GlBuffer impostorBuffer;
     GlTexture impostorAtlas; ///< pictures of effects; nothing before the first
     const base::AssetTable* assets = nullptr;
@@ -127,7 +132,7 @@ bool leavesPictureAlone(const base::SnapshotPair& snapshots, const FrameRequest&
         return !snapshot || snapshot->groupCount() == 0;
     };
     return isEmpty(snapshots.newer) && isEmpty(snapshots.older) && !settings.dazzle.enabled &&
-           !settings.toneMap && !request.targets.useFramebuffer;
+           !settings.toneMap && !request.targets.useFramebuffer && request.overlay.empty();
 }
 
 } // namespace
@@ -151,8 +156,8 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     const FrameKey wanted = frameKey(now, request, settings, assets);
     keptLists = key == wanted && !request.resetHistory;
     if (keptLists) {
-        single.buffers.keep();
-        joined.buffers.keep();
+        single.buffers.keep(single.frame);
+        joined.buffers.keep(joined.frame);
         return {};
     }
     key.reset();
@@ -246,18 +251,42 @@ FrameStatistics ViewRenderer::Impl::rest()
     outputs = {};
     historyFresh = true; // glare that has paused begins anew
     FrameStatistics statistics;
-    if (++idleFrames >= kIdleFrames && backend.pooledBytes() > 0) {
-        const uint64_t before = device->callCount();
+    const uint64_t before = device->callCount();
+    if (++idleFrames >= kIdleFrames && backend.pooledBytes() > 0)
         backend.releasePool();
-        blobBuffer = {};
-        impostorBuffer = {};
-        impostorAtlas = {};
-        builder.forgetPictures();
+    if (idleFrames == kIdleFrames) {
+        releaseBlobs();
+        releaseImpostors();
         key.reset();
-        statistics.glCalls = device->callCount() - before;
     }
-    statistics.textureBytes = backend.pooledBytes();
+    single.buffers.idle();
+    joined.buffers.idle();
+    statistics.glCalls = device->callCount() - before;
+    statistics.textureBytes = backend.pooledBytes() + single.buffers.bytes() + joined.buffers.bytes();
     return statistics;
+}
+
+void ViewRenderer::Impl::releaseBlobs()
+{
+    blobBuffer = {};
+}
+
+void ViewRenderer::Impl::releaseImpostors()
+{
+    impostorBuffer = {};
+    impostorAtlas = {};
+    builder.forgetPictures();
+}
+
+/// Gives back what many frames in a row have drawn nothing from.
+void ViewRenderer::Impl::releaseUnused()
+{
+    blobsUnused = builder.blobs().empty() ? blobsUnused + 1 : 0;
+    if (blobsUnused == kIdleFrames)
+        releaseBlobs();
+    impostorsUnused = builder.impostors().empty() ? impostorsUnused + 1 : 0;
+    if (impostorsUnused == kIdleFrames)
+        releaseImpostors();
 }
 
 /// What the frame has drawn.
@@ -374,6 +403,7 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         s.joined.buffers.fence();
         status = s.backend.endFrame();
     }
+    s.releaseUnused();
     s.timer.endFrame(status.ok() && s.outputs.anyPass);
     if (s.clock != TimingClock::Off)
         covered_ = screenShare(s.builder.blobs(), cameraGeometry(request.camera));

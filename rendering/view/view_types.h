@@ -4,9 +4,11 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <cstdint>
 #include <limits>
+#include <span>
 
 namespace fx::render {
 
@@ -100,6 +102,7 @@ struct ViewSettings
     bool countOverdraw =
         false; ///< count contributing fragments and read statistics back: costs a pass and waits for the GPU
     LodSettings lod;
+    bool overlay = false; ///< the host of the renderer fills FrameRequest::overlay
     int layerDivisor = 1; ///< 1, 2, 4: media and particles are drawn at 1, 1/2, 1/4 of the width and height,
                           ///< at the most; what hides at 1
     uint64_t fragmentBudget = 0; ///< estimated fragments a frame above which they are drawn smaller; 0: never
@@ -118,15 +121,23 @@ struct HostTargets
     int height = 0;              ///< [pixel]
 };
 
+/// A box of which the activation overlay draws the edges.
+struct OverlayBox
+{
+    glm::vec4 centerHalf; ///< [m] center relative to the camera's origin; half of the side
+    glm::vec4 color;      ///< premultiplied, in the picture's own unit
+};
+
 /// One frame.
 struct FrameRequest
 {
     CameraView camera;
     HostTargets targets;
-    double deltaTime = 0.0;     ///< [s] since this view's last frame, for adaptation only
-    double interpolation = 1.0; ///< [0, 1] between the older and the newer snapshot
-    double time = 0.0;          ///< [s] scene time, drives moving noise
-    bool resetHistory = false;  ///< camera cut: adaptation starts from this frame
+    double deltaTime = 0.0;                ///< [s] since this view's last frame, for adaptation only
+    double interpolation = 1.0;            ///< [0, 1] between the older and the newer snapshot
+    double time = 0.0;                     ///< [s] scene time, drives moving noise
+    bool resetHistory = false;             ///< camera cut: adaptation starts from this frame
+    std::span<const OverlayBox> overlay{}; ///< drawn over the finished picture
 };
 
 /// Counters of one rendered frame; exact counts except for the times.

@@ -331,4 +331,18 @@ bool BirthSchedule::exhausted(Ticks tick) const
     return noBursts && (!(rate_ > 0.0f) || tick >= end_);
 }
 
+Ticks BirthSchedule::quietUntil(Ticks tick, double intensity, bool emitting) const
+{
+    Ticks until = kForever;
+    for (const ScheduledBurst& burst : bursts_)
+        until = std::min(until, burst.nextTick());
+    if (!(rate_ > 0.0f) || tick >= end_)
+        return until;
+    if (tick < start_)
+        return std::min(until, start_);
+    const bool isKnown = tick >= quiet_.to && tick <= quiet_.until && quiet_.intensity == intensity &&
+                         quiet_.emitting == emitting;
+    return isKnown ? std::min(until, quiet_.until) : tick;
+}
+
 } // namespace fx::sim

@@ -109,6 +109,9 @@ public:
     }
     /// True when nothing can be born from `tick` on.
     bool exhausted(base::Ticks tick) const;
+    /// Nobody is born from `tick`, the end of the last window, until then, as long as the host wants the
+    /// same. Not always the longest such time.
+    base::Ticks quietUntil(base::Ticks tick, double intensity, bool emitting) const;
 
     /// What has been born so far; rate and bursts are the definition's.
     /// @param now windows up to there have been left out, as passTo()

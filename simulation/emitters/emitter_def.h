@@ -142,6 +142,18 @@ struct EmitterDef final : SolverDef
     uint32_t capacity() const override { return maxParticles; }
     bool collides() const override;
     bool heedsPlacement() const override { return inWorld; }
+    /// Motion has a closed form: gravity, linear drag and wind alone.
+    bool isBallistic() const
+    {
+        return modules.empty() && forces.buoyancy == 0.0f && !(forces.curlStrength > 0.0f) &&
+               forces.bounce < 0.0f;
+    }
+    /// Analytic when the state is a pure function of time: closed motion, no events, no trails, no moves.
+    CatchUp catchUp() const override
+    {
+        const bool isAlone = !fed && events.empty() && !inWorld && !(trail.lifetime > 0.0f);
+        return isBallistic() && isAlone ? CatchUp::Analytic : CatchUp::Replay;
+    }
     float reach(float gravity, float wind, float seconds) const override
     {
         return reachFrom({gravity, wind, seconds}, {}, {});

@@ -134,7 +134,7 @@ void EmitterSolver::stepHere(const StepContext& context)
     if (isLinked()) {
         stepWithEvents(context);
     } else {
-        giveBirth(context, context.tick, end);
+        giveBirth(context, context.tick, end, birthRoom(context));
         if (!program_.ballistic)
             move(context);
     }
@@ -151,9 +151,14 @@ bool EmitterSolver::joins(const StepContext& context) const
     return context.crowd && bornWithMany_ && store_.placed == program_.stores[stored::X];
 }
 
-void EmitterSolver::giveBirth(const StepContext& context, base::Ticks from, base::Ticks to)
+std::span<Birth> EmitterSolver::birthRoom(const StepContext& context) const
 {
-    const std::span<Birth> room = context.scratch->allocate<Birth>(std::min(kBirthBatch, store_.capacity()));
+    return context.scratch->allocate<Birth>(std::min(kBirthBatch, store_.capacity()));
+}
+
+void EmitterSolver::giveBirth(const StepContext& context, base::Ticks from, base::Ticks to,
+                              std::span<Birth> room)
+{
     const BirthWindow window{from, to, double(context.parameters->intensity), context.parameters->emitting};
     uint64_t left = kMostLapsPerStep * std::max(store_.capacity(), kBirthBatch);
     const BirthCount count = schedule_.advance(
@@ -222,6 +227,8 @@ bool EmitterSolver::neverDrops(double intensity) const
 bool EmitterSolver::canSeek(const StepContext& context, base::Ticks tick) const
 {
     const bool isForwards = tick >= now_ || !started_;
+    if (isForwards && restsThrough(context, tick))
+        return true;
     if (!program_.ballistic || isLinked() || trails_)
         return false;
     if (!space_)
@@ -232,6 +239,21 @@ bool EmitterSolver::canSeek(const StepContext& context, base::Ticks tick) const
     return space_->stands(context.placement) && (isForwards || !varied_) &&
            inHome(context,
                   [&](const StepContext& home) { return isForwards || conditionsOf(home) == conditions_; });
+}
+
+bool EmitterSolver::restsThrough(const StepContext& context, base::Ticks tick) const
+{
+    return context.parameters->intensity == conditions_.intensity &&
+           context.parameters->emitting == conditions_.emitting && restsUntil(now_) > now_ &&
+           tick <= restsUntil(now_);
+}
+
+base::Ticks EmitterSolver::restsUntil(base::Ticks tick) const
+{
+    const bool isEmpty = store_.empty() && !(trails_ && !trails_->empty());
+    if (!isEmpty || !started_ || tick != now_ || interest_.in(EventKind::Host))
+        return tick;
+    return std::max(tick, schedule_.quietUntil(tick, double(conditions_.intensity), conditions_.emitting));
 }
 
 void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
@@ -268,8 +290,10 @@ void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
             from = dead;
         }
     }
-    for (const base::Ticks part = base::kTicksPerSecond / 60; from < tick; from += part)
-        giveBirth(context, from, std::min(from + part, tick));
+    const base::Ticks part =
+        restsUntil(from) >= tick ? tick - from : base::kTicksPerSecond / 60; // a rest is one window
+    for (const std::span<Birth> room = birthRoom(context); from < tick; from += part)
+        giveBirth(context, from, std::min(from + part, tick), room);
     now_ = tick;
     store_.retire(now_);
 }

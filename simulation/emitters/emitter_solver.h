@@ -48,9 +48,13 @@ public:
                          EmitterCrowd& crowd) const override;
     bool finished(base::Ticks tick) const override;
     uint32_t elementCount() const override { return store_.countAlive(now_); }
-    /// Where motion has a closed form; backwards while the host has changed nothing since local time 0.
+    /// Where motion has a closed form; backwards while the host has changed nothing since local time 0. While
+    /// nobody lives and nobody is born, any emitter can.
     bool canSeek(const StepContext& context, base::Ticks tick) const override;
     void seek(const StepContext& context, base::Ticks tick) override;
+    /// While nobody lives, up to the next birth. A birth that another emitter's particles cause comes no
+    /// sooner than that emitter's own rest ends.
+    base::Ticks restsUntil(base::Ticks tick) const override;
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
 
@@ -91,8 +95,11 @@ private:
     };
     Conditions conditionsOf(const StepContext& context) const;
     void heedConditions(const StepContext& context);
+    /// True while nobody lives and nobody is born up to `tick`.
+    bool restsThrough(const StepContext& context, base::Ticks tick) const;
     void seekHere(const StepContext& context, base::Ticks tick);
-    void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to);
+    std::span<Birth> birthRoom(const StepContext& context) const;
+    void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to, std::span<Birth> room);
     void storeBatch(const StepContext& context, std::span<const Birth> births);
     void move(const StepContext& context, uint64_t firstIndex = 0, EventRoom* room = nullptr);
     // where there are events

@@ -24,12 +24,6 @@ float longestLife(const EmitterDef& def)
     return longest > 0.0f ? std::min(longest, kLongestLife) : 0.0f;
 }
 
-bool isBallistic(const EmitterDef& def)
-{
-    return def.modules.empty() && def.forces.buoyancy == 0.0f && !(def.forces.curlStrength > 0.0f) &&
-           def.forces.bounce < 0.0f;
-}
-
 RampCurves lookCurves(const EmitterDef& def)
 {
     const auto& color = def.look.colorOverLife;
@@ -151,7 +145,7 @@ std::shared_ptr<const ParticleProgram> SharedProgram::of(const EmitterDef& def) 
 }
 
 ParticleProgram::ParticleProgram(const EmitterDef& definition)
-    : def(definition), number(nextNumber()), ballistic(isBallistic(definition)),
+    : def(definition), number(nextNumber()), ballistic(definition.isBallistic()),
       brief(sim::longestLife(definition) <= kBrief), mortal(!definition.modules.empty()),
       longestLife(base::toTicks(double(sim::longestLife(definition)))),
       published(publishedColumns(definition.look)), looks(lookCurves(definition)),

@@ -45,8 +45,8 @@ std::string burstPreset(int count, double seconds)
 
 std::string smallBlastPreset()
 {
-    return R"({"version": 1, "name": "small blast", "gas": [{"particles": 40, "dissipation": 0}],
-        "emitters": [
+    const std::string gas = kHasGas ? R"("gas": [{"particles": 40, "dissipation": 0}],)" : "";
+    return R"({"version": 1, "name": "small blast", )" + gas + R"("emitters": [
             {"maxParticles": 64, "shape": "sphere", "size": 0.5, "emission": {"rate": 20}, "lifetime": 1,
              "speed": 2, "radius": 0.25, "forces": {"curlStrength": 1, "curlRate": 0.3, "bounce": 0.5}},
             {"maxParticles": 32, "emission": {"bursts": [{"time": 0.3, "count": 20}]}, "lifetime": 100}]})";

@@ -42,7 +42,19 @@ std::string fountainPreset();
 /// One burst of `count` particles that live `seconds`.
 std::string burstPreset(int count, double seconds);
 
-/// A gas, a burst and a fountain: little work, but everything that has a state.
+#if FXSDK_WITH_SPH
+constexpr bool kHasGas = true;
+constexpr const char* kLargeEffect = "library:explosion"; ///< of the library, with everything that it can do
+#else
+constexpr bool kHasGas = false;
+constexpr const char* kLargeEffect = "library:burning-debris";
+#endif
+/// In a test about gases; a build without them has nothing to test.
+#define FX_NEEDS_GAS()                                                                                       \
+    if (!fx::test::kHasGas)                                                                                  \
+    GTEST_SKIP() << "this build has no gases (FXSDK_WITH_SPH)"
+
+/// A gas (where there are gases), a burst and a fountain: little work, but everything that has a state.
 std::string smallBlastPreset();
 
 FxPresetId loadText(FxContext* context, const std::string& text);

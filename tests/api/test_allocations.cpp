@@ -14,6 +14,7 @@ TEST_F(AllocationApi, theCounterCounts)
 
 TEST_F(AllocationApi, aWarmSceneUpdatesWithoutAnyAllocation)
 {
+    FX_NEEDS_GAS();
     FxInstanceDef def = instanceDef();
     FxInstanceId id{};
     for (int i = 0; i < 3; ++i)
@@ -37,7 +38,7 @@ TEST_F(AllocationApi, aWarmSceneUpdatesWithoutAnyAllocation)
 TEST_F(AllocationApi, anExplosionAllocatesNothingFromItsFifthFrameToItsEnd)
 {
     FxPresetId preset{};
-    ASSERT_EQ(fxLoadPresetLibrary(context_, "library:explosion", &preset), FX_OK);
+    ASSERT_EQ(fxLoadPresetLibrary(context_, fx::test::kLargeEffect, &preset), FX_OK);
     FxInstanceDef def = instanceDef();
     def.preset = preset;
     FxInstanceId id{};
@@ -61,7 +62,7 @@ TEST_F(AllocationApi, collisionsAllocateNothingOnceTheSceneIsWarm)
     mesh.cellSize = 0.5f;
     ASSERT_EQ(fxScene_SetCollisionMesh(scene_, &mesh), FX_OK) << fxGetLastErrorMessage();
     FxPresetId preset{};
-    ASSERT_EQ(fxLoadPresetLibrary(context_, "library:explosion", &preset), FX_OK);
+    ASSERT_EQ(fxLoadPresetLibrary(context_, fx::test::kLargeEffect, &preset), FX_OK);
     FxInstanceDef def = instanceDef();
     def.preset = preset;
     FxInstanceId id{};

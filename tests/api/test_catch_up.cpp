@@ -305,6 +305,36 @@ TEST(CatchUp, camerasNeverChangeWhatIsSimulated)
         EXPECT_EQ(hash, hashes[0]);
 }
 
+TEST(CatchUp, onlyWithPoliciesThatLeaveTimeOutDoCamerasChangeIt) // the control of the test above
+{
+    uint64_t hashes[2];
+    const Effect effect = withPolicy(toyEffect({false}), CatchUp::Skip);
+    for (const int away : {0, 1}) {
+        SightStage stage;
+        stage.add(effect, kAhead);
+        stage.look(away ? kBehind : 0);
+        stage.play(10);
+        stage.look(0);
+        stage.play(10);
+        hashes[away] = stage.scene().simulationHash();
+    }
+    EXPECT_NE(hashes[0], hashes[1]);
+}
+
+TEST(CatchUp, withoutABudgetAReplayIsDoneInOneUpdate) // the control of its budget
+{
+    scene::SceneOptions options;
+    options.catchUpSteps = UINT64_MAX;
+    SightStage stage(options);
+    const auto id = stage.add(toyEffect({false, 9}), kAhead);
+    stage.look(kBehind);
+    stage.play(200);
+    stage.look(0);
+    stage.play(1);
+    EXPECT_EQ(stage.state(id), InstanceState::Active);
+    EXPECT_GT(stage.scene().lastUpdate().catchUpParticleSteps, 100u + 9u);
+}
+
 TEST(CatchUp, aStateSavedWhileSomeAreHiddenIsThatOfASceneThatHidesNothing)
 {
     VisibilityScript script(5, shortBudget());

@@ -92,6 +92,7 @@ private:
 
 TEST_F(CollisionApi, aBallOfGasBesideAWallStaysOnItsSideAndPassesWithoutTheWall)
 {
+    FX_NEEDS_GAS();
     const Wall wall;
     ASSERT_EQ(fxScene_SetCollisionMesh(scene_, &wall.mesh), FX_OK) << fxGetLastErrorMessage();
     const FxInstanceId id = add(kFireball);
@@ -129,6 +130,7 @@ TEST_F(CollisionApi, theMeshStandsInTheWorldWhereverTheInstanceIs)
 
 TEST_F(CollisionApi, aMeshThatComesWhileEffectsRunHoldsFromThenOn)
 {
+    FX_NEEDS_GAS();
     add(kFireball);
     add(kFireball, -1.0);
     play(5);
@@ -143,6 +145,7 @@ TEST_F(CollisionApi, aMeshThatComesWhileEffectsRunHoldsFromThenOn)
 
 TEST_F(CollisionApi, withoutAMeshEverythingIsAsIfThereHadNeverBeenOne)
 {
+    FX_NEEDS_GAS();
     add(kFireball);
     play(20);
     const uint64_t untouched = simulationHash();
@@ -166,6 +169,7 @@ TEST_F(CollisionApi, withoutAMeshEverythingIsAsIfThereHadNeverBeenOne)
 
 TEST_F(CollisionApi, aStateContinuesWithItsMeshAndIsRefusedWithAnother)
 {
+    FX_NEEDS_GAS();
     Wall wall;
     ASSERT_EQ(fxScene_SetCollisionMesh(scene_, &wall.mesh), FX_OK);
     add(kFireball);
@@ -234,6 +238,7 @@ TEST_F(CollisionApi, anAutomaticCellAndTriangleSoupAreTaken)
 
 TEST_F(CollisionApi, theMeshMayGoAfterTheCallAndItsMemoryComesBack)
 {
+    FX_NEEDS_GAS();
     const uint64_t before = bytesInUse();
     {
         const Wall wall;
@@ -247,6 +252,7 @@ TEST_F(CollisionApi, theMeshMayGoAfterTheCallAndItsMemoryComesBack)
 
 TEST(CollisionDeterminism, anyNumberOfWorkersGivesTheSameBits)
 {
+    FX_NEEDS_GAS();
     std::array<uint64_t, 4> hashes{};
     for (size_t i = 0; i < hashes.size(); ++i) {
         FxContextDef contextDef = fxDefaultContextDef();

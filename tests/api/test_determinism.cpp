@@ -35,7 +35,7 @@ uint64_t run(const FxContextDef& contextDef, const std::vector<double>& frames)
     const FxSceneDef sceneDef = fxDefaultSceneDef();
     EXPECT_EQ(fxCreateScene(context, &sceneDef, &scene), FX_OK);
     FxPresetId explosion{};
-    EXPECT_EQ(fxLoadPresetLibrary(context, "explosion", &explosion), FX_OK);
+    EXPECT_EQ(fxLoadPresetLibrary(context, fx::test::kLargeEffect, &explosion), FX_OK);
     const FxPresetId presets[3] = {loadText(context, fountainPreset()),
                                    loadText(context, burstPreset(5000, 3.0)), explosion};
     for (int i = 0; i < 6; ++i) {

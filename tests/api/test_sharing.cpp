@@ -123,7 +123,7 @@ TEST_F(SharingApi, aHundredIdenticalInstancesCostTheStepsOfOne)
     EXPECT_EQ(hundred.neighborPairs, one.neighborPairs);
     EXPECT_EQ(hundred.subSteps, one.subSteps);
     EXPECT_EQ(hundred.born, one.born);
-    EXPECT_GT(one.neighborPairs, 0u);
+    EXPECT_EQ(one.neighborPairs > 0, fx::test::kHasGas);
 }
 
 TEST_F(SharingApi, identicalEmittersShareOneSimulationAndAnotherSeedDoesNot)
@@ -149,13 +149,14 @@ TEST_F(SharingApi, sharedInstancesAreShownAtTheirOwnPlaces)
     playBoth(10);
     FxSnapshotId snapshot{};
     ASSERT_EQ(fxScene_AcquireSnapshot(scene_, &snapshot), FX_OK);
-    for (uint32_t i = 0; i < 9; ++i) {
+    const uint32_t solvers = fx::test::kHasGas ? 3 : 2;
+    for (uint32_t i = 0; i < 3 * solvers; ++i) {
         FxSnapshotGroup group{};
         group.structSize = sizeof group;
         ASSERT_EQ(fxScene_GetSnapshotGroup(scene_, snapshot, FX_SNAPSHOT_NEWER, i, &group), FX_OK);
-        EXPECT_EQ(group.instance.bits, ids_[i / 3][0].bits);
-        EXPECT_EQ(group.position[0], 4.0 * (i / 3));
-        EXPECT_EQ(group.solver, i % 3);
+        EXPECT_EQ(group.instance.bits, ids_[i / solvers][0].bits);
+        EXPECT_EQ(group.position[0], 4.0 * (i / solvers));
+        EXPECT_EQ(group.solver, i % solvers);
     }
     EXPECT_EQ(fxScene_ReleaseSnapshot(scene_, snapshot), FX_OK);
 }

@@ -68,7 +68,7 @@ TEST_F(StateApi, twoThousandStepsAfterARestoredStateAreTheSameBitForBit)
     EXPECT_EQ(run(), first);
     EXPECT_EQ(statistics().nowTick, after.nowTick);
     EXPECT_EQ(statistics().particleSteps, after.particleSteps);
-    EXPECT_GT(after.neighborPairs, 0u);
+    EXPECT_EQ(after.neighborPairs > 0, fx::test::kHasGas);
     EXPECT_GE(after.steps, 2040u);
 }
 

@@ -40,7 +40,7 @@ bool isFinite(FxScene* scene)
 TEST_F(TimeApi, noFrameTimeHarmsAnExplosion)
 {
     FxPresetId explosion{};
-    ASSERT_EQ(fxLoadPresetLibrary(context_, "explosion", &explosion), FX_OK);
+    ASSERT_EQ(fxLoadPresetLibrary(context_, fx::test::kLargeEffect, &explosion), FX_OK);
     FxInstanceDef def = instanceDef();
     def.preset = explosion;
     FxInstanceId id{};

@@ -96,3 +96,27 @@ TEST_F(SnapshotRingTest, aReaderInAnotherThreadSeesTimeOnlyAdvance)
     }
     writer.join();
 }
+
+TEST_F(SnapshotRingTest, aStagedPredecessorIsSeenTogetherWithItsSuccessorAndNotBefore)
+{
+    publish(10);
+    publish(20);
+    ring_.beginWrite(20);
+    ring_.stageOlder();
+    SnapshotPair pair = ring_.acquire();
+    EXPECT_EQ(pair.older->tick(), 10);
+    const FrameSnapshot* const replaced = pair.newer;
+    ring_.release(pair);
+    publish(30);
+    pair = ring_.acquire();
+    EXPECT_EQ(pair.newer->tick(), 30);
+    EXPECT_EQ(pair.older->tick(), 20);
+    EXPECT_NE(pair.older, replaced);
+    EXPECT_GT(pair.newer->sequence(), pair.older->sequence());
+    EXPECT_GT(pair.older->sequence(), replaced->sequence());
+    ring_.release(pair);
+    publish(40);
+    pair = ring_.acquire();
+    EXPECT_EQ(pair.older->tick(), 30);
+    ring_.release(pair);
+}

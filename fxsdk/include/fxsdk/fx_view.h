@@ -107,6 +107,11 @@ typedef struct FxViewSettings
                              ///< drawn as a picture of itself, which is taken anew ten times a second while
                              ///< it changes, or when it is seen from elsewhere, and fades into the next; not
                              ///< with layerOutputs or orthographic projections. 0 (default): none
+    /// 1: the boxes that instances are judged by are drawn over the picture, as of the last update: green
+    /// active, yellow catching up, blue resting, gray not started, red hidden (out of view, too far or too
+    /// small), orange occluded, magenta beyond the budget. Where the extent is not known the box is 1 m wide.
+    /// Each update then visits all instances; for people who look for a fault. Default 0.
+    uint32_t activationOverlay;
 } FxViewSettings;
 
 /// Daylight exposure, no lights of its own, everything on.

@@ -5,6 +5,7 @@
 #include "simulation/particles/fields/turn.h"
 #include "simulation/particles/shapes/mesh_sampler.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -173,6 +174,41 @@ ShapePlace sampleUpright(const ShapeDef& def, const Uniform& u, const Uniform& h
     return {glm::vec3(0.0f), coneDirection(heading[0], heading[1], -1.0f)};
 }
 
+float extentOf(const MeshSampler& mesh)
+{
+    float most = 0;
+    for (const MeshSampler::Triangle& t : mesh.triangles)
+        for (const glm::vec3& corner : {t.corner, t.corner + t.side[0], t.corner + t.side[1]})
+            most = std::max(most, glm::length(corner));
+    return most;
+}
+
+float extentOf(const VolumeSampler& volume)
+{
+    float most = 0;
+    for (const glm::vec3& node : volume.nodes)
+        most = std::max(most, glm::length(glm::abs(volume.low + volume.cell * node) + 0.5f * volume.cell));
+    return most;
+}
+
+/// [m] from the center of an upright shape to its farthest place.
+float extentOf(const ShapeDef& def)
+{
+    switch (def.kind) {
+    case ShapeKind::Mesh:
+        return extentOf(*def.mesh);
+    case ShapeKind::Volume:
+        return extentOf(*def.volume);
+    case ShapeKind::Spline: // nothing of it is farther from its begin than its length
+        return glm::length(def.spline->at(0.0f).position) + float(def.spline->length());
+    default: {
+        const float slope = std::tan(std::clamp(def.angle, 0.0f, kSteepest));
+        return glm::length(def.size) + std::max(def.tube, 0.0f) +
+               std::max(def.height, 0.0f) * std::sqrt(1.0f + slope * slope);
+    }
+    }
+}
+
 /// A shape as tile.h asks for it.
 class ShapeSampler final : public ShapeOp
 {
@@ -193,14 +229,7 @@ public:
         }
     }
 
-    float extent() const override
-    {
-        if (def_.kind > ShapeKind::Torus)
-            return std::numeric_limits<float>::infinity();
-        const float wider = def_.height > 0.0f ? std::tan(std::min(def_.angle, 1.57f)) : 0.0f;
-        return 1.0001f * (glm::length(def_.position) + glm::length(def_.size) + def_.tube +
-                          def_.height * (1.0f + wider));
-    }
+    float extent() const override { return 1.00001f * (glm::length(def_.position) + extentOf(def_)); }
 
 private:
     ShapeDef def_;

@@ -20,7 +20,7 @@ int main(void)
     FxInstanceId instance;
     if (fxCreateContext(&contextDef, &context) != FX_OK || fxCreateScene(context, &sceneDef, &scene) != FX_OK)
         return fail("create");
-    if (fxLoadPresetLibrary(context, "explosion", &instanceDef.preset) != FX_OK ||
+    if (fxLoadPresetLibrary(context, "campfire", &instanceDef.preset) != FX_OK ||
         fxScene_CreateInstance(scene, &instanceDef, &instance) != FX_OK)
         return fail("place");
     for (int frame = 0; frame < 60; ++frame)

@@ -1,0 +1,36 @@
+/// @file overlay_pass.h
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/view/view_types.h"
+
+#include <span>
+
+namespace fx::render {
+
+inline constexpr ProgramDesc kOverlayProgram{"activation overlay", "passes/overlay.vert.glsl",
+                                             "passes/overlay.frag.glsl", nullptr, nullptr};
+
+/// Lines over the picture for people who look for what is simulated: the edges of boxes, each in its color.
+///
+/// reads   boxes    relative to the camera's origin
+/// writes  picture  the finished picture, by blending; nothing hides the lines
+/// Present only when there are boxes, which is when the view was asked for them. Keeps no state.
+class OverlayPass
+{
+public:
+    struct Inputs
+    {
+        ResourceId picture;
+        std::span<const OverlayBox> boxes; ///< must stay until the graph has executed
+        const CameraView* camera;
+        int width, height; ///< [pixel]
+    };
+    struct Outputs
+    {
+        ResourceId picture;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+} // namespace fx::render

@@ -1,0 +1,8 @@
+// The color of a line, as it is.
+flat in vec4 lineColor;
+layout(location = 0) out vec4 color;
+
+void main()
+{
+    color = lineColor;
+}

@@ -1,0 +1,142 @@
+/// @file technique_rows.h
+/// What there is in a scene because of one technique and nothing else. A technique that is added gets a row
+/// here.
+#pragma once
+
+#include "tests/api/gl_ledger.h"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace fx::test {
+
+struct TechniqueRow
+{
+    std::string name;
+    std::string members;  ///< of a preset that calls for it; empty: a setting of the view does
+    std::string standsOn; ///< another technique that it draws with; empty: none
+    std::vector<std::string> passes;
+    std::set<std::string> programs;
+    GlLedger::Counts textures, buffers;
+    /// Of those above, what no row has but those that stand on this one.
+    std::set<std::string> ownPasses, ownPrograms;
+};
+
+/// An emitter of 60 particles a second about the origin, with more members of its own.
+inline std::string emitterMembers(const std::string& more)
+{
+    return R"("emitters": [{"shape": "sphere", "size": 0.4, "emission": {"rate": 60}, "lifetime": 1, "speed": 1,
+        "radius": 0.3, "forces": {"gravity": 0}, )" +
+           more + "}]";
+}
+
+inline TechniqueRow billboardRow(const std::string& name, const std::string& members,
+                                 const std::string& standsOn)
+{
+    return {name,
+            members,
+            standsOn,
+            {"scene distance", "blob upload", "media", "composite"},
+            {"composite (blend)", "media"},
+            {{"R32F", 1}, {"RGBA32F", 1}},
+            {{"frame buffer", 1}, {"uniform ring", 1}},
+            {},
+            {}};
+}
+
+inline TechniqueRow shimmerRow()
+{
+    return {"heat shimmer",
+            emitterMembers(R"("temperature": 1700, "heat": 1)"),
+            "billboard layers",
+            {"scene distance", "blob upload", "media", "composite", "heat offset", "heat shimmer", "present"},
+            {"composite", "heat offset", "heat shimmer", "media", "present"},
+            {{"R32F", 1}, {"RGBA32F", 3}},
+            {{"frame buffer", 1}, {"uniform ring", 1}},
+            {"heat offset", "heat shimmer"},
+            {"heat offset", "heat shimmer"}};
+}
+
+inline TechniqueRow trailsRow()
+{
+    return {"trails",
+            emitterMembers(R"("appearance": {"kind": "none"}, "trail": {"lifetime": 0.5})"),
+            "",
+            {"scene distance", "media", "composite"},
+            {"composite (blend)", "ribbons"},
+            {{"R32F", 1}, {"RGBA32F", 1}, {"RGBA8 array", 1}},
+            {{"particle rows", 2}, {"uniform ring", 1}},
+            {},
+            {"ribbons"}};
+}
+
+inline TechniqueRow spritesRow()
+{
+    return {"sprites",
+            emitterMembers(R"("appearance": {"kind": "sprite"})"),
+            "",
+            {"scene distance", "media", "composite"},
+            {"composite (blend)", "sprites"},
+            {{"R32F", 1}, {"RGBA32F", 1}, {"RGBA8 array", 1}},
+            {{"particle orders", 3}, {"particle rows", 2}, {"uniform ring", 1}},
+            {},
+            {"sprites"}};
+}
+
+inline TechniqueRow meshesRow()
+{
+    return {"mesh particles",
+            emitterMembers(
+                R"("appearance": {"kind": "mesh", "mesh": "library:debris-chunk.obj", "blend": "opaque"})"),
+            "",
+            {"scene distance", "solid particles", "composite"},
+            {"composite (blend)", "particle meshes"},
+            {{"Depth32F", 1}, {"R32F", 2}, {"RGBA32F", 1}, {"RGBA8 array", 1}},
+            {{"particle mesh", 1}, {"particle rows", 2}, {"uniform ring", 1}},
+            {"solid particles"},
+            {"particle meshes"}};
+}
+
+inline TechniqueRow lightsRow() ///< a list for the host: nothing is drawn
+{
+    return {"particle lights",
+            emitterMembers(R"("appearance": {"kind": "none"}, "light": {"intensity": 10})"),
+            "",
+            {},
+            {},
+            {},
+            {},
+            {},
+            {}};
+}
+
+inline TechniqueRow dazzleRow()
+{
+    return {"dazzle",
+            "",
+            "",
+            {"dazzle sum", "dazzle budget", "dazzle deal", "present"},
+            {"dazzle budget", "dazzle deal", "dazzle sum", "present"},
+            {{"RGBA32F", 1}},
+            {{"dazzle history", 1}, {"frame buffer", 2}, {"uniform ring", 1}},
+            {"dazzle sum", "dazzle budget", "dazzle deal"},
+            {"dazzle budget", "dazzle deal", "dazzle sum"}};
+}
+
+inline std::vector<TechniqueRow> techniqueRows()
+{
+    TechniqueRow billboards = billboardRow(
+        "billboard layers", emitterMembers(R"("layer": "dust", "albedoOverLife": [0.5, 0.5, 0.5])"), "");
+    billboards.ownPasses = {"blob upload"};
+    billboards.ownPrograms = {"media"};
+    std::vector<TechniqueRow> rows{billboards,  shimmerRow(), trailsRow(), spritesRow(),
+                                   meshesRow(), lightsRow(),  dazzleRow()};
+#if FXSDK_WITH_SPH
+    rows.push_back(billboardRow("sph gas", R"("gas": [{"particles": 40, "heat": 0, "detailAmount": 0}])",
+                                "billboard layers"));
+#endif
+    return rows;
+}
+
+} // namespace fx::test
