@@ -94,6 +94,7 @@ struct StepContext
     const ContactHook* contactHook = nullptr; ///< null for none
     EventBoard* board = nullptr;              ///< what solvers tell each other in this step; null for nothing
     std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
+    bool gpuParticles = false; ///< emitters that may be computed on the GPU are not needed as rows
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };

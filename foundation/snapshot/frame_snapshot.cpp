@@ -59,6 +59,7 @@ void SnapshotGroup::prepare(const SnapshotSchema& schema, KindId kind, size_t ca
     isExact_ = bytes() == floats * sizeof(float) + (desc.hasIds ? capacity * sizeof(uint64_t) : 0);
     info_ = GroupInfo{};
     info_.kind = kind;
+    program_.reset();
 }
 
 bool SnapshotGroup::prepareAgain(KindId kind, size_t capacity, ColumnSet present)
@@ -112,6 +113,8 @@ uint64_t FrameSnapshot::hash() const
     for (size_t g = 0; g < groupCount_; ++g) {
         const SnapshotGroup& group = groups_[g];
         const GroupInfo& info = group.info();
+        if (info.isCosmetic)
+            continue;
         h = hashWord(h, info.kind);
         h = hashWord(h, info.instance);
         h = hashWord(h, info.solver);

@@ -91,6 +91,7 @@ FxViewStatistics gatherStatistics(const FxView& view)
     statistics.allocations = view.allocations;
     statistics.estimatedFragments = frame.estimatedFragments;
     statistics.layerScale = 1.0f / float(frame.layerDivisor);
+    statistics.gpuParticles = uint32_t(frame.gpuParticles);
     return statistics;
 }
 
@@ -179,6 +180,7 @@ FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
         const FrameQuality quality(*view, known);
         Status status = view->renderer.render(shown->snapshots, request);
         view->allocations = view->context->memory.allocationCount() - before;
+        view->scene->gpuSeen.store(view->renderer.canComputeParticles() ? FxScene::kRemembered : 0u);
         return status;
     });
 }

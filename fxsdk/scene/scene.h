@@ -176,6 +176,9 @@ public:
     /// @return what building the field fails with
     base::Status setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize);
 
+    /// See sim::World::setGpuParticles.
+    void setGpuParticles(bool onGpu) { world_.setGpuParticles(onGpu); }
+
     /// Advances by dt [s] and publishes the last two of the steps taken.
     /// Throws std::bad_alloc after all steps when memory ran out in one: time has advanced, and what needed
     /// the memory is missing.

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"
+#include "rendering/gpu_particles/gpu_order_pass.h"
+#include "rendering/gpu_particles/gpu_rows_pass.h"
 #include "rendering/passes/blob_instance.h"
 #include "rendering/passes/particle_batch.h"
 #include "rendering/view/view_types.h"
@@ -21,8 +23,10 @@ struct ViewGraphInputs
     std::span<const MediaRun> runs;   ///< of blobs and of batches that do not hide
     bool anyHeat;
     bool anyDetail;
-    uint32_t dazzleHistory; ///< GL buffer of sizeof(DazzleHistory); 0 when dazzle is off
-    int layerDivisor = 1;   ///< of this frame, >= that of the settings
+    uint32_t dazzleHistory;                      ///< GL buffer of sizeof(DazzleHistory); 0 when dazzle is off
+    int layerDivisor = 1;                        ///< of this frame, >= that of the settings
+    std::span<const GpuRowsJob> gpuRows = {};    ///< what computes rows of batches
+    std::span<const GpuOrderJob> gpuOrders = {}; ///< and their orders
 };
 
 /// Resources that exist after the frame besides the host's picture; invalid where they were not asked for.

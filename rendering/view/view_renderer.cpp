@@ -114,7 +114,15 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     const CameraGeometry camera = cameraGeometry(request.camera);
     builder.build(snapshots, request, settings, camera);
     particles.build({&snapshots, &request, &settings, &camera, builder.lights()});
-    if (base::Status status = buffers.prepare(snapshots, particles, assets); !status)
+    const bool refused = buffers.refusesGpu();
+    if (refused)
+        particles.dropComputed();
+    base::Status status = buffers.prepare(snapshots, particles, assets);
+    if (!status && buffers.refusesGpu() && !refused) { // the scene will send rows from now on
+        particles.dropComputed();
+        status = buffers.prepare(snapshots, particles, assets);
+    }
+    if (!status)
         return status;
     streams.clear();
     if (builder.stream().count > 0)
@@ -149,6 +157,8 @@ FrameStatistics ViewRenderer::Impl::count(int divisor)
     statistics.blobsCulled = builder.counts().culled;
     statistics.blobsNonFinite = builder.counts().nonFinite;
     statistics.particles = particles.rows();
+    for (const ParticleBatch& batch : particles.batches())
+        statistics.gpuParticles += batch.isComputed ? batch.instances : 0;
     statistics.particlesOrdered = particles.orderedRows();
     statistics.uploadedBytes = buffers.uploadedBytes();
     statistics.passes = outputs.anyPass ? uint32_t(graph.executedPasses().size()) : 0;
@@ -195,6 +205,16 @@ base::Status ViewRenderer::warmUp()
     return impl_->ensureHistory();
 }
 
+bool ViewRenderer::canComputeParticles() const
+{
+    return !impl_->buffers.refusesGpu();
+}
+
+void ViewRenderer::warmUp(const base::GpuParticleProgram& emitter)
+{
+    impl_->buffers.warmUp(emitter);
+}
+
 base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const FrameRequest& asked)
 {
     Impl& s = *impl_;
@@ -222,9 +242,9 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     const int divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,
                                             asked.resetHistory);
     s.graph.begin();
-    s.outputs = buildViewGraph(s.graph,
-                               {&request, &settings_, s.builder.blobs(), s.particles.batches(), runs,
-                                s.builder.anyHeat(), s.builder.anyDetail(), s.dazzleHistory.name(), divisor});
+    s.outputs = buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.particles.batches(), runs,
+                                         s.builder.anyHeat(), s.builder.anyDetail(), s.dazzleHistory.name(),
+                                         divisor, s.buffers.jobs(), s.particles.gpuOrders()});
     base::Status status;
     if (s.outputs.anyPass) {
         s.graph.compile();
@@ -235,6 +255,8 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         s.buffers.fence();
         status = s.backend.endFrame();
     }
+    if (!status)
+        s.buffers.forgetComputed();
     s.timer.endFrame(status.ok() && s.outputs.anyPass);
     if (s.clock != TimingClock::Off)
         covered_ = screenShare(s.builder.blobs(), cameraGeometry(request.camera));

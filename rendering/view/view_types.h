@@ -118,6 +118,7 @@ struct FrameStatistics
     uint32_t blobsCulled = 0;      ///< outside the view
     uint32_t blobsNonFinite = 0;   ///< dropped because a value was not finite
     uint64_t particles = 0;        ///< rows and pieces of ribbons that were drawn
+    uint64_t gpuParticles = 0;     ///< of those, rows that the GPU computed
     uint64_t particlesOrdered = 0; ///< of those, in an order of depth or age
     uint64_t uploadedBytes = 0;    ///< [byte] of particles, written for this frame
     uint32_t passes = 0;           ///< executed

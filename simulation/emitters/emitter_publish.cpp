@@ -1,5 +1,6 @@
 #include "simulation/emitters/emitter_solver.h"
 
+#include "simulation/emitters/gpu_replay.h"
 #include "simulation/emitters/look_constants.h"
 #include "simulation/parallel.h"
 
@@ -86,17 +87,12 @@ void writeConstants(const EmitterDef& def, const EmitterLook& look, float arcPer
     constants[constant::ArcPerTile] = arcPerTile;
 }
 
-namespace {
-
-/// [1] How far the farthest corner of what is drawn is from its center, over the half height.
 float cornerOf(const EmitterLook& look)
 {
     constexpr float kRounding = 1.00002f; // of the arithmetic that draws
     return kRounding *
            (look.kind == Appearance::Mesh ? look.meshReach : std::sqrt(1.0f + look.aspect * look.aspect));
 }
-
-} // namespace
 
 LookJob EmitterSolver::lookJob() const
 {
@@ -115,21 +111,32 @@ void EmitterSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& sn
         publishLights(base, snapshot);
 }
 
+void publishRows(const LookJob& job, base::KindId kind, const base::GroupInfo& base, base::TaskRunner* tasks,
+                 base::FrameSnapshot& snapshot)
+{
+    const EmitterDef& def = job.program->def;
+    base::SnapshotGroup& group = snapshot.addGroup(kind, job.store->capacity(), job.program->published);
+    base::GroupInfo& info = group.editInfo();
+    info = base;
+    info.kind = kind;
+    info.count = job.rows.count;
+    writeConstants(def, def.look, 1.0f, group.editConstants());
+
+    LookBounds bounds = writeAll(job, columnsOf(group), tasks);
+    bounds.radius *= cornerOf(def.look);
+    group.editInfo().bounds = bounds.box();
+}
+
 void EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
 {
     if (kinds_.particle == base::kNoKind)
         return;
-    base::SnapshotGroup& group = snapshot.addGroup(kinds_.particle, store_.capacity(), program_.published);
-    const LookJob job = lookJob();
-    base::GroupInfo& info = group.editInfo();
-    info = base;
-    info.kind = kinds_.particle;
-    info.count = job.rows.count;
-    writeConstants(def_, def_.look, 1.0f, group.editConstants());
-
-    LookBounds bounds = writeAll(job, columnsOf(group), tasks_);
-    bounds.radius *= cornerOf(def_.look);
-    group.editInfo().bounds = bounds.box();
+    base::GroupInfo info = base;
+    info.isCosmetic = def_.compute != ComputeOn::Cpu;
+    if (gpu_ && gpu_->isOn())
+        gpu_->publish(info, kinds_.gpuParticle, key_, now_, snapshot);
+    else
+        publishRows(lookJob(), kinds_.particle, info, tasks_, snapshot);
 }
 
 } // namespace fx::sim

@@ -36,7 +36,8 @@ std::unique_ptr<Solver> EmitterDef::create(const base::SnapshotSchema& schema, c
                                            std::pmr::memory_resource* memory) const
 {
     const EmitterKinds kinds{schema.find(base::kBlobKind.name), schema.find(base::kParticleKind.name),
-                             schema.find(base::kRibbonKind.name), schema.find(base::kLightKind.name)};
+                             schema.find(base::kRibbonKind.name), schema.find(base::kLightKind.name),
+                             schema.find(base::kGpuParticleKind.name)};
     return std::make_unique<EmitterSolver>(*this, kinds, memory);
 }
 
@@ -52,6 +53,8 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
         lights_.resize(store_.capacity());
     if (def.look.kind == Appearance::Medium)
         rowsByBirth_.resize(store_.capacity());
+    if (program_.gpu && kinds.gpuParticle != base::kNoKind)
+        schedule_.setLog(&gpu_.emplace(program_, memory).log());
 }
 
 void EmitterSolver::begin(const StepContext& context)
@@ -62,6 +65,8 @@ void EmitterSolver::begin(const StepContext& context)
     motionBegin_ = 0;
     varied_ = false;
     started_ = true;
+    if (gpu_)
+        gpu_->clear(0, 0, conditions_.pull);
 }
 
 EmitterSolver::Conditions EmitterSolver::conditionsOf(const StepContext& context) const
@@ -79,16 +84,10 @@ void EmitterSolver::heedConditions(const StepContext& context)
     conditions_.emitting = conditions.emitting;
     if (goesOn)
         return;
-    const LookJob job = lookJob();
-    MotionTile motion;
-    for (uint32_t row = 0; row < job.rows.count; row += kTileRows) {
-        const uint32_t count = std::min(job.rows.count - row, kTileRows);
-        readMotion(job, row, count, motion);
-        for (size_t a = 0; a < 3; ++a) {
-            std::copy_n(motion.position[a], count, store_.values[stored::X + a].data() + row);
-            std::copy_n(motion.velocity[a], count, store_.values[stored::VelocityX + a].data() + row);
-        }
-    }
+    if (gpu_)
+        gpu_->setPull(now_, conditions.pull);
+    if (!gpu_ || !gpu_->isOn())
+        restartMotion(lookJob(), store_);
     store_.placed = true;
     motionBegin_ = now_;
     conditions_ = conditions;
@@ -100,9 +99,15 @@ void EmitterSolver::step(const StepContext& context)
     now_ = context.tick;
     if (!started_)
         begin(context);
+    key_ = {context.seed, context.solverIndex};
     schedule_.setSeed(context.seed, context.solverIndex);
+    if (gpu_ && gpu_->isOn() && !context.gpuParticles)
+        leaveGpu();
     heedConditions(context);
+    if (gpu_ && gpu_->isOn())
+        return stepOnGpu(context);
     const base::Ticks end = context.tick + context.stepTicks;
+    const uint64_t droppedBefore = dropped_;
     if (isLinked()) {
         stepWithEvents(context);
     } else {
@@ -117,6 +122,7 @@ void EmitterSolver::step(const StepContext& context)
     const uint64_t window = std::min<uint64_t>(store_.next() - store_.front(), store_.capacity());
     context.counters->particleSteps += window;
     highWater_ = std::max(highWater_, uint32_t(window));
+    offerToGpu(droppedBefore, context.gpuParticles);
 }
 
 void EmitterSolver::giveBirth(const StepContext& context, base::Ticks from, base::Ticks to)
@@ -163,7 +169,9 @@ void EmitterSolver::move(const StepContext& context, uint64_t firstIndex, EventR
 
 bool EmitterSolver::finished(base::Ticks tick) const
 {
-    return store_.empty() && !(trails_ && !trails_->empty()) && schedule_.exhausted(tick) &&
+    const bool isEmpty =
+        gpu_ && gpu_->isOn() ? schedule_.exhausted(tick) && gpu_->isEmpty(key_, now_) : store_.empty();
+    return isEmpty && !(trails_ && !trails_->empty()) && schedule_.exhausted(tick) &&
            !interest_.in(EventKind::Host);
 }
 
@@ -190,8 +198,13 @@ bool EmitterSolver::canSeek(const StepContext& context, base::Ticks tick) const
 void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
 {
     tasks_ = context.tasks;
+    key_ = {context.seed, context.solverIndex};
+    if (gpu_ && gpu_->isOn())
+        leaveGpu();
     if (!started_ || tick < now_) {
         schedule_ = BirthSchedule(def_.emission, rowsByBirth_.get_allocator().resource());
+        if (gpu_)
+            schedule_.setLog(&gpu_->log());
         store_.clear(0);
         store_.placed = program_.stores[stored::X];
         now_ = 0;
@@ -199,6 +212,7 @@ void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
     }
     schedule_.setSeed(context.seed, context.solverIndex);
     heedConditions(context);
+    const uint64_t droppedBefore = dropped_;
     base::Ticks from = now_;
     if (neverDrops(double(context.parameters->intensity))) {
         // Whoever was born before then is dead.
@@ -214,6 +228,7 @@ void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
         giveBirth(context, from, std::min(from + part, tick));
     now_ = tick;
     store_.retire(now_);
+    offerToGpu(droppedBefore, false);
 }
 
 void EmitterSolver::save(StateWriter& writer) const
@@ -228,7 +243,10 @@ void EmitterSolver::save(StateWriter& writer) const
     if (interest_.in(EventKind::Host))
         writer.value(hostEvents_);
     schedule_.save(writer);
-    store_.save(writer, now_);
+    if (gpu_ && gpu_->isOn())
+        saveFromGpu(writer);
+    else
+        store_.save(writer, now_);
     if (trails_)
         trails_->save(writer);
 }
@@ -246,6 +264,7 @@ void EmitterSolver::restore(StateReader& reader)
         hostEvents_ = reader.value<uint64_t>();
     schedule_.restore(reader);
     store_.restore(reader, now_);
+    listenAgain();
     if (trails_)
         trails_->restore(reader);
 }

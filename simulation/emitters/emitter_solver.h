@@ -5,6 +5,7 @@
 #include "simulation/emitters/birth_schedule.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/emitters/event_scan.h"
+#include "simulation/emitters/gpu_emitter.h"
 #include "simulation/emitters/ribbon_store.h"
 #include "simulation/particles/look_kernel.h"
 #include "simulation/particles/particle_store.h"
@@ -20,6 +21,7 @@ struct EmitterKinds
     base::KindId particle;
     base::KindId ribbon = base::kNoKind;
     base::KindId light = base::kNoKind;
+    base::KindId gpuParticle = base::kNoKind;
 };
 
 /// Steps particles that do not feel each other. The set of particles, their birth ticks and their rows depend
@@ -34,7 +36,8 @@ public:
     /// Spread over the threads of the last step; before it on the calling thread.
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
     bool finished(base::Ticks tick) const override;
-    uint32_t elementCount() const override { return store_.countAlive(now_); }
+    /// Exact but while the GPU computes the particles; then an upper bound.
+    uint32_t elementCount() const override;
     /// Where motion has a closed form; backwards while the host has changed nothing since local time 0.
     bool canSeek(const StepContext& context, base::Ticks tick) const override;
     void seek(const StepContext& context, base::Ticks tick) override;
@@ -58,6 +61,12 @@ private:
     void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to);
     void storeBatch(const StepContext& context, std::span<const Birth> births);
     void move(const StepContext& context, uint64_t firstIndex = 0, EventRoom* room = nullptr);
+    // where the GPU may compute
+    void offerToGpu(uint64_t droppedBefore, bool isWanted);
+    void stepOnGpu(const StepContext& context);
+    void leaveGpu();
+    void listenAgain();
+    void saveFromGpu(StateWriter& writer) const;
     // where there are events
     struct Origin
     {
@@ -99,6 +108,8 @@ private:
     ParticleStore store_;
     EventInterest interest_;
     std::optional<RibbonStore> trails_;
+    std::optional<GpuEmitter> gpu_;          ///< where the GPU could compute the particles
+    BirthKey key_{};                         ///< of the last step
     mutable std::pmr::vector<Light> lights_; ///< room for those that are published
     uint64_t hostEvents_ = 0;                ///< so many have been answered
     base::Ticks now_ = 0;                    ///< end of the last step

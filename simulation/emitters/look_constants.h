@@ -12,4 +12,7 @@ namespace fx::sim {
 void writeConstants(const EmitterDef& def, const EmitterLook& look, float arcPerTile,
                     std::span<float> constants);
 
+/// [1] How far the farthest corner of what is drawn is from its center, over the half height.
+float cornerOf(const EmitterLook& look);
+
 } // namespace fx::sim

@@ -1,5 +1,6 @@
 #include "simulation/particles/particle_program.h"
 
+#include "simulation/emitters/gpu_program.h"
 #include "simulation/particles/builtin_ops.h"
 
 #include <algorithm>
@@ -145,6 +146,8 @@ ParticleProgram::ParticleProgram(const EmitterDef& definition)
     for (const std::shared_ptr<const TileOp>& op : ops)
         keepsFlags = keepsFlags || op->keepsFlags();
     chooseColumns(*this);
+    if (gpuObstacle(def).empty())
+        gpu = makeGpuProgram(def);
 }
 
 } // namespace fx::sim

@@ -10,6 +10,10 @@
 #include <memory>
 #include <vector>
 
+namespace fx::base {
+class GpuParticleProgram;
+}
+
 namespace fx::sim {
 
 /// Attributes that a particle may carry. What all particles of an emitter share is not stored.
@@ -71,6 +75,8 @@ struct ParticleProgram
     RampCurves looks;                    ///< over life
     std::unique_ptr<RampCurves> bySpeed; ///< over speed, null when not used
     bool plain; ///< no optional columns, looks over life alone, colors need no bounds to be binary16
+
+    std::shared_ptr<const base::GpuParticleProgram> gpu; ///< null where only the CPU can compute it
 };
 
 /// [byte] that a step and a publication read and write of each row, births left out.

@@ -38,13 +38,21 @@ void addLook(Fields& fields, const fx::sim::EmitterLook& look)
 Fields fieldsOf(const fx::sim::SolverDef& solver)
 {
     const auto& e = dynamic_cast<const EmitterDef&>(solver);
-    Fields fields{double(e.layer),     double(e.maxParticles),
-                  double(e.shape),     e.angle,
-                  e.emission.rate,     e.emission.start,
-                  e.emission.duration, double(e.opticalDepthGiven),
-                  e.fireShare,         e.heat,
-                  e.detailAmount,      e.detailScale,
-                  e.anisotropy,        e.shutter};
+    Fields fields{double(e.compute),
+                  double(e.layer),
+                  double(e.maxParticles),
+                  double(e.shape),
+                  e.angle,
+                  e.emission.rate,
+                  e.emission.start,
+                  e.emission.duration,
+                  double(e.opticalDepthGiven),
+                  e.fireShare,
+                  e.heat,
+                  e.detailAmount,
+                  e.detailScale,
+                  e.anisotropy,
+                  e.shutter};
     for (const glm::vec3& v : {e.position, e.size})
         add(fields, v);
     for (const fx::base::Range& range : {e.lifetime, e.speed, e.radius, e.crossSection, e.temperature})

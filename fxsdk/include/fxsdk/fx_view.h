@@ -185,7 +185,8 @@ typedef struct FxViewStatistics
     uint64_t estimatedFragments; ///< of the particles' covering rectangles, at layerScale; what
                                  ///< fragmentBudget is compared with
     float layerScale;            ///< [1] in use: that of the settings, or less to keep fragmentBudget
-    uint32_t reserved2;          ///< 0
+    uint32_t gpuParticles;       ///< particles that the GPU computed for what was drawn, or would have if
+                                 ///< they lived: the capacity of their emitters
 } FxViewStatistics;
 
 /// Pictures that the last frame kept; GL names, 0 when settings.layerOutputs was 0. Fill structSize with

@@ -193,6 +193,8 @@ public:
         }
     }
 
+    const ShapeDef& def() const { return def_; }
+
 private:
     ShapeDef def_;
 };
@@ -209,6 +211,12 @@ ShapePlace sampleShape(const ShapeDef& def, const Uniform& place, const Uniform&
 std::unique_ptr<ShapeOp> makeShapeOp(const ShapeDef& def)
 {
     return std::make_unique<ShapeSampler>(def);
+}
+
+const ShapeDef* shapeOf(const ShapeOp& shape)
+{
+    const auto* sampler = dynamic_cast<const ShapeSampler*>(&shape);
+    return sampler ? &sampler->def() : nullptr;
 }
 
 } // namespace fx::sim
