@@ -1,7 +1,7 @@
 #include "fxsdk/techniques.h"
 
 #include "foundation/snapshot/blob_kind.h"
-#include "foundation/snapshot/particle_kind.h"
+#include "foundation/snapshot/gpu_particles.h"
 #include "fxsdk/presets/emitter_preset.h"
 #include "fxsdk/presets/fragments_preset.h"
 #if FXSDK_WITH_SPH
@@ -17,6 +17,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kMediaPasses{"scene distance", "media", "composite"};
 constexpr std::array<std::string_view, 4> kParticlePasses{"scene distance", "solid particles", "media",
                                                           "composite"};
+constexpr std::array<std::string_view, 2> kGpuPasses{"gpu particles", "gpu particle order"};
 constexpr std::array<std::string_view, 2> kShimmerPasses{"heat offset", "heat shimmer"};
 constexpr std::array<std::string_view, 3> kDazzlePasses{"dazzle sum", "dazzle budget", "dazzle deal"};
 
@@ -29,6 +30,7 @@ constexpr std::array kTechniques
 #endif
         Technique{"spherical billboards", "", "", nullptr, &base::kBlobKind, kMediaPasses},
         Technique{"sprites and meshes", "", "", nullptr, &base::kParticleKind, kParticlePasses},
+        Technique{"particles on the GPU", "", "", nullptr, &base::kGpuParticleKind, kGpuPasses},
         Technique{"ribbons", "", "", nullptr, &base::kRibbonKind, kMediaPasses},
         Technique{"particle lights", "", "", nullptr, &base::kLightKind, {}},
         Technique{"heat shimmer", "", "", nullptr, nullptr, kShimmerPasses},

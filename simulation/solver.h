@@ -108,6 +108,7 @@ struct StepContext
     base::Placement
         placement{}; ///< of the instance at the end of the step; default unless the effect heeds it
     glm::vec3 worldGravity{0.0f}; ///< [m/s2] world
+    bool gpuParticles = false;    ///< emitters that may be computed on the GPU are not needed as rows
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };

@@ -357,6 +357,7 @@ void World::withContext(RunIndex index, StepCounters& counters, F&& body)
     context.tasks = tasks_;
     context.scratch = &scratch_;
     context.counters = &counters;
+    context.gpuParticles = gpuParticles_;
     body(context, run);
 }
 

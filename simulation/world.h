@@ -97,6 +97,9 @@ public:
     uint32_t resting() const { return resting_; } ///< slots that the last step() let rest
     /// false: every step is taken.
     void allowRest(bool allow) { mayRest_ = allow; }
+    /// Whether emitters that may be computed on the GPU are published as what is needed for that, from the
+    /// next step on; see StepContext::gpuParticles.
+    void setGpuParticles(bool onGpu) { gpuParticles_ = onGpu; }
     /// Takes what rests to the present, so that it can be saved and hashed.
     void endRests();
     /// The present, after restore(): all that there is has reached it.
@@ -224,6 +227,7 @@ private:
     base::Ticks now_ = 0; ///< end of the last step
     uint32_t resting_ = 0;
     bool mayRest_ = true;
+    bool gpuParticles_ = false;
 };
 
 } // namespace fx::sim

@@ -59,6 +59,7 @@ void SnapshotGroup::prepare(const SnapshotSchema& schema, KindId kind, size_t ca
     isExact_ = bytes() == floats * sizeof(float) + (desc.hasIds ? capacity * sizeof(uint64_t) : 0);
     info_ = GroupInfo{};
     info_.kind = kind;
+    program_.reset();
 }
 
 FrameSnapshot::FrameSnapshot(const SnapshotSchema* schema, std::pmr::memory_resource* memory)
@@ -100,8 +101,8 @@ uint64_t FrameSnapshot::hash() const
     for (size_t g = 0; g < groupCount_; ++g) {
         const SnapshotGroup& group = groups_[g];
         const GroupInfo& info = group.info();
-        if (group.count() == 0)
-            continue; // it shows nothing, so it is as if it were not there
+        if (group.count() == 0 || info.isCosmetic)
+            continue; // what shows nothing is as if it were not there
         h = hashWord(h, info.kind);
         h = hashWord(h, info.instance);
         h = hashWord(h, info.solver);

@@ -16,8 +16,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <memory_resource>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace fx::base {
@@ -26,12 +28,15 @@ namespace fx::base {
 struct GroupInfo
 {
     KindId kind = 0;
-    uint64_t instance = 0; ///< identity of the instance within the scene
-    uint32_t solver = 0;   ///< position of the solver in its effect
-    uint32_t count = 0;    ///< elements
-    Placement placement;   ///< columns are relative to this
-    Bounds bounds;         ///< local; every element with its radius lies inside
+    uint64_t instance = 0;   ///< identity of the instance within the scene
+    uint32_t solver = 0;     ///< position of the solver in its effect
+    uint32_t count = 0;      ///< elements
+    Placement placement;     ///< columns are relative to this
+    Bounds bounds;           ///< local; every element with its radius lies inside
+    bool isCosmetic = false; ///< outside of the snapshot's hash: may be computed on the GPU
 };
+
+class GpuParticleProgram;
 
 /// One group: column-wise elements, sorted by ascending id where the kind has ids. Columns begin at multiples
 /// of 64 bytes; those that the group has follow each other in the order of the kind, each with room for
@@ -54,6 +59,8 @@ public:
     }
     bool has(size_t index) const { return (present_ >> index & 1) != 0; }
     std::span<const float> constants() const { return {constants_.data(), constantCount_}; }
+    /// Of the kind "gpuParticle", see gpu_particles.h; null elsewhere.
+    const std::shared_ptr<const GpuParticleProgram>& program() const { return program_; }
 
     // ---- for the writer, before publication ----
     GroupInfo& editInfo() { return info_; }
@@ -66,6 +73,7 @@ public:
     {
         return {reinterpret_cast<uint64_t*>(const_cast<float*>(place(index))), has(index) ? capacity_ : 0};
     }
+    void setProgram(std::shared_ptr<const GpuParticleProgram> program) { program_ = std::move(program); }
     std::span<float> editConstants() { return {constants_.data(), constantCount_}; }
     /// Room for all columns that it has.
     float* editStorage() { return storage_.data(); }
@@ -124,6 +132,7 @@ private:
     std::array<uint32_t, kMostColumns> lines_{}; ///< of 64 bytes before each column
     std::pmr::memory_resource* memory_;
     std::pmr::vector<uint64_t> ids_;
+    std::shared_ptr<const GpuParticleProgram> program_;
 };
 
 /// All groups after the step that ended at `tick`.
@@ -133,6 +142,7 @@ public:
     FrameSnapshot(const SnapshotSchema* schema, std::pmr::memory_resource* memory);
 
     const SnapshotSchema& schema() const { return *schema_; }
+    std::pmr::memory_resource* memory() const { return memory_; }
     Ticks tick() const { return tick_; }
     uint64_t sequence() const { return sequence_; } ///< 1 for the first published, then rising by 1; 0: never
     size_t groupCount() const { return groupCount_; }

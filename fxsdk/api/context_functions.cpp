@@ -6,8 +6,11 @@
 #include "fxsdk/api/versioned_struct.h"
 #include "fxsdk/api/view_object.h"
 #include "rendering/view/view_renderer.h"
+#include "simulation/particles/particle_program.h"
 
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -39,6 +42,22 @@ Status connectGl(FxContext& context)
     fx::api::logMessage(context, FX_LOG_INFO,
                         ("OpenGL renderer: " + context.device->limits().renderer).c_str());
     return {};
+}
+
+/// Of all emitters of the presets that are loaded.
+std::vector<std::shared_ptr<const fx::base::GpuParticleProgram>> gpuPrograms(FxContext& context)
+{
+    std::vector<std::shared_ptr<const fx::base::GpuParticleProgram>> programs;
+    const fx::api::SharedCaller::Scope tables(context.tables);
+    if (!tables.status())
+        return programs;
+    context.presets.forEach([&](uint32_t, const std::shared_ptr<const fx::sim::EffectDef>& effect) {
+        for (const auto& solver : effect->solvers)
+            if (const auto* emitter = dynamic_cast<const fx::sim::EmitterDef*>(solver.get()))
+                if (const auto program = emitter->program.of(*emitter)->gpu)
+                    programs.push_back(program);
+    });
+    return programs;
 }
 
 void destroy(FxContext* context)
@@ -132,7 +151,11 @@ FxResult fxContext_WarmUp(FxContext* context)
         if (!scope.status())
             return scope.status();
         fx::render::ViewRenderer renderer(context->device.get(), &context->schema, &context->memory);
-        return renderer.warmUp(); // programs belong to the device and stay
+        if (Status status = renderer.warmUp(); !status) // programs belong to the device and stay
+            return status;
+        for (const auto& program : gpuPrograms(*context))
+            renderer.warmUp(*program);
+        return {};
     });
 }
 

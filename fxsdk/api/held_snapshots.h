@@ -2,6 +2,7 @@
 /// The snapshots that hosts hold at the moment. Safe from any thread; allocates nothing.
 #pragma once
 
+#include "foundation/snapshot/gpu_particles.h"
 #include "fxsdk/scene/scene.h"
 
 #include <algorithm>
@@ -16,15 +17,19 @@ class HeldSnapshots
 public:
     static constexpr uint32_t kCapacity = 16;
 
+    /// Particles that views compute on the GPU are made here, on the CPU.
     /// @return an identity for find() and take(), 0 when kCapacity are held; `presentation` is then not kept
-    scene::LocalId add(const scene::Presentation& presentation)
+    scene::LocalId add(const scene::Presentation& presentation, std::pmr::memory_resource* memory)
     {
+        Held held{presentation, presentation.snapshots, {}};
+        held.replay(held.shown.snapshots.newer, 0, memory);
+        held.replay(held.shown.snapshots.older, 1, memory);
         std::lock_guard lock(mutex_);
         for (uint32_t i = 0; i < kCapacity; ++i) {
             Slot& slot = slots_[i];
             if (slot.held || slot.use == scene::kIdPartMask)
                 continue;
-            slot.held = presentation;
+            slot.held = std::move(held);
             return (uint64_t(++slot.use) << scene::kIdPartBits) | i;
         }
         return 0;
@@ -34,7 +39,7 @@ public:
     {
         std::lock_guard lock(mutex_);
         const Slot* slot = slotOf(id);
-        return slot ? slot->held : std::nullopt;
+        return slot && slot->held ? std::optional(slot->held->shown) : std::nullopt;
     }
 
     bool any()
@@ -44,18 +49,34 @@ public:
                            [](const Slot& slot) { return slot.held.has_value(); });
     }
 
-    /// Forgets the snapshot and hands it out, to be released. Nothing when the id is stale.
-    std::optional<scene::Presentation> take(scene::LocalId id)
+    /// Forgets the snapshot and hands out what has to be released. Nothing when the id is stale.
+    std::optional<base::SnapshotPair> take(scene::LocalId id)
     {
         std::lock_guard lock(mutex_);
         Slot* slot = slotOf(id);
-        return slot ? std::exchange(slot->held, std::nullopt) : std::nullopt;
+        if (!slot || !slot->held)
+            return std::nullopt;
+        return std::exchange(slot->held, std::nullopt)->taken;
     }
 
 private:
+    struct Held
+    {
+        scene::Presentation shown;
+        base::SnapshotPair taken;                                     ///< of the scene
+        std::array<std::unique_ptr<base::FrameSnapshot>, 2> replayed; ///< where `shown` differs from it
+
+        void replay(const base::FrameSnapshot*& io, size_t which, std::pmr::memory_resource* memory)
+        {
+            if (!io || !base::hasGpuParticles(*io))
+                return;
+            replayed[which] = base::replayOnCpu(*io, memory);
+            io = replayed[which].get();
+        }
+    };
     struct Slot
     {
-        std::optional<scene::Presentation> held;
+        std::optional<Held> held;
         uint32_t use = 0;
     };
 

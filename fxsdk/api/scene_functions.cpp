@@ -149,6 +149,7 @@ FxResult fxScene_Update(FxScene* scene, double dtSeconds)
 {
     return fx::api::insideScene("fxScene_Update", scene, [&]() -> Status {
         const uint64_t before = scene->context->memory.allocationCount();
+        scene->scene.setGpuParticles(scene->computesOnGpu());
         const bool accepted = scene->scene.update(dtSeconds);
         scene->catchingUp.store(dtSeconds > scene->longestFrame);
         scene->updateAllocations = scene->context->memory.allocationCount() - before;

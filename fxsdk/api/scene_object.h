@@ -31,6 +31,23 @@ struct FxScene
     std::atomic<uint32_t> views{0};      ///< that show this scene
     double longestFrame;                 ///< [s] that one update makes up for
     std::atomic<bool> catchingUp{false}; ///< the last update had more time to make up for than it may
+
+    // Updates for which it counts that a view has computed particles, and that rows were asked for.
+    static constexpr uint32_t kRemembered = 240;
+    std::atomic<uint32_t> gpuSeen{0};
+    std::atomic<uint32_t> rowsWanted{0};
+    /// Whether emitters that ask for the GPU are to be computed there in this update.
+    bool computesOnGpu()
+    {
+        const auto count = [](std::atomic<uint32_t>& left) {
+            uint32_t value = left.load();
+            while (value > 0 && !left.compare_exchange_weak(value, value - 1)) {
+            }
+            return value > 0;
+        };
+        const bool isSeen = count(gpuSeen), isWanted = count(rowsWanted);
+        return isSeen && !isWanted;
+    }
 };
 
 namespace fx::api {

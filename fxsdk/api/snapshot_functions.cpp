@@ -99,8 +99,15 @@ FxResult fxScene_AcquireSnapshot(FxScene* scene, FxSnapshotId* outSnapshot)
         check.notNull(outSnapshot, "outSnapshot");
         if (!check.status())
             return check.status();
+        scene->rowsWanted.store(FxScene::kRemembered);
         const Presentation presentation = scene->scene.acquire();
-        const fx::scene::LocalId id = scene->held.add(presentation);
+        fx::scene::LocalId id = 0;
+        try {
+            id = scene->held.add(presentation, &scene->context->memory);
+        } catch (...) {
+            scene->scene.release(presentation.snapshots);
+            throw;
+        }
         if (id == 0) {
             scene->scene.release(presentation.snapshots);
             return {Code::Capacity, "16 snapshots are held already; release one"};
@@ -118,7 +125,7 @@ FxResult fxScene_ReleaseSnapshot(FxScene* scene, FxSnapshotId snapshot)
         const auto taken = scene->held.take(scene->ids.decode(snapshot.bits, fx::api::kSnapshotIdType));
         if (!taken)
             return {Code::StaleId, "snapshot names no snapshot that is held of this scene"};
-        scene->scene.release(taken->snapshots);
+        scene->scene.release(*taken);
         return {};
     });
 }

@@ -101,6 +101,7 @@ FxViewStatistics gatherStatistics(const FxView& view)
     std::copy_n(frame.lodGroups, 4, statistics.lodGroups);
     statistics.impostors = frame.impostors;
     statistics.impostorsTaken = frame.impostorsTaken;
+    statistics.gpuParticles = uint32_t(frame.gpuParticles);
     return statistics;
 }
 
@@ -194,6 +195,7 @@ FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
         const FrameQuality quality(*view, known);
         Status status = view->renderer.render(shown->snapshots, request);
         view->allocations = view->context->memory.allocationCount() - before;
+        view->scene->gpuSeen.store(view->renderer.canComputeParticles() ? FxScene::kRemembered : 0u);
         return status;
     });
 }

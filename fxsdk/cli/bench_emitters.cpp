@@ -73,7 +73,7 @@ void makeHeavy(sim::EmitterDef& def)
 
 } // namespace
 
-std::shared_ptr<const sim::EffectDef> benchEffect(std::string_view variant, uint32_t count)
+std::shared_ptr<const sim::EffectDef> benchEffect(std::string_view variant, uint32_t count, bool gpu)
 {
     auto def = std::make_unique<sim::EmitterDef>();
     if (variant == "heavy")
@@ -85,7 +85,10 @@ std::shared_ptr<const sim::EffectDef> benchEffect(std::string_view variant, uint
     const float meanLife = 0.5f * (def->lifetime.min + def->lifetime.max);
     def->emission.rate = float(count) / meanLife;
     def->emission.duration = std::numeric_limits<float>::infinity();
-    def->maxParticles = uint32_t(double(count) * double(def->lifetime.max / meanLife) * 1.001) + 4;
+    def->maxParticles =
+        uint32_t(double(count) * double(def->lifetime.max / meanLife) * (gpu ? 1.02 : 1.001)) + 4;
+    if (gpu) // with room for the births of a step, so that none can be dropped
+        def->compute = sim::ComputeOn::Gpu;
     auto effect = std::make_shared<sim::EffectDef>();
     effect->solvers.push_back(std::move(def));
     return effect;

@@ -16,12 +16,13 @@ constexpr std::array<std::string_view, 3> kEmitVariants{"point", "sphere", "cone
 constexpr std::array<std::string_view, 2> kFrameVariants{"unsorted", "sorted"};
 
 constexpr std::array<BenchEntry, 5> kEntries{{
-    {"particles", "One emitter: step it, publish the snapshot", kParticleVariants, benchParticles},
-    {"many-small", "The same number of particles in many small effects and in few", kManySmallVariants,
+    {"particles", "One emitter: step it, publish the snapshot", kParticleVariants, true, benchParticles},
+    {"many-small", "The same number of particles in many small effects and in few", kManySmallVariants, false,
      benchManySmall},
-    {"sort", "The order of drawing, on one thread", kSortVariants, benchSort},
-    {"emit", "Births: all particles are new in every step", kEmitVariants, benchEmit},
-    {"frame", "Update, upload, submission and drawing of sprites with OpenGL", kFrameVariants, benchFrame},
+    {"sort", "The order of drawing, on one thread", kSortVariants, false, benchSort},
+    {"emit", "Births: all particles are new in every step", kEmitVariants, false, benchEmit},
+    {"frame", "Update, upload, submission and drawing of sprites with OpenGL", kFrameVariants, true,
+     benchFrame},
 }};
 
 std::string hexadecimal(uint64_t hash)

@@ -21,6 +21,7 @@ struct BenchSettings
     uint32_t threads = 1; ///< 0: as many as the machine has
     uint32_t steps = 0;   ///< that are timed, 0: as many as take about a second
     std::string variant;  ///< empty: all of the entry
+    bool gpu = false;     ///< particles are computed on the GPU where it can
 };
 
 /// One measurement.
@@ -42,6 +43,7 @@ struct BenchEntry
     std::string_view name;
     std::string_view summary;
     std::span<const std::string_view> variants;
+    bool hasGpu; ///< heeds BenchSettings::gpu
     /// @return one row a variant asked for; Interrupted after a signal
     base::Result<std::vector<BenchRow>> (*run)(const BenchSettings& settings);
 };

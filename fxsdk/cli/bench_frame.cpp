@@ -17,6 +17,7 @@ constexpr uint64_t kUsualCount = 20'000;
 constexpr uint64_t kMostCount = 16'000'000;
 constexpr int kPixels = 512;
 constexpr uint32_t kWarmFrames = 200; // a life and some more
+constexpr uint32_t kPoolFrames = 4;   // with drawing, until the scene knows who computes
 
 using Clock = std::chrono::steady_clock;
 
@@ -25,9 +26,11 @@ double since(Clock::time_point begin)
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-std::string presetText(std::string_view variant, uint64_t count)
+std::string presetText(std::string_view variant, uint64_t count, bool gpu)
 {
-    return R"({"version": 1, "ground": false, "emitters": [{"maxParticles": )" + std::to_string(count + 16) +
+    return R"({"version": 1, "ground": false, "emitters": [{"compute": ")" +
+           std::string(gpu ? "gpu" : "cpu") + R"(", "maxParticles": )" +
+           std::to_string(count + count / 100 + 16) +
            R"(, "shape": "box", "position": [0, 0, -6], "size": [2, 2, 2], "emission": {"rate": )" +
            std::to_string(double(count) / 2.0) +
            R"(}, "lifetime": 2, "speed": {"min": 0.1, "max": 0.4}, "radius": 0.01, "forces": {"gravity": 0, )" +
@@ -70,7 +73,7 @@ base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view v
     auto scene = BenchScene::create(options);
     if (!scene.ok())
         return scene.status();
-    auto preset = (*scene)->load(presetText(variant, count));
+    auto preset = (*scene)->load(presetText(variant, count, settings.gpu));
     if (!preset.ok())
         return preset.status();
     base::Status status = (*scene)->add(*preset, 0, 0, 1, 0);
@@ -80,10 +83,10 @@ base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view v
         status = (*scene)->update();
     Times times;
     const uint32_t frames = settings.steps > 0 ? settings.steps : 30;
-    for (uint32_t i = 0; i < frames + 2 && status.ok(); ++i) {
+    for (uint32_t i = 0; i < frames + kPoolFrames && status.ok(); ++i) {
         if (interruptRequested())
             return base::Status{base::Code::Interrupted, "interrupted"};
-        if (i == 2)
+        if (i == kPoolFrames)
             times = {}; // what came before has filled pools
         status = playFrame(**scene, times);
     }
@@ -105,6 +108,7 @@ base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view v
                 {"overdraw", double(view.estimatedFragments) / (double(kPixels) * kPixels)},
                 {"draw_calls", view.drawCalls},
                 {"gl_calls", view.glCalls},
+                {"path", view.gpuParticles > 0 ? "gpu" : "cpu"},
                 {"renderer", (*scene)->renderer()}};
     return row;
 }

@@ -115,6 +115,9 @@ void addBenchMeasurements(CLI::App& bench, int& outExitCode)
         command->add_option("--variant", settings.variant, "One variant alone (default: all)");
         command->add_option("--validate-hash", arguments->wantedHash,
                             "Exit code 1 when what was published has another hash (hexadecimal)");
+        if (entry.hasGpu)
+            command->add_flag("--gpu", settings.gpu,
+                              "Particles are computed on the GPU where it can: path says so");
         command->add_flag("--json", arguments->json, "One object a variant with every number");
         command->callback([arguments, &outExitCode] { outExitCode = runBench(*arguments); });
     }

@@ -38,7 +38,8 @@ base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& 
     row.more = {{"ns_per_particle_min", 1e9 * quantile(stage.times(), 0.0) / alive},
                 {"alive", uint64_t(alive)},
                 {"steps", steps},
-                {"copy_gb_per_s", bandwidth}};
+                {"copy_gb_per_s", bandwidth},
+                {"path", "cpu"}};
     return {};
 }
 
@@ -76,7 +77,8 @@ base::Result<std::vector<BenchRow>> benchParticles(const BenchSettings& asked)
     for (const std::string_view variant : findBenchEntry("particles")->variants) {
         if (!settings.variant.empty() && settings.variant != variant)
             continue;
-        base::Result<BenchRow> row = measure(settings, variant);
+        base::Result<BenchRow> row =
+            settings.gpu ? measureOnGpu(settings, variant) : measure(settings, variant);
         if (!row)
             return row.status();
         rows.push_back(std::move(*row));

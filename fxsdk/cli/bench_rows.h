@@ -12,6 +12,9 @@ namespace fx::cli {
 /// @return Interrupted after a signal
 base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& effect, BenchRow& row);
 
+/// One variant of the entry particles, computed on the GPU where it can; else as without.
+base::Result<BenchRow> measureOnGpu(const BenchSettings& settings, std::string_view variant);
+
 base::Result<std::vector<BenchRow>> benchParticles(const BenchSettings& settings);
 base::Result<std::vector<BenchRow>> benchManySmall(const BenchSettings& settings);
 base::Result<std::vector<BenchRow>> benchSort(const BenchSettings& settings);

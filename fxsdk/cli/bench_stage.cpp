@@ -2,7 +2,7 @@
 
 #include "foundation/math/hash.h"
 #include "foundation/snapshot/blob_kind.h"
-#include "foundation/snapshot/particle_kind.h"
+#include "foundation/snapshot/gpu_particles.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,6 +23,7 @@ base::SnapshotSchema allKinds()
     base::SnapshotSchema schema;
     schema.add(base::kBlobKind);
     schema.add(base::kParticleKind);
+    schema.add(base::kGpuParticleKind);
     return schema;
 }
 

@@ -20,6 +20,11 @@ public:
     explicit BenchStage(uint32_t threads);
 
     void add(std::shared_ptr<const sim::EffectDef> effect, uint64_t seed);
+    /// Emitters that ask for the GPU are published for it. Before the first step.
+    void computeOnGpu() { world_.setGpuParticles(true); }
+    /// The newest snapshot, to be released.
+    base::SnapshotPair last() { return ring_.acquire(); }
+    void release(const base::SnapshotPair& pair) { ring_.release(pair); }
     /// Steps and publishes without a look at the clock.
     void play(uint32_t steps);
     /// The same, one frame: what it took is added to times(), and what was published to hash().

@@ -8,6 +8,7 @@
 #include "fxsdk/cli/frame_renderer.h"
 #include "fxsdk/cli/json_line.h"
 #include "fxsdk/techniques.h"
+#include "simulation/emitters/gpu_program.h"
 
 #include <CLI/CLI.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -96,6 +97,25 @@ Json callersOf(const preset::Technique& technique, const scene_file::SceneFile& 
     return names;
 }
 
+/// What computes the particles of each emitter, and why not the GPU. What may goes there once a view has
+/// drawn the scene, and while nobody asks for rows.
+Json emittersOf(const scene_file::SceneFile& file)
+{
+    Json list = Json::array();
+    for (const scene_file::ScenePreset& preset : file.presets)
+        for (const auto& solver : preset.effect->solvers) {
+            const auto* emitter = dynamic_cast<const sim::EmitterDef*>(solver.get());
+            if (!emitter)
+                continue;
+            const std::string_view why = sim::gpuObstacle(*emitter);
+            list.push_back({{"preset", preset.name},
+                            {"emitter", emitter->name},
+                            {"path", why.empty() ? "gpu" : "cpu"},
+                            {"why", std::string(why)}});
+        }
+    return list;
+}
+
 Json techniquesOf(const scene_file::SceneFile& file, const Json& instances,
                   const std::vector<std::string>& passes)
 {
@@ -130,6 +150,10 @@ void print(const Json& report)
                     entry["preset"].get<std::string>().c_str(), entry["state"].get<std::string>().c_str(),
                     entry["reason"].get<std::string>().c_str(), entry["particles"].get<unsigned>(),
                     entry["ms_estimated"].get<double>());
+    for (const Json& entry : report["emitters"])
+        std::printf("%-24s %-20s %s  %s\n", entry["preset"].get<std::string>().c_str(),
+                    entry["emitter"].get<std::string>().c_str(), entry["path"].get<std::string>().c_str(),
+                    entry["why"].get<std::string>().c_str());
     for (const Json& entry : report["techniques"])
         std::printf("%-22s %s  passes %s  called by %s\n", entry["technique"].get<std::string>().c_str(),
                     entry["exists"].get<bool>() ? "exists" : "absent", entry["passes"].dump().c_str(),
@@ -171,6 +195,7 @@ base::Status explain(const ExplainOptions& options)
     const Json report = {{"file", options.input},
                          {"time", options.time},
                          {"instances", instances},
+                         {"emitters", emittersOf(*file)},
                          {"techniques", techniquesOf(*file, instances, counters.passes)},
                          {"passes", counters.passes},
                          {"level_of_detail", levelsOf(counters.view)},

@@ -17,6 +17,12 @@ constexpr std::array<std::pair<std::string_view, base::MediaLayer>, 3> kLayers{{
     {"dust", base::MediaLayer::Dust},
 }};
 
+constexpr std::array<std::pair<std::string_view, sim::ComputeOn>, 3> kComputers{{
+    {"cpu", sim::ComputeOn::Cpu},
+    {"gpu", sim::ComputeOn::Gpu},
+    {"auto", sim::ComputeOn::Auto},
+}};
+
 /// Reads one burst. @return births of it that can be alive at once
 double readBurst(const PresetValue& element, float longestLife, sim::Burst& out)
 {
@@ -108,6 +114,8 @@ void buildEmitter(const PresetValue& element, sim::EffectDef& effect)
     element.read("layer", std::span<const std::pair<std::string_view, base::MediaLayer>>(kLayers),
                  emitter->layer);
     element.read("maxParticles", emitter->maxParticles);
+    element.read("compute", std::span<const std::pair<std::string_view, sim::ComputeOn>>(kComputers),
+                 emitter->compute);
     element.read("lifetime", emitter->lifetime);
     element.read("speed", emitter->speed);
     element.read("radius", emitter->radius);

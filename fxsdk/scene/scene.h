@@ -192,6 +192,8 @@ public:
     void setContact(const sim::HostContact& contact) { world_.setContact(contact); }
     /// Answers of the host since the last call that were none.
     uint64_t takeContactFaults() { return world_.takeContactFaults(); }
+    /// See sim::World::setGpuParticles.
+    void setGpuParticles(bool onGpu) { world_.setGpuParticles(onGpu); }
 
     /// Advances by dt [s] and publishes the last two of the steps taken.
     /// Throws std::bad_alloc after all steps when memory ran out in one: time has advanced, and what needed

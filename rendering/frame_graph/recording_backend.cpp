@@ -86,6 +86,8 @@ void RecordingBackend::draw(const DrawCall& call)
     operation.instances = call.instances;
     operation.depthTarget = call.depthTarget;
     operation.reversedDepth = call.reversedDepth;
+    if (call.indirect.valid())
+        needRead(call.indirect);
 
     if (!call.program)
         violation("draws without a program into", call.targets.empty() ? ResourceId{} : call.targets[0]);

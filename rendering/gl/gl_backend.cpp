@@ -238,10 +238,19 @@ void GlBackend::draw(const DrawCall& call)
     state_.bindFramebuffer(framebuffer, width(sized), height(sized));
     state_.setBlend(call.blend);
     state_.setDepth(call.depthTarget.valid(), call.reversedDepth);
-    device_.gl.DrawArraysInstanced(GL_TRIANGLES, 0, static_cast<GLsizei>(call.vertices),
-                                   static_cast<GLsizei>(call.instances));
+    if (call.indirect.valid()) {
+        const uint32_t arguments = nameOrFail(call.indirect, false, "drawn by");
+        if (!arguments)
+            return;
+        device_.gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, arguments);
+        device_.gl.DrawArraysIndirect(GL_TRIANGLES, nullptr);
+    } else {
+        device_.gl.DrawArraysInstanced(GL_TRIANGLES, 0, static_cast<GLsizei>(call.vertices),
+                                       static_cast<GLsizei>(call.instances));
+    }
     ++drawCalls_;
-    if (writesAny(call.buffers))
+    hasDrawn_ = !writesAny(call.buffers);
+    if (!hasDrawn_)
         device_.gl.MemoryBarrier(GL_ALL_BARRIER_BITS);
 }
 
@@ -258,8 +267,11 @@ void GlBackend::dispatch(const DispatchCall& call)
         device_.gl.BindImageTexture(binding.unit, name, 0, GL_FALSE, 0, GL_READ_WRITE,
                                     glInternalFormat(graph_->resource(binding.texture).format));
     }
+    if (hasDrawn_ && writesAny(call.buffers)) // what earlier draws read must not change under them
+        device_.gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     device_.gl.DispatchCompute(call.groups[0], call.groups[1], call.groups[2]);
     ++drawCalls_;
+    hasDrawn_ = false;
     // Draws are ordered by GL; what a dispatch wrote is visible to nobody until this.
     device_.gl.MemoryBarrier(GL_ALL_BARRIER_BITS);
 }

@@ -94,6 +94,7 @@ private:
     GlPassTimer* timer_ = nullptr;
     size_t pass_ = 0; ///< index of the running pass among the executed ones
     uint32_t drawCalls_ = 0;
+    bool hasDrawn_ = true; ///< since the last barrier, frames before included
 };
 
 } // namespace fx::render

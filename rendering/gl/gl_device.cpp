@@ -107,6 +107,17 @@ base::Status GlDevice::compile(const ProgramDesc& desc)
     return {};
 }
 
+const ProgramDesc& GlDevice::generated(const ProgramDesc& like, std::string_view defines)
+{
+    for (const auto& known : generated_)
+        if (known->like == &like && known->defines == defines)
+            return known->desc;
+    generated_.push_back(std::make_unique<Generated>(Generated{&like, std::string(defines), like}));
+    Generated& made = *generated_.back();
+    made.desc.defines = made.defines.c_str();
+    return made.desc;
+}
+
 uint32_t GlDevice::program(const ProgramDesc& desc, base::Status& outStatus)
 {
     if (const auto found = programs_.find(&desc); found != programs_.end())

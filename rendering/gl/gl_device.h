@@ -19,6 +19,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 namespace fx::render {
 
@@ -61,6 +62,10 @@ public:
     /// @return GlFailed with stage, file and the driver's log; NotFound when a source does not exist
     base::Status compile(const ProgramDesc& desc);
 
+    /// A program whose macro definitions are only known at run time: `like` with `defines`. The same for the
+    /// same, as long as the device lives.
+    const ProgramDesc& generated(const ProgramDesc& like, std::string_view defines);
+
     /// GL name of the program; compiles late, and counts that, when there was no warm-up. 0 when it does not
     /// compile: the reason is then in `outStatus`.
     uint32_t program(const ProgramDesc& desc, base::Status& outStatus);
@@ -89,6 +94,13 @@ private:
     GlLimits limits_;
     SourceOverride sourceOverride_;
     std::pmr::unordered_map<const ProgramDesc*, GlProgram> programs_;
+    struct Generated
+    {
+        const ProgramDesc* like;
+        std::string defines;
+        ProgramDesc desc; ///< its defines are those above
+    };
+    std::vector<std::unique_ptr<Generated>> generated_;
     uint32_t programsCompiled_ = 0;
     uint32_t lateCompiles_ = 0;
     uint64_t textureBytes_ = 0;

@@ -122,6 +122,7 @@ FX_GL(DELETESYNC, DeleteSync)
 // Work
 FX_GL(DRAWARRAYS, DrawArrays)
 FX_GL(DRAWARRAYSINSTANCED, DrawArraysInstanced)
+FX_GL(DRAWARRAYSINDIRECT, DrawArraysIndirect)
 FX_GL(DISPATCHCOMPUTE, DispatchCompute)
 FX_GL(MEMORYBARRIER, MemoryBarrier)
 

@@ -222,7 +222,9 @@ void restoreImage(const Gl& gl, GLenum, uint32_t unit, const Saved& saved)
 
 void restoreGenericBuffer(const Gl& gl, GLenum what, uint32_t, const Saved& saved)
 {
-    const GLenum target = what == GL_UNIFORM_BUFFER_BINDING ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER;
+    const GLenum target = what == GL_UNIFORM_BUFFER_BINDING         ? GL_UNIFORM_BUFFER
+                          : what == GL_DRAW_INDIRECT_BUFFER_BINDING ? GL_DRAW_INDIRECT_BUFFER
+                                                                    : GL_SHADER_STORAGE_BUFFER;
     gl.BindBuffer(target, asName(saved.integers[0]));
 }
 
@@ -252,6 +254,8 @@ constexpr GlTouchedState kTable[] = {
     {"GL_ACTIVE_TEXTURE", GL_ACTIVE_TEXTURE, 1, saveInteger, restoreActiveTexture},
     {"GL_UNIFORM_BUFFER_BINDING", GL_UNIFORM_BUFFER_BINDING, 1, saveInteger, restoreGenericBuffer},
     {"GL_SHADER_STORAGE_BUFFER_BINDING", GL_SHADER_STORAGE_BUFFER_BINDING, 1, saveInteger,
+     restoreGenericBuffer},
+    {"GL_DRAW_INDIRECT_BUFFER_BINDING", GL_DRAW_INDIRECT_BUFFER_BINDING, 1, saveInteger,
      restoreGenericBuffer},
 
     {"GL_CULL_FACE", GL_CULL_FACE, 1, saveSwitch, restoreSwitch},

@@ -29,7 +29,7 @@ struct GlTouchedState
 /// first.
 std::span<const GlTouchedState> glTouchedStates();
 
-constexpr uint32_t kGlSavedStates = 104; ///< sum of the counts
-constexpr uint32_t kGlTouchedStates = 38;
+constexpr uint32_t kGlSavedStates = 105; ///< sum of the counts
+constexpr uint32_t kGlTouchedStates = 39;
 
 } // namespace fx::render

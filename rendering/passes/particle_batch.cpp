@@ -44,6 +44,8 @@ void readBatches(FrameGraph::Builder& builder, std::span<const ParticleBatch> ba
         for (const BufferPart* part : {&batch.newer, &batch.older, &batch.order, &batch.mesh})
             if (part->bytes > 0)
                 builder.read(part->id);
+        if (batch.arguments.valid())
+            builder.read(batch.arguments);
         builder.read(batch.textureId);
         builder.read(batch.motionId);
     }
@@ -75,6 +77,7 @@ void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uin
     call.blend = batch.isSolid ? Blend::None : Blend::Premultiplied;
     call.vertices = batch.vertices;
     call.instances = count;
+    call.indirect = batch.arguments;
     call.depthTarget = depth;
     call.reversedDepth = true;
     backend.draw(call);

@@ -67,6 +67,8 @@ struct ParticleBatch
     uint32_t texture = 0; ///< GL texture array
     uint32_t motion = 0;
     ResourceId textureId, motionId;
+    bool isComputed = false; ///< rows are written on the GPU
+    ResourceId arguments;    ///< of the draw, written on the GPU; invalid: `instances` are drawn
 };
 
 /// Some of a batch's instances, or of the media's blobs, that are drawn in one go.

@@ -1,6 +1,6 @@
 #include "rendering/view/particle_buffers.h"
 
-#include "foundation/snapshot/particle_kind.h"
+#include "foundation/snapshot/gpu_particles.h"
 #include "rendering/gl/gl_device.h"
 
 #include <algorithm>
@@ -26,11 +26,12 @@ base::ColumnSet drawnColumns(bool isRibbon)
     return isRibbon ? base::kAllColumns : ~base::particle_column::kIndex;
 }
 
-bool isDrawn(const base::FrameSnapshot& snapshot, size_t group, bool& outRibbon)
+bool isDrawn(const base::FrameSnapshot& snapshot, size_t group, bool withComputed, bool& outRibbon)
 {
     const base::KindId kind = snapshot.group(group).info().kind;
     outRibbon = kind == snapshot.schema().find(base::kRibbonKind.name);
-    return outRibbon || kind == snapshot.schema().find(base::kParticleKind.name);
+    return outRibbon || (withComputed && snapshot.group(group).program()) ||
+           kind == snapshot.schema().find(base::kParticleKind.name);
 }
 
 base::Status ensure(GlDevice& device, GlMappedBuffer& buffer, uint64_t bytes, const char* label)
@@ -48,44 +49,54 @@ base::Status ensure(GlDevice& device, GlMappedBuffer& buffer, uint64_t bytes, co
 } // namespace
 
 ParticleBuffers::ParticleBuffers(GlDevice& device, std::pmr::memory_resource* memory)
-    : device_(device), places_{Place{{}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
-                               Place{{}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
-                               Place{{}, {}, 0, std::pmr::vector<GroupPlace>(memory)}},
-      assets_(device, memory)
+    : device_(device), places_{Place{{}, {}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
+                               Place{{}, {}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
+                               Place{{}, {}, {}, 0, std::pmr::vector<GroupPlace>(memory)}},
+      assets_(device, memory), emitters_(device, memory), jobs_(memory)
 {}
 
 uint64_t ParticleBuffers::bytes() const
 {
-    uint64_t sum = assets_.bytes();
+    uint64_t sum = assets_.bytes() + emitters_.bytes();
     for (size_t i = 0; i < 3; ++i)
-        sum += places_[i].buffer.bytes() + orders_[i].bytes();
+        sum += places_[i].buffer.bytes() + places_[i].computed.bytes() + orders_[i].bytes();
     return sum;
 }
 
-/// @return [byte] of all groups
-uint64_t ParticleBuffers::layOut(const base::FrameSnapshot& snapshot, std::pmr::vector<GroupPlace>& out) const
+ParticleBuffers::Sizes ParticleBuffers::layOut(const base::FrameSnapshot& snapshot,
+                                               std::pmr::vector<GroupPlace>& out) const
 {
     const auto alignment = uint64_t(std::max(device_.limits().storageAlignment, 64));
-    uint64_t end = 0;
+    Sizes end;
     out.assign(snapshot.groupCount(), GroupPlace{});
     for (size_t g = 0; g < snapshot.groupCount(); ++g) {
         bool isRibbon = false;
-        if (!isDrawn(snapshot, g, isRibbon))
+        if (!isDrawn(snapshot, g, !refusesGpu_, isRibbon))
             continue;
         const base::SnapshotGroup& group = snapshot.group(g);
-        const auto columns = snapshot.schema().kind(group.info().kind).columns;
+        const base::GpuParticleProgram* program = group.program().get();
+        const std::span<const base::ColumnDesc> columns =
+            program ? base::kParticleColumns : snapshot.schema().kind(group.info().kind).columns;
         GroupPlace& place = out[g];
-        place.offset = roundUp(end, alignment);
+        place.isComputed = program != nullptr;
+        if (program) {
+            place.wordsOffset = roundUp(end.mapped, alignment);
+            place.wordsBytes = group.column64(0).size_bytes();
+            end.mapped = place.wordsOffset + place.wordsBytes;
+        }
+        uint64_t& rowsEnd = program ? end.computed : end.mapped;
+        place.offset = roundUp(rowsEnd, alignment);
         place.columns.fill(-1);
         uint64_t words = 0;
         for (size_t c = 0; c < std::min(columns.size(), place.columns.size()); ++c) {
-            if (!group.has(c) || !(drawnColumns(isRibbon) >> c & 1))
+            const bool isThere = program ? (program->features.columns >> c & 1) != 0 : group.has(c);
+            if (!isThere || !(drawnColumns(isRibbon) >> c & 1))
                 continue;
             place.columns[c] = int32_t(words);
-            words += roundUp(group.count() * base::columnElementSize(columns[c].type) / 4, 16);
+            words += roundUp(rowCount(group) * base::columnElementSize(columns[c].type) / 4, 16);
         }
         place.bytes = words * 4;
-        end = place.offset + place.bytes;
+        rowsEnd = place.offset + place.bytes;
     }
     return end;
 }
@@ -96,6 +107,11 @@ void ParticleBuffers::write(const base::FrameSnapshot& snapshot, Place& place)
         const GroupPlace& at = place.groups[g];
         const base::SnapshotGroup& group = snapshot.group(g);
         const auto columns = snapshot.schema().kind(group.info().kind).columns;
+        if (at.isComputed) {
+            std::memcpy(place.buffer.data() + at.wordsOffset, group.column64(0).data(), at.wordsBytes);
+            uploadedBytes_ += at.wordsBytes;
+            continue;
+        }
         for (size_t c = 0; at.bytes > 0 && c < std::min(columns.size(), at.columns.size()); ++c) {
             if (at.columns[c] < 0)
                 continue;
@@ -119,14 +135,66 @@ base::Status ParticleBuffers::makeResident(const base::FrameSnapshot& snapshot, 
     out = &*std::min_element(places_.begin(), places_.end(),
                              [](const Place& a, const Place& b) { return a.usedFrame < b.usedFrame; });
     out->stamp = 0;
-    const uint64_t bytes = layOut(snapshot, out->groups);
-    if (base::Status status = ensure(device_, out->buffer, std::max<uint64_t>(bytes, 1), "particle rows");
+    const Sizes sizes = layOut(snapshot, out->groups);
+    if (base::Status status =
+            ensure(device_, out->buffer, std::max<uint64_t>(sizes.mapped, 1), "particle rows");
         !status)
         return status;
+    if (base::Status status = ensureComputed(out->computed, sizes.computed); !status) {
+        refusesGpu_ = true;
+        return status;
+    }
     write(snapshot, *out);
     out->stamp = stamp;
     out->usedFrame = frame_;
     return {};
+}
+
+base::Status ParticleBuffers::ensureComputed(GlBuffer& buffer, uint64_t bytes)
+{
+    if (buffer.bytes() >= bytes)
+        return {};
+    auto made =
+        GlBuffer::create(device_, std::bit_ceil(std::max(bytes, kSmallest)), "computed particle rows");
+    if (!made)
+        return made.status();
+    buffer = std::move(*made);
+    return {};
+}
+
+base::Status ParticleBuffers::takeRows(Place& place, const base::SnapshotGroup& group, size_t index,
+                                       uint32_t batch, bool isNewer, BufferPart& outPart)
+{
+    GroupPlace& at = place.groups[index];
+    outPart = {at.isComputed ? place.computed.name() : place.buffer.name(), {}, at.offset, at.bytes};
+    if (!at.isComputed || at.isThere)
+        return {};
+    const auto emitter = emitters_.find(group.program());
+    refusesGpu_ = refusesGpu_ || !emitter;
+    if (!emitter)
+        return emitter.status();
+    const GpuEmitters::Entry& known = **emitter;
+    jobs_.push_back({known.program,
+                     batch,
+                     isNewer,
+                     {known.numbers.name(), {}, 0, known.numbers.bytes()},
+                     {place.buffer.name(), {}, at.wordsOffset, at.wordsBytes},
+                     at.columns,
+                     rowCount(group)});
+    at.isThere = true;
+    return {};
+}
+
+void ParticleBuffers::warmUp(const base::GpuParticleProgram& emitter)
+{
+    refusesGpu_ = refusesGpu_ || !emitters_.compile(emitter.features);
+}
+
+void ParticleBuffers::forgetComputed()
+{
+    if (!jobs_.empty())
+        for (Place& place : places_)
+            place.stamp = 0;
 }
 
 base::Status ParticleBuffers::writeOrders(ParticleFrame& frame)
@@ -186,12 +254,14 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
                                       ParticleFrame& frame, const base::AssetTable* assets)
 {
     uploadedBytes_ = 0;
+    jobs_.clear();
     if (frame.groups().empty()) {
         idle();
         return {};
     }
     idleFrames_ = 0;
     ++frame_;
+    emitters_.nextFrame();
     Place* older = nullptr;
     Place* newer = nullptr;
     if (snapshots.older)
@@ -204,16 +274,20 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
     for (size_t i = 0; i < frame.groups().size(); ++i) {
         const ParticleGroup& group = frame.groups()[i];
         ParticleBatch& batch = frame.batches()[i];
-        const GroupPlace& at = newer->groups[group.newerIndex];
-        batch.newer = {newer->buffer.name(), {}, at.offset, at.bytes};
-        batch.block.newerAt = at.columns;
-        batch.block.rows[0] = int32_t(group.newer->count());
-        if (group.older) {
-            const GroupPlace& before = older->groups[group.olderIndex];
-            batch.older = {older->buffer.name(), {}, before.offset, before.bytes};
-            batch.block.olderAt = before.columns;
-            batch.block.rows[1] = int32_t(group.older->count());
-        }
+        if (base::Status status =
+                takeRows(*newer, *group.newer, group.newerIndex, uint32_t(i), true, batch.newer);
+            !status)
+            return status;
+        batch.block.newerAt = newer->groups[group.newerIndex].columns;
+        batch.block.rows[0] = int32_t(rowCount(*group.newer));
+        if (!group.older)
+            continue;
+        if (base::Status status =
+                takeRows(*older, *group.older, group.olderIndex, uint32_t(i), false, batch.older);
+            !status)
+            return status;
+        batch.block.olderAt = older->groups[group.olderIndex].columns;
+        batch.block.rows[1] = int32_t(rowCount(*group.older));
     }
     return findAssets(frame, assets);
 }
@@ -221,16 +295,19 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
 void ParticleBuffers::keep(const ParticleFrame& frame)
 {
     uploadedBytes_ = 0;
+    jobs_.clear();
     if (frame.groups().empty())
         idle();
 }
 
 void ParticleBuffers::idle()
 {
+    emitters_.nextFrame();
     if (++idleFrames_ != kIdleFrames)
         return;
     for (Place& place : places_) {
         place.buffer = {};
+        place.computed = {};
         place.stamp = 0;
     }
     for (GlMappedBuffer& order : orders_)

@@ -10,6 +10,8 @@
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/gl/gl_asset_cache.h"
 #include "rendering/gl/gl_mapped_buffer.h"
+#include "rendering/gpu_particles/gpu_emitters.h"
+#include "rendering/gpu_particles/gpu_rows_pass.h"
 #include "rendering/view/particle_frame.h"
 #include "rendering/view/snapshot_stamps.h"
 
@@ -36,6 +38,13 @@ public:
     void idle();
     /// To be called when all draws of the frame have been issued.
     void fence();
+    /// What has to be computed before the frame's batches are drawn.
+    std::span<const GpuRowsJob> jobs() const { return jobs_; }
+    /// True once the context has refused to compute particles.
+    bool refusesGpu() const { return refusesGpu_; }
+    void warmUp(const base::GpuParticleProgram& emitter);
+    /// The last frame has failed: what it was to compute is not there.
+    void forgetComputed();
 
     uint64_t uploadedBytes() const { return uploadedBytes_; } ///< [byte] of the last prepare()
     uint64_t bytes() const;                                   ///< [byte] held
@@ -46,17 +55,31 @@ private:
     {
         uint64_t offset = 0, bytes = 0;
         std::array<int32_t, 16> columns{}; ///< in words from the offset; -1: not there
+        // Only of rows that are computed: those members are about the buffer `computed`.
+        uint64_t wordsOffset = 0, wordsBytes = 0; ///< of what they are computed from
+        bool isComputed = false;
+        bool isThere = false; ///< or will be, when the jobs of this frame have run
     };
     struct Place
     {
         GlMappedBuffer buffer;
+        GlBuffer computed;  ///< rows that the GPU writes
         uint64_t stamp = 0; ///< of what is there; 0: nothing
         uint64_t usedFrame = 0;
         std::pmr::vector<GroupPlace> groups;
     };
 
     base::Status makeResident(const base::FrameSnapshot& snapshot, uint64_t stamp, Place*& out);
-    uint64_t layOut(const base::FrameSnapshot& snapshot, std::pmr::vector<GroupPlace>& out) const;
+    /// What groups need of the two buffers of a place.
+    struct Sizes
+    {
+        uint64_t mapped = 0, computed = 0; ///< [byte]
+    };
+    Sizes layOut(const base::FrameSnapshot& snapshot, std::pmr::vector<GroupPlace>& out) const;
+    base::Status ensureComputed(GlBuffer& buffer, uint64_t bytes);
+    /// The rows of a batch; those that are not there become a job.
+    base::Status takeRows(Place& place, const base::SnapshotGroup& group, size_t index, uint32_t batch,
+                          bool isNewer, BufferPart& outPart);
     void write(const base::FrameSnapshot& snapshot, Place& place);
     base::Status writeOrders(ParticleFrame& frame);
     base::Status findAssets(ParticleFrame& frame, const base::AssetTable* assets);
@@ -65,6 +88,9 @@ private:
     std::array<Place, 3> places_;
     std::array<GlMappedBuffer, 3> orders_;
     GlAssetCache assets_;
+    GpuEmitters emitters_;
+    std::pmr::vector<GpuRowsJob> jobs_;
+    bool refusesGpu_ = false;
     uint64_t frame_ = 0;
     uint32_t idleFrames_ = 0; ///< one after the other
     uint64_t uploadedBytes_ = 0;

@@ -1,6 +1,6 @@
 #include "rendering/view/particle_estimate.h"
 
-#include "foundation/snapshot/particle_kind.h"
+#include "foundation/snapshot/gpu_particles.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -37,6 +37,15 @@ Card spriteAt(const base::SnapshotGroup& group, size_t i)
     return {center, radius > 0.0f ? 4.0f * radius * c[constant::Aspect] * high : 0.0f};
 }
 
+/// Nobody knows the rows before they are computed: all are in the middle of where they can be.
+Card meanCard(const base::SnapshotGroup& group, const base::GpuParticleProgram& program)
+{
+    const float aspect = group.constants()[base::particle_constant::Aspect];
+    const base::Bounds& bounds = group.info().bounds;
+    const glm::vec3 middle = bounds.empty() ? glm::vec3(0.0f) : 0.5f * (bounds.min + bounds.max);
+    return {middle, 4.0f * program.meanRadius * program.meanRadius * aspect};
+}
+
 /// The piece from row i, which is not the last, to the next.
 Card pieceAt(const base::SnapshotGroup& group, size_t i)
 {
@@ -61,9 +70,14 @@ FragmentCounts estimateParticles(const base::SnapshotGroup& group, bool isRibbon
     const double window = double(width) * double(height);
     const double pixelsPerSlope = 0.5 * double(height) * std::abs(double(camera.clipScale.y));
     std::array<double, kLayerDivisors.size()> sums{};
-    const size_t rows = isRibbon ? std::max<size_t>(group.count(), 1) - 1 : group.count();
+    const base::GpuParticleProgram* const program = group.program().get();
+    const size_t rows = program    ? program->rows
+                        : isRibbon ? std::max<size_t>(group.count(), 1) - 1
+                                   : group.count();
     for (size_t i = 0; i < rows; i += kStride) {
-        const Card card = isRibbon ? pieceAt(group, i) : spriteAt(group, i);
+        const Card card = program    ? meanCard(group, *program)
+                          : isRibbon ? pieceAt(group, i)
+                                     : spriteAt(group, i);
         const glm::vec3 center = glm::vec3(place.position) + place.rotation * (card.center * place.scale);
         const float depth = camera.orthographic ? 1.0f : glm::dot(center, camera.forward);
         if (!(card.area > 0.0f) || !(depth > 0.0f))

@@ -1,5 +1,6 @@
 #include "rendering/view/particle_frame.h"
 
+#include "foundation/snapshot/gpu_particles.h"
 #include "foundation/snapshot/particle_bounds.h"
 #include "rendering/view/blob_shading.h"
 #include "rendering/view/depth_keys.h"
@@ -59,6 +60,21 @@ uint32_t asId(float value)
     return value >= 1.0f && value < 16777216.0f ? uint32_t(value) : 0u;
 }
 
+/// What distances of a group's rows are measured from, see rowDistances().
+struct SortOrigin
+{
+    glm::vec3 eye;
+    float offset;
+};
+
+SortOrigin sortOrigin(const CameraGeometry& camera, const base::Placement& place, float bias)
+{
+    const glm::quat back = glm::conjugate(place.rotation);
+    if (camera.orthographic)
+        return {back * camera.forward, glm::dot(glm::vec3(place.position), camera.forward) - bias};
+    return {back * -glm::vec3(place.position) / place.scale, 0.0f - bias};
+}
+
 int asCount(float value)
 {
     return value >= 1.0f && value <= 4096.0f ? int(value) : 1;
@@ -81,10 +97,16 @@ struct ParticleFrame::Orderer
 };
 
 ParticleFrame::ParticleFrame(std::pmr::memory_resource* memory)
-    : memory_(memory), groups_(memory), batches_(memory), streams_(memory), orderers_(memory)
+    : memory_(memory), groups_(memory), batches_(memory), streams_(memory), gpuOrders_(memory),
+      orderers_(memory)
 {}
 
 ParticleFrame::~ParticleFrame() = default;
+
+uint32_t rowCount(const base::SnapshotGroup& group)
+{
+    return group.program() ? group.program()->rows : group.count();
+}
 
 void ParticleFrame::build(const ParticleFrameInputs& in)
 {
@@ -92,6 +114,7 @@ void ParticleFrame::build(const ParticleFrameInputs& in)
     groups_.clear();
     batches_.clear();
     streams_.clear();
+    gpuOrders_.clear();
     rows_ = orderedRows_ = 0;
     fragments_ = {};
     if (!in.snapshots->newer)
@@ -105,10 +128,29 @@ void ParticleFrame::build(const ParticleFrameInputs& in)
         const base::GroupInfo& info = newer.group(g).info();
         const bool isRibbon = info.kind == ribbons && ribbons != base::kNoKind;
         if ((info.kind == particles && particles != base::kNoKind && info.count > 0) ||
-            (isRibbon && info.count > 1))
+            (newer.group(g).program() && !info.bounds.empty()) || (isRibbon && info.count > 1))
             addGroup(in, g, isRibbon);
     }
     std::erase_if(orderers_, [&](const auto& orderer) { return frame_ - orderer->usedFrame > kFramesKept; });
+}
+
+void ParticleFrame::dropComputed()
+{
+    std::erase_if(streams_, [&](const DrawStream& stream) { return batches_[stream.batch].isComputed; });
+    std::pmr::vector<uint32_t> kept(batches_.size(), 0u, memory_); // where batches are now
+    size_t count = 0;
+    for (size_t i = 0; i < batches_.size(); ++i) {
+        if (batches_[i].isComputed)
+            continue;
+        kept[i] = uint32_t(count);
+        groups_[count] = groups_[i];
+        batches_[count++] = batches_[i];
+    }
+    for (DrawStream& stream : streams_)
+        stream.batch = kept[stream.batch];
+    groups_.erase(groups_.begin() + std::ptrdiff_t(count), groups_.end());
+    gpuOrders_.clear();
+    batches_.erase(batches_.begin() + std::ptrdiff_t(count), batches_.end());
 }
 
 void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool isRibbon)
@@ -139,7 +181,8 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
     batch.shape = isRibbon ? BatchShape::Ribbon : isMesh ? BatchShape::Mesh : BatchShape::Sprite;
     batch.isSolid = constants[constant::Blend] == float(base::ParticleBlend::Opaque);
     batch.repeats = isRibbon && constants[constant::ArcPerTile] > 0.0f;
-    batch.instances = newer.count() - (isRibbon ? 1 : 0);
+    batch.instances = rowCount(newer) - (isRibbon ? 1 : 0);
+    batch.isComputed = newer.program() != nullptr;
     if (isRibbon)
         group.columns = group.rows = 1;
     fillBlock(in, place, group, batch);
@@ -154,7 +197,9 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
         const float distance =
             in.camera->orthographic ? glm::dot(middle, in.camera->forward) : glm::length(middle);
         stream.distance = distance - constants[constant::OrderBias];
-        if (!isRibbon)
+        if (batch.isComputed)
+            orderOnGpu(in, place, group, batch);
+        else if (!isRibbon)
             orderRows(in, place, group, batch, stream);
     }
     if (batch.instances == 0)
@@ -229,6 +274,20 @@ ParticleFrame::Orderer& ParticleFrame::ordererOf(const base::GroupInfo& info)
     return made;
 }
 
+void ParticleFrame::orderOnGpu(const ParticleFrameInputs& in, const base::Placement& place,
+                               const ParticleGroup& group, ParticleBatch& batch)
+{
+    const auto constants = group.newer->constants();
+    const auto mode = base::ParticleOrder(uint32_t(constants[constant::Order]));
+    if (mode == base::ParticleOrder::None)
+        return;
+    const SortOrigin origin = sortOrigin(*in.camera, place, constants[constant::OrderBias]);
+    gpuOrders_.push_back({uint32_t(batches_.size()), mode != base::ParticleOrder::Depth,
+                          mode == base::ParticleOrder::Youngest, in.camera->orthographic, origin.eye,
+                          place.scale, origin.offset});
+    batch.block.strip.z = 1.0f;
+}
+
 /// Empty rows are left out of an order. Distances are those of the newer snapshot: what happens within a step
 /// hardly changes the order.
 void ParticleFrame::orderRows(const ParticleFrameInputs& in, const base::Placement& place,
@@ -247,14 +306,10 @@ void ParticleFrame::orderRows(const ParticleFrameInputs& in, const base::Placeme
     float* distances = orderer.distances.data();
     const float* radius = rows.column(column::Radius).data();
     if (mode == base::ParticleOrder::Depth) {
-        const glm::quat back = glm::conjugate(place.rotation);
-        const bool isParallel = in.camera->orthographic;
-        const glm::vec3 eye =
-            isParallel ? back * in.camera->forward : back * -glm::vec3(place.position) / place.scale;
-        const float offset = isParallel ? glm::dot(glm::vec3(place.position), in.camera->forward) : 0.0f;
+        const SortOrigin origin = sortOrigin(*in.camera, place, rows.constants()[constant::OrderBias]);
         rowDistances({rows.column(column::PositionX).data(), rows.column(column::PositionY).data(),
                       rows.column(column::PositionZ).data(), radius, rows.count()},
-                     eye, isParallel, place.scale, offset - rows.constants()[constant::OrderBias], distances);
+                     origin.eye, in.camera->orthographic, place.scale, origin.offset, distances);
     } else {
         const float* age = rows.column(column::Age).data();
         for (size_t i = 0; i < rows.count(); ++i)

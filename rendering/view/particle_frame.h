@@ -4,6 +4,7 @@
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/gpu_particles/gpu_order_pass.h"
 #include "rendering/lights/effect_lights.h"
 #include "rendering/passes/particle_batch.h"
 #include "rendering/view/depth_sort.h"
@@ -29,6 +30,9 @@ struct ParticleGroup
     int columns, rows;                ///< frames of the texture
 };
 
+/// Rows of a group of particles, published or computed.
+uint32_t rowCount(const base::SnapshotGroup& group);
+
 /// What a frame's particles are made from.
 struct ParticleFrameInputs
 {
@@ -49,8 +53,13 @@ public:
 
     void build(const ParticleFrameInputs& in);
 
+    /// Leaves out what is to be computed on the GPU.
+    void dropComputed();
+
     std::span<const ParticleGroup> groups() const { return groups_; }
     std::span<ParticleBatch> batches() { return batches_; }
+    /// In which order the rows of computed batches are to be drawn.
+    std::span<const GpuOrderJob> gpuOrders() const { return gpuOrders_; }
     /// Batches that do not hide, for DrawRuns.
     std::span<const DrawStream> streams() const { return streams_; }
     uint64_t rows() const { return rows_; }               ///< of all groups that are drawn
@@ -67,12 +76,15 @@ private:
     void fillLights(const ParticleFrameInputs& in, ParticleBlock& block);
     void orderRows(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
                    ParticleBatch& batch, DrawStream& stream);
+    void orderOnGpu(const ParticleFrameInputs& in, const base::Placement& place, const ParticleGroup& group,
+                    ParticleBatch& batch);
     Orderer& ordererOf(const base::GroupInfo& info);
 
     std::pmr::memory_resource* memory_;
     std::pmr::vector<ParticleGroup> groups_;
     std::pmr::vector<ParticleBatch> batches_;
     std::pmr::vector<DrawStream> streams_;
+    std::pmr::vector<GpuOrderJob> gpuOrders_;
     std::pmr::vector<std::unique_ptr<Orderer>> orderers_;
     uint64_t frame_ = 0;
     uint64_t rows_ = 0;

@@ -25,7 +25,7 @@ bool sameGroup(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
     const base::GroupInfo& info = a.info();
     const base::GroupInfo& other = b.info();
     if (info.kind != other.kind || info.instance != other.instance || info.solver != other.solver ||
-        info.count != other.count || !samePlace(info, other))
+        info.count != other.count || a.program() != b.program() || !samePlace(info, other))
         return false;
     for (size_t c = 0; c < columns.size(); ++c) {
         if (a.has(c) != b.has(c))

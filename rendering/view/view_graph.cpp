@@ -188,6 +188,8 @@ private:
             batch.textureId = graph_.importTexture({"particle frames", 1, 1, Format::RGBA8}, batch.texture);
             batch.motionId = graph_.importTexture({"particle motion", 1, 1, Format::RGBA8}, batch.motion);
         }
+        GpuRowsPass::addTo(graph_, in_.gpuRows, in_.batches);
+        GpuOrderPass::addTo(graph_, in_.gpuOrders, in_.batches);
     }
 
     /// Takes the pictures of this frame and makes all of them ready to be drawn.

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"
+#include "rendering/gpu_particles/gpu_order_pass.h"
+#include "rendering/gpu_particles/gpu_rows_pass.h"
 #include "rendering/passes/blob_instance.h"
 #include "rendering/passes/impostor_pass.h"
 #include "rendering/passes/particle_batch.h"
@@ -32,6 +34,8 @@ struct ViewGraphInputs
     std::span<const MediaRun> takenRuns = {};         ///< one of all blobs, when a picture is taken
     uint32_t impostorBuffer = 0;                      ///< GL buffer for the impostors
     uint32_t impostorAtlas = 0;                       ///< GL texture of the pictures
+    std::span<const GpuRowsJob> gpuRows = {};         ///< what computes rows of batches
+    std::span<const GpuOrderJob> gpuOrders = {};      ///< and their orders
 };
 
 /// Resources that exist after the frame besides the host's picture; invalid where they were not asked for.

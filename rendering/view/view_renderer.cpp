@@ -201,8 +201,15 @@ base::Status ViewRenderer::Impl::add(Particles& particles, const ParticleFrameIn
                                      const StampPair& of)
 {
     particles.frame.build(inputs);
-    if (base::Status status = particles.buffers.prepare(*inputs.snapshots, of, particles.frame, assets);
-        !status)
+    const bool refused = particles.buffers.refusesGpu();
+    if (refused)
+        particles.frame.dropComputed();
+    base::Status status = particles.buffers.prepare(*inputs.snapshots, of, particles.frame, assets);
+    if (!status && particles.buffers.refusesGpu() && !refused) { // the scene will send rows from now on
+        particles.frame.dropComputed();
+        status = particles.buffers.prepare(*inputs.snapshots, of, particles.frame, assets);
+    }
+    if (!status)
         return status;
     for (DrawStream stream : particles.frame.streams()) {
         stream.batch += uint32_t(batches.size());
@@ -299,6 +306,8 @@ FrameStatistics ViewRenderer::Impl::count(int divisor)
     statistics.blobsThinned = builder.counts().thinned;
     std::copy(builder.lodCounts().begin(), builder.lodCounts().end(), statistics.lodGroups);
     statistics.particles = single.frame.rows() + joined.frame.rows();
+    for (const ParticleBatch& batch : batches)
+        statistics.gpuParticles += batch.isComputed ? batch.instances : 0;
     statistics.particlesOrdered = single.frame.orderedRows() + joined.frame.orderedRows();
     statistics.keptLists = keptLists;
     statistics.impostors = uint32_t(builder.impostors().size());
@@ -358,6 +367,16 @@ base::Status ViewRenderer::warmUp()
     return impl_->ensureHistory();
 }
 
+bool ViewRenderer::canComputeParticles() const
+{
+    return !impl_->buffers.refusesGpu();
+}
+
+void ViewRenderer::warmUp(const base::GpuParticleProgram& emitter)
+{
+    impl_->buffers.warmUp(emitter);
+}
+
 base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const FrameRequest& asked)
 {
     Impl& s = *impl_;
@@ -384,14 +403,14 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     const int divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,
                                             asked.resetHistory);
     s.graph.begin();
-    s.outputs =
-        buildViewGraph(s.graph, {&request, &settings_, s.builder.blobs(), s.batches, s.mediaRuns,
-                                 s.builder.anyHeat(), s.builder.anyDetail(), s.dazzleHistory.name(), divisor,
-                                 s.blobBuffer.name(), s.keptLists, s.builder.impostors(),
-                                 s.keptLists ? std::span<const BlobInstance>() : s.builder.takenBlobs(),
-                                 s.keptLists ? std::span<const uint32_t>() : s.builder.takenTiles(),
-                                 s.keptLists ? std::span<const MediaRun>() : s.builder.takenRuns(),
-                                 s.impostorBuffer.name(), s.impostorAtlas.name()});
+    s.outputs = buildViewGraph(
+        s.graph,
+        {&request, &settings_, s.builder.blobs(), s.batches, s.mediaRuns, s.builder.anyHeat(),
+         s.builder.anyDetail(), s.dazzleHistory.name(), divisor, s.blobBuffer.name(), s.keptLists,
+         s.builder.impostors(), s.keptLists ? std::span<const BlobInstance>() : s.builder.takenBlobs(),
+         s.keptLists ? std::span<const uint32_t>() : s.builder.takenTiles(),
+         s.keptLists ? std::span<const MediaRun>() : s.builder.takenRuns(), s.impostorBuffer.name(),
+         s.impostorAtlas.name(), s.single.buffers.jobs(), s.single.frame.gpuOrders()});
     base::Status status;
     if (s.outputs.anyPass) {
         s.graph.compile();
@@ -403,6 +422,8 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         s.joined.buffers.fence();
         status = s.backend.endFrame();
     }
+    if (!status)
+        s.single.buffers.forgetComputed();
     s.releaseUnused();
     s.timer.endFrame(status.ok() && s.outputs.anyPass);
     if (s.clock != TimingClock::Off)

@@ -64,6 +64,11 @@ public:
     /// Images and meshes that particles name; must outlive the view or the next call. Null: plain particles.
     void setAssets(const base::AssetTable* assets);
 
+    /// Whether groups of the kind "gpuParticle" are drawn. False once the context has refused one.
+    bool canComputeParticles() const;
+    /// Compiles what computes the particles of an emitter. Nothing happens where that is not possible.
+    void warmUp(const base::GpuParticleProgram& emitter);
+
     const FrameStatistics& statistics() const { return statistics_; }
     LayerTextures layers() const;
     /// Names of the passes that the last frame executed, in order.

@@ -151,6 +151,7 @@ struct FrameStatistics
     uint32_t impostorsTaken = 0;          ///< pictures taken anew for this frame
     uint32_t lodGroups[4] = {0, 0, 0, 0}; ///< groups of blobs drawn in full; at least half, an eighth; less
     uint64_t particles = 0;               ///< rows and pieces of ribbons that were drawn
+    uint64_t gpuParticles = 0;            ///< of those, rows that the GPU computed
     uint64_t particlesOrdered = 0;        ///< of those, in an order of depth or age
     uint64_t uploadedBytes = 0;           ///< [byte] of blobs and particles, written for this frame
     uint64_t sortedElements = 0;          ///< put into an order of distance or age for this frame

@@ -209,6 +209,8 @@ void BirthSchedule::giveRate(Ticks from, Ticks to, const BirthWindow& window, Wr
         const uint64_t due = uint64_t(ceilDivide(progress_ + sum, one));
         const WideInt before = progress_;
         if (due > 0 && piece.slope == 0) {
+            if (log_)
+                log_->addRate(nextIndex_, due, piece.begin, -before, one, piece.rate);
             EvenTicks ticks(-before, one, piece.rate); // (4)
             writer.add(due, [&] { return piece.begin + ticks.next(); });
         } else {
@@ -291,8 +293,12 @@ BirthCount BirthSchedule::advanceTo(const BirthWindow& window, const Outlet& out
         const Ticks until = std::clamp(tick, at, end);
         giveRate(at, until, window, writer);
         at = until;
-        if (window.emitting && happens(*burst))
-            writer.add(scaledCount(burst->count, window.intensity), [&] { return tick; });
+        if (window.emitting && happens(*burst)) {
+            const uint32_t count = scaledCount(burst->count, window.intensity);
+            if (log_)
+                log_->addBurst(nextIndex_, count, tick);
+            writer.add(count, [&] { return tick; });
+        }
         ++burst->next;
     }
     giveRate(at, end, window, writer);

@@ -36,6 +36,7 @@
 ///            tests/simulation/particles/modules/test_birth_rates.cpp
 #pragma once
 
+#include "simulation/emitters/birth_log.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/state/state_reader.h"
 
@@ -46,8 +47,6 @@
 #include <vector>
 
 namespace fx::sim {
-
-__extension__ typedef __int128 WideInt; ///< holds rate times time exactly
 
 constexpr base::Ticks kForever = INT64_MAX / 4; ///< later than anything happens
 
@@ -86,6 +85,8 @@ public:
     void setPhase(float phase);
     /// What decides about bursts of a probability below 1. Before the first advance.
     void setSeed(uint64_t seed, uint32_t solverIndex);
+    /// Told of all births from now on, of rates that do not change; null for nobody. It outlives its use.
+    void setLog(BirthLog* log) { log_ = log; }
     /// All births of the window in order; those that do not fit into `out` are counted and keep their index.
     BirthCount advance(const BirthWindow& window, std::span<Birth> out);
     /// The same, but births are handed over whenever `room` is full and at the end, up to `most` of them.
@@ -185,6 +186,7 @@ private:
     uint32_t solverIndex_ = 0;
     WideInt progress_ = 0; ///< R
     uint64_t nextIndex_ = 0;
+    BirthLog* log_ = nullptr;
 };
 
 } // namespace fx::sim

@@ -67,6 +67,15 @@ struct EmitterForces
     uint32_t curlOctaves = 1;  ///< each next one has half the strength and scale and twice the rate, 1..8
 };
 
+/// What computes the particles of an emitter that is drawn.
+enum class ComputeOn : uint8_t
+{
+    Cpu,
+    Gpu,  ///< the GPU wherever it can, see gpuObstacle()
+    Auto, ///< the same for capacities of at least kManyParticles
+};
+constexpr uint32_t kManyParticles = 10'000;
+
 struct ParticleProgram;
 
 /// What all solvers of a definition share, made by the first of them. A copy of a definition makes its own.
@@ -91,6 +100,7 @@ struct EmitterDef final : SolverDef
     std::string name;
     base::MediaLayer layer = base::MediaLayer::Smoke;
     uint32_t maxParticles = 1024;
+    ComputeOn compute = ComputeOn::Cpu;
 
     EmitterShape shape = EmitterShape::Point;
     glm::vec3 position{0.0f}; ///< [m] center of the shape

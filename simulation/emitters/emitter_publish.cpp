@@ -1,6 +1,7 @@
 #include "simulation/emitters/emitter_solver.h"
 
 #include "simulation/emitters/emitter_crowd.h"
+#include "simulation/emitters/gpu_replay.h"
 #include "simulation/emitters/look_constants.h"
 #include "simulation/parallel.h"
 
@@ -87,6 +88,32 @@ void writeConstants(const EmitterDef& def, const EmitterLook& look, float arcPer
     constants[constant::ArcPerTile] = arcPerTile;
 }
 
+namespace {
+
+struct GroupPlace
+{
+    base::KindId kind;
+    const base::GroupInfo& base;
+};
+
+/// A group of particles, without what is in its columns.
+base::SnapshotGroup& addRows(const ParticleProgram& program, uint32_t capacity, uint32_t rows,
+                             const GroupPlace& place, base::FrameSnapshot& snapshot)
+{
+    base::SnapshotGroup& group = snapshot.addGroupAgain(place.kind, capacity, program.published);
+    base::GroupInfo& info = group.editInfo();
+    info.instance = place.base.instance;
+    info.solver = place.base.solver;
+    info.count = rows;
+    info.placement = place.base.placement;
+    info.isCosmetic = program.def.compute != ComputeOn::Cpu;
+    if (!group.keepsConstants(program.number))
+        writeConstants(program.def, program.def.look, 1.0f, group.editConstants());
+    return group;
+}
+
+} // namespace
+
 LookJob EmitterSolver::lookJob() const
 {
     LookJob job;
@@ -109,31 +136,26 @@ void EmitterSolver::publish(const base::GroupInfo& instance, base::FrameSnapshot
         publishLights(base, snapshot);
 }
 
+void publishRows(const LookJob& job, base::KindId kind, const base::GroupInfo& base, base::TaskRunner* tasks,
+                 base::FrameSnapshot& snapshot)
+{
+    base::SnapshotGroup& group =
+        addRows(*job.program, job.store->capacity(), job.rows.count, {kind, base}, snapshot);
+    LookBounds bounds = writeAll(job, columnsOf(group), tasks);
+    bounds.radius *= job.program->corner;
+    group.editInfo().bounds = bounds.box();
+}
+
 void EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
 {
     if (kinds_.particle == base::kNoKind)
         return;
-    const LookJob job = lookJob();
-    base::SnapshotGroup& group = addParticles(base, job.rows.count, snapshot);
-    LookBounds bounds = writeAll(job, columnsOf(group), tasks_);
-    bounds.radius *= program_.corner;
-    group.editInfo().bounds = bounds.box();
-}
-
-/// The group, without what is in its columns.
-base::SnapshotGroup& EmitterSolver::addParticles(const base::GroupInfo& base, uint32_t rows,
-                                                 base::FrameSnapshot& snapshot) const
-{
-    base::SnapshotGroup& group =
-        snapshot.addGroupAgain(kinds_.particle, store_.capacity(), program_.published);
-    base::GroupInfo& info = group.editInfo();
-    info.instance = base.instance;
-    info.solver = base.solver;
-    info.count = rows;
-    info.placement = base.placement;
-    if (!group.keepsConstants(program_.number))
-        writeConstants(def_, def_.look, 1.0f, group.editConstants());
-    return group;
+    if (gpu_ && gpu_->isOn()) {
+        base::GroupInfo info = base;
+        info.isCosmetic = true;
+        return gpu_->publish(info, kinds_.gpuParticle, key_, now_, snapshot);
+    }
+    publishRows(lookJob(), kinds_.particle, base, tasks_, snapshot);
 }
 
 bool EmitterSolver::joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
@@ -142,7 +164,8 @@ bool EmitterSolver::joinPublication(const base::GroupInfo& base, base::FrameSnap
     if (!publishesWithMany_)
         return false;
     const uint32_t rows = store_.window().count;
-    base::SnapshotGroup& group = addParticles(base, rows, snapshot);
+    base::SnapshotGroup& group =
+        addRows(program_, store_.capacity(), rows, {kinds_.particle, base}, snapshot);
     if (rows == 0)
         return true;
     store_.fetch();

@@ -38,7 +38,8 @@ std::unique_ptr<Solver> EmitterDef::create(const base::SnapshotSchema& schema, c
                                            std::pmr::memory_resource* memory) const
 {
     const EmitterKinds kinds{schema.find(base::kBlobKind.name), schema.find(base::kParticleKind.name),
-                             schema.find(base::kRibbonKind.name), schema.find(base::kLightKind.name)};
+                             schema.find(base::kRibbonKind.name), schema.find(base::kLightKind.name),
+                             schema.find(base::kGpuParticleKind.name)};
     return std::make_unique<EmitterSolver>(*this, kinds, memory);
 }
 
@@ -54,7 +55,7 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
       shared_(std::move(program)), interest_(def.events, program_.longestLife), lights_(memory),
       rowsByBirth_(memory)
 {
-    const bool isSmall = store_.capacity() <= kFewRows;
+    const bool isSmall = store_.capacity() <= kFewRows && !program_.gpu;
     const bool isDrawn = def.look.kind == Appearance::Sprite || def.look.kind == Appearance::Mesh;
     bornWithMany_ =
         isSmall && program_.ballistic && !def.inWorld && !isLinked() && !(def.trail.lifetime > 0.0f);
@@ -68,6 +69,8 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
         lights_.resize(store_.capacity());
     if (def.look.kind == Appearance::Medium)
         rowsByBirth_.resize(store_.capacity());
+    if (program_.gpu && kinds.gpuParticle != base::kNoKind)
+        schedule_.setLog(&gpu_.emplace(program_, memory).log());
 }
 
 void EmitterSolver::begin(const StepContext& context)
@@ -78,6 +81,8 @@ void EmitterSolver::begin(const StepContext& context)
     motionBegin_ = 0;
     varied_ = false;
     started_ = true;
+    if (gpu_)
+        gpu_->clear(0, 0, conditions_.pull);
 }
 
 EmitterSolver::Conditions EmitterSolver::conditionsOf(const StepContext& context) const
@@ -95,16 +100,10 @@ void EmitterSolver::heedConditions(const StepContext& context)
     conditions_.emitting = conditions.emitting;
     if (goesOn)
         return;
-    const LookJob job = lookJob();
-    MotionTile motion;
-    for (uint32_t row = 0; row < job.rows.count; row += kTileRows) {
-        const uint32_t count = std::min(job.rows.count - row, kTileRows);
-        readMotion(job, row, count, motion);
-        for (size_t a = 0; a < 3; ++a) {
-            std::copy_n(motion.position[a], count, store_.values[stored::X + a].data() + row);
-            std::copy_n(motion.velocity[a], count, store_.values[stored::VelocityX + a].data() + row);
-        }
-    }
+    if (gpu_)
+        gpu_->setPull(now_, conditions.pull);
+    if (!gpu_ || !gpu_->isOn())
+        restartMotion(lookJob(), store_);
     store_.placed = true;
     motionBegin_ = now_;
     conditions_ = conditions;
@@ -128,9 +127,15 @@ void EmitterSolver::stepHere(const StepContext& context)
     now_ = context.tick;
     if (!started_)
         begin(context);
+    key_ = {context.seed, context.solverIndex};
     schedule_.setSeed(context.seed, context.solverIndex);
+    if (gpu_ && gpu_->isOn() && !context.gpuParticles)
+        leaveGpu();
     heedConditions(context);
+    if (gpu_ && gpu_->isOn())
+        return stepOnGpu(context);
     const base::Ticks end = context.tick + context.stepTicks;
+    const uint64_t droppedBefore = dropped_;
     if (isLinked()) {
         stepWithEvents(context);
     } else {
@@ -143,6 +148,7 @@ void EmitterSolver::stepHere(const StepContext& context)
         trails_->follow(lookJob(), context.tick, end);
     if (!context.crowd || !context.crowd->waitsFor(*this))
         endStep(*context.counters);
+    offerToGpu(droppedBefore, context.gpuParticles);
 }
 
 /// Whether births wait for those of others.
@@ -207,7 +213,9 @@ void EmitterSolver::move(const StepContext& context, uint64_t firstIndex, EventR
 
 bool EmitterSolver::finished(base::Ticks tick) const
 {
-    return store_.empty() && !(trails_ && !trails_->empty()) && schedule_.exhausted(tick) &&
+    const bool isEmpty =
+        gpu_ && gpu_->isOn() ? schedule_.exhausted(tick) && gpu_->isEmpty(key_, now_) : store_.empty();
+    return isEmpty && !(trails_ && !trails_->empty()) && schedule_.exhausted(tick) &&
            !interest_.in(EventKind::Host);
 }
 
@@ -250,7 +258,8 @@ bool EmitterSolver::restsThrough(const StepContext& context, base::Ticks tick) c
 
 base::Ticks EmitterSolver::restsUntil(base::Ticks tick) const
 {
-    const bool isEmpty = store_.empty() && !(trails_ && !trails_->empty());
+    const bool hasRows = !(gpu_ && gpu_->isOn());
+    const bool isEmpty = hasRows && store_.empty() && !(trails_ && !trails_->empty());
     if (!isEmpty || !started_ || tick != now_ || interest_.in(EventKind::Host))
         return tick;
     return std::max(tick, schedule_.quietUntil(tick, double(conditions_.intensity), conditions_.emitting));
@@ -270,8 +279,13 @@ void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
 {
     tasks_ = context.tasks;
     schedule_.passTo(now_);
+    key_ = {context.seed, context.solverIndex};
+    if (gpu_ && gpu_->isOn())
+        leaveGpu();
     if (!started_ || tick < now_) {
         schedule_ = BirthSchedule(def_.emission, rowsByBirth_.get_allocator().resource());
+        if (gpu_)
+            schedule_.setLog(&gpu_->log());
         store_.clear(0);
         store_.placed = program_.stores[stored::X];
         now_ = 0;
@@ -279,6 +293,7 @@ void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
     }
     schedule_.setSeed(context.seed, context.solverIndex);
     heedConditions(context);
+    const uint64_t droppedBefore = dropped_;
     base::Ticks from = now_;
     if (neverDrops(double(context.parameters->intensity))) {
         // Whoever was born before then is dead.
@@ -296,6 +311,7 @@ void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
         giveBirth(context, from, std::min(from + part, tick), room);
     now_ = tick;
     store_.retire(now_);
+    offerToGpu(droppedBefore, false);
 }
 
 void EmitterSolver::save(StateWriter& writer) const
@@ -310,7 +326,10 @@ void EmitterSolver::save(StateWriter& writer) const
     if (interest_.in(EventKind::Host))
         writer.value(hostEvents_);
     schedule_.save(writer, now_);
-    store_.save(writer, now_);
+    if (gpu_ && gpu_->isOn())
+        saveFromGpu(writer);
+    else
+        store_.save(writer, now_);
     if (space_)
         space_->save(writer);
     if (trails_)
@@ -330,6 +349,7 @@ void EmitterSolver::restore(StateReader& reader)
         hostEvents_ = reader.value<uint64_t>();
     schedule_.restore(reader);
     store_.restore(reader, now_);
+    listenAgain();
     if (space_)
         space_->restore(reader);
     if (trails_)

@@ -5,6 +5,7 @@
 #include "simulation/emitters/birth_schedule.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/emitters/event_scan.h"
+#include "simulation/emitters/gpu_emitter.h"
 #include "simulation/emitters/moved_space.h"
 #include "simulation/emitters/ribbon_store.h"
 #include "simulation/particles/look_kernel.h"
@@ -22,6 +23,7 @@ struct EmitterKinds
     base::KindId particle;
     base::KindId ribbon = base::kNoKind;
     base::KindId light = base::kNoKind;
+    base::KindId gpuParticle = base::kNoKind;
 };
 
 /// Steps particles that do not feel each other. The set of particles, their birth ticks and their rows depend
@@ -47,7 +49,8 @@ public:
     bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                          EmitterCrowd& crowd) const override;
     bool finished(base::Ticks tick) const override;
-    uint32_t elementCount() const override { return store_.countAlive(now_); }
+    /// Exact but while the GPU computes the particles; then an upper bound.
+    uint32_t elementCount() const override;
     /// Where motion has a closed form; backwards while the host has changed nothing since local time 0. While
     /// nobody lives and nobody is born, any emitter can.
     bool canSeek(const StepContext& context, base::Ticks tick) const override;
@@ -102,6 +105,12 @@ private:
     void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to, std::span<Birth> room);
     void storeBatch(const StepContext& context, std::span<const Birth> births);
     void move(const StepContext& context, uint64_t firstIndex = 0, EventRoom* room = nullptr);
+    // where the GPU may compute
+    void offerToGpu(uint64_t droppedBefore, bool isWanted);
+    void stepOnGpu(const StepContext& context);
+    void leaveGpu();
+    void listenAgain();
+    void saveFromGpu(StateWriter& writer) const;
     // where there are events
     struct Origin
     {
@@ -149,8 +158,6 @@ private:
         job.pull = conditions_.pull;
     }
     void publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
-    base::SnapshotGroup& addParticles(const base::GroupInfo& base, uint32_t rows,
-                                      base::FrameSnapshot& snapshot) const;
     void publishTrails(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
     void publishLights(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
     struct Light
@@ -183,6 +190,8 @@ private:
     EventInterest interest_;
     std::optional<RibbonStore> trails_;
     std::optional<MovedSpace> space_;        ///< of particles that stay where they are
+    std::optional<GpuEmitter> gpu_;          ///< where the GPU could compute the particles
+    BirthKey key_{};                         ///< of the last step
     mutable std::pmr::vector<Light> lights_; ///< room for those that are published
     uint64_t hostEvents_ = 0;                ///< so many have been answered
     uint64_t dropped_ = 0;

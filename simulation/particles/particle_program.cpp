@@ -1,5 +1,6 @@
 #include "simulation/particles/particle_program.h"
 
+#include "simulation/emitters/gpu_program.h"
 #include "simulation/particles/builtin_ops.h"
 
 #include <algorithm>
@@ -62,13 +63,6 @@ uint64_t nextNumber()
 {
     static std::atomic<uint64_t> last{0};
     return ++last;
-}
-
-float cornerOf(const EmitterLook& look)
-{
-    constexpr float kRounding = 1.00002f; // of the arithmetic that draws
-    return kRounding *
-           (look.kind == Appearance::Mesh ? look.meshReach : std::sqrt(1.0f + look.aspect * look.aspect));
 }
 
 /// Whether the pass that only has to do what most emitters need does all that this one needs.
@@ -135,6 +129,13 @@ size_t bytesMoved(const ParticleProgram& program)
     return bytes;
 }
 
+float cornerOf(const EmitterLook& look)
+{
+    constexpr float kRounding = 1.00002f; // of the arithmetic that draws
+    return kRounding *
+           (look.kind == Appearance::Mesh ? look.meshReach : std::sqrt(1.0f + look.aspect * look.aspect));
+}
+
 std::shared_ptr<const ParticleProgram> SharedProgram::of(const EmitterDef& def) const
 {
     const std::lock_guard lock(mutex_);
@@ -160,6 +161,8 @@ ParticleProgram::ParticleProgram(const EmitterDef& definition)
     for (const std::shared_ptr<const TileOp>& op : ops)
         keepsFlags = keepsFlags || op->keepsFlags();
     chooseColumns(*this);
+    if (gpuObstacle(def).empty())
+        gpu = makeGpuProgram(def);
 }
 
 } // namespace fx::sim

@@ -10,6 +10,10 @@
 #include <memory>
 #include <vector>
 
+namespace fx::base {
+class GpuParticleProgram;
+}
+
 namespace fx::sim {
 
 /// Attributes that a particle may carry. What all particles of an emitter share is not stored.
@@ -77,6 +81,8 @@ struct ParticleProgram
     float
         corner; ///< [1] how far the farthest corner of what is drawn is from its center, over the half height
     bool plain; ///< no optional columns, looks over life alone, colors need no bounds to be binary16
+
+    std::shared_ptr<const base::GpuParticleProgram> gpu; ///< null where only the CPU can compute it
 };
 
 /// [byte] that a step and a publication read and write of each row, births left out.
@@ -84,5 +90,8 @@ size_t bytesMoved(const ParticleProgram& program);
 
 /// [1/s] one over a lifetime in seconds; NaN and negative ones are none, infinite ones are 1e9 s.
 float perLifeOf(float seconds);
+
+/// [1] How far the farthest corner of what is drawn is from its center, over the half height.
+float cornerOf(const EmitterLook& look);
 
 } // namespace fx::sim

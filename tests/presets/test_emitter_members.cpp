@@ -45,7 +45,8 @@ Fields fieldsOf(const fx::sim::SolverDef& solver)
                   e.fireShare,         e.heat,
                   e.detailAmount,      e.detailScale,
                   e.anisotropy,        e.shutter,
-                  double(e.inWorld),   e.inheritVelocity};
+                  double(e.inWorld),   e.inheritVelocity,
+                  double(e.compute)};
     for (const glm::vec3& v : {e.position, e.size})
         add(fields, v);
     for (const fx::base::Range& range : {e.lifetime, e.speed, e.radius, e.crossSection, e.temperature})

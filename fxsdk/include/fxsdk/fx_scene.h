@@ -365,6 +365,8 @@ FX_API FxResult fxScene_GetStatistics(FxScene* scene, FxSceneStatistics* ioStati
 
 /// Hashes every particle of the last step, bit for bit: equal states give equal hashes on any machine and any
 /// number of threads. Reads all particles: for tests and replays, not for every frame. [scene thread]
+/// Particles of emitters whose preset asks for the GPU ("compute") are cosmetic and left out, wherever they
+/// are computed.
 /// @param outHash receives the hash; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_GetStateHash(FxScene* scene, uint64_t* outHash);

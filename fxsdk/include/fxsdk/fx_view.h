@@ -210,7 +210,8 @@ typedef struct FxViewStatistics
                             ///< half; at least an eighth; less
     uint32_t impostors;     ///< effects that lodImpostorPixels made pictures of themselves
     uint32_t impostorsTaken; ///< pictures taken anew for the frame
-    uint32_t reserved3;      ///< 0
+    uint32_t gpuParticles;   ///< particles that the GPU computed for what was drawn, or would have if they
+                             ///< lived: the capacity of their emitters
 } FxViewStatistics;
 
 /// Pictures that the last frame kept; GL names, 0 when settings.layerOutputs was 0. Fill structSize with

@@ -230,6 +230,7 @@ public:
     }
 
     float extent() const override { return 1.00001f * (glm::length(def_.position) + extentOf(def_)); }
+    const ShapeDef& def() const { return def_; }
 
 private:
     ShapeDef def_;
@@ -247,6 +248,12 @@ ShapePlace sampleShape(const ShapeDef& def, const Uniform& place, const Uniform&
 std::unique_ptr<ShapeOp> makeShapeOp(const ShapeDef& def)
 {
     return std::make_unique<ShapeSampler>(def);
+}
+
+const ShapeDef* shapeOf(const ShapeOp& shape)
+{
+    const auto* sampler = dynamic_cast<const ShapeSampler*>(&shape);
+    return sampler ? &sampler->def() : nullptr;
 }
 
 } // namespace fx::sim

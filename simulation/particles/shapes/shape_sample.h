@@ -51,4 +51,7 @@ ShapePlace sampleShape(const ShapeDef& def, const std::array<float, 4>& place,
 /// The same for many births.
 std::unique_ptr<ShapeOp> makeShapeOp(const ShapeDef& def);
 
+/// What a shape of makeShapeOp() was made of; null for others.
+const ShapeDef* shapeOf(const ShapeOp& shape);
+
 } // namespace fx::sim

@@ -172,6 +172,9 @@ TEST_F(GlStateGuardTest, everyPublishedStateIsReallyTouched)
     const auto atlas = assets.atlas(nullptr, 0, 1, 1);
     ASSERT_TRUE(atlas.ok()) << atlas.status().message();
     GlDrawState(*device).bindTexture(0, atlas->texture, Sampling::Trilinear);
+    const auto arguments = GlBuffer::create(*device, 16, "arguments"); // of particles counted on the GPU
+    ASSERT_TRUE(arguments.ok()) << arguments.status().message();
+    device->gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, arguments->name());
     const auto after = snapshot();
     size_t slot = 0;
     for (const GlTouchedState& state : glTouchedStates()) {

@@ -1,0 +1,49 @@
+/// @file gpu_emitters.h
+/// What the GPU knows of emitters that it computes: a program for each way of computing, and the numbers of
+/// each emitter's definition in a buffer.
+///
+/// Nothing exists before the first such emitter. Threads: [GL thread].
+#pragma once
+
+#include "foundation/snapshot/gpu_particles.h"
+#include "rendering/gl/gl_buffer.h"
+#include "rendering/gl/gl_device.h"
+
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <vector>
+
+namespace fx::render {
+
+class GpuEmitters
+{
+public:
+    GpuEmitters(GlDevice& device, std::pmr::memory_resource* memory) : device_(device), entries_(memory) {}
+
+    struct Entry
+    {
+        std::shared_ptr<const base::GpuParticleProgram> emitter;
+        const ProgramDesc* program;
+        GlBuffer numbers;
+        uint64_t usedFrame;
+    };
+
+    /// Compiles what computes emitters of these features, and what orders them, unless that has happened.
+    /// @return GlFailed (the driver refuses), GlUnsupported (built without FXSDK_GPU_PARTICLES)
+    base::Status compile(const base::GpuParticleFeatures& features);
+    /// Valid until the next call. Compiles and uploads at the first call for an emitter.
+    /// @return as compile(), OutOfMemory, TooLarge (for the context's storage buffers)
+    base::Result<const Entry*> find(const std::shared_ptr<const base::GpuParticleProgram>& emitter);
+    /// Forgets emitters that have not been asked for in a long time.
+    void nextFrame();
+
+    uint64_t bytes() const { return entries_.size() * sizeof(base::GpuParticleNumbers); } ///< [byte] held
+
+private:
+    GlDevice& device_;
+    std::pmr::vector<Entry> entries_;
+    uint64_t frame_ = 0;
+};
+
+} // namespace fx::render

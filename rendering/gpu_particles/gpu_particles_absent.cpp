@@ -1,0 +1,25 @@
+// Stands for the other sources of this folder in builds without FXSDK_GPU_PARTICLES.
+#include "rendering/gpu_particles/gpu_emitters.h"
+#include "rendering/gpu_particles/gpu_order_pass.h"
+#include "rendering/gpu_particles/gpu_rows_pass.h"
+
+namespace fx::render {
+
+base::Status GpuEmitters::compile(const base::GpuParticleFeatures&)
+{
+    return {base::Code::GlUnsupported, "the library was built without FXSDK_GPU_PARTICLES"};
+}
+
+base::Result<const GpuEmitters::Entry*>
+GpuEmitters::find(const std::shared_ptr<const base::GpuParticleProgram>& emitter)
+{
+    return compile(emitter->features);
+}
+
+void GpuEmitters::nextFrame() {}
+
+void GpuRowsPass::addTo(FrameGraph&, std::span<const GpuRowsJob>, std::span<ParticleBatch>) {}
+
+void GpuOrderPass::addTo(FrameGraph&, std::span<const GpuOrderJob>, std::span<ParticleBatch>) {}
+
+} // namespace fx::render

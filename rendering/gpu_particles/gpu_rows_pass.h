@@ -1,0 +1,37 @@
+/// @file gpu_rows_pass.h
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/passes/particle_batch.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace fx::render {
+
+/// Rows of a group that have not been computed yet.
+struct GpuRowsJob
+{
+    const ProgramDesc* program;
+    uint32_t batch;                  ///< that draws them
+    bool isNewer;                    ///< as its newer rows, or as its older ones
+    BufferPart numbers;              ///< base::GpuParticleNumbers
+    BufferPart words;                ///< base::GpuParticleMoment and what follows it
+    std::array<int32_t, 16> columns; ///< places of the columns, as in ParticleBlock
+    uint32_t rows;
+};
+
+/// Computes particles from what their emitters have published. Program: gpu_particles, one permutation for
+/// each way of computing.
+///
+/// writes  the rows of batches, in the layout in which the CPU's are uploaded
+/// Absent when there is no job.
+class GpuRowsPass
+{
+public:
+    /// @param batches imported already; the written parts get new versions
+    static void addTo(FrameGraph& graph, std::span<const GpuRowsJob> jobs, std::span<ParticleBatch> batches);
+};
+
+} // namespace fx::render

@@ -1,0 +1,76 @@
+/// @file birth_log.h
+/// Which particle was born when, remembered as runs of even births instead of one entry each.
+#pragma once
+
+#include "foundation/snapshot/gpu_particles.h"
+#include "foundation/time/ticks.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::sim {
+
+__extension__ typedef __int128 WideInt;           ///< holds rate times time exactly
+__extension__ typedef unsigned __int128 WideWord; ///< holds a fraction of 96 bits times 2^32
+
+/// Told of births in order of their indices, by BirthSchedule. Keeps those of a window of time.
+class BirthLog
+{
+public:
+    explicit BirthLog(std::pmr::memory_resource* memory) : runs_(memory) { runs_.reserve(8); }
+
+    /// Births at a constant rate: number j at the tick begin + floor((j * one + sought) / rate).
+    /// @param sought >= 0  @param one, rate > 0, see birth-ticks
+    void addRate(uint64_t first, uint64_t count, base::Ticks begin, WideInt sought, WideInt one,
+                 WideInt rate);
+    void addBurst(uint64_t first, uint64_t count, base::Ticks tick);
+    /// Nothing is known of births before `next`.
+    void clear(uint64_t next);
+    /// Forgets runs that ended before `tick`, and moves front().
+    void forget(base::Ticks tick);
+
+    uint64_t front() const { return front_; } ///< the oldest birth that is not before the last forget()
+    uint64_t next() const { return next_; }
+    bool empty() const { return front_ == next_; }
+    size_t runs() const { return runs_.size(); }
+    /// @param index front() <= index < next()
+    base::Ticks tickOf(uint64_t index) const;
+    /// The tick of each of the births [first, first + out.size()).
+    void ticksOf(uint64_t first, std::span<base::Ticks> out) const;
+    /// The runs as they are published at `now`. @param out at least runs() of them
+    void publish(base::Ticks now, std::span<base::GpuBirthRun> out) const;
+
+private:
+    /// Birth number j at tick + j * stride + the whole part of rest + j * fraction, both in 2^-96.
+    struct Run
+    {
+        uint64_t first;
+        uint64_t count;
+        base::Ticks tick;
+        base::Ticks stride;
+        WideWord fraction;
+        WideWord rest;
+
+        // What it was made of, to see whether births go on as they did. rate 0: a burst.
+        base::Ticks begin;
+        WideInt sought, one, rate;
+
+        base::Ticks at(uint64_t j) const
+        {
+            return tick + base::Ticks(j) * stride + base::Ticks((rest + WideWord(j) * fraction) >> 96);
+        }
+        base::Ticks last() const { return at(count - 1); }
+    };
+    bool goesOn(const Run& run, uint64_t first, base::Ticks begin, WideInt sought, WideInt one,
+                WideInt rate) const;
+    size_t runOf(uint64_t index) const;
+
+    std::pmr::vector<Run> runs_; ///< ascending, without gaps, up to next_
+    uint64_t front_ = 0;
+    uint64_t next_ = 0;
+};
+
+} // namespace fx::sim

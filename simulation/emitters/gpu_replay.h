@@ -1,0 +1,53 @@
+/// @file gpu_replay.h
+/// The rows of an emitter from nothing but its births: what the GPU computes, on the CPU and bit for bit as
+/// if it had been stepped there all along.
+#pragma once
+
+#include "simulation/particles/birth_kernel.h"
+#include "simulation/particles/look_kernel.h"
+
+#include <glm/vec3.hpp>
+
+#include <functional>
+#include <span>
+
+namespace fx::sim {
+
+/// What acts on ballistic particles from a moment on.
+struct MotionCondition
+{
+    base::Ticks begin; ///< local time
+    glm::vec3 pull;    ///< [m/s2] see LookJob
+};
+
+struct ReplayInput
+{
+    BirthKey key;
+    uint64_t first; ///< births [first, next)
+    uint64_t next;
+    /// The ticks of the births from `first` on, which do not fall.
+    std::function<void(uint64_t first, std::span<base::Ticks> out)> ticksOf;
+    std::span<const MotionCondition> conditions; ///< ascending, at least one
+    base::Ticks now;
+    bool placed; ///< see ParticleStore::placed
+};
+
+/// Fills `store` with what lives of the births. @return what there is to be looked at
+LookJob replayBirths(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
+
+/// From now on, motion begins where it has come to.
+void restartMotion(const LookJob& job, ParticleStore& store);
+
+/// As base::GpuParticleProgram::replay.
+void replayGroup(const ParticleProgram& program, const base::SnapshotGroup& group, base::FrameSnapshot& out);
+
+/// Publishes rows as a group of the kind `kind`, which is that of particles.
+/// @param tasks null: on the calling thread
+void publishRows(const LookJob& job, base::KindId kind, const base::GroupInfo& base, base::TaskRunner* tasks,
+                 base::FrameSnapshot& snapshot);
+
+/// What is drawn within lives of at most `seconds` stays in this box, whatever is drawn at random.
+/// @param low, high [m/s2] between these are the pulls, component by component
+base::Bounds boundsOfAll(const EmitterDef& def, const glm::vec3& low, const glm::vec3& high, float seconds);
+
+} // namespace fx::sim

@@ -1,0 +1,84 @@
+/// @file gpu_fixture.h
+/// The same effect twice, once with its emitters on the CPU and once on the GPU, and a view to compute with.
+#pragma once
+
+#include "foundation/assets/asset_table.h"
+#include "foundation/snapshot/gpu_particles.h"
+#include "foundation/tasks/task_runner.h"
+#include "rendering/frame_graph/frame_graph.h"
+#include "rendering/gl/gl_backend.h"
+#include "rendering/gpu_particles/gpu_emitters.h"
+#include "simulation/world.h"
+#include "tests/rendering/view/view_fixture.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fx::test {
+
+/// Text of a library preset whose emitters all ask for `compute`.
+std::string libraryText(const std::string& name, const char* compute);
+std::vector<std::string> libraryNames();
+
+/// A world with one instance of an effect, and its last snapshot.
+class OneEffect
+{
+public:
+    /// @param onGpu whether emitters may be published for the GPU
+    OneEffect(const base::SnapshotSchema& schema, std::shared_ptr<const sim::EffectDef> effect, bool onGpu,
+              uint64_t seed = 7);
+
+    void playTo(double seconds, double step = 1.0 / 60.0);
+    void seekTo(double seconds);
+    const base::FrameSnapshot& publish();
+    const base::FrameSnapshot& publishedLast() const { return *snapshot_; }
+    /// What publish() returned before.
+    const base::FrameSnapshot* older() const { return older_.get(); }
+    sim::World& world() { return world_; }
+    sim::Slot slot() const { return slot_; }
+
+    static constexpr base::Ticks kStep = base::kTicksPerSecond / 60;
+
+private:
+    std::unique_ptr<base::TaskRunner> tasks_ = base::makeSerialRunner();
+    const base::SnapshotSchema& schema_;
+    sim::World world_;
+    sim::Slot slot_;
+    base::Ticks now_ = 0;
+    uint64_t sequence_ = 0;
+    std::unique_ptr<base::FrameSnapshot> snapshot_, older_;
+};
+
+/// Rows of one group, column by column; color as four numbers.
+struct Rows
+{
+    std::vector<std::vector<float>> columns; ///< by base::particle_column, empty where there is none
+    std::vector<glm::vec4> color;
+    size_t count() const { return columns[0].size(); }
+    bool isAlive(size_t row) const { return columns[base::particle_column::Radius][row] > 0.0f; }
+};
+
+Rows rowsOf(const base::SnapshotGroup& group);
+
+class GpuParticleTest : public ViewTest
+{
+protected:
+    void SetUp() override;
+    void TearDown() override;
+
+    std::shared_ptr<const sim::EffectDef> load(const std::string& text);
+    /// What the GPU makes of a group of the kind "gpuParticle".
+    Rows computed(const base::SnapshotGroup& group);
+    /// The picture of two steps, half way between them.
+    Picture draw(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
+    base::Status drawInto(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
+
+    base::AssetTable assets_{std::pmr::get_default_resource()};
+
+    std::unique_ptr<render::FrameGraph> graph_;
+    std::unique_ptr<render::GlBackend> backend_;
+    std::unique_ptr<render::GpuEmitters> emitters_;
+};
+
+} // namespace fx::test

@@ -1,0 +1,147 @@
+// Pictures of emitters that the GPU computes, and what they cost a view.
+#include "gpu_fixture.h"
+
+#include "tests/rendering/gl/heap_counter.h"
+
+#include <algorithm>
+
+namespace fx::test {
+
+namespace {
+
+/// Mean of the red, green and blue channels.
+double meanOf(const Picture& picture)
+{
+    double sum = 0;
+    for (size_t i = 0; i < picture.texels.size(); ++i)
+        sum += i % 4 < 3 ? double(picture.texels[i]) : 0.0;
+    return sum / double(picture.texels.size() / 4 * 3);
+}
+
+double meanDifference(const Picture& a, const Picture& b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < a.texels.size(); ++i)
+        sum += double(std::abs(a.texels[i] - b.texels[i]));
+    return sum / double(a.texels.size());
+}
+
+} // namespace
+
+class GpuView : public GpuParticleTest
+{
+protected:
+    void SetUp() override
+    {
+        GpuParticleTest::SetUp();
+        makeTargets(128, 128);
+    }
+    bool ran(std::string_view pass) const
+    {
+        const auto passes = view_->executedPasses();
+        return std::find(passes.begin(), passes.end(), pass) != passes.end();
+    }
+};
+
+TEST_F(GpuView, picturesAreThoseOfTheCpuForEveryPresetOfTheLibrary)
+{
+    size_t pictures = 0;
+    for (const std::string& name : libraryNames()) {
+        OneEffect cpu(schema_, load(libraryText(name, "cpu")), false);
+        OneEffect gpu(schema_, load(libraryText(name, "gpu")), true);
+        for (const double seconds : {0.12, 1.2, 2.3}) {
+            for (OneEffect* effect : {&cpu, &gpu}) {
+                effect->playTo(seconds - 0.5 / 60.0);
+                effect->publish();
+                effect->playTo(seconds + 0.5 / 60.0);
+                effect->publish();
+            }
+            const base::FrameSnapshot& newer = gpu.publishedLast();
+            if (!base::hasGpuParticles(newer))
+                continue;
+            const Picture a = draw(cpu.publishedLast(), cpu.older());
+            const Picture b = draw(newer, gpu.older());
+            const bool isInView = view_->statistics().gpuParticles > 0;
+            EXPECT_EQ(ran("gpu particles"), isInView);
+            // Groups that overlap do not take turns by distance: which is in front differs here and there.
+            EXPECT_LE(meanDifference(a, b), 2e-3 * meanOf(a) + 1e-7) << name << " " << seconds;
+            EXPECT_LE(maxDifference(a, b), 4e-2 * *std::max_element(a.texels.begin(), a.texels.end()))
+                << name << " " << seconds;
+            pictures += isInView && meanOf(a) > 1e-6 ? 1 : 0;
+        }
+    }
+    EXPECT_GE(pictures, 7u);
+    EXPECT_TRUE(view_->canComputeParticles());
+}
+
+TEST_F(GpuView, withoutSuchEmittersCompilesNothingAndHoldsNothing)
+{
+    ASSERT_TRUE(view_->warmUp().ok());
+    OneEffect cpu(schema_, load(libraryText("rain.fx.json", "cpu")), true);
+    cpu.playTo(0.5);
+    const uint32_t compiled = device_->programsCompiled();
+    draw(cpu.publish(), nullptr);
+    EXPECT_EQ(device_->programsCompiled(), compiled);
+    EXPECT_FALSE(ran("gpu particles"));
+    EXPECT_EQ(view_->statistics().gpuParticles, 0u);
+    const uint64_t bytes = device_->bufferBytes();
+    OneEffect gpu(schema_, load(libraryText("rain.fx.json", "gpu")), true);
+    gpu.playTo(0.5);
+    draw(gpu.publish(), nullptr);
+    EXPECT_GT(device_->programsCompiled(), compiled);
+    EXPECT_GT(device_->bufferBytes(), bytes);
+}
+
+TEST_F(GpuView, aRowIsComputedOnceAStepAndAWarmFrameAllocatesNothing)
+{
+    const std::string emitter = R"({"compute": "gpu", "shape": "sphere", "size": [1, 0, 0], "lifetime": 1,
+        "speed": 2, "emission": {"rate": 2000}, "maxParticles": 2100, "appearance": {"kind": "sprite"}})";
+    OneEffect gpu(schema_, load(R"({"version": 1, "emitters": [)" + emitter + ", " + emitter + "]}"), true);
+    for (int i = 1; i <= 8; ++i) {
+        gpu.playTo(3.0 + i / 60.0);
+        gpu.publish();
+        draw(gpu.publishedLast(), gpu.older());
+    }
+    const auto programs = device_->programsCompiled();
+    gpu.playTo(3.0 + 9 / 60.0);
+    gpu.publish();
+    render::HeapCounter counter;
+    const base::Status status = drawInto(gpu.publishedLast(), gpu.older());
+    EXPECT_EQ(counter.stop(), 0);
+    EXPECT_TRUE(status.ok()) << status.message();
+    EXPECT_EQ(device_->programsCompiled(), programs);
+    const auto computes = [this] {
+        const auto passes = view_->executedPasses();
+        return std::count(passes.begin(), passes.end(), std::string_view("gpu particles"));
+    };
+    const auto first = computes();
+    EXPECT_GT(first, 0) << "the older rows are there already";
+    draw(gpu.publishedLast(), gpu.older()); // the same step again
+    EXPECT_EQ(computes(), 0);
+    EXPECT_TRUE(ran("gpu particle order")) << "the camera may have moved";
+}
+
+/// A driver that refuses the program: nothing of it is drawn, and nothing else fails.
+TEST_F(GpuView, aRefusedProgramIsNoError)
+{
+    device_->setSourceOverride([](std::string_view name, std::string_view) -> std::optional<std::string> {
+        if (name == "passes/gpu_particles.comp.glsl")
+            return "#version 450 core\nthis is no program\n";
+        return std::nullopt;
+    });
+    OneEffect gpu(schema_, load(libraryText("waterfall-mist.fx.json", "gpu")), true);
+    gpu.playTo(2.0);
+    EXPECT_TRUE(view_->canComputeParticles());
+    const Picture picture = draw(gpu.publish(), nullptr);
+    EXPECT_FALSE(view_->canComputeParticles());
+    EXPECT_GT(meanOf(picture), 0.0) << "its mist is a medium";
+    EXPECT_LE(maxDifference(draw(gpu.publishedLast(), nullptr), picture), 1e-6) << "until the scene knows";
+    EXPECT_GT(messages_->serious(), 0u); // the driver's, not ours
+    messages_ = std::make_unique<render::GlMessages>(*device_);
+    gpu.world().setGpuParticles(false); // as a scene does now
+    gpu.playTo(2.1);
+    const Picture all = draw(gpu.publish(), nullptr);
+    EXPECT_GT(meanDifference(all, picture), 1e-3 * meanOf(picture));
+}
+
+} // namespace fx::test
