@@ -15,6 +15,7 @@ FrameKey frameKey(const StampPair& stamps, const FrameRequest& request, const Vi
     key.lighting = settings.lighting;
     key.particleShare = settings.particleShare;
     key.lod = settings.lod;
+    key.layerOutputs = settings.layerOutputs;
     key.assets = assets;
     return key;
 }

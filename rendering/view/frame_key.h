@@ -22,6 +22,7 @@ struct FrameKey
     Lighting lighting;
     float particleShare = 1;
     LodSettings lod;
+    bool layerOutputs = false;
     const base::AssetTable* assets = nullptr; ///< never followed
 
     bool operator==(const FrameKey&) const = default;

@@ -245,7 +245,7 @@ void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of
 {
     if (of == built_ && sequence_ > 0)
         return;
-    built_ = of;
+    built_ = {}; // until it is done
     ++sequence_;
     newer_.begin(snapshots.newer ? snapshots.newer->tick() : 0, sequence_);
     older_.begin(snapshots.older ? snapshots.older->tick() : 0, sequence_);
@@ -261,6 +261,7 @@ void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of
         if (hasOlder_)
             write(snapshots, set, true);
     }
+    built_ = of;
 }
 
 } // namespace fx::render

@@ -58,6 +58,7 @@ uint32_t ImpostorField::take(Entry& entry, const ImpostorSubject& subject, const
     const bool isFirst = !entry.hasPicture;
     entry.newest ^= 1u;
     entry.mix = isFirst ? 1.0f : 0.0f;
+    entry.hasOlder = !isFirst;
     entry.hasPicture = true;
     entry.direction = direction;
     entry.right = glm::normalize(glm::cross(direction, camera_->up));
@@ -110,10 +111,11 @@ ImpostorPlan ImpostorField::plan(const ImpostorSubject& subject)
 
 void ImpostorField::show(const Entry& entry, const ImpostorSubject& subject, float opacity)
 {
+    const uint32_t older = entry.hasOlder ? entry.newest ^ 1u : entry.newest; // a tile that was written
     // the square grows with what is shown: the ball's radius may have changed since
     shown_.push_back({{subject.center, subject.radius * (1.0f + kMarginPixels / entry.pixels)},
                       {entry.right, float(entry.tiles + entry.newest)},
-                      {entry.up, float(entry.tiles + (entry.newest ^ 1u))},
+                      {entry.up, float(entry.tiles + older)},
                       {entry.mix, opacity, subject.radius, 0.0f}});
     distances_.push_back(glm::length(subject.center));
 }

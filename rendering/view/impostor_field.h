@@ -81,6 +81,7 @@ private:
         uint64_t content = 0;
         uint64_t lighting = 0;
         bool hasPicture = false;
+        bool hasOlder = false; ///< there are two
         bool isUsed = false;
     };
     Entry* find(uint64_t instance);

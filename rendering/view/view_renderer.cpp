@@ -164,8 +164,11 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     base::SnapshotPair shown = snapshots;
     if (now.isSteady())
         shown.older = nullptr; // nothing moves between them
-    if (base::Status status = gatherAnew(shown, now, request, settings); !status)
+    if (base::Status status = gatherAnew(shown, now, request, settings); !status) {
+        single.buffers.forgetComputed();
+        builder.forgetPictures();
         return status;
+    }
     if (builder.isSettled())
         key = wanted;
     return {};
@@ -192,6 +195,10 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
     if (base::Status status =
             add(joined, {&merged, &request, &settings, &camera, builder.lights()}, merger.stamps());
         !status)
+        return status;
+    if (base::Status status = makeRoom(blobBuffer, builder.blobs().size_bytes(), "blobs"); !status)
+        return status;
+    if (base::Status status = makeRoomForImpostors(); !status)
         return status;
     mediaRuns = runs.build(streams);
     return {};
@@ -369,12 +376,12 @@ base::Status ViewRenderer::warmUp()
 
 bool ViewRenderer::canComputeParticles() const
 {
-    return !impl_->buffers.refusesGpu();
+    return !impl_->single.buffers.refusesGpu();
 }
 
 void ViewRenderer::warmUp(const base::GpuParticleProgram& emitter)
 {
-    impl_->buffers.warmUp(emitter);
+    impl_->single.buffers.warmUp(emitter);
 }
 
 base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const FrameRequest& asked)

@@ -25,7 +25,7 @@ void EmitterCrowd::wait(EmitterSolver& emitter, const StepContext& context, std:
     if (waitsFor(emitter)) { // more than it has rows: in the order of birth
         makeBirths();
     } else {
-        if (births_.size() + births.size() > kMostBirths)
+        if (births_.size() + births.size() > kMostBirths || open_.size() == kMostBirths)
             close();
         open_.push_back(&emitter);
     }

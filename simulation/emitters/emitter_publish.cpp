@@ -106,7 +106,7 @@ base::SnapshotGroup& addRows(const ParticleProgram& program, uint32_t capacity, 
     info.solver = place.base.solver;
     info.count = rows;
     info.placement = place.base.placement;
-    info.isCosmetic = program.def.compute != ComputeOn::Cpu;
+    info.isCosmetic = place.base.isCosmetic || program.def.compute != ComputeOn::Cpu;
     if (!group.keepsConstants(program.number))
         writeConstants(program.def, program.def.look, 1.0f, group.editConstants());
     return group;

@@ -84,6 +84,8 @@ public:
         frame_.turnTo(*job_->store, stored::Frame);
         for (size_t a = 0; a < 3; ++a)
             axis_[a].turnTo(*job_->store, stored::AxisX + a);
+        for (size_t a = 0; a < 3; ++a)
+            tint_[a].turnTo(*job_->store, stored::TintRed + a);
     }
 
     /// @tparam kPlain ParticleProgram::plain

@@ -46,7 +46,7 @@ private:
 
 ParticleStore::ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory)
     : capacity_(std::max(program.def.maxParticles, 1u)), brief_(program.brief), mortal_(program.mortal),
-      placed(program.stores[stored::X]), constant(program.constant)
+      alwaysPlaced_(program.stores[stored::X]), placed(program.stores[stored::X]), constant(program.constant)
 {
     // Kernels work on whole vectors: every column can be read and written up to the next multiple.
     const size_t rows = (size_t(capacity_) + kTilePadding - 1) / kTilePadding * kTilePadding;
@@ -153,7 +153,7 @@ void ParticleStore::restore(StateReader& reader, base::Ticks now)
     reader.require(front <= next, "an emitter's births are out of order");
     clear(next);
     front_ = reader.ok() ? front : next;
-    placed = reader.flag() || placed;
+    placed = reader.flag() || alwaysPlaced_;
     const uint32_t count = reader.value<uint32_t>(0, capacity_, "an emitter has room for fewer particles");
     // Rows that nobody lives in must not look alive: their age is more than any life.
     for (uint32_t row = 0; row < capacity_; ++row)

@@ -110,6 +110,7 @@ private:
     uint32_t capacity_;
     bool brief_;
     bool mortal_;
+    bool alwaysPlaced_;
 
 public:
     bool placed;                      ///< false: all motion began at one place, X, Y, Z are not in use yet
