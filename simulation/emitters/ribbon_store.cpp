@@ -176,7 +176,8 @@ struct RibbonStore::Writer
         const float head = count > first ? arc[first] : 0.0f;
         const float end = count > first ? arc[count - 1] : 0.0f;
         for (uint32_t i = first; i < count; ++i) {
-            const float t = std::min(group.editColumn(column::Age)[i] * float(perLife / kSecondsPerTick), 1.0f);
+            const float t =
+                std::min(group.editColumn(column::Age)[i] * float(perLife / kSecondsPerTick), 1.0f);
             float opacity = def.opacityAlong.at(t)[0];
             if (def.softEnds > 0.0f)
                 opacity *= std::min(std::min(head - arc[i], arc[i] - end) / def.softEnds, 1.0f); // (4)
