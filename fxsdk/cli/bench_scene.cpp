@@ -136,11 +136,6 @@ void BenchScene::clear()
     device_->gl.ClearTexImage(color_.name(), 0, GL_RGBA, GL_FLOAT, black);
 }
 
-std::vector<float> BenchScene::picture()
-{
-    return render::readTexture(*device_, color_.name(), options_.pixels, options_.pixels, 4);
-}
-
 base::Status BenchScene::update()
 {
     return toStatus(fxScene_Update(scene_, 1.0 / 60.0));

@@ -42,8 +42,6 @@ public:
     base::Status draw();          ///< nothing without GL
     void finish();                ///< waits for the GPU
     void clear();                 ///< the picture before draw(): black
-    std::vector<float> picture(); ///< RGBA
-
     void clearPicture();          ///< to an even gray
     std::vector<float> picture(); ///< RGBA, row by row; empty without GL
     uint64_t bytesInUse() const;  ///< [byte] of the context
