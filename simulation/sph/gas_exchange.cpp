@@ -12,6 +12,7 @@ namespace fx::sim {
 namespace {
 
 constexpr float kInnerDrag = 0.2f;   ///< [1] drag inside the body over drag at its surface
+constexpr float kOuterLayer = 0.6f;  ///< [1] exposure of the outermost particles of even gas
 constexpr double kMostTakenIn = 0.5; ///< [1] logarithm of the growth of a parcel's mass in a step
 constexpr double kBallVolume = 4.18879020478639;
 
@@ -32,7 +33,7 @@ FireParcel burn(const GasExchange& exchange, const FireParcel& parcel, double ma
 }
 
 /// (1)
-double entrainmentOf(const GasExchange& exchange, const FireParcel& parcel, float vigor, float exposure,
+double entrainmentOf(const GasExchange& exchange, const FireParcel& parcel, float vigor, float openness,
                      float speed, double density, double seconds)
 {
     const GasThermodynamics& thermo = exchange.thermodynamics;
@@ -40,7 +41,7 @@ double entrainmentOf(const GasExchange& exchange, const FireParcel& parcel, floa
     const double room = std::min(tau * thermo.airDensity() / density, 1.0);
     const double alight = 1.0 - parcel.burnt;
     const double stirring = 1.0 + (double(exchange.def.entrainment) - 1.0) * alight;
-    const double pace = stirring * double(vigor * (0.7f + 0.6f * exposure)) * room * room;
+    const double pace = stirring * double(vigor * (0.7f + 0.6f * openness)) * room * room;
     const double rate = pace * entrainmentRate(double(speed), double(exchange.air.thermal().radius), tau);
     return std::min(rate, kMostTakenIn / seconds);
 }
@@ -60,12 +61,13 @@ void exchangeWithAir(const GasExchange& exchange, const GasView<float>& gas, Gas
         const uint32_t id = gas.id[i];
         FireParcel& parcel = parcels.fire[id];
         const float exposure = gas.exposure[i];
+        const float openness = std::min(exposure / kOuterLayer, 1.0f); // (0)
         const glm::vec3 position(gas.x[i], gas.y[i], gas.z[i]);
         glm::vec3 velocity(gas.vx[i], gas.vy[i], gas.vz[i]);
         const glm::vec3 air = exchange.air.velocity(position, float(parcel.temperature));
         const float speed = glm::length(velocity - air);
 
-        const double entrainment = entrainmentOf(exchange, parcel, parcels.vigor[id], exposure, speed,
+        const double entrainment = entrainmentOf(exchange, parcel, parcels.vigor[id], openness, speed,
                                                  double(gas.density[i]), double(seconds));
         const double before = parcel.mixing;
         parcel = burn(exchange, parcel, double(gas.mass[i]), entrainment, double(exposure), double(seconds));

@@ -9,14 +9,17 @@
 ///   v, u    m/s    velocity of the parcel, of the air around it
 ///   M       1      mass of the parcel with its air over its own
 ///   tau     1      its density at the air's pressure over that of the air (potential-temperature)
-///   e       1      exposure: 0 deep inside the gas, 1 on its surface
+///   e       1      exposure: 0 deep inside the gas, 1 on its surface (gas-density)
+///   o       1      openness: 0 deep inside the gas, 1 for the outermost particles
 ///   a       m      radius of the cloud (hill-vortex)
 ///   q       1/s    entrainment
 ///   k       1/s    drag rate; kd, kb drag [1/s], braking [1]
 /// @derivation
+///   The centers of even gas end half a spacing below its surface, where e is 3/5. Air reaches all of that
+///   layer:  o = min(5 e / 3, 1)                                                            (0)
 ///   Air enters as into a thermal of the cloud's size, faster where the parcel is exposed and, by the
 ///   preset's factor E, while its share Y_b that has burnt is small:
-///       q = entrainmentRate(|v - u|, a, tau) (7/10 + 3/5 e) (1 + (E - 1) (1 - Y_b)) min(rho_e / rho, 1)^2
+///       q = entrainmentRate(|v - u|, a, tau) (7/10 + 3/5 o) (1 + (E - 1) (1 - Y_b)) min(rho_e / rho, 1)^2
 ///   times its own factor (vigor); gas denser than at the air's pressure, rho_e, pushes the air away   (1)
 ///   three-gases and parcel-radiation give its temperature and composition                          (2)
 ///   The air brings its momentum: v <- (v + (M'/M - 1) u) / (M'/M)                                  (3)
@@ -27,7 +30,10 @@
 ///   body rolls over at its rim:
 ///       k = (kd + kb 3 |v - u| / (tau a)) (1/5 + 4/5 e), v <- drag step of rate k towards u under b  (5)
 /// @source    [MTT56] for (1), [BAT67] section 6.4 for the added mass of a sphere in (4); (5) is ours
-/// @deviation a parcel's mass grows by no more than a factor e^(1/2) in a step
+/// @deviation drag and radiation go with e. A parcel's mass grows by no more than a factor e^(1/2) in a step.
+///            Particles in order seem less exposed: with e for o the library's explosion is 10 to 18 % hotter
+///            after one second than the same gas without particle-shifting, with o 5 % (800 and 2,500
+///            particles; height within 5 %, radius 6 to 8 % less, where strays are missing)
 /// @valid     any state that is finite
 /// @accuracy  first order in the step by the order of its parts
 /// @tests     tests/simulation/test_gas_solver.cpp

@@ -14,7 +14,7 @@ namespace {
 constexpr uint32_t kPairBatch = 64;  ///< places of a task in loops over neighbors
 constexpr uint32_t kRowBatch = 1024; ///< places of a task in loops over particles
 
-/// A guess of the support now, from the divergence at the beginning of the step.
+/// A guess of the support now, from the expansion at the beginning of the step.
 template <class T>
 void guessSupports(DynamicsState<T>& s, base::TaskRunner& tasks)
 {
@@ -22,7 +22,7 @@ void guessSupports(DynamicsState<T>& s, base::TaskRunner& tasks)
         for (uint32_t k = begin; k < end; ++k) {
             const uint32_t i = s.active[k];
             const T since = T(double(s.now - s.gas.begin[i]) * s.tick);
-            const T growth = std::min(std::max(since * s.gas.divergence[i] / T(3), T(-0.1)), T(0.1));
+            const T growth = std::min(std::max(since * s.gas.expansion[i] / T(3), T(-0.1)), T(0.1));
             const T most = std::max(T(s.densityRules.largestSupport), s.gas.support[i]);
             s.gas.support[i] = std::min(s.gas.support[i] * (T(1) + growth), most);
         }
@@ -138,8 +138,8 @@ void updateRates(DynamicsState<T>& s, uint32_t i)
     const T density = gas.density[i];
     gas.entropyRate[i] = gas.heatToEntropy[i] * heating;
     gas.pressureRate[i] =
-        density * (T(s.def.state.gamma - 1.0) * heating - gas.sound[i] * gas.sound[i] * gas.divergence[i]);
-    gas.energyRate[i] = heating - T(s.def.state.gamma - 1.0) * gas.energy[i] * gas.divergence[i];
+        density * (T(s.def.state.gamma - 1.0) * heating - gas.sound[i] * gas.sound[i] * gas.expansion[i]);
+    gas.energyRate[i] = heating - T(s.def.state.gamma - 1.0) * gas.energy[i] * gas.expansion[i];
     const T square = gas.ax[i] * gas.ax[i] + gas.ay[i] * gas.ay[i] + gas.az[i] * gas.az[i];
     T signal = s.signalSpeed[i];
     if (s.def.steps == StepScheme::Block && s.def.exact) // as fast as for the faster one of the pair
@@ -158,9 +158,9 @@ bool sumDensities(DynamicsState<T>& s, std::span<const uint32_t> places, double 
                   base::TaskRunner& tasks)
 {
     GasColumns<T>& gas = s.gas;
-    const DensityResults<T> results{gas.support.data(),    gas.density.data(), gas.correction.data(),
-                                    gas.divergence.data(), gas.curl.data(),    s.wantsReach.data(),
-                                    s.neighbors.data(),    gas.exposure.data()};
+    const DensityResults<T> results{gas.support.data(),    gas.density.data(),  gas.correction.data(),
+                                    gas.divergence.data(), gas.curl.data(),     s.wantsReach.data(),
+                                    s.neighbors.data(),    gas.exposure.data(), gas.expansion.data()};
     std::atomic<uint32_t> wanting{0};
     parallelRows(tasks, uint32_t(places.size()), kPairBatch, [&](uint32_t begin, uint32_t end) {
         const std::span<const uint32_t> part = places.subspan(begin, end - begin);

@@ -43,7 +43,7 @@ void GasColumns<T>::permute(std::span<const uint32_t> order, base::TaskRunner& t
 }
 
 template <class T>
-std::array<base::Column<T>*, 28> GasColumns<T>::lasting()
+std::array<base::Column<T>*, 29> GasColumns<T>::lasting()
 {
     return {&x,
             &y,
@@ -61,6 +61,7 @@ std::array<base::Column<T>*, 28> GasColumns<T>::lasting()
             &density,
             &correction,
             &divergence,
+            &expansion,
             &divergenceBefore,
             &curl,
             &exposure,

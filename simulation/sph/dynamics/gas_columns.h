@@ -43,6 +43,7 @@ struct GasColumns
     base::Column<T> density;          ///< [kg/m3]
     base::Column<T> correction;       ///< [1] f of the density loop
     base::Column<T> divergence;       ///< [1/s]
+    base::Column<T> expansion;        ///< [1/s] of the density loop, -drho/dt / rho of the sum
     base::Column<T> divergenceBefore; ///< [1/s] at the evaluation before the last
     base::Column<T> curl;             ///< [1/s]
     base::Column<T> exposure;         ///< [1] of the density loop
@@ -60,7 +61,7 @@ struct GasColumns
     base::Column<uint8_t> level;       ///< binary logarithm of the step in ticks
 
 private:
-    std::array<base::Column<T>*, 28> lasting();
+    std::array<base::Column<T>*, 29> lasting();
 
     base::Column<T> spare_;
     base::Column<uint64_t> spareTicks_;

@@ -4,6 +4,7 @@
 #include "simulation/sph/dynamics/boundary.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fx::sim {
 
@@ -37,6 +38,16 @@ void drift(DynamicsState<T>& s, const Axes<T>& axes, uint32_t i)
     s.nowZ[i] = position[2];
 }
 
+/// [m/s] Of an ideal gas c^2 = g (g - 1) u; others keep theirs for the step.
+template <class T>
+T soundOf(const DynamicsState<T>& s, uint32_t i, T energy)
+{
+    const StateEquation& state = s.def.state;
+    if (state.stiffness != 0 || state.jwlA != 0 || state.jwlB != 0)
+        return s.gas.sound[i];
+    return std::sqrt(T(state.gamma * (state.gamma - 1.0)) * energy);
+}
+
 /// What neighbors see of particle `i` now.
 template <class T>
 void fillRecord(DynamicsState<T>& s, uint32_t i)
@@ -44,7 +55,7 @@ void fillRecord(DynamicsState<T>& s, uint32_t i)
     const GasColumns<T>& gas = s.gas;
     const T kicked = T(ticksSinceMiddle(s.now, gas.begin[i], gas.end[i]) * s.tick);
     const T since = T(double(s.now - gas.begin[i]) * s.tick);
-    const T density = gas.density[i] * thinning(since * gas.divergence[i]);
+    const T density = gas.density[i] * thinning(since * gas.expansion[i]);
     const T pressure = grown(gas.pressure[i], since * gas.pressureRate[i]);
     GasRecord<T>& record = s.records[i];
     record.x = s.nowX[i];
@@ -57,10 +68,10 @@ void fillRecord(DynamicsState<T>& s, uint32_t i)
     record.mass = gas.mass[i];
     record.push = pushOf(s, gas.correction[i], pressure, density);
     record.density = density;
-    record.sound = T(s.soundScale) * gas.sound[i];
+    record.energy = grown(gas.energy[i], since * gas.energyRate[i]);
+    record.sound = T(s.soundScale) * soundOf(s, i, record.energy);
     record.viscosity = gas.viscosity[i];
     record.limiter = gas.limiter[i];
-    record.energy = grown(gas.energy[i], since * gas.energyRate[i]);
     record.pressure = pressure;
     record.stepLevel = T(gas.level[i]);
 }

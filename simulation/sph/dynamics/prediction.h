@@ -12,7 +12,7 @@ namespace fx::sim {
 /// Blocks of places where nobody's step ends, and nobody has moved by more than a hundred thousandth of his
 /// support (double: a million millionth), are passed over. Positions move with the velocity of the middle of
 /// the step, velocity and entropy grow by their rates, pressure and energy by the change of density that the
-/// divergence gives and by heat: all linear in time.
+/// expansion gives and by heat: all linear in time. The speed of sound of an ideal gas follows its energy.
 ///
 /// Where few are active, only theirs are filled: fillSeen() has to follow when their lists are known.
 template <class T>

@@ -87,6 +87,14 @@ T exposureOf(const T* sum, T support)
     return slope < trace ? slope / trace : T(1);
 }
 
+/// (8) @param inertia H^2 S / C
+template <class T>
+T expansionOf(const T* sum, T correction, T inertia)
+{
+    const T* flow = sum + kSumFlows;
+    return inertia > T(0) ? correction * (flow[0] + flow[4] + flow[8]) / inertia : T(0);
+}
+
 template <class T>
 void publish(const DensityJob<T>& job, uint32_t place, const SupportSearch<T>& search, const T* sum,
              double norm)
@@ -106,6 +114,8 @@ void publish(const DensityJob<T>& job, uint32_t place, const SupportSearch<T>& s
     out.curl[place] = flow.curl;
     if (out.exposure != nullptr)
         out.exposure[place] = exposureOf(sum, support);
+    if (out.expansion != nullptr)
+        out.expansion[place] = expansionOf(sum, out.correction[place], support * support * mass); // (8)
     out.wantsReach[place] = search.isAtTop() && !atLargest;
 }
 

@@ -20,6 +20,7 @@
 ///   G        kg m2/s  moments of velocity
 ///   J        1/s      gradient of the velocity, J_ab = d v_a / d x_b
 ///   E        kg m     first moments of the neighborhood
+///   X        1/s      expansion, -drho/dt / rho as particles move
 /// @derivation
 ///   S(H) = C [ (1 - e) m_i w(0) + sum m_j w(q) ],  rho = S / H^3                                (1)
 ///   H follows from H^3 rho(H) = 3 N m_i / (4 pi), that is S(H) = 3 N m_i / (4 pi)               (2)
@@ -31,6 +32,9 @@
 ///   div v = J_xx + J_yy + J_zz,  curl v = (J_zy - J_yz, J_xz - J_zx, J_yx - J_xy)               (6)
 ///   E_a = sum g d_a is zero inside of even gas; on the plane surface of a half space of even gas, with the
 ///   Wendland C2 kernel, |E| = tr M / H. So the exposure is min(H |E| / tr M, 1), 1 without neighbors (7)
+///   By (1) and (4), with dr/dt = u.d / r, the sum itself becomes thinner at the rate
+///       X = -f C / (H^5 rho) sum m_j u.d w'(q) / q = f C tr G / (H^5 rho)                        (8)
+///   which is not div v where particles are in disorder or the flow is not linear over H, as in a shock
 /// @source    [PRI12] sections 2 and 3 for (1), (2), (4), doi:10.1016/j.jcp.2010.12.011; [DA12] eq. (18) for
 ///            e; (5) is a least-squares fit
 /// @deviation where the neighbors span no volume (det M below 1 % of that of a sphere of the same trace), J
@@ -66,14 +70,15 @@ struct DensityRules
 template <class T>
 struct DensityResults
 {
-    T* support;            ///< [m] in: the guess, > 0; out: H
-    T* density;            ///< [kg/m3]
-    T* correction;         ///< [1] f, in [0.2, 5]; 1 where H is the smallest or largest support
-    T* divergence;         ///< [1/s] of the velocity
-    T* curl;               ///< [1/s] magnitude of the curl of the velocity
-    uint8_t* wantsReach;   ///< 1 where H would have grown beyond what its list covers
-    uint32_t* neighbors;   ///< particles within H, mirror images included, itself not counted
-    T* exposure = nullptr; ///< [1] 0 inside of even gas, 1 on a free surface; null: not wanted
+    T* support;             ///< [m] in: the guess, > 0; out: H
+    T* density;             ///< [kg/m3]
+    T* correction;          ///< [1] f, in [0.2, 5]; 1 where H is the smallest or largest support
+    T* divergence;          ///< [1/s] of the velocity
+    T* curl;                ///< [1/s] magnitude of the curl of the velocity
+    uint8_t* wantsReach;    ///< 1 where H would have grown beyond what its list covers
+    uint32_t* neighbors;    ///< particles within H, mirror images included, itself not counted
+    T* exposure = nullptr;  ///< [1] 0 inside of even gas, 1 on a free surface; null: not wanted
+    T* expansion = nullptr; ///< [1/s] X, rate at which the sum becomes thinner; null: not wanted
 };
 
 /// Density, support and velocity gradients of `places` (a part of the lists' owners). Reads x, y, z, velocity

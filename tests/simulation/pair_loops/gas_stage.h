@@ -81,7 +81,7 @@ inline sim::Domain unitBox(sim::AxisKind kind)
 template <class T>
 struct Densities
 {
-    std::vector<T> support, density, correction, divergence, curl, exposure;
+    std::vector<T> support, density, correction, divergence, curl, exposure, expansion;
     std::vector<uint8_t> wantsReach;
     std::vector<uint32_t> neighbors;
 };
@@ -156,7 +156,8 @@ public:
         const base::FloatingPointScope floatingPoint;
         sim::sumDensity<T>(rules, lists_, records_.data(), domain_, T(reach), places_,
                            {at.support.data(), at.density.data(), at.correction.data(), at.divergence.data(),
-                            at.curl.data(), at.wantsReach.data(), at.neighbors.data(), at.exposure.data()});
+                            at.curl.data(), at.wantsReach.data(), at.neighbors.data(), at.exposure.data(),
+                            at.expansion.data()});
     }
     void sumForces(const sim::ForceRules& rules, Forces<T>& at) const
     {
@@ -212,7 +213,7 @@ private:
     static void eachColumn(Densities<T>& d, F&& f)
     {
         f(d.support), f(d.density), f(d.correction), f(d.divergence), f(d.curl), f(d.exposure),
-            f(d.wantsReach), f(d.neighbors);
+            f(d.expansion), f(d.wantsReach), f(d.neighbors);
     }
     template <class F>
     static void eachColumn(Forces<T>& r, F&& f)

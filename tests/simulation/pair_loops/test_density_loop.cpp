@@ -85,6 +85,37 @@ TYPED_TEST(DensityLoop, makesTheSupportHoldItsMass)
     }
 }
 
+TYPED_TEST(DensityLoop, expansionIsTheRateAtWhichTheSumChangesAsParticlesMove)
+{
+    Gas gas = latticeGas(7, 0.7, 40);
+    stir(gas);
+    const auto rules = this->rulesFor(SphKernel::WendlandC2, 40);
+    const auto found = GasStage<TypeParam>(gas, {}, 0.3).densities(rules, 0.3);
+    constexpr double kTime = 1e-4; // a thousandth of a spacing; differences in double tell the truth
+    const auto densitiesAt = [&](double time) {
+        Gas moved = gas;
+        for (auto& p : moved) {
+            p.x += time * p.vx;
+            p.y += time * p.vy;
+            p.z += time * p.vz;
+        }
+        sim::DensityRules exact = rules;
+        exact.tolerance = 1e-12;
+        return GasStage<double>(moved, {}, 0.3).densities(exact, 0.3);
+    };
+    const auto before = densitiesAt(-kTime), after = densitiesAt(kTime);
+    double farthest = 0;
+    for (uint32_t i = 0; i < gas.size(); ++i) {
+        if (found.wantsReach[i])
+            continue;
+        const double middle = 0.5 * (before.density[i] + after.density[i]);
+        const double want = (before.density[i] - after.density[i]) / (2 * kTime * middle);
+        ASSERT_NEAR(double(found.expansion[i]), want, 2e-3) << i;
+        farthest = std::max(farthest, std::abs(double(found.divergence[i]) - want));
+    }
+    EXPECT_GT(farthest, 0.1); // in disorder the divergence is another number
+}
+
 TYPED_TEST(DensityLoop, exposureIsNothingInsideMuchInTheOutermostLayerAndOneAlone)
 {
     const auto rules = this->rulesFor(SphKernel::WendlandC2, 58);
@@ -157,7 +188,7 @@ bool sameBits(const Densities<T>& a, const Densities<T>& b)
     };
     return same(a.support, b.support) && same(a.density, b.density) && same(a.correction, b.correction) &&
            same(a.divergence, b.divergence) && same(a.curl, b.curl) && same(a.wantsReach, b.wantsReach) &&
-           same(a.neighbors, b.neighbors);
+           same(a.expansion, b.expansion) && same(a.neighbors, b.neighbors);
 }
 
 TYPED_TEST(DensityLoop, hasTheSameBitsForEveryInstructionSetAndLengthOfList)
