@@ -115,7 +115,7 @@ public:
     void setContact(const HostContact& contact);
     const HostContact& contact() const { return contact_; }
     /// Answers of the host since the last call that were none.
-    uint64_t takeContactFaults() { return contactFaults_.exchange(0); }
+    uint64_t takeContactFaults() { return contactFaults_ == 0 ? 0 : contactFaults_.exchange(0); }
 
     // Strong guarantee; both may need memory when the instance no longer comes out like others.
     void setPlacement(Slot slot, const base::Placement& placement);

@@ -145,6 +145,19 @@ FxResult fxScene_AdoptThread(FxScene* scene)
     });
 }
 
+namespace {
+
+[[gnu::noinline]] Status contactFault(uint64_t faults) // rare, and far from what every frame passes through
+{
+    return {
+        fx::base::Code::Schema,
+        "the contact hook gave " + std::to_string(faults) +
+            " answers that are none; needed are a share in 0..1 and a normal that is finite and not zero, "
+            "or the return value 0 for a free way"};
+}
+
+} // namespace
+
 FxResult fxScene_Update(FxScene* scene, double dtSeconds)
 {
     return fx::api::insideScene("fxScene_Update", scene, [&]() -> Status {
@@ -156,12 +169,7 @@ FxResult fxScene_Update(FxScene* scene, double dtSeconds)
         if (!accepted)
             return fx::api::invalid("dtSeconds is negative or not finite");
         const uint64_t faults = scene->scene.takeContactFaults();
-        if (faults > 0)
-            return {fx::base::Code::Schema,
-                    "the contact hook gave " + std::to_string(faults) +
-                        " answers that are none; needed are a share in 0..1 and a normal that is finite and "
-                        "not zero, or the return value 0 for a free way"};
-        return {};
+        return faults > 0 ? contactFault(faults) : Status();
     });
 }
 

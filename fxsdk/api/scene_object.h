@@ -45,6 +45,8 @@ struct FxScene
             }
             return value > 0;
         };
+        if (gpuSeen == 0 && rowsWanted == 0)
+            return false;
         const bool isSeen = count(gpuSeen), isWanted = count(rowsWanted);
         return isSeen && !isWanted;
     }

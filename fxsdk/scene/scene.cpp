@@ -109,7 +109,8 @@ bool Scene::update(double dt)
     for (uint32_t k = 0; k < plan.steps; ++k) {
         const base::Ticks from = plan.firstStep + base::Ticks(k) * clock_.stepTicks();
         try {
-            moveOn(k + 1, plan.steps);
+            if (!moved_.empty())
+                moveOn(k + 1, plan.steps);
             step(from);
             if (k + 2 >= plan.steps)
                 publish(from + clock_.stepTicks(), k + 1 == plan.steps ? clock_.interpolation() : 0.0);
@@ -117,7 +118,7 @@ bool Scene::update(double dt)
             memoryFailed_ = true;
         }
     }
-    if (plan.steps > 0)
+    if (plan.steps > 0 && !moved_.empty())
         endMoves();
     if (plan.steps == 0) {
         std::lock_guard lock(presentation_);

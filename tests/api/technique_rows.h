@@ -40,7 +40,7 @@ inline TechniqueRow billboardRow(const std::string& name, const std::string& mem
             {"scene distance", "blob upload", "media", "composite"},
             {"composite (blend)", "media"},
             {{"R32F", 1}, {"RGBA32F", 1}},
-            {{"frame buffer", 1}, {"uniform ring", 1}},
+            {{"blobs", 1}, {"uniform ring", 1}},
             {},
             {}};
 }
@@ -53,7 +53,7 @@ inline TechniqueRow shimmerRow()
             {"scene distance", "blob upload", "media", "composite", "heat offset", "heat shimmer", "present"},
             {"composite", "heat offset", "heat shimmer", "media", "present"},
             {{"R32F", 1}, {"RGBA32F", 3}},
-            {{"frame buffer", 1}, {"uniform ring", 1}},
+            {{"blobs", 1}, {"uniform ring", 1}},
             {"heat offset", "heat shimmer"},
             {"heat offset", "heat shimmer"}};
 }

@@ -12,6 +12,13 @@ namespace {
 
 constexpr float kGravity = 9.80665f;
 
+/// A module that does not say how far it moves particles.
+struct Unbounded final : sim::TileOp
+{
+    sim::TilePhase phase() const override { return sim::TilePhase::Force; }
+    void run(const sim::TileContext&, const void*, sim::Tile&) const override {}
+};
+
 /// What decides where the particles of an emitter get, drawn from `seed`.
 std::unique_ptr<sim::EmitterDef> randomEmitter(uint64_t seed)
 {
@@ -152,7 +159,7 @@ TEST(EmitterReach, whateverShapeTheyAreBornIn)
 TEST(EmitterReach, ofForcesThatNobodyCanBoundIsUnknownUnlessThePresetSays)
 {
     auto emitter = randomEmitter(1);
-    emitter->modules.push_back(sim::makeVortexOp({}));
+    emitter->modules.push_back(std::make_shared<Unbounded>());
     const Effect effect = effectOf(std::move(emitter));
     EXPECT_TRUE(std::isinf(effect->reach(kGravity, 0.0f)));
     effect->bound = 12;
@@ -160,7 +167,7 @@ TEST(EmitterReach, ofForcesThatNobodyCanBoundIsUnknownUnlessThePresetSays)
     const Effect chain = chainOf(randomEmitter(1), randomEmitter(2), 1.0f);
     EXPECT_TRUE(std::isfinite(chain->reach(kGravity, 0.0f)));
     auto pulled = randomEmitter(1);
-    pulled->modules.push_back(sim::makeAttractorOp({}));
+    pulled->modules.push_back(std::make_shared<Unbounded>());
     const Effect unknown = chainOf(std::move(pulled), randomEmitter(2), 0.0f);
     EXPECT_TRUE(std::isinf(unknown->reach(kGravity, 0.0f)));
 }

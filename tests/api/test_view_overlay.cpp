@@ -87,6 +87,7 @@ TEST_F(ViewOverlay, itsPassExistsOnlyWhenAskedForAndLeavesEverythingElseAsItWas)
     EXPECT_GT(pixelsOf(with, 1), 20);
     EXPECT_EQ(pixelsOf(before, 1), 0); // the control: flames are not green
     ask(0);
+    update(1);
     const std::vector<float> after = drawn();
     EXPECT_EQ(passes(), passes0);
     EXPECT_EQ(pixelsOf(after, 1), 0);

@@ -85,6 +85,7 @@ public:
         for (int i = 0; i < frames; ++i)
             EXPECT_EQ(fxScene_Update(scene_, test::kFrame), FX_OK) << fxGetLastErrorMessage();
     }
+    /// The camera moves on from frame to frame, so that none can show what the last one kept.
     void draw(int frames)
     {
         FxFrameDef def = fxDefaultFrameDef();
@@ -97,8 +98,10 @@ public:
         def.projection[15] = 0.0f;
         def.colorTexture = color_.name();
         def.width = def.height = kSize;
-        for (int i = 0; i < frames; ++i)
+        for (int i = 0; i < frames; ++i) {
+            def.origin[0] = 1e-4 * ++drawn_;
             EXPECT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();
+        }
     }
     Names passes() const
     {
@@ -130,6 +133,7 @@ private:
     FxContext* context_ = nullptr;
     FxScene* scene_ = nullptr;
     FxView* view_ = nullptr;
+    int drawn_ = 0; ///< frames
     std::vector<FxInstanceId> instances_;
 };
 

@@ -58,7 +58,7 @@ TEST(CollisionWorld, aBallOfGasBesideAWallStaysOnItsSide)
         EXPECT_LT(extent(with).second, kWall) << "step " << step;
         farthest = std::max(farthest, extent(without).second);
     }
-    EXPECT_GT(farthest, kWall + 0.7f); // the wall had something to hold back
+    EXPECT_GT(farthest, kWall + 0.6f); // the wall had something to hold back
     EXPECT_LT(extent(with).first, -kWall);
 }
 
