@@ -19,7 +19,8 @@ StepPlan StepClock::advance(double dt)
     const double kept = std::min(exact, longest);
     plan.droppedTicks = Ticks(std::min(exact - kept, 9e18));
 
-    const Ticks whole = Ticks(std::floor(kept + 0.5)); // dt = 1/60 is a whole number of ticks up to rounding
+    // dt = 1/60 is a whole number of ticks up to rounding; kept >= -0.5, so that cutting off is rounding down
+    const Ticks whole = Ticks(kept + 0.5);
     remainder_ = kept - double(whole);
     now_ += whole;
     const int64_t target = now_ / stepTicks_;
