@@ -23,7 +23,8 @@ uint64_t bitsOf(double x)
 std::array<uint64_t, 17> words(const RunConditions& c)
 {
     const base::Placement& p = c.placement;
-    const uint64_t choices = (uint64_t(c.quality.level) << 1) | uint64_t(c.parameters.emitting);
+    const uint64_t choices =
+        (uint64_t(c.quality.level) << 2) | (uint64_t(c.hasContact) << 1) | uint64_t(c.parameters.emitting);
     return {c.seed,
             uint64_t(c.clock.scene),
             uint64_t(c.clock.local),
@@ -39,7 +40,8 @@ std::array<uint64_t, 17> words(const RunConditions& c)
             bitsOf(p.position.z),
             bitsOf(p.rotation.x, p.rotation.y),
             bitsOf(p.rotation.z, p.rotation.w),
-            bitsOf(p.scale, 0.0f)};
+            bitsOf(p.scale, c.worldWind.x),
+            bitsOf(c.worldWind.y, c.worldWind.z)};
 }
 
 } // namespace

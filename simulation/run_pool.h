@@ -29,7 +29,9 @@ struct RunConditions
     float groundHeight = 0;               ///< [m] local y; -infinity for none
     InstanceParameters parameters;        ///< intensity and emission; its wind is 0, being part of `wind`
     const DistanceField* field = nullptr; ///< the host's geometry; null for none
+    bool hasContact = false;              ///< the host's contact function is asked
     base::Placement placement;            ///< where it is heeded; default elsewhere
+    glm::vec3 worldWind{0.0f};            ///< [m/s] world, the host's, where the effect heeds its placement
 
     /// Bit for bit.
     bool equals(const RunConditions& other) const;

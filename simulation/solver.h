@@ -105,10 +105,12 @@ struct StepContext
     EventBoard* board = nullptr;              ///< what solvers tell each other in this step; null for nothing
     std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
     EmitterCrowd* crowd = nullptr; ///< what is left to it is done before anybody looks; null: do it at once
-    base::Placement
-        placement{}; ///< of the instance at the end of the step; default unless the effect heeds it
-    glm::vec3 worldGravity{0.0f}; ///< [m/s2] world
-    bool gpuParticles = false;    ///< emitters that may be computed on the GPU are not needed as rows
+    base::Placement placement{};   ///< where the instance is going; default unless the effect heeds it
+    float moveShare = 1.0f;        ///< [1] of the rest of the way there that it goes in this step, 0..1
+    glm::vec3 worldGravity{0.0f};  ///< [m/s2] world
+    glm::vec3 worldWind{0.0f};     ///< [m/s] world, the host's share of `wind`; 0 unless placement is heeded
+    glm::vec3 effectWind{0.0f};    ///< [m/s] local, the preset's share of `wind`
+    bool gpuParticles = false;     ///< emitters that may be computed on the GPU are not needed as rows
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };
@@ -137,6 +139,8 @@ public:
     virtual base::Ticks quietUntil(base::Ticks tick) const { return tick; }
     /// Steps to local time `tick`, at most quietUntil(), that need not be taken.
     virtual void passTo(base::Ticks, StepCounters&) {}
+    /// The instance stands at `placement` now, and got there while its own time stood still.
+    virtual void standAt(const base::Placement&) {}
     /// publish(), but what is in the columns may be left to `crowd`. @return false, and nothing has happened,
     /// when it wants nothing of it
     virtual bool joinPublication(const base::GroupInfo&, base::FrameSnapshot&, EmitterCrowd&) const

@@ -107,8 +107,11 @@ RunConditions World::conditionsOf(const EffectDef& effect, const InstanceStart& 
     const bool hasGround = environment_.hasGround && effect.hasGround;
     conditions.groundHeight = hasGround ? 0.0f : -std::numeric_limits<float>::infinity();
     conditions.parameters = {start.parameters.intensity, glm::vec3(0.0f), start.parameters.emitting};
-    if (effect.heedsPlacement())
+    if (effect.heedsPlacement()) {
         conditions.placement = start.placement;
+        conditions.worldWind = start.parameters.wind;
+    }
+    conditions.hasContact = effect.collides() && contact_.meet;
     if (effect.collides() && (environment_.field || contact_.meet)) {
         conditions.field = environment_.field.get();
         conditions.placement = start.placement;
@@ -147,6 +150,7 @@ void World::setField(std::shared_ptr<const DistanceField> field)
     endRests();
     if (field)
         divideByPlacement();
+    reserveTelling();
     for (const Instance& instance : instances_) // paused runs still have to meet the old one
         if (instance.run != kNoRun && isLagging(runs_.at(instance.run)) && !runs_.at(instance.run).field)
             runs_.at(instance.run).field = environment_.field;
@@ -159,11 +163,25 @@ void World::setContact(const HostContact& contact)
     endRests();
     if (contact.meet)
         divideByPlacement();
+    reserveTelling();
     contact_ = contact;
     tellAll();
 }
 
-/// All runs are told what holds from now on.
+/// Room for tellAll(), which must not fail half way.
+void World::reserveTelling()
+{
+    for (const Instance& instance : instances_) {
+        if (instance.run == kNoRun || !isLagging(runs_.at(instance.run)))
+            continue;
+        std::vector<Run::Change>& changes = runs_.at(instance.run).changes;
+        const size_t most = changes.size() + runs_.at(instance.run).users;
+        if (changes.capacity() < most)
+            changes.reserve(std::max(most, 2 * changes.size()));
+    }
+}
+
+/// All runs are told what holds from now on. Never fails after reserveTelling().
 void World::tellAll()
 {
     for (const Instance& instance : instances_) {
@@ -346,7 +364,7 @@ void World::withContext(RunIndex index, StepCounters& counters, F&& body)
     context.groundHeight = run.conditions.groundHeight;
     std::optional<Collider> collider;
     PlacedContact contact(contact_, run.conditions.placement, contactFaults_);
-    if (contact_.meet)
+    if (run.conditions.hasContact && contact_.meet) // a paused run may be at a time when there was none
         context.contactHook = &contact.hook();
     if (run.conditions.field)
         collider.emplace(*run.conditions.field, run.conditions.placement);
@@ -354,6 +372,8 @@ void World::withContext(RunIndex index, StepCounters& counters, F&& body)
     context.parameters = &run.conditions.parameters;
     context.placement = run.conditions.placement;
     context.worldGravity = environment_.gravity;
+    context.worldWind = run.conditions.worldWind;
+    context.effectWind = run.effect->wind;
     context.tasks = tasks_;
     context.scratch = &scratch_;
     context.counters = &counters;
@@ -379,10 +399,21 @@ void World::stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, Ste
             if (to <= from)
                 continue;
             context.hostEvents = hear(index, tick);
+            context.moveShare = float(double(to - from) / double(tick + stepTicks - from));
             stepLocal(index, context, run, clock.toLocal(from), clock.toLocal(to));
         }
     });
+    standStill(runs_.at(index));
     runs_.at(index).simulated = std::max(tick + stepTicks, clock.scene);
+}
+
+/// Where the instance has been taken while its time stands, it did not pass through.
+void World::standStill(const Run& run)
+{
+    if (run.conditions.clock.rate != 0)
+        return;
+    for (const std::unique_ptr<Solver>& solver : run.solvers)
+        solver->standAt(run.conditions.placement);
 }
 
 /// One step of all solvers.

@@ -209,7 +209,9 @@ private:
     RunIndex restoreRun(const Entry& first, StateReader& reader);
     RunIndex joinRun(RunIndex index, const Entry& entry, StateReader& reader);
 
+    void reserveTelling();
     void tellAll();
+    static void standStill(const Run& run);
 
     Environment environment_;
     HostContact contact_;

@@ -92,6 +92,7 @@ bool World::catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& 
             run.changes.erase(run.changes.begin());
             continue;
         }
+        standStill(run);
         const base::Ticks target = run.changes.empty() ? now_ : std::min(now_, run.changes.front().tick);
         if (policy == CatchUp::Skip) {
             runs_.touch(index);

@@ -95,10 +95,19 @@ RunIndex World::joinRun(RunIndex index, const Entry& entry, StateReader& reader)
 {
     const Run& run = runs_.at(index);
     const RunConditions conditions = conditionsOf(*entry.effect, entry.start);
-    reader.require(run.effect == entry.effect && run.conditions.equals(conditions),
+    // They may have shared one as long as nothing was in their way that only is at one of the places.
+    RunConditions elsewhere = conditions;
+    if (conditions.hasContact && !entry.effect->heedsPlacement())
+        elsewhere.placement = run.conditions.placement;
+    reader.require(run.effect == entry.effect && run.conditions.equals(elsewhere),
                    "instances of the state share a simulation although they differ");
     if (!reader.ok())
         return kNoRun;
+    if (!run.conditions.equals(conditions)) {
+        const RunIndex own = runs_.copy(index);
+        runs_.at(own).conditions = conditions;
+        return own;
+    }
     if (!share_)
         return runs_.copy(index);
     ++runs_.at(index).users;

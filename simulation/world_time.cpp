@@ -54,6 +54,8 @@ void World::seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounter
         run.changes.clear();
     }
     run.told.clear();
+    for (const std::unique_ptr<Solver>& solver : run.solvers)
+        solver->standAt(run.conditions.placement); // a move that is not stepped yet is not part of the past
     const uint32_t rate = run.conditions.clock.rate;
     if (!jump(index, from, to, counters)) {
         if (to < from) {

@@ -2,24 +2,9 @@
 // update.
 #include "fxsdk/scene/scene.h"
 
-#include <glm/gtc/quaternion.hpp>
+#include "simulation/emitters/moved_space.h"
 
 namespace fx::scene {
-
-namespace {
-
-/// The straight way in `share` of it; bits that depend on nothing but the arguments.
-base::Placement between(const base::Placement& from, const base::Placement& to, float share)
-{
-    base::Placement placement;
-    placement.position = from.position + double(share) * (to.position - from.position);
-    const glm::quat near = glm::dot(from.rotation, to.rotation) < 0.0f ? -to.rotation : to.rotation;
-    placement.rotation = glm::normalize(from.rotation * (1.0f - share) + near * share);
-    placement.scale = from.scale + share * (to.scale - from.scale);
-    return placement;
-}
-
-} // namespace
 
 /// Before step number `step` of `steps`, from 1 on.
 void Scene::moveOn(uint32_t step, uint32_t steps)
@@ -34,7 +19,7 @@ void Scene::moveOn(uint32_t step, uint32_t steps)
         const base::Placement& to = instance->setup.placement;
         world_.setPlacement(
             instance->slot,
-            step == steps ? to : between(*instance->setup.cameFrom, to, float(step) / float(steps)));
+            step == steps ? to : sim::between(*instance->setup.cameFrom, to, float(step) / float(steps)));
     }
 }
 

@@ -138,7 +138,8 @@ void Scene::setPlacement(LocalId id, const base::Placement& placement)
         tree_.remove(instance.leaf);
         instance.leaf = tree_.insert(indexOf(id), ballOf(instance), sightOf(instance.hints)); // has room
     }
-    if (instance.state == InstanceState::Hidden && world_.crowded(instance.slot))
+    const bool isPaused = instance.state == InstanceState::Hidden || instance.state == InstanceState::Resting;
+    if (isPaused && world_.crowded(instance.slot))
         comeBack(indexOf(id));
 }
 

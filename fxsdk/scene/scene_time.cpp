@@ -47,6 +47,7 @@ base::Status Scene::seek(LocalId id, base::Ticks local)
         return {base::Code::InvalidArgument, "the instance has ended"};
     world_.seekTo(instance.slot, local, clock_.stepTicks(), counters_.work);
     instance.setup.clock = world_.clockOf(instance.slot);
+    instance.setup.cameFrom.reset(); // it has been where it is now from its first step on
     if (instance.state == InstanceState::Resting || instance.state == InstanceState::Hidden)
         comeBack(indexOf(id));
     return {};

@@ -115,7 +115,9 @@ void EmitterSolver::step(const StepContext& context)
         return stepHere(context);
     if (!started_)
         space_->begin(context.placement);
-    space_->moveTo(context.placement);
+    else if (context.tick != now_) // nobody knows the way of the time that was left out
+        space_->jumpTo(context.placement);
+    space_->moveTo(context.placement, context.moveShare);
     inHome(context, [this](const StepContext& home) { stepHere(home); });
 }
 

@@ -35,6 +35,11 @@ public:
     EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds, std::pmr::memory_resource* memory);
 
     void step(const StepContext& context) override;
+    void standAt(const base::Placement& placement) override
+    {
+        if (space_ && started_)
+            space_->jumpTo(placement);
+    }
     base::Ticks quietUntil(base::Ticks tick) const override
     {
         return bornWithMany_ && started_ ? std::max(tick, schedule_.quietUntil()) : tick;

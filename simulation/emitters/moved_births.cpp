@@ -1,14 +1,20 @@
 // Births of emitters whose particles stay behind when their instance moves.
 #include "simulation/emitters/emitter_solver.h"
 
+#include <algorithm>
+
 namespace fx::sim {
 
 /// What the step is about, in the space of where the emitter began.
 void EmitterSolver::toHome(StepContext& context, std::optional<Collider>& collider) const
 {
-    if (context.placement.rotation != space_->home().rotation) {
-        context.gravity = space_->fromWorld(context.worldGravity); // not turned there and back: no rounding
-        context.wind = space_->turned(context.wind);
+    const base::Placement& home = space_->home();
+    if (context.placement.rotation != home.rotation || context.placement.scale != home.scale) {
+        // What is of the world is not turned there and back: no rounding. The preset's wind is the
+        // instance's.
+        context.gravity = space_->fromWorld(context.worldGravity);
+        context.wind = space_->turned(context.effectWind) +
+                       space_->fromWorld(context.worldWind) / std::max(home.scale, 1e-6f);
     }
     if (context.collider) {
         collider.emplace(context.collider->field(), space_->home());

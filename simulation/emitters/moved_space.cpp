@@ -1,5 +1,7 @@
 #include "simulation/emitters/moved_space.h"
 
+#include <glm/gtc/quaternion.hpp>
+
 namespace fx::sim {
 
 namespace {
@@ -30,17 +32,37 @@ base::Placement restored(StateReader& reader)
 
 } // namespace
 
+base::Placement between(const base::Placement& from, const base::Placement& to, float share)
+{
+    base::Placement placement;
+    placement.position = from.position + double(share) * (to.position - from.position);
+    const glm::quat near = glm::dot(from.rotation, to.rotation) < 0.0f ? -to.rotation : to.rotation;
+    placement.rotation = glm::normalize(from.rotation * (1.0f - share) + near * share);
+    placement.scale = from.scale + share * (to.scale - from.scale);
+    return placement;
+}
+
 void MovedSpace::begin(const base::Placement& placement)
 {
     home_ = last_ = placement;
     begin_ = end_ = Pose{};
 }
 
-void MovedSpace::moveTo(const base::Placement& placement)
+void MovedSpace::moveTo(const base::Placement& placement, float share)
 {
     begin_ = poseOf(last_);
-    end_ = stands(placement) ? begin_ : poseOf(placement);
+    if (stands(placement)) {
+        end_ = begin_;
+        return;
+    }
+    last_ = share < 1.0f ? between(last_, placement, share) : placement;
+    end_ = poseOf(last_);
+}
+
+void MovedSpace::jumpTo(const base::Placement& placement)
+{
     last_ = placement;
+    begin_ = end_ = poseOf(placement);
 }
 
 bool MovedSpace::stands(const base::Placement& placement) const

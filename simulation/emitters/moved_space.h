@@ -33,13 +33,18 @@
 
 namespace fx::sim {
 
+/// The straight way in `share` of it; bits that depend on nothing but the arguments.
+base::Placement between(const base::Placement& from, const base::Placement& to, float share);
+
 class MovedSpace
 {
 public:
     /// The emitter begins here.
     void begin(const base::Placement& placement);
-    /// A step begins, at whose end the instance stands at `placement`.
-    void moveTo(const base::Placement& placement);
+    /// A step begins, at whose end the instance has gone `share` of the way to `placement`.
+    void moveTo(const base::Placement& placement, float share = 1.0f);
+    /// The instance is there, without a way that leads there.
+    void jumpTo(const base::Placement& placement);
     /// True when the instance stands where it stood at the end of the last step.
     bool stands(const base::Placement& placement) const;
 

@@ -195,6 +195,32 @@ TEST(EmitterSight, whatTheHostChangesEndsARest)
     EXPECT_EQ(stage.scene().stateHash(), always.scene().stateHash());
 }
 
+TEST(EmitterSight, whatRestsAndIsMovedAllTheTimeIsToldBeforeTooMuchWaits)
+{
+    SightStage stage, always(neverCulled());
+    auto emitter = emitterOf({{0.0f, 5, 0, 1000.0f}});
+    emitter->inWorld = true; // what it is told is told to its particles
+    emitter->emission.bursts[0].time = 10;
+    const Effect effect = effectOf(std::move(emitter));
+    const auto id = stage.add(effect, kAhead), other = always.add(effect, kAhead);
+    int rested = 0, returned = 0;
+    base::Placement placement;
+    placement.position = kAhead;
+    for (int i = 0; i < 300; ++i) {
+        stage.play(1);
+        always.play(1);
+        const bool rests = stage.state(id) == InstanceState::Resting;
+        placement.position.x = 0.01 * i;
+        stage.scene().setPlacement(id, placement);
+        always.scene().setPlacement(other, placement);
+        rested += rests;
+        returned += rests && stage.state(id) != InstanceState::Resting;
+    }
+    EXPECT_GT(rested, 200);
+    EXPECT_GE(returned, 3); // after 64 moves each
+    EXPECT_EQ(stage.scene().simulationHash(), always.scene().simulationHash());
+}
+
 TEST(EmitterSight, anEmitterThatHearsTheHostDoesNotRest)
 {
     Effect effect = rockets();

@@ -76,6 +76,28 @@ TEST_F(InstanceTimeApi, aSeekEqualsPlayingForwardsAndBackwards)
     EXPECT_EQ(simulationHash(), want);
 }
 
+TEST_F(InstanceTimeApi, aJumpInTimeIsTheEndOfAMove)
+{
+    const FxInstanceId id = add(R"({"version": 1, "ground": false, "emitters": [{"maxParticles": 4000,
+        "space": "world", "emission": {"rate": 600}, "lifetime": 100, "forces": {"gravity": 0},
+        "appearance": {"kind": "sprite"}}]})");
+    play(3);
+    const double there[3] = {0, 8, 0};
+    const float upright[4] = {0, 0, 0, 1};
+    ASSERT_EQ(fxScene_SetTransform(scene_, id, there, upright, 1.0f), FX_OK);
+    ASSERT_EQ(fxScene_SeekInstance(scene_, id, 0.0), FX_OK);
+    ASSERT_EQ(fxScene_Update(scene_, 4 * kFrame), FX_OK);
+    FxSnapshotId snapshot{};
+    ASSERT_EQ(fxScene_AcquireSnapshot(scene_, &snapshot), FX_OK);
+    FxSnapshotColumn y{};
+    y.structSize = sizeof y;
+    ASSERT_EQ(fxScene_FindSnapshotColumn(scene_, snapshot, FX_SNAPSHOT_NEWER, 0, "y", &y), FX_OK);
+    ASSERT_GT(y.count, 30u);
+    for (uint32_t i = 0; i < y.count; ++i) // particles keep to where it began: at the end of the way
+        EXPECT_EQ(y.values[i], 0.0f);
+    fxScene_ReleaseSnapshot(scene_, snapshot);
+}
+
 TEST_F(InstanceTimeApi, speedScalesTime)
 {
     const FxInstanceId slow = add(fountainPreset());

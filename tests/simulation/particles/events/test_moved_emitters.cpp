@@ -1,5 +1,4 @@
-#include "simulation/emitters/emitter_solver.h"
-#include "tests/simulation/particles/events/linked.h"
+#include "tests/simulation/particles/events/moved.h"
 
 #include <gtest/gtest.h>
 
@@ -12,43 +11,6 @@ using namespace fx::test;
 using base::kTicksPerSecond;
 
 namespace {
-
-/// Sprites that rest where they are born, `rate` a second.
-std::unique_ptr<EmitterDef> dropper(float rate)
-{
-    auto def = rateEmitter(rate);
-    def->look.kind = Appearance::Sprite;
-    def->forces.gravity = 0;
-    def->inWorld = true;
-    return def;
-}
-
-base::Placement at(double x, double y = 0.0, double z = 0.0)
-{
-    base::Placement placement;
-    placement.position = {x, y, z};
-    return placement;
-}
-
-base::Placement turnedAboutZ(float radians)
-{
-    base::Placement placement;
-    placement.rotation = glm::angleAxis(radians, glm::vec3(0, 0, 1));
-    return placement;
-}
-
-/// World positions of what solver 0 shows.
-std::vector<glm::dvec3> worldPositions(const base::FrameSnapshot& snapshot, uint32_t solver = 0)
-{
-    std::vector<glm::dvec3> found;
-    for (size_t g = 0; g < snapshot.groupCount(); ++g)
-        if (snapshot.group(g).info().solver == solver) {
-            const base::Placement& p = snapshot.group(g).info().placement;
-            for (const Seen& seen : particlesOf(snapshot, solver))
-                found.push_back(p.position + glm::dvec3(p.rotation * (p.scale * seen.position)));
-        }
-    return found;
-}
 
 /// Normal binary16 numbers.
 std::array<float, 3> rgbOf(uint64_t color)
