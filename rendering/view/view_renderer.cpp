@@ -51,7 +51,7 @@ struct ViewRenderer::Impl
                             const FrameRequest& request, const ViewSettings& settings);
     base::Status makeRoom(GlBuffer& buffer, size_t bytes, const char* label);
     base::Status makeRoomForImpostors();
-    base::Status add(Particles& particles, const ParticleFrameInputs& inputs, const StampPair& stamps);
+    base::Status add(Particles& particles, const ParticleFrameInputs& inputs, const StampPair& of);
     void releaseBlobs();
     void releaseImpostors();
     void releaseUnused();
@@ -198,10 +198,10 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
 }
 
 base::Status ViewRenderer::Impl::add(Particles& particles, const ParticleFrameInputs& inputs,
-                                     const StampPair& stamps)
+                                     const StampPair& of)
 {
     particles.frame.build(inputs);
-    if (base::Status status = particles.buffers.prepare(*inputs.snapshots, stamps, particles.frame, assets);
+    if (base::Status status = particles.buffers.prepare(*inputs.snapshots, of, particles.frame, assets);
         !status)
         return status;
     for (DrawStream stream : particles.frame.streams()) {
