@@ -1,4 +1,5 @@
 // Where the particles of an emitter can get that nobody has looked at.
+#include "foundation/math/elementary.h"
 #include "simulation/emitters/gpu_replay.h"
 #include "simulation/motion/drag_step.h"
 #include "simulation/particles/particle_program.h"
@@ -27,8 +28,9 @@ void directionsOf(const EmitterDef& def, glm::vec3& outLow, glm::vec3& outHigh)
     if (def.shape != EmitterShape::Cone)
         return;
     const float angle = std::clamp(def.angle, 0.0f, 3.14159265f);
-    const float side = angle < 1.57f ? std::sin(angle) : 1.0f;
-    outLow = {-side, std::cos(angle), -side};
+    const base::SinCos at = base::sinCosTurns(double(angle) / 6.283185307179586);
+    const float side = angle < 1.57f ? float(at.sin) : 1.0f;
+    outLow = {-side, float(at.cos), -side};
     outHigh = {side, 1.0f, side};
 }
 

@@ -50,6 +50,12 @@ class Lint(unittest.TestCase):
             self.refused("simulation", {"simulation/a.cpp": line + "\n"}, "simulation/a.cpp:1")
             self.accepted("simulation", {"simulation/a.cpp": "std::stable_sort(a, b);\n", "rendering/a.cpp": line + "\n"})
 
+    def test_the_simulation_has_its_own_elementary_functions(self):
+        for line in ("float x = std::tan(a);", "double x = std::cbrt(3.0 * a);", "auto v = glm::pow(a, b);", "std::expf (x);"):
+            self.refused("simulation", {"simulation/a.cpp": line + "\n"}, "simulation/a.cpp:1: its last bits differ")
+        self.accepted("simulation", {"simulation/a.cpp": "x = std::sqrt(base::naturalExp(y)) + std::floor(z);\n",
+                                     "simulation/verification/b.cpp": "x = std::exp(y);\n"})
+
     def test_includes_follow_the_layers(self):
         self.refused("arrows", {"simulation/a.h": '#include "rendering/view/view_types.h"\n'},
                      "simulation/ must not include rendering/")

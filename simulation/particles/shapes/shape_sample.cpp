@@ -79,12 +79,18 @@ ShapePlace sampleDisc(const ShapeDef& def, const Uniform& u)
     return {def.size.x * discRadius(u[1], innerShare(def)) * onCircle(u[0]), kUp};
 }
 
+/// [1] growth of a cone's radius with its height
+double slopeOf(const ShapeDef& def)
+{
+    const base::SinCos half =
+        base::sinCosTurns(double(std::clamp(def.angle, 0.0f, kSteepest)) / 6.283185307179586);
+    return half.sin / half.cos;
+}
+
 /// In the cone above the disc, or on its side.
 ShapePlace sampleTallCone(const ShapeDef& def, const Uniform& u)
 {
-    const base::SinCos slope =
-        base::sinCosTurns(double(std::clamp(def.angle, 0.0f, kSteepest)) / 6.283185307179586);
-    const double tangent = slope.sin / slope.cos;
+    const double tangent = slopeOf(def);
     const double low = double(def.size.x), high = low + double(def.height) * tangent;
     double z = double(u[1]) * double(def.height), wide = low;
     if (tangent > 1e-6) { // (3)
@@ -202,7 +208,7 @@ float extentOf(const ShapeDef& def)
     case ShapeKind::Spline: // nothing of it is farther from its begin than its length
         return glm::length(def.spline->at(0.0f).position) + float(def.spline->length());
     default: {
-        const float slope = std::tan(std::clamp(def.angle, 0.0f, kSteepest));
+        const float slope = float(slopeOf(def));
         return glm::length(def.size) + std::max(def.tube, 0.0f) +
                std::max(def.height, 0.0f) * std::sqrt(1.0f + slope * slope);
     }

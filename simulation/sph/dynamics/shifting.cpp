@@ -1,5 +1,6 @@
 #include "simulation/sph/dynamics/shifting.h"
 
+#include "foundation/math/elementary.h"
 #include "simulation/parallel.h"
 #include "simulation/sph/dynamics/neighborhood.h"
 #include "simulation/sph/pair_loops/crowding_loop.h"
@@ -74,7 +75,7 @@ void shiftParticles(DynamicsState<T>& s, double strength, double longest, base::
         return;
     listNow(s, tasks);
     fillPlaces(s, tasks);
-    const double perSupport = 1.0 / std::cbrt(3.0 * s.def.neighbors / (4.0 * std::numbers::pi));
+    const double perSupport = 1.0 / base::cubeRoot(3.0 * s.def.neighbors / (4.0 * std::numbers::pi));
     const T most = T(longest * perSupport);
     // Columns that the next evaluation fills before it reads them.
     const CrowdingResults<T> sums{s.nowX.data(),    s.nowY.data(),        s.nowZ.data(),
