@@ -23,15 +23,7 @@ protected:
         FxFrameDef def = frame();
         def.origin[0] += 1e-4 * ++drawn_; // nothing that the last frame kept serves again
         EXPECT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();
-        Names names;
-        uint32_t count = 0;
-        EXPECT_EQ(fxView_GetPassCount(view_, &count), FX_OK);
-        for (uint32_t i = 0; i < count; ++i) {
-            char name[64];
-            EXPECT_EQ(fxView_GetPassName(view_, i, name, sizeof name), FX_OK);
-            names.push_back(name);
-        }
-        return names;
+        return fx::test::passNamesOf(view_);
     }
 
     /// `seen` of eight instances before the camera, the others behind it.

@@ -21,18 +21,7 @@ protected:
         settings.activationOverlay = overlay;
         ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK) << fxGetLastErrorMessage();
     }
-    Names passes()
-    {
-        Names names;
-        uint32_t count = 0;
-        EXPECT_EQ(fxView_GetPassCount(view_, &count), FX_OK);
-        for (uint32_t i = 0; i < count; ++i) {
-            char name[64];
-            EXPECT_EQ(fxView_GetPassName(view_, i, name, sizeof name), FX_OK);
-            names.push_back(name);
-        }
-        return names;
-    }
+    Names passes() { return fx::test::passNamesOf(view_); }
     std::vector<float> drawn()
     {
         fillPicture();

@@ -3,6 +3,7 @@
 #include "rendering/gl/gl_texture.h"
 #include "tests/api/api_fixture.h"
 #include "tests/api/technique_rows.h"
+#include "tests/api/view_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -103,18 +104,7 @@ public:
             EXPECT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();
         }
     }
-    Names passes() const
-    {
-        Names names;
-        uint32_t count = 0;
-        EXPECT_EQ(fxView_GetPassCount(view_, &count), FX_OK);
-        for (uint32_t i = 0; i < count; ++i) {
-            char name[64];
-            EXPECT_EQ(fxView_GetPassName(view_, i, name, sizeof name), FX_OK);
-            names.push_back(name);
-        }
-        return names;
-    }
+    Names passes() const { return test::passNamesOf(view_); }
     FxViewStatistics statistics() const
     {
         FxViewStatistics statistics{};

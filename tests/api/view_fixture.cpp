@@ -103,4 +103,17 @@ void ViewApiTest::update(int frames)
         EXPECT_EQ(fxScene_Update(scene_, kFrame), FX_OK) << fxGetLastErrorMessage();
 }
 
+std::vector<std::string> passNamesOf(FxView* view)
+{
+    std::vector<std::string> names;
+    uint32_t count = 0;
+    EXPECT_EQ(fxView_GetPassCount(view, &count), FX_OK);
+    for (uint32_t i = 0; i < count; ++i) {
+        char name[64];
+        EXPECT_EQ(fxView_GetPassName(view, i, name, sizeof name), FX_OK);
+        names.push_back(name);
+    }
+    return names;
+}
+
 } // namespace fx::test

@@ -9,6 +9,7 @@
 #include "tests/api/api_fixture.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace fx::test {
@@ -38,5 +39,8 @@ protected:
     FxScene* scene_ = nullptr;
     FxView* view_ = nullptr;
 };
+
+/// Passes of the last frame, in the order in which they ran.
+std::vector<std::string> passNamesOf(FxView* view);
 
 } // namespace fx::test
