@@ -1,7 +1,7 @@
 // fx bench sort: the order of drawing on one thread. random: elements in random order; same: once more as
 // they are; hundredth-moved: one in a hundred moved anywhere; all-nearer: the camera has gone a little on;
-// standard: std::sort of distance and index beside them. Fails when an order is not that of a stable standard
-// sort.
+// nearer-and-moved: both; standard: std::sort of distance and index beside them. Fails when an order is not
+// that of a stable standard sort.
 #include "foundation/math/hash.h"
 #include "foundation/random/philox.h"
 #include "fxsdk/cli/bench_rows.h"
@@ -51,10 +51,10 @@ std::vector<uint32_t> expected(const std::vector<float>& distances)
 /// What happens before sort number k.
 void change(std::string_view variant, std::vector<float>& distances, uint32_t k)
 {
-    if (variant == "hundredth-moved")
+    if (variant == "hundredth-moved" || variant == "nearer-and-moved")
         for (size_t i = k % 100; i < distances.size(); i += 100)
             distances[i] = distanceOf(k + 2, i);
-    if (variant == "all-nearer")
+    if (variant == "all-nearer" || variant == "nearer-and-moved")
         for (float& distance : distances)
             distance -= 0.002f;
 }

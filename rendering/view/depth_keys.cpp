@@ -18,14 +18,40 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::ScalableTag<uint32_t>;
-using Signed = hn::ScalableTag<int32_t>;
+constexpr size_t kBitsAtOnce = 16; // elements
+
+using Tag = hn::CappedTag<uint32_t, kBitsAtOnce>;
+using Signed = hn::Rebind<int32_t, Tag>;
 using Floats = hn::ScalableTag<float>;
 
-void keys(const float* values, uint32_t flip, const uint32_t* last, uint32_t* out, size_t count,
-          KeySpan* ioSpan)
+/// Bits of 16 elements, vector by vector.
+template <class M>
+HWY_INLINE void storeBits(const M* masks, uint8_t* out)
 {
     const Tag tag;
+    constexpr size_t kLanes = hn::MaxLanes(Tag());
+    if constexpr (kLanes >= 8) {
+        for (size_t v = 0; v < kBitsAtOnce / kLanes; ++v)
+            hn::StoreMaskBits(tag, masks[v], out + v * (kLanes / 8));
+    } else {
+        uint32_t all = 0;
+        for (size_t v = 0; v < kBitsAtOnce / kLanes; ++v) {
+            uint8_t bits[8];
+            hn::StoreMaskBits(tag, masks[v], bits);
+            all |= uint32_t(bits[0]) << (v * kLanes);
+        }
+        out[0] = uint8_t(all);
+        out[1] = uint8_t(all >> 8);
+    }
+}
+
+/// @param count a multiple of kBitsAtOnce
+void keys(const float* values, uint32_t flip, uint32_t* ioKeys, const KeyChanges& out, size_t count,
+          KeySpan* outSpan)
+{
+    const Tag tag;
+    constexpr size_t kLanes = hn::MaxLanes(Tag());
+    using Mask = decltype(hn::Eq(hn::Zero(tag), hn::Zero(tag)));
     const auto zero = hn::Zero(tag);
     const auto gone = hn::Set(tag, kAbsentKey);
     const auto sign = hn::Set(tag, 0x80000000u);
@@ -35,25 +61,37 @@ void keys(const float* values, uint32_t flip, const uint32_t* last, uint32_t* ou
     auto lowest = gone;
     auto highest = zero;
     auto absent = zero;
+    auto changed = zero;
     auto newcomers = zero;
-    for (size_t i = 0; i < count; i += hn::Lanes(tag)) {
-        const auto bits = hn::LoadU(tag, reinterpret_cast<const uint32_t*>(values) + i);
-        const auto negative = hn::BitCast(tag, hn::ShiftRight<31>(hn::BitCast(Signed(), bits)));
-        const auto plain = hn::Xor(hn::Xor(bits, hn::Or(negative, sign)), flips);
-        const auto size = hn::BitCast(Signed(), hn::AndNot(sign, bits));
-        const auto isNumber = hn::RebindMask(tag, hn::Lt(size, noNumber));
-        const auto key = hn::IfThenElse(isNumber, plain, gone);
-        hn::StoreU(key, tag, out + i);
-        lowest = hn::Min(lowest, key);
-        highest = hn::Max(highest, hn::IfThenElseZero(isNumber, plain));
-        absent = hn::Add(absent, hn::IfThenZeroElse(isNumber, one));
-        const auto wasGone = hn::Eq(hn::LoadU(tag, last + i), gone);
-        newcomers = hn::Add(newcomers, hn::IfThenElseZero(hn::And(isNumber, wasGone), one));
+    for (size_t i = 0; i < count; i += kBitsAtOnce) {
+        Mask isOther[kBitsAtOnce / kLanes];
+        Mask isNew[kBitsAtOnce / kLanes];
+        for (size_t v = 0; v < kBitsAtOnce / kLanes; ++v) {
+            uint32_t* place = ioKeys + i + v * kLanes;
+            const auto bits = hn::LoadU(tag, reinterpret_cast<const uint32_t*>(values) + i + v * kLanes);
+            const auto negative = hn::BitCast(tag, hn::ShiftRight<31>(hn::BitCast(Signed(), bits)));
+            const auto plain = hn::Xor(hn::Xor(bits, hn::Or(negative, sign)), flips);
+            const auto size = hn::BitCast(Signed(), hn::AndNot(sign, bits));
+            const auto isNumber = hn::RebindMask(tag, hn::Lt(size, noNumber));
+            const auto key = hn::IfThenElse(isNumber, plain, gone);
+            const auto before = hn::LoadU(tag, place);
+            hn::StoreU(key, tag, place);
+            lowest = hn::Min(lowest, key);
+            highest = hn::Max(highest, hn::IfThenElseZero(isNumber, plain));
+            isOther[v] = hn::Ne(before, key);
+            isNew[v] = hn::And(isOther[v], hn::Eq(before, gone));
+            absent = hn::Add(absent, hn::IfThenZeroElse(isNumber, one));
+            changed = hn::Add(changed, hn::IfThenElseZero(isOther[v], one));
+            newcomers = hn::Add(newcomers, hn::IfThenElseZero(isNew[v], one));
+        }
+        storeBits(isOther, out.changed + i / 8);
+        storeBits(isNew, out.newcomers + i / 8);
     }
-    ioSpan->lowest = hn::GetLane(hn::MinOfLanes(tag, lowest));
-    ioSpan->highest = hn::GetLane(hn::MaxOfLanes(tag, highest));
-    ioSpan->absent = hn::GetLane(hn::SumOfLanes(tag, absent));
-    ioSpan->newcomers = hn::GetLane(hn::SumOfLanes(tag, newcomers));
+    outSpan->lowest = hn::GetLane(hn::MinOfLanes(tag, lowest));
+    outSpan->highest = hn::GetLane(hn::MaxOfLanes(tag, highest));
+    outSpan->absent = hn::GetLane(hn::SumOfLanes(tag, absent));
+    outSpan->changed = hn::GetLane(hn::SumOfLanes(tag, changed));
+    outSpan->newcomers = hn::GetLane(hn::SumOfLanes(tag, newcomers));
 }
 
 /// @return how many rows were done: whole vectors only
@@ -86,11 +124,6 @@ size_t distances(const RowColumns& rows, const float* eye, bool isParallel, floa
     return i;
 }
 
-size_t lanes()
-{
-    return hn::Lanes(Tag());
-}
-
 } // namespace
 } // namespace fx::render::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -100,7 +133,6 @@ namespace fx::render {
 
 HWY_EXPORT(keys);
 HWY_EXPORT(distances);
-HWY_EXPORT(lanes);
 
 namespace {
 
@@ -113,21 +145,31 @@ uint32_t keyOf(float value, uint32_t flip)
 
 } // namespace
 
-KeySpan makeKeys(const float* values, uint32_t flip, const uint32_t* last, uint32_t* outKeys, size_t count)
+KeySpan makeKeys(const float* values, uint32_t flip, uint32_t* ioKeys, const KeyChanges& out, size_t count)
 {
     base::applyInstructionSetLimit();
-    KeySpan span{kAbsentKey, 0, 0, 0};
-    const size_t whole = count / HWY_DYNAMIC_DISPATCH(lanes)() * HWY_DYNAMIC_DISPATCH(lanes)();
+    KeySpan span{kAbsentKey, 0, 0, 0, 0};
+    const size_t whole = count / 64 * 64;
     if (whole > 0)
-        HWY_DYNAMIC_DISPATCH(keys)(values, flip, last, outKeys, whole, &span);
+        HWY_DYNAMIC_DISPATCH(keys)(values, flip, ioKeys, out, whole, &span);
+    if (whole < count) {
+        std::fill_n(out.changed + whole / 8, 8, uint8_t(0));
+        std::fill_n(out.newcomers + whole / 8, 8, uint8_t(0));
+    }
     for (size_t i = whole; i < count; ++i) {
+        const uint32_t before = ioKeys[i];
         const uint32_t key = keyOf(values[i], flip);
         const bool isHere = key != kAbsentKey;
-        outKeys[i] = key;
+        const bool isOther = key != before;
+        const bool isNew = isOther && before == kAbsentKey;
+        ioKeys[i] = key;
+        out.changed[i / 8] |= uint8_t(unsigned(isOther) << (i % 8));
+        out.newcomers[i / 8] |= uint8_t(unsigned(isNew) << (i % 8));
         span.lowest = std::min(span.lowest, key);
         span.highest = isHere ? std::max(span.highest, key) : span.highest;
         span.absent += isHere ? 0 : 1;
-        span.newcomers += isHere && last[i] == kAbsentKey ? 1 : 0;
+        span.changed += isOther ? 1 : 0;
+        span.newcomers += isNew ? 1 : 0;
     }
     if (span.absent == count)
         span.lowest = span.highest = 0;

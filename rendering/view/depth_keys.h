@@ -17,12 +17,20 @@ struct KeySpan
 {
     uint32_t lowest, highest; ///< of those that are not kAbsentKey; both 0 when there is none
     uint32_t absent;          ///< how many are kAbsentKey
-    uint32_t newcomers;       ///< how many are not, but were in the list before
+    uint32_t changed;         ///< how many are others than before
+    uint32_t newcomers;       ///< how many of those were kAbsentKey
+};
+
+/// Sets of elements: element i is bit i % 8 of byte i / 8, with room for a multiple of 64 bits.
+struct KeyChanges
+{
+    uint8_t* changed;
+    uint8_t* newcomers;
 };
 
 /// Keys whose rising order is that of the values, or their falling order with flip = ~0.
-/// @param last keys of the list before
-KeySpan makeKeys(const float* values, uint32_t flip, const uint32_t* last, uint32_t* outKeys, size_t count);
+/// @param ioKeys those of the list before, which are replaced  @param out what else is written
+KeySpan makeKeys(const float* values, uint32_t flip, uint32_t* ioKeys, const KeyChanges& out, size_t count);
 
 /// Columns of one group.
 struct RowColumns

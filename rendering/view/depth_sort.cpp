@@ -16,6 +16,7 @@ namespace {
 constexpr uint32_t kMostDigitBits = 13; ///< as many places to write to as the caches near the core follow
 constexpr size_t kMostPasses = 3;
 constexpr size_t kProbe = 2048;       ///< elements after which a hopeless mending is given up
+constexpr size_t kRunPause = 16;      ///< elements after a run before another is looked for
 constexpr size_t kAhead = 32;         ///< elements whose keys are fetched before they are looked at
 constexpr size_t kMostMovedShare = 6; ///< mending pays while less than one in so many has moved
 constexpr size_t kFew = 16384;        ///< elements that are sorted by small digits,
@@ -60,54 +61,77 @@ void accumulate(Offsets& counts, uint32_t mask)
 
 std::span<const uint32_t> DepthSort::sort(std::span<const float> distances, uint32_t flip)
 {
-    if (keys_.size() != distances.size()) // another list
+    const size_t count = distances.size();
+    if (keys_.size() != count || order_.empty()) { // another list
         order_.clear();
-    keys_.swap(lastKeys_);
-    keys_.resize(distances.size());
-    if (order_.empty())
-        lastKeys_.assign(distances.size(), kAbsentKey);
-    const KeySpan span = makeKeys(distances.data(), flip, lastKeys_.data(), keys_.data(), distances.size());
+        keys_.assign(count, kAbsentKey);
+        changed_.resize((count + 63) / 64);
+        arrived_.resize((count + 63) / 64);
+    }
+    const KeyChanges changes{reinterpret_cast<uint8_t*>(changed_.data()),
+                             reinterpret_cast<uint8_t*>(arrived_.data())};
+    const KeySpan span = makeKeys(distances.data(), flip, keys_.data(), changes, count);
     lowest_ = span.lowest;
     highest_ = span.highest;
-    presentCount_ = distances.size() - span.absent;
-    newcomers_ = span.newcomers;
-    if (order_.empty() || !mendLastOrder())
+    presentCount_ = count - span.absent;
+    if (order_.empty() || !mendLastOrder(span.changed, span.newcomers))
         sortAll();
     return order_;
 }
 
-bool DepthSort::mendLastOrder()
+/// Where few keys have changed, those who have them are sorted and merged in anew; else those are who stand
+/// in the way of the others.
+bool DepthSort::mendLastOrder(size_t changed, size_t newcomers)
 {
     const size_t limit = presentCount_ / kMostMovedShare + 8;
-    if (newcomers_ > limit)
+    if (newcomers > limit)
         return false;
+    sortedElements_ = 0;
+    if (changed == 0)
+        return true;
     moved_.resize(std::max(moved_.size(), limit + 1));
     blockEnds_.resize(std::max(blockEnds_.size(), order_.size() / kChainBlock + 1));
-    size_t kept = 0;
+    Chain chain{keys_.data(),     order_.data(), blockEnds_.data(), 0, 0, order_.size(), 0, moved_.data(), 0,
+                limit - newcomers};
     size_t moved = 0;
-    if (!splitLastOrder(limit - newcomers_, &kept, &moved))
-        return false;
-    takeNewcomers(&moved);
+    if (changed <= limit) {
+        keepUnchanged(chain, reinterpret_cast<const uint8_t*>(changed_.data()));
+        moved = take(changed_, 0);
+    } else {
+        if (!keepRising(chain))
+            return false;
+        moved = newcomers > 0 ? take(arrived_, chain.asideCount) : chain.asideCount;
+    }
     sortedElements_ = moved;
-    order_.resize(kept);
     sortMoved(moved);
-    merge(kept, moved);
+    order_.resize(chain.kept + moved);
+    chain.order = order_.data();
+    mergeMoved(chain, moved_.data(), moved);
     return true;
+}
+
+/// Appends those in `set` who are not absent to the first `count` in moved_. @return how many there are then
+size_t DepthSort::take(std::span<const uint64_t> set, size_t count)
+{
+    for (size_t word = 0; word < set.size(); ++word)
+        for (uint64_t bits = set[word]; bits != 0; bits &= bits - 1) {
+            const uint32_t index = uint32_t(64 * word) + uint32_t(std::countr_zero(bits));
+            if (keys_[index] != kAbsentKey)
+                moved_[count++] = pairOf(keys_[index], index);
+        }
+    return count;
 }
 
 /// Walks along the last order and keeps a rising chain, moved together at the front of order_. Who does not
 /// fit is put aside, unless as few of the chain's last stand in the way as were put aside just before: then
 /// those are the ones that have moved.
-/// @return false when more than `limit` would be put aside
-bool DepthSort::splitLastOrder(size_t limit, size_t* outKept, size_t* outMoved)
+/// @return false when too many would be put aside
+bool DepthSort::keepRising(Chain& chain)
 {
     constexpr uint64_t kNobody = uint64_t(kAbsentKey) << 32;
-    Chain chain{keys_.data(), order_.data(), blockEnds_.data(), 0, 0, order_.size(), 0, moved_.data(), 0,
-                limit};
     uint32_t* const order = chain.order;
     const auto pairAt = [&](size_t place) { return pairOf(chain.keys[order[place]], order[place]); };
     const auto keep = [&](uint64_t pair) {
-        chain.blockEnds[chain.kept / kChainBlock] = uint32_t(pair >> 32);
         order[chain.kept++] = uint32_t(pair);
         chain.last = pair;
     };
@@ -118,7 +142,7 @@ bool DepthSort::splitLastOrder(size_t limit, size_t* outKept, size_t* outMoved)
             keepRisingRun(chain);
             if (chain.at == chain.count)
                 break;
-            nextRun = chain.at + kChainBlock;
+            nextRun = chain.at + kRunPause;
         }
         __builtin_prefetch(&chain.keys[order[std::min(chain.at + kAhead, chain.count - 1)]]);
         const uint64_t pair = pairAt(chain.at);
@@ -134,7 +158,8 @@ bool DepthSort::splitLastOrder(size_t limit, size_t* outKept, size_t* outMoved)
             ++inTheWay;
         const bool chainYields = inTheWay >= chain.kept || pairAt(chain.kept - 1 - inTheWay) <= pair;
         const size_t aside = chainYields ? inTheWay : 1;
-        if (chain.asideCount + aside > limit || (chain.at < kProbe && chain.asideCount > kProbe / 4))
+        if (chain.asideCount + aside > chain.mostAside ||
+            (chain.at < kProbe && chain.asideCount > kProbe / 4))
             return false;
         for (size_t k = 1; k <= aside; ++k)
             chain.aside[chain.asideCount++] = chainYields ? pairAt(chain.kept - k) : pair;
@@ -144,19 +169,7 @@ bool DepthSort::splitLastOrder(size_t limit, size_t* outKept, size_t* outMoved)
             keep(pair);
         }
     }
-    *outKept = chain.kept;
-    *outMoved = chain.asideCount;
     return true;
-}
-
-/// Appends who was absent in the last order.
-void DepthSort::takeNewcomers(size_t* ioMoved)
-{
-    for (size_t i = 0; newcomers_ > 0 && i < keys_.size(); ++i)
-        if (lastKeys_[i] == kAbsentKey && keys_[i] != kAbsentKey) {
-            moved_[(*ioMoved)++] = pairOf(keys_[i], uint32_t(i));
-            --newcomers_;
-        }
 }
 
 /// By key, digits from the lowest, then by index.
@@ -180,56 +193,6 @@ void DepthSort::sortMoved(size_t count)
             ++end;
         if (end - begin > 1)
             std::sort(moved_.begin() + std::ptrdiff_t(begin), moved_.begin() + std::ptrdiff_t(end));
-    }
-}
-
-/// The first block of the chain, at most `block`, before which all blocks stand before `key`: found by the
-/// keys of the blocks' ends, which lie side by side. Asks for the keys of its elements.
-size_t DepthSort::blockOf(const Chain& chain, uint32_t key, size_t block)
-{
-    while (block > 0 && chain.blockEnds[block - 1] >= key)
-        --block;
-    const size_t end = std::min((block + 1) * kChainBlock, chain.kept);
-    for (size_t place = block * kChainBlock; place < end; ++place)
-        __builtin_prefetch(&chain.keys[chain.order[place]]);
-    return block;
-}
-
-/// How many of the first `end` of the chain stand before `pair`, from `block` on.
-size_t DepthSort::placeIn(const Chain& chain, uint64_t pair, size_t block, size_t end)
-{
-    for (size_t place = block * kChainBlock; place < end; place += kChainBlock) {
-        const size_t beyond = std::min(place + kChainBlock, end);
-        const size_t before = countBelow(chain, place, beyond, pair);
-        if (place + before < beyond)
-            return place + before;
-    }
-    return end;
-}
-
-/// From the end: each of those who moved has its place looked for ahead of the one before it, and what lies
-/// between moves up as a block. Blocks are looked for some elements ahead, so that keys have come by then.
-void DepthSort::merge(size_t kept, size_t moved)
-{
-    constexpr size_t kLead = 8;
-    order_.resize(kept + moved);
-    uint32_t* order = order_.data();
-    const Chain chain{keys_.data(), order, blockEnds_.data(), kept, kept, kept, 0, nullptr, 0, 0};
-    std::array<size_t, kLead> blocks{};
-    size_t block = (kept + kChainBlock - 1) / kChainBlock;
-    size_t end = kept; // of the chain that is still in its old place
-    for (size_t step = 0; step < moved + kLead; ++step) {
-        const size_t known = blocks[step % kLead];
-        if (step < moved)
-            blocks[step % kLead] = block = blockOf(chain, uint32_t(moved_[moved - 1 - step] >> 32), block);
-        if (step < kLead)
-            continue;
-        const size_t left = moved + kLead - step;
-        const uint64_t pair = moved_[left - 1];
-        const size_t high = placeIn(chain, pair, known, end); // all from here on are behind it
-        std::memmove(order + high + left, order + high, (end - high) * sizeof *order);
-        order[high + left - 1] = uint32_t(pair);
-        end = high;
     }
 }
 

@@ -22,8 +22,8 @@ public:
     static constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
 
     explicit DepthSort(std::pmr::memory_resource* memory)
-        : keys_(memory), lastKeys_(memory), order_(memory), blockEnds_(memory), pairs_(memory),
-          moved_(memory), scratch_(memory)
+        : keys_(memory), order_(memory), changed_(memory), arrived_(memory), blockEnds_(memory),
+          pairs_(memory), moved_(memory), scratch_(memory)
     {}
 
     /// @param distances [m] any sign; NaN leaves the element out
@@ -38,25 +38,22 @@ public:
 
 private:
     std::span<const uint32_t> sort(std::span<const float> distances, uint32_t flip);
-    bool mendLastOrder();
-    bool splitLastOrder(size_t limit, size_t* outKept, size_t* outMoved);
-    void takeNewcomers(size_t* ioMoved);
+    bool mendLastOrder(size_t changed, size_t newcomers);
+    bool keepRising(struct Chain& chain);
+    size_t take(std::span<const uint64_t> set, size_t count);
     void sortAll();
     void sortMoved(size_t count);
-    void merge(size_t kept, size_t moved);
-    static size_t blockOf(const struct Chain& chain, uint32_t key, size_t block);
-    static size_t placeIn(const struct Chain& chain, uint64_t pair, size_t block, size_t end);
 
-    std::pmr::vector<uint32_t> keys_;     ///< rising order of these is asked for; ~0 for who is absent
-    std::pmr::vector<uint32_t> lastKeys_; ///< of the call before
+    std::pmr::vector<uint32_t> keys_; ///< rising order of these is asked for; ~0 for who is absent
     std::pmr::vector<uint32_t> order_;
+    std::pmr::vector<uint64_t> changed_;   ///< whose keys are others than in the call before, a bit each
+    std::pmr::vector<uint64_t> arrived_;   ///< who was absent then
     std::pmr::vector<uint32_t> blockEnds_; ///< of the chain that mending keeps: the key of each block's last
     std::pmr::vector<uint64_t> pairs_;     ///< key * 2^32 + index
     std::pmr::vector<uint64_t> moved_;
     std::pmr::vector<uint64_t> scratch_;
     uint32_t lowest_ = 0, highest_ = 0; ///< of the keys that are present
     size_t presentCount_ = 0;
-    size_t newcomers_ = 0;
     size_t sortedElements_ = 0;
 };
 

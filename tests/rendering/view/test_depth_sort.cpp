@@ -107,3 +107,44 @@ TEST(DepthSort, aFewThatMoveInALongListAreMendedInPlace)
         EXPECT_LT(mended.sortedElements(), 3 * distances.size() / stride + 50) << frame;
     }
 }
+
+TEST(DepthSort, aFewThatMoveWhileAllComeNearerAreMendedToo)
+{
+    const auto unit = [](uint64_t stream, size_t i) {
+        return fx::base::randomUnit4(stream, 0, i, fx::base::RandomPurpose::Position)[0];
+    };
+    std::vector<float> distances(20011); // no whole number of vectors
+    for (size_t i = 0; i < distances.size(); ++i)
+        distances[i] = std::floor(unit(1, i) * 9000.0f);
+    DepthSort mended(std::pmr::get_default_resource());
+    (void)mended.farthestFirst(distances);
+    for (size_t frame = 2; frame < 14; ++frame) {
+        const size_t stride = size_t(20) << (frame % 6);
+        for (float& distance : distances)
+            distance -= 1.0f;
+        for (size_t i = frame; i < distances.size(); i += stride)
+            distances[i] = frame % 3 == 0 ? distances[i] + 2.0f : std::floor(unit(frame, i) * 9000.0f);
+        distances[frame * 100] = frame % 2 == 0 ? DepthSort::kAbsent : 17.0f;
+        distances[(frame - 1) * 100] = 4000.0f; // the absent come back
+        DepthSort anew(std::pmr::get_default_resource());
+        const auto want = anew.farthestFirst(distances);
+        const auto order = mended.farthestFirst(distances);
+        EXPECT_TRUE(std::equal(order.begin(), order.end(), want.begin(), want.end())) << frame;
+        EXPECT_LT(mended.sortedElements(), 3 * distances.size() / stride + 50) << frame;
+    }
+}
+
+TEST(DepthSort, whatStandsStillIsNotSortedAgain)
+{
+    DepthSort sort(std::pmr::get_default_resource());
+    std::vector<float> distances{3.0f, DepthSort::kAbsent, 7.5f, 0.0f};
+    (void)sort.farthestFirst(distances);
+    EXPECT_EQ(sort.sortedElements(), 3u);
+    const auto again = sort.farthestFirst(distances);
+    EXPECT_EQ(std::vector<uint32_t>(again.begin(), again.end()), (std::vector<uint32_t>{2, 0, 3}));
+    EXPECT_EQ(sort.sortedElements(), 0u);
+    distances[1] = 5.0f;
+    const auto joined = sort.farthestFirst(distances);
+    EXPECT_EQ(std::vector<uint32_t>(joined.begin(), joined.end()), (std::vector<uint32_t>{2, 1, 0, 3}));
+    EXPECT_EQ(sort.sortedElements(), 1u);
+}
