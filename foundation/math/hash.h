@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 namespace fx::base {
 
@@ -17,19 +16,7 @@ inline uint64_t hashWord(uint64_t hash, uint64_t word)
     return x ^ (x >> 31);
 }
 
-/// Mixes `size` bytes, eight at a time, and their number.
-inline uint64_t hashBytes(uint64_t hash, const void* data, size_t size)
-{
-    const char* bytes = static_cast<const char*>(data);
-    size_t left = size;
-    for (; left >= 8; left -= 8, bytes += 8) {
-        uint64_t word;
-        std::memcpy(&word, bytes, 8);
-        hash = hashWord(hash, word);
-    }
-    uint64_t tail = 0;
-    std::memcpy(&tail, bytes, left);
-    return hashWord(hashWord(hash, tail), size);
-}
+/// Mixes `size` bytes and their number (XXH3 of the xxHash library): as fast as memory is read.
+uint64_t hashBytes(uint64_t hash, const void* data, size_t size);
 
 } // namespace fx::base

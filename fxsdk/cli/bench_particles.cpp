@@ -36,6 +36,7 @@ base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& 
     row.bandwidthFraction = row.bytesPerParticle / row.medianNanoseconds / bandwidth;
     row.hash = stage.hash();
     row.more = {{"ns_per_particle_min", 1e9 * quantile(stage.times(), 0.0) / alive},
+                {"hash_ns_per_particle", 1e9 * quantile(stage.hashTimes(), 0.5) / alive},
                 {"alive", uint64_t(alive)},
                 {"steps", steps},
                 {"copy_gb_per_s", bandwidth},

@@ -68,7 +68,9 @@ void BenchStage::playTimed()
     const Clock::time_point start = Clock::now();
     const base::FrameSnapshot& snapshot = frame();
     times_.push_back(secondsSince(start));
+    const Clock::time_point published = Clock::now();
     hash_ = base::hashWord(hash_, snapshot.hash());
+    hashTimes_.push_back(secondsSince(published));
 }
 
 uint64_t BenchStage::particles() const

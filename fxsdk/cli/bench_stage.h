@@ -30,7 +30,8 @@ public:
     /// The same, one frame: what it took is added to times(), and what was published to hash().
     void playTimed();
 
-    const std::vector<double>& times() const { return times_; } ///< [s] of the timed frames
+    const std::vector<double>& times() const { return times_; }         ///< [s] of the timed frames
+    const std::vector<double>& hashTimes() const { return hashTimes_; } ///< [s] of hashing, not in times()
     uint64_t hash() const { return hash_; }
     uint64_t particles() const; ///< alive now
     uint64_t allocations() const { return memory_.allocationCount(); }
@@ -49,6 +50,7 @@ private:
     sim::StepCounters counters_;
     base::Ticks now_ = 0;
     std::vector<double> times_;
+    std::vector<double> hashTimes_;
     uint64_t hash_ = 0;
 };
 
