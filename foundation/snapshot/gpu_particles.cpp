@@ -1,6 +1,7 @@
 #include "foundation/snapshot/gpu_particles.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace fx::base {
 
@@ -26,6 +27,54 @@ void copyGroup(const SnapshotGroup& from, const KindDesc& kind, FrameSnapshot& o
 }
 
 } // namespace
+
+GpuParticleMoment gpuMomentOf(const SnapshotGroup& group)
+{
+    GpuParticleMoment moment;
+    std::memcpy(&moment, group.column64(0).data(), sizeof moment);
+    return moment;
+}
+
+GpuStepRun gpuStepRunOf(const SnapshotGroup& group, const GpuParticleMoment& moment, uint32_t run)
+{
+    GpuStepRun out;
+    const auto* bytes = reinterpret_cast<const std::byte*>(group.column64(0).data());
+    std::memcpy(&out,
+                bytes + sizeof moment + moment.runs * sizeof(GpuBirthRun) +
+                    moment.conditions * sizeof(GpuCondition) + run * sizeof out,
+                sizeof out);
+    return out;
+}
+
+uint32_t gpuStepsBefore(const GpuStepRun& run, int64_t now, int64_t tick)
+{
+    const int64_t gone = tick - (now - run.age);
+    return gone < 0 ? 0 : uint32_t(std::min<int64_t>(gone / run.length, run.count));
+}
+
+bool goesOnFrom(const SnapshotGroup& group, const GpuStepMark& mark)
+{
+    const GpuParticleMoment moment = gpuMomentOf(group);
+    if (mark.history == 0 || mark.now > moment.now)
+        return false;
+    for (uint32_t i = moment.stepRuns; i-- > 0;) {
+        const GpuStepRun run = gpuStepRunOf(group, moment, i);
+        if (run.history != mark.history)
+            continue;
+        const int64_t gone = mark.now - (moment.now - run.age);
+        return gone > 0 && gone % run.length == 0 && gone / run.length <= int64_t(run.count);
+    }
+    return false;
+}
+
+GpuStepMark gpuMarkOf(const SnapshotGroup& group)
+{
+    const GpuParticleMoment moment = gpuMomentOf(group);
+    if (moment.stepRuns == 0)
+        return {};
+    const GpuStepRun last = gpuStepRunOf(group, moment, moment.stepRuns - 1);
+    return {last.history, moment.now - last.endAge()};
+}
 
 bool hasGpuParticles(const FrameSnapshot& snapshot)
 {

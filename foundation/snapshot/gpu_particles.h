@@ -4,9 +4,9 @@
 /// the kind "particle" from it; neither knows the other.
 ///
 /// A group of this kind has one column of 64-bit words: a GpuParticleMoment, its GpuBirthRuns, its
-/// GpuConditions, in this order. What never changes is the group's program. Where a row lies and which
-/// particle lives in it is as in the kind "particle" that the same emitter publishes otherwise; constants are
-/// those of base::particle_constant.
+/// GpuConditions and its GpuStepRuns, in this order. What never changes is the group's program. Where a row
+/// lies and which particle lives in it is as in the kind "particle" that the same emitter publishes
+/// otherwise; constants are those of base::particle_constant.
 ///
 /// All structures consist of 4 and 8 byte numbers without gaps, low word first, as
 /// shaders/shared/gpu_particle_words.glsl reads them.
@@ -35,10 +35,13 @@
 
 #include "foundation/math/curve.h"
 #include "foundation/snapshot/frame_snapshot.h"
+#include "foundation/snapshot/gpu_modules.h"
 #include "foundation/snapshot/particle_kind.h"
 
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace fx::base {
 
@@ -56,6 +59,7 @@ enum class GpuShape : uint32_t
     Line,     ///< along Y, size[0] to both sides
     Disc,     ///< of radius size[0], heading along +Y
     Torus,    ///< in the tube around the circle of radius size[0]
+    TallCone, ///< in the cone above the disc of radius size[0], or on its side, heading away from its tip
 };
 
 /// What tells the frame of the texture.
@@ -67,6 +71,7 @@ enum class GpuFrames : uint32_t
 };
 
 constexpr size_t kGpuCurveSamples = kCurveSamples + 1;
+constexpr size_t kGpuCurvePieces = 10;
 
 /// What never changes. Ranges are {min, max} with min = max where nothing is drawn.
 struct GpuParticleNumbers
@@ -76,7 +81,7 @@ struct GpuParticleNumbers
     float axis[3];     ///< unit vector that +Y is turned onto
     float cosLimit;
     float inner;         ///< [1] share of the radius that is empty; 1: on the surface
-    float tube;          ///< [m] of the torus
+    float tube;          ///< [m] of the torus; of cones 1: on the side
     float speed[2];      ///< [m/s]
     float lifetime[2];   ///< [s]
     float perLife;       ///< [1/s] where lifetimes do not vary
@@ -91,12 +96,15 @@ struct GpuParticleNumbers
     float frames;        ///< [1] of the texture
     float framesPerSecond;
     float perFastest; ///< [s/m] 1 / the speed at which the curves over speed end
-    /// Samples at equal distances of red, green, blue, opacity, size over life; size and opacity multiply
-    /// what was drawn at birth.
+    float height;     ///< [m] of the cone
+    float slope[3];   ///< [1] of its side, in three parts whose sum is exact
+    /// Red, green, blue, opacity, size over life; size and opacity multiply what was drawn at birth. Samples
+    /// at equal distances, or kGpuCurvePieces values at 0 of the lines that the pieces lie on, as many
+    /// slopes, and where pieces begin (infinite for those that there are not).
     float lifeCurves[5][kGpuCurveSamples];
     float speedCurves[5][kGpuCurveSamples];
 };
-static_assert(sizeof(GpuParticleNumbers) == 4 * (34 + 10 * kGpuCurveSamples));
+static_assert(sizeof(GpuParticleNumbers) == 4 * (38 + 10 * kGpuCurveSamples));
 
 /// What decides which program computes an emitter: those that agree in all of it share one.
 struct GpuParticleFeatures
@@ -108,7 +116,13 @@ struct GpuParticleFeatures
     bool lifeVaries = false;
     bool drags = false;
     bool bySpeed = false;
+    bool wide = false;      ///< the shape is computed in double precision, as ShapeOp has it
+    bool lifeTable = false; ///< curves over life are samples, not pieces
+    bool speedTable = false;
+    bool steps = false;    ///< motion has no closed form: it is stepped by `modules`
     ColumnSet columns = 0; ///< of the kind "particle" that are computed
+    std::vector<GpuModuleUse> modules;
+    uint32_t stepWords = 0; ///< of a step, its head included
 
     bool operator==(const GpuParticleFeatures&) const = default;
 };
@@ -121,12 +135,19 @@ public:
 
     GpuParticleFeatures features;
     GpuParticleNumbers numbers{};
-    uint32_t rows = 0;       ///< of what is computed
-    float meanRadius = 0.0f; ///< [m] about so much, to estimate costs
+    std::vector<float> moduleNumbers; ///< see GpuModules
+    uint32_t rows = 0;                ///< of what is computed
+    bool kills = false;               ///< see GpuModules
+    bool heedsHost = false;           ///< likewise
+    float meanRadius = 0.0f;          ///< [m] about so much, to estimate costs
 
     /// Computes the rows of `group` on the calling thread, as the emitter would have published them: adds a
     /// group of the kind "particle" to `out`, whose schema knows it. Any thread; allocates.
     virtual void replay(const SnapshotGroup& group, FrameSnapshot& out) const = 0;
+    /// Appends the words of all steps of `group` that ended after `since`, in order, to `out`. Any thread;
+    /// allocates nothing but in `out`. Only where features.steps.
+    /// @param since [tick] local time
+    virtual void writeSteps(const SnapshotGroup& group, int64_t since, std::vector<uint32_t>& out) const = 0;
 };
 
 /// Births at equal distances of time, or all at once.
@@ -160,15 +181,31 @@ struct GpuParticleMoment
     uint32_t window;     ///< births before `next` that may live, <= rows
     uint32_t runs;       ///< > 0 when the window is not empty; ascending
     uint32_t conditions; ///< > 0, ascending
+    uint32_t stepRuns;   ///< ascending; 0 unless features.steps
+    uint32_t unused;
 };
 
-static_assert(sizeof(GpuBirthRun) == 48 && sizeof(GpuCondition) == 24 && sizeof(GpuParticleMoment) == 48);
+static_assert(sizeof(GpuBirthRun) == 48 && sizeof(GpuCondition) == 24 && sizeof(GpuParticleMoment) == 56);
 
 constexpr uint32_t kMostGpuRuns = 64;
 constexpr uint32_t kMostGpuConditions = 16;
+constexpr uint32_t kMostGpuStepRuns = 512;
+constexpr uint32_t kMostGpuSteps = 4096; ///< within a life
 constexpr size_t kMostGpuWords = (sizeof(GpuParticleMoment) + kMostGpuRuns * sizeof(GpuBirthRun) +
                                   kMostGpuConditions * sizeof(GpuCondition)) /
                                  8;
+/// The same for an emitter that is stepped.
+constexpr size_t kMostSteppedGpuWords = kMostGpuWords + kMostGpuStepRuns * sizeof(GpuStepRun) / 8;
+
+/// The moment and the runs of steps in the words of a group.
+GpuParticleMoment gpuMomentOf(const SnapshotGroup& group);
+GpuStepRun gpuStepRunOf(const SnapshotGroup& group, const GpuParticleMoment& moment, uint32_t run);
+/// How many steps of a run ended at or before `tick`, when it is `now`.
+uint32_t gpuStepsBefore(const GpuStepRun& run, int64_t now, int64_t tick);
+/// True when the steps of `group` go on from `mark`.
+bool goesOnFrom(const SnapshotGroup& group, const GpuStepMark& mark);
+/// Where it has come to.
+GpuStepMark gpuMarkOf(const SnapshotGroup& group);
 
 /// [tick] The age of birth number `j` of a run. (1)
 inline int64_t gpuBirthAge(const GpuBirthRun& run, uint32_t j)

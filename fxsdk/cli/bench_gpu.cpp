@@ -9,6 +9,7 @@
 #include "rendering/gl/gl_backend.h"
 #include "rendering/gpu_particles/gpu_emitters.h"
 #include "rendering/gpu_particles/gpu_rows_pass.h"
+#include "rendering/gpu_particles/gpu_states.h"
 #include "rendering/platform/gl_context.h"
 
 #include <algorithm>
@@ -54,13 +55,16 @@ public:
         device_->gl.NamedBufferSubData(words_.name(), 0, GLsizeiptr(words.size_bytes()), words.data());
         render::ParticleBatch batch{};
         batch.newer = {rows_.name(), {}, 0, rows_.bytes()};
-        const render::GpuRowsJob job{(*emitter)->program,
-                                     0,
-                                     true,
-                                     {(*emitter)->numbers.name(), {}, 0, (*emitter)->numbers.bytes()},
-                                     {words_.name(), {}, 0, words_.bytes()},
-                                     columns_,
-                                     group.program()->rows};
+        render::GpuRowsJob job{(*emitter)->program,
+                               0,
+                               true,
+                               {(*emitter)->numbers.name(), {}, 0, (*emitter)->numbers.bytes()},
+                               {words_.name(), {}, 0, words_.bytes()},
+                               columns_,
+                               group.program()->rows};
+        states_.nextFrame();
+        if (base::Status status = states_.prepare(group, job); !status)
+            return status;
         graph_.begin();
         batch.newer.id = graph_.importBuffer({"rows", rows_.bytes()}, rows_.name());
         render::GpuRowsPass::addTo(graph_, {&job, 1}, {&batch, 1});
@@ -81,7 +85,8 @@ private:
     GpuStage(std::unique_ptr<render::GlContext> context, std::unique_ptr<render::GlDevice> device)
         : context_(std::move(context)), device_(std::move(device)), graph_(std::pmr::get_default_resource()),
           backend_(*device_, std::pmr::get_default_resource()),
-          emitters_(*device_, std::pmr::get_default_resource())
+          emitters_(*device_, std::pmr::get_default_resource()),
+          states_(*device_, std::pmr::get_default_resource())
     {}
 
     base::Status makeBuffers(const base::GpuParticleProgram& program)
@@ -95,7 +100,7 @@ private:
             }
         rowBytes_ = size_t(words * 4 / program.rows);
         auto rows = render::GlBuffer::create(*device_, words * 4, "rows");
-        auto in = render::GlBuffer::create(*device_, base::kMostGpuWords * 8, "words");
+        auto in = render::GlBuffer::create(*device_, base::kMostSteppedGpuWords * 8, "words");
         if (!rows || !in)
             return rows ? in.status() : rows.status();
         rows_ = std::move(*rows);
@@ -108,6 +113,7 @@ private:
     render::FrameGraph graph_;
     render::GlBackend backend_;
     render::GpuEmitters emitters_;
+    render::GpuStates states_;
     render::GlBuffer rows_, words_;
     std::array<int32_t, 16> columns_{};
     size_t rowBytes_ = 0;

@@ -29,16 +29,17 @@ public:
         uint64_t usedFrame;
     };
 
-    /// Compiles what computes emitters of these features, and what orders them, unless that has happened.
+    /// Compiles what computes this emitter and others like it, and what orders them, unless that has
+    /// happened.
     /// @return GlFailed (the driver refuses), GlUnsupported (built without FXSDK_GPU_PARTICLES)
-    base::Status compile(const base::GpuParticleFeatures& features);
+    base::Status compile(const base::GpuParticleProgram& emitter);
     /// Valid until the next call. Compiles and uploads at the first call for an emitter.
     /// @return as compile(), OutOfMemory, TooLarge (for the context's storage buffers)
     base::Result<const Entry*> find(const std::shared_ptr<const base::GpuParticleProgram>& emitter);
     /// Forgets emitters that have not been asked for in a long time.
     void nextFrame();
 
-    uint64_t bytes() const { return entries_.size() * sizeof(base::GpuParticleNumbers); } ///< [byte] held
+    uint64_t bytes() const; ///< [byte] held
 
 private:
     GlDevice& device_;

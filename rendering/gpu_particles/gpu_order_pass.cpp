@@ -18,8 +18,27 @@ constexpr ProgramDesc stage(const char* defines)
 {
     return {"gpu particle order", nullptr, nullptr, "passes/gpu_particle_order.comp.glsl", defines};
 }
-constexpr ProgramDesc kStages[kGpuOrderPrograms] = {stage("FX_STAGE=0"), stage("FX_STAGE=1"),
-                                                    stage("FX_STAGE=2"), stage("FX_STAGE=3")};
+constexpr ProgramDesc radixStage(const char* defines)
+{
+    return {"gpu particle radix", nullptr, nullptr, "passes/gpu_particle_radix.comp.glsl", defines};
+}
+constexpr ProgramDesc kStages[kGpuOrderPrograms] = {
+    stage("FX_STAGE=0"), stage("FX_STAGE=1"),      stage("FX_STAGE=2"),      stage("FX_STAGE=3"),
+    stage("FX_STAGE=4"), radixStage("FX_STAGE=0"), radixStage("FX_STAGE=1"), radixStage("FX_STAGE=2")};
+enum : size_t
+{
+    SortedBlocks,
+    MergeFar,
+    MergeNear,
+    Arguments,
+    Keys,
+    CountDigits,
+    SumCounts,
+    Scatter
+};
+
+constexpr uint32_t kDigitBits = 4; ///< as in passes/gpu_particle_radix.comp.glsl
+constexpr uint32_t kDigits = 1u << kDigitBits;
 
 /// Layout of the uniform block.
 struct OrderBlock
@@ -36,7 +55,8 @@ struct Sorting
     OrderBlock block;
     BufferPart rows;
     ResourceId pairs, order, arguments;
-    uint32_t count; ///< pairs, a power of two
+    ResourceId otherPairs, counts; ///< of a radix sort
+    uint32_t count;                ///< pairs, whole blocks; a power of two for a bitonic sort
 
     void run(Backend& backend, size_t which, uint32_t length, uint32_t apart) const
     {
@@ -48,18 +68,40 @@ struct Sorting
         call.program = &kStages[which];
         call.buffers = buffers;
         call.uniforms = asUniforms(now);
-        call.groups[0] = which == 1 ? count / 2 / kThreads : count / kBlock;
+        call.groups[0] = which == MergeFar ? count / 2 / kThreads : count / kBlock;
         backend.dispatch(call);
     }
-    void runAll(Backend& backend) const
+    void runBitonic(Backend& backend) const
     {
-        run(backend, 0, 0, 0);
+        run(backend, SortedBlocks, 0, 0);
         for (uint32_t length = 2 * kBlock; length <= count; length *= 2) {
             for (uint32_t apart = length / 2; apart >= kBlock; apart /= 2)
-                run(backend, 1, length, apart);
-            run(backend, 2, length, 0);
+                run(backend, MergeFar, length, apart);
+            run(backend, MergeNear, length, 0);
         }
-        run(backend, 3, 0, 0);
+        run(backend, Arguments, 0, 0);
+    }
+    void runDigit(Backend& backend, uint32_t bit) const
+    {
+        const bool isEven = bit / kDigitBits % 2 == 0;
+        const BufferBinding buffers[] = {
+            {0, isEven ? pairs : otherPairs}, {1, isEven ? otherPairs : pairs}, {2, counts}};
+        const std::array<uint32_t, 4> sizes{count / kBlock, bit, 0, 0};
+        for (const size_t which : {CountDigits, SumCounts, Scatter}) {
+            DispatchCall call;
+            call.program = &kStages[which];
+            call.buffers = buffers;
+            call.uniforms = asUniforms(sizes);
+            call.groups[0] = which == SumCounts ? 1 : count / kBlock;
+            backend.dispatch(call);
+        }
+    }
+    void runRadix(Backend& backend) const
+    {
+        run(backend, Keys, 0, 0);
+        for (uint32_t bit = 0; bit < 32; bit += kDigitBits) // an even number of times: `pairs` has the result
+            runDigit(backend, bit);
+        run(backend, Arguments, 0, 0);
     }
 };
 
@@ -82,21 +124,31 @@ const ProgramDesc& gpuOrderProgram(size_t index)
 }
 
 void GpuOrderPass::addTo(FrameGraph& graph, std::span<const GpuOrderJob> jobs,
-                         std::span<ParticleBatch> batches)
+                         std::span<ParticleBatch> batches, uint32_t radixFrom)
 {
     for (const GpuOrderJob& job : jobs) {
         ParticleBatch& batch = batches[job.batch];
         const auto rows = uint32_t(batch.block.rows[0]);
-        const uint32_t count = std::max(std::bit_ceil(rows), kBlock);
+        const bool isRadix = rows >= radixFrom;
+        const uint32_t count =
+            isRadix ? (rows + kBlock - 1) / kBlock * kBlock : std::max(std::bit_ceil(rows), kBlock);
         graph.addPass("gpu particle order", [&](FrameGraph::Builder& builder) {
             builder.read(batch.newer.id);
-            Sorting sorting{blockOf(job, batch, count), batch.newer, {}, {}, {}, count};
+            Sorting sorting{blockOf(job, batch, count), batch.newer, {}, {}, {}, {}, {}, count};
             sorting.pairs = builder.write(builder.create(BufferDesc{"gpu order keys", 8 * size_t(count)}));
             sorting.order = builder.write(builder.create(BufferDesc{"gpu order", 4 * size_t(count)}));
             sorting.arguments = builder.write(builder.create(BufferDesc{"gpu draw arguments", 64}));
             batch.order = {0, sorting.order, 0, 4 * uint64_t(count)};
             batch.arguments = sorting.arguments;
-            return [sorting](Backend& backend) { sorting.runAll(backend); };
+            if (isRadix) {
+                sorting.otherPairs =
+                    builder.write(builder.create(BufferDesc{"gpu order keys, sorted", 8 * size_t(count)}));
+                sorting.counts = builder.write(
+                    builder.create(BufferDesc{"gpu order digits", 4 * kDigits * size_t(count / kBlock)}));
+            }
+            return [sorting, isRadix](Backend& backend) {
+                isRadix ? sorting.runRadix(backend) : sorting.runBitonic(backend);
+            };
         });
     }
 }

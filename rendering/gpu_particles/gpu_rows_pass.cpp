@@ -1,10 +1,55 @@
 #include "rendering/gpu_particles/gpu_rows_pass.h"
 
+#include <algorithm>
+
 namespace fx::render {
 
 namespace {
 
 constexpr uint32_t kGroupRows = 256; ///< as in passes/gpu_particles.comp.glsl
+constexpr uint32_t kMostSteps = 128; ///< of one dispatch: drivers end those that take too long
+
+/// Layout of the uniform block.
+struct OutputBlock
+{
+    std::array<int32_t, 16> columns;
+    std::array<uint32_t, 4> chain;
+};
+
+/// A job whose buffers the graph knows.
+struct RowsDispatch
+{
+    GpuRowsJob job;
+    ResourceId numbers, words, rows, reached, steps;
+    BufferPart out;
+
+    void run(Backend& backend) const
+    {
+        uint32_t first = 0;
+        do { // at least once: it writes the rows
+            const uint32_t end = std::min(first + kMostSteps, job.stepCount);
+            runSteps(backend, first, end);
+            first = end;
+        } while (first < job.stepCount);
+    }
+
+private:
+    void runSteps(Backend& backend, uint32_t first, uint32_t end) const
+    {
+        const BufferBinding buffers[] = {{0, numbers, job.numbers.offset, job.numbers.bytes},
+                                         {1, words, job.words.offset, job.words.bytes},
+                                         {2, rows, out.offset, out.bytes},
+                                         {3, reached, job.reached.offset, job.reached.bytes},
+                                         {4, steps, job.steps.offset, job.steps.bytes}};
+        const OutputBlock block{job.columns, {first, end, end == job.stepCount ? 1u : 0u, 0u}};
+        DispatchCall call;
+        call.program = job.program;
+        call.buffers = std::span(buffers).first(job.reached.bytes > 0 ? 5 : 3);
+        call.uniforms = asUniforms(block);
+        call.groups[0] = (job.rows + kGroupRows - 1) / kGroupRows;
+        backend.dispatch(call);
+    }
+};
 
 ResourceId import(FrameGraph& graph, const BufferPart& part)
 {
@@ -20,22 +65,24 @@ void GpuRowsPass::addTo(FrameGraph& graph, std::span<const GpuRowsJob> jobs, std
         BufferPart& rows = job.isNewer ? batch.newer : batch.older;
         const ResourceId numbers = import(graph, job.numbers);
         const ResourceId words = import(graph, job.words);
+        RowsDispatch dispatch{job, numbers, words, {}, {}, {}, {}};
+        const bool isStepped = job.reached.bytes > 0;
+        if (isStepped) {
+            dispatch.reached = import(graph, job.reached);
+            dispatch.steps = import(graph, job.steps);
+        }
         graph.addPass("gpu particles", [&](FrameGraph::Builder& builder) {
             builder.read(numbers);
             builder.read(words);
+            if (isStepped) {
+                builder.read(dispatch.steps);
+                dispatch.reached = builder.write(dispatch.reached);
+            }
             builder.sideEffect(); // rows are kept for the next frame
             rows.id = builder.write(rows.id);
-            return [job, numbers, words, rows](Backend& backend) {
-                const BufferBinding buffers[] = {{0, numbers, job.numbers.offset, job.numbers.bytes},
-                                                 {1, words, job.words.offset, job.words.bytes},
-                                                 {2, rows.id, rows.offset, rows.bytes}};
-                DispatchCall call;
-                call.program = job.program;
-                call.buffers = buffers;
-                call.uniforms = asUniforms(job.columns);
-                call.groups[0] = (job.rows + kGroupRows - 1) / kGroupRows;
-                backend.dispatch(call);
-            };
+            dispatch.rows = rows.id;
+            dispatch.out = rows;
+            return [dispatch](Backend& backend) { dispatch.run(backend); };
         });
     }
 }

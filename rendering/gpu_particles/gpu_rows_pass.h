@@ -20,6 +20,10 @@ struct GpuRowsJob
     BufferPart words;                ///< base::GpuParticleMoment and what follows it
     std::array<int32_t, 16> columns; ///< places of the columns, as in ParticleBlock
     uint32_t rows;
+    // Only of emitters that are stepped, see GpuStates:
+    BufferPart reached = {}; ///< where their particles have come to
+    BufferPart steps = {};   ///< that they take now
+    uint32_t stepCount = 0;
 };
 
 /// Computes particles from what their emitters have published. Program: gpu_particles, one permutation for

@@ -52,12 +52,12 @@ ParticleBuffers::ParticleBuffers(GlDevice& device, std::pmr::memory_resource* me
     : device_(device), places_{Place{{}, {}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
                                Place{{}, {}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
                                Place{{}, {}, {}, 0, std::pmr::vector<GroupPlace>(memory)}},
-      assets_(device, memory), emitters_(device, memory), jobs_(memory)
+      assets_(device, memory), emitters_(device, memory), states_(device, memory), jobs_(memory)
 {}
 
 uint64_t ParticleBuffers::bytes() const
 {
-    uint64_t sum = assets_.bytes() + emitters_.bytes();
+    uint64_t sum = assets_.bytes() + emitters_.bytes() + states_.bytes();
     for (size_t i = 0; i < 3; ++i)
         sum += places_[i].buffer.bytes() + places_[i].computed.bytes() + orders_[i].bytes();
     return sum;
@@ -182,19 +182,23 @@ base::Status ParticleBuffers::takeRows(Place& place, const base::SnapshotGroup& 
                      at.columns,
                      rowCount(group)});
     at.isThere = true;
-    return {};
+    const base::Status status = states_.prepare(group, jobs_.back());
+    refusesGpu_ = refusesGpu_ || !status;
+    return status;
 }
 
 void ParticleBuffers::warmUp(const base::GpuParticleProgram& emitter)
 {
-    refusesGpu_ = refusesGpu_ || !emitters_.compile(emitter.features);
+    refusesGpu_ = refusesGpu_ || !emitters_.compile(emitter);
 }
 
 void ParticleBuffers::forgetComputed()
 {
-    if (!jobs_.empty())
-        for (Place& place : places_)
-            place.stamp = 0;
+    if (jobs_.empty())
+        return;
+    for (Place& place : places_)
+        place.stamp = 0;
+    states_.forget();
 }
 
 base::Status ParticleBuffers::writeOrders(ParticleFrame& frame)
@@ -262,6 +266,7 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
     idleFrames_ = 0;
     ++frame_;
     emitters_.nextFrame();
+    states_.nextFrame();
     Place* older = nullptr;
     Place* newer = nullptr;
     if (snapshots.older)
@@ -274,20 +279,20 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
     for (size_t i = 0; i < frame.groups().size(); ++i) {
         const ParticleGroup& group = frame.groups()[i];
         ParticleBatch& batch = frame.batches()[i];
+        if (group.older) { // the newer ones go on from there
+            if (base::Status status =
+                    takeRows(*older, *group.older, group.olderIndex, uint32_t(i), false, batch.older);
+                !status)
+                return status;
+            batch.block.olderAt = older->groups[group.olderIndex].columns;
+            batch.block.rows[1] = int32_t(rowCount(*group.older));
+        }
         if (base::Status status =
                 takeRows(*newer, *group.newer, group.newerIndex, uint32_t(i), true, batch.newer);
             !status)
             return status;
         batch.block.newerAt = newer->groups[group.newerIndex].columns;
         batch.block.rows[0] = int32_t(rowCount(*group.newer));
-        if (!group.older)
-            continue;
-        if (base::Status status =
-                takeRows(*older, *group.older, group.olderIndex, uint32_t(i), false, batch.older);
-            !status)
-            return status;
-        batch.block.olderAt = older->groups[group.olderIndex].columns;
-        batch.block.rows[1] = int32_t(rowCount(*group.older));
     }
     return findAssets(frame, assets);
 }
@@ -303,6 +308,7 @@ void ParticleBuffers::keep(const ParticleFrame& frame)
 void ParticleBuffers::idle()
 {
     emitters_.nextFrame();
+    states_.nextFrame();
     if (++idleFrames_ != kIdleFrames)
         return;
     for (Place& place : places_) {

@@ -12,6 +12,7 @@
 #include "rendering/gl/gl_mapped_buffer.h"
 #include "rendering/gpu_particles/gpu_emitters.h"
 #include "rendering/gpu_particles/gpu_rows_pass.h"
+#include "rendering/gpu_particles/gpu_states.h"
 #include "rendering/view/particle_frame.h"
 #include "rendering/view/snapshot_stamps.h"
 
@@ -89,6 +90,7 @@ private:
     std::array<GlMappedBuffer, 3> orders_;
     GlAssetCache assets_;
     GpuEmitters emitters_;
+    GpuStates states_;
     std::pmr::vector<GpuRowsJob> jobs_;
     bool refusesGpu_ = false;
     uint64_t frame_ = 0;

@@ -2,7 +2,7 @@
 // exactly one order. Keys as in rendering/view/depth_keys.h; rows that hold nobody come last and are not drawn.
 //
 // FX_STAGE 0: keys, sorted within blocks of 1024; 1: one step over distances of 1024 and more; 2: all steps within blocks;
-// 3: rows in order, and the arguments of the draw.
+// 3: rows in order, and the arguments of the draw; 4: keys alone, for gpu_particle_radix.comp.glsl.
 layout(local_size_x = 512) in;
 
 layout(std430, binding = 0) readonly buffer ComputedRows { float rowValues[]; };
@@ -75,7 +75,10 @@ void main()
 {
     uint i = gl_LocalInvocationIndex;
     uint first = gl_WorkGroupID.x * kBlock;
-#if FX_STAGE == 0 || FX_STAGE == 2
+#if FX_STAGE == 4
+    for (uint k = first + i; k < first + kBlock; k += 512u)
+        pairs[k] = uvec2(keyOf(k), k);
+#elif FX_STAGE == 0 || FX_STAGE == 2
     for (uint k = i; k < kBlock; k += 512u)
 #if FX_STAGE == 0
         block[k] = uvec2(keyOf(first + k), first + k);

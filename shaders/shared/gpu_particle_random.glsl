@@ -72,3 +72,82 @@ float cubeRoot(float u)
     }
     return u > 0.0 ? y : 0.0;
 }
+
+// ---- vectors ----
+
+float dotOf(vec3 a, vec3 b)
+{
+    precise vec3 products = a * b;
+    precise float sum = products.x + products.y + products.z;
+    return sum;
+}
+float lengthOf(vec3 a) { return sqrt(dotOf(a, a)); }
+vec3 crossOf(vec3 a, vec3 b)
+{
+    precise vec3 c = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return c;
+}
+
+// shortest-turn
+vec3 turnFromY(vec3 a, vec3 v)
+{
+    precise float squared = a.x * a.x + a.z * a.z;
+    if (a.y < 0.0 && squared < 1e-12)
+        return vec3(v.x, -v.y, -v.z);
+    if (squared == 0.0)
+        return v;
+    vec3 w = vec3(a.z, 0.0, -a.x);
+    vec3 once = crossOf(w, v);
+    precise vec3 turned = v + once + crossOf(w, once) / (1.0 + a.y); // (1)
+    return turned;
+}
+
+// ---- in double precision, as foundation/math/elementary.h has them ----
+
+// sine-cosine-of-turns
+dvec2 sinCosTurnsWide(double t)
+{
+    precise double part = t - floor(t + 0.5lf);
+    precise double q = floor(4.0lf * part + 0.5lf);
+    precise double a = 6.283185307179586476925lf * (part - 0.25lf * q);
+    precise double z = a * a;
+    precise double s = -1.0lf / 1307674368000.0lf;
+    s = s * z + 1.0lf / 6227020800.0lf;
+    s = s * z - 1.0lf / 39916800.0lf;
+    s = s * z + 1.0lf / 362880.0lf;
+    s = s * z - 1.0lf / 5040.0lf;
+    s = s * z + 1.0lf / 120.0lf;
+    s = s * z - 1.0lf / 6.0lf;
+    s = a + a * z * s;
+    precise double c = 1.0lf / 20922789888000.0lf;
+    c = c * z - 1.0lf / 87178291200.0lf;
+    c = c * z + 1.0lf / 479001600.0lf;
+    c = c * z - 1.0lf / 3628800.0lf;
+    c = c * z + 1.0lf / 40320.0lf;
+    c = c * z - 1.0lf / 720.0lf;
+    c = c * z + 1.0lf / 24.0lf;
+    c = c * z - 0.5lf;
+    c = c * z + 1.0lf;
+    int quarter = int(q) & 3;
+    double sine = (quarter & 1) != 0 ? c : s;
+    double cosine = (quarter & 1) != 0 ? s : c;
+    return dvec2((quarter & 2) != 0 ? -sine : sine, quarter == 1 || quarter == 2 ? -cosine : cosine);
+}
+
+// cube-root, for x >= 0
+double cubeRootWide(double x)
+{
+    if (!(x >= 1e-300lf))
+        return 0.0lf;
+    uvec2 bits = unpackDouble2x32(x); // a third of them, and 0x2A9F7893782DA1CE
+    uint rest = bits.y % 3u;
+    uint low = rest * 0x55555555u + bits.x / 3u + (bits.x % 3u + rest) / 3u;
+    uint carry;
+    low = uaddCarry(low, 0x782DA1CEu, carry);
+    precise double y = packDouble2x32(uvec2(low, bits.y / 3u + 0x2A9F7893u + carry));
+    for (int i = 0; i < 3; ++i) {
+        precise double cube = y * y * y;
+        y = y * ((cube + 2.0lf * x) / (2.0lf * cube + x));
+    }
+    return y;
+}

@@ -1,6 +1,7 @@
 // What an emitter publishes for the GPU: foundation/snapshot/gpu_particles.h, which has the same layout. 64-bit numbers are
 // uvec2, low word first.
 const int kCurveSamples = 65;
+const int kCurvePieces = 10;
 
 layout(std430, binding = 0) readonly buffer EmitterNumbers
 {
@@ -24,12 +25,15 @@ layout(std430, binding = 0) readonly buffer EmitterNumbers
     float frames;
     float framesPerSecond;
     float perFastest;
+    float coneHeight;
+    float coneSlope[3];
     float lifeCurves[5 * kCurveSamples];
     float speedCurves[5 * kCurveSamples];
+    float moduleNumbers[]; // where there are modules
 };
 layout(std430, binding = 1) readonly buffer MomentWords { uint words[]; };
 
-const int kMomentWords = 12;
+const int kMomentWords = 14;
 const int kRunWords = 12;
 const int kConditionWords = 6;
 

@@ -12,10 +12,16 @@ void EmitterSolver::offerToGpu(uint64_t droppedBefore, bool isWanted)
     if (dropped_ != droppedBefore)
         gpu_->noteDrop(now_);
     gpu_->forget(now_);
-    if (isWanted && gpu_->mayBegin(now_)) {
+    if (isWanted && gpu_->mayBegin(now_) && !mayDieSooner()) {
         store_.clear(store_.next());
         gpu_->begin();
     }
+}
+
+/// Whether the instance may end sooner than births tell: only rows tell then.
+bool EmitterSolver::mayDieSooner() const
+{
+    return gpu_->kills() && schedule_.exhausted(now_);
 }
 
 /// Only counts births; nobody has a row.
@@ -28,7 +34,8 @@ void EmitterSolver::stepOnGpu(const StepContext& context)
                      {})
             .total;
     now_ = end;
-    const bool fits = gpu_->mayGoOn(); // before those that die in this step are forgotten
+    const bool fits =
+        gpu_->mayGoOn(now_) && !mayDieSooner(); // before those that die in this step are forgotten
     if (!fits)
         leaveGpu();
     gpu_->forget(now_);
@@ -49,7 +56,7 @@ void EmitterSolver::listenAgain()
     if (!gpu_)
         return;
     schedule_.setLog(&gpu_->log());
-    gpu_->clear(now_, store_.next(), conditions_.pull);
+    gpu_->clear(key_, now_, store_.next(), conditions_.pull);
 }
 
 uint32_t EmitterSolver::elementCount() const

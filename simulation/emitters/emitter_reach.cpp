@@ -1,7 +1,9 @@
 // How far from the origin an emitter's particles can get.
 #include "simulation/emitters/emitter_def.h"
+#include "simulation/emitters/gpu_replay.h"
 #include "simulation/motion/flight_bound.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -23,6 +25,13 @@ float peakOf(const base::ScalarCurve& curve)
     return largest;
 }
 
+/// True when a module takes particles to the speed of the air by more than linear drag.
+bool followsAir(const EmitterDef& def)
+{
+    return std::any_of(def.modules.begin(), def.modules.end(),
+                       [](const auto& module) { return module->bound().followsAir; });
+}
+
 /// What moves a particle of `def`, at most.
 FlightBound flightOf(const EmitterDef& def, const ReachConditions& conditions, const BirthReach& births)
 {
@@ -39,14 +48,12 @@ FlightBound flightOf(const EmitterDef& def, const ReachConditions& conditions, c
                               double(hottest / kAirTemperature);
     }
     bound.drag = double(std::max(forces.drag, 0.0f));
-    bool followsAir = false;
     for (const auto& module : def.modules) {
         const TileBound more = module->bound();
         bound.acceleration += double(more.acceleration);
         bound.air += double(more.air);
-        followsAir = followsAir || more.followsAir;
     }
-    if (followsAir) // drag that only slows what is faster than the air
+    if (followsAir(def)) // drag that only slows what is faster than the air
         bound.speed = std::max(bound.speed, bound.air);
     return bound;
 }
@@ -105,6 +112,55 @@ float EmitterDef::reachFrom(const ReachConditions& conditions, const BirthReach&
     if (inWorld) // the host may have gone anywhere meanwhile
         return std::numeric_limits<float>::infinity();
     return way + drawnOf(*this, fastest);
+}
+
+namespace {
+
+/// Everything is in a ball around the origin.
+base::Bounds ballOf(const EmitterDef& def, const FlightBound& bound, const ReachConditions& conditions)
+{
+    float reach = def.reachFrom(conditions, {}, {});
+    if (def.look.alignment == base::SpriteAlignment::Velocity || def.look.stretch > 0.0f) {
+        // Whoever was born since the snapshot before is drawn on the tangent of its way.
+        const float back = std::min(float(bound.seconds), kLongestStep), fastest = fastestOf(bound);
+        const float grown = float(bound.acceleration + bound.drag * (double(fastest) + bound.air));
+        const float change = followsAir(def) ? 2.0f * fastest : 0.5f * grown * back;
+        reach += std::min(change, 2.0f * fastest) * back;
+    }
+    base::Bounds box;
+    box.add(glm::vec3(0.0f), reach);
+    return box;
+}
+
+} // namespace
+
+/// Where at most the ground is met, each component of a velocity obeys the same inequality as that of a
+/// ballistic particle whose pull is the largest that there may be: what the ground takes away makes it
+/// smaller. Upwards that is so when all pulls are downwards and equal, as a bounce then rises to no more than
+/// it fell from.
+base::Bounds boundsOfStepped(const EmitterDef& def, const StepWeather& weather)
+{
+    const FlightBound bound = flightOf(def, weather.strongest, {});
+    const base::Bounds ball = ballOf(def, bound, weather.strongest);
+    if (weather.meetsOthers || followsAir(def) || !std::isfinite(ball.max.x))
+        return ball;
+    const double steady = double(weather.strongest.gravity) * double(std::abs(def.forces.gravity));
+    const double air = bound.air - double(weather.strongest.wind) - double(glm::length(def.forces.wind));
+    const auto any = float((bound.acceleration - steady + bound.drag * air) * (1.0 + 1e-6)); // anywhere to
+    const glm::vec3 low = weather.low - any, high = weather.high + any;
+    base::Bounds box = boundsOfAll(def, low, high, float(bound.seconds));
+    if (weather.meetsGround && weather.highGround > -1e30f) {
+        const bool isSteady = high.y < 0.0f && low.y >= 1.0001f * high.y;
+        const float drawn = drawnOf(def, fastestOf(bound));
+        box.max.y = isSteady ? std::max(box.max.y, weather.highGround + drawn) : ball.max.y;
+        const float shapes = def.births ? def.births->extent() : glm::length(def.size);
+        const float lowest = std::min(weather.lowGround, def.position.y - shapes) - drawn;
+        if (!(def.look.stretch > 0.0f) && def.look.alignment != base::SpriteAlignment::Velocity)
+            box.min.y = std::max(box.min.y, lowest);
+    }
+    box.min = glm::max(box.min, ball.min);
+    box.max = glm::min(box.max, ball.max);
+    return box;
 }
 
 } // namespace fx::sim

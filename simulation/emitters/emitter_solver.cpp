@@ -82,7 +82,7 @@ void EmitterSolver::begin(const StepContext& context)
     varied_ = false;
     started_ = true;
     if (gpu_)
-        gpu_->clear(0, 0, conditions_.pull);
+        gpu_->clear({context.seed, context.solverIndex}, 0, 0, conditions_.pull);
 }
 
 EmitterSolver::Conditions EmitterSolver::conditionsOf(const StepContext& context) const
@@ -131,9 +131,12 @@ void EmitterSolver::stepHere(const StepContext& context)
         begin(context);
     key_ = {context.seed, context.solverIndex};
     schedule_.setSeed(context.seed, context.solverIndex);
-    if (gpu_ && gpu_->isOn() && !context.gpuParticles)
+    const bool isWanted = context.gpuParticles && gpu_ && !gpu_->asksTooMuch(context);
+    if (gpu_ && gpu_->isOn() && !isWanted)
         leaveGpu();
     heedConditions(context);
+    if (gpu_)
+        gpu_->noteStep(context);
     if (gpu_ && gpu_->isOn())
         return stepOnGpu(context);
     const base::Ticks end = context.tick + context.stepTicks;
@@ -150,7 +153,7 @@ void EmitterSolver::stepHere(const StepContext& context)
         trails_->follow(lookJob(), context.tick, end);
     if (!context.crowd || !context.crowd->waitsFor(*this))
         endStep(*context.counters);
-    offerToGpu(droppedBefore, context.gpuParticles);
+    offerToGpu(droppedBefore, isWanted);
 }
 
 /// Whether births wait for those of others.

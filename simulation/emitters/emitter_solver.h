@@ -113,6 +113,7 @@ private:
     // where the GPU may compute
     void offerToGpu(uint64_t droppedBefore, bool isWanted);
     void stepOnGpu(const StepContext& context);
+    bool mayDieSooner() const;
     void leaveGpu();
     void listenAgain();
     void saveFromGpu(StateWriter& writer) const;

@@ -38,7 +38,11 @@ void directionsOf(const EmitterDef& def, glm::vec3& outLow, glm::vec3& outHigh)
 float farthestOf(const ShapeOp& births)
 {
     const ShapeDef* const shape = shapeOf(births);
-    return shape ? glm::length(shape->size) + shape->tube : 0.0f;
+    if (!shape)
+        return 0.0f;
+    const auto slope = float(slopeOf(*shape));
+    return glm::length(shape->size) + shape->tube +
+           std::max(shape->height, 0.0f) * std::sqrt(1.0f + slope * slope);
 }
 
 float largestOf(const base::ScalarCurve& curve)

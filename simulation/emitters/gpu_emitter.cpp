@@ -5,16 +5,16 @@
 #include "simulation/emitters/look_constants.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 
 namespace fx::sim {
 
 namespace {
-
-constexpr base::Ticks kRounding = 16; ///< [tick] more than ages are rounded by, besides their 2^-20
 
 template <class T>
 void put(std::byte*& io, std::span<const T> values)
@@ -26,21 +26,44 @@ void put(std::byte*& io, std::span<const T> values)
 } // namespace
 
 GpuEmitter::GpuEmitter(const ParticleProgram& program, std::pmr::memory_resource* memory)
-    : program_(program), rows_(program.gpu->rows),
-      window_(program.longestLife + program.longestLife / (1 << 20) + kRounding), log_(memory),
-      conditions_(memory)
+    : program_(program), rows_(program.gpu->rows), window_(longestKept(program)),
+      steps_(program.gpu->features.steps), kills_(program.gpu->kills), heedsHost_(program.gpu->heedsHost),
+      log_(memory), stepLog_(memory), conditions_(memory)
 {
     conditions_.reserve(base::kMostGpuConditions);
     conditions_.push_back({0, glm::vec3(0.0f)});
+    for (const base::GpuModuleUse& use : program.gpu->features.modules) {
+        if (use.module < base::kFirstGpuContact)
+            continue;
+        const bool isGround = use.module == base::GpuModule::Bounce || use.module == base::GpuModule::Ground;
+        meetsGround_ = meetsGround_ || isGround;
+        meetsOthers_ = meetsOthers_ || !isGround;
+    }
 }
 
-void GpuEmitter::clear(base::Ticks now, uint64_t next, const glm::vec3& pull)
+void GpuEmitter::clear(const BirthKey& key, base::Ticks now, uint64_t next, const glm::vec3& pull)
 {
     log_.clear(next);
+    stepLog_.clear(key.seed, key.solver);
     conditions_.assign(1, {now, pull});
     known_ = now;
     dropped_ = -1;
     on_ = false;
+}
+
+void GpuEmitter::noteStep(const StepContext& context)
+{
+    if (!steps_)
+        return;
+    if (asksTooMuch(context))
+        known_ = context.tick + context.stepTicks;
+    if (!on_ && stepLog_.runs() > 2 * base::kMostGpuStepRuns) { // it would not be of use anyway
+        stepLog_.clear(context.seed, context.solverIndex);
+        known_ = context.tick;
+    }
+    const InstanceParameters& wanted = *context.parameters;
+    stepLog_.add(context.tick, context.stepTicks, log_.next(),
+                 {context.gravity, context.wind, context.groundHeight, wanted.intensity, wanted.emitting});
 }
 
 void GpuEmitter::setPull(base::Ticks now, const glm::vec3& pull)
@@ -55,16 +78,18 @@ void GpuEmitter::forget(base::Ticks now)
 {
     const base::Ticks oldest = now - window_;
     log_.forget(oldest);
+    stepLog_.forget(oldest);
     size_t gone = 0;
     while (gone + 1 < conditions_.size() && conditions_[gone + 1].begin <= oldest)
         ++gone;
     conditions_.erase(conditions_.begin(), conditions_.begin() + std::ptrdiff_t(gone));
 }
 
-bool GpuEmitter::mayGoOn() const
+bool GpuEmitter::mayGoOn(base::Ticks now) const
 {
     return surelyFits() && log_.runs() <= base::kMostGpuRuns &&
-           conditions_.size() <= base::kMostGpuConditions;
+           conditions_.size() <= base::kMostGpuConditions && stepLog_.runs() <= base::kMostGpuStepRuns &&
+           stepLog_.stepsSince(now - window_) <= base::kMostGpuSteps;
 }
 
 bool GpuEmitter::mayBegin(base::Ticks now) const
@@ -73,7 +98,9 @@ bool GpuEmitter::mayBegin(base::Ticks now) const
     const bool isKnown = (known_ == 0 || known_ < oldest) && dropped_ < std::max<base::Ticks>(oldest, 0);
     // With some room, so that it does not come and go with every step.
     return isKnown && surelyFits() && 4 * log_.runs() <= 3 * base::kMostGpuRuns &&
-           4 * conditions_.size() <= 3 * base::kMostGpuConditions;
+           4 * conditions_.size() <= 3 * base::kMostGpuConditions &&
+           4 * stepLog_.runs() <= 3 * base::kMostGpuStepRuns &&
+           4 * stepLog_.stepsSince(oldest) <= 3 * base::kMostGpuSteps;
 }
 
 base::Ticks GpuEmitter::lastDeath(const BirthKey& key) const
@@ -104,27 +131,67 @@ bool GpuEmitter::isEmpty(const BirthKey& key, base::Ticks now) const
 
 LookJob GpuEmitter::rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const
 {
-    return replayBirths(program_,
-                        {key, log_.front(), log_.next(),
-                         [this](uint64_t first, std::span<base::Ticks> out) { log_.ticksOf(first, out); },
-                         conditions_, now, store.placed},
-                        store);
+    ReplayInput in{
+        key,         log_.front(),
+        log_.next(), [this](uint64_t first, std::span<base::Ticks> out) { log_.ticksOf(first, out); },
+        conditions_, now,
+        store.placed};
+    if (!steps_)
+        return replayBirths(program_, in, store);
+    std::vector<ReplayStep> steps;
+    stepLog_.forEachSince(now - window_, [&](const LoggedStep& step) {
+        const StepConditions& c = step.conditions;
+        steps.push_back({step.begin, step.end, c.gravity, c.wind, c.ground});
+    });
+    in.steps = steps;
+    return replaySteps(program_, in, store);
 }
 
-base::Bounds GpuEmitter::bounds() const
+StepWeather GpuEmitter::weather(base::Ticks now) const
 {
+    const EmitterDef& def = program_.def;
+    const float drag = def.forces.drag > 0.0f ? std::min(def.forces.drag, 1e6f) : 0.0f;
+    StepWeather out;
+    out.low = glm::vec3(kFarAway);
+    out.high = -out.low;
+    out.lowGround = kFarAway;
+    out.highGround = -kFarAway;
+    stepLog_.forEachRun([&](const StepConditions& c) {
+        const glm::vec3 pull = def.forces.gravity * c.gravity + drag * (c.wind + def.forces.wind);
+        out.low = glm::min(out.low, pull);
+        out.high = glm::max(out.high, pull);
+        out.lowGround = std::min(out.lowGround, c.ground);
+        out.highGround = std::max(out.highGround, c.ground);
+        out.strongest.gravity = std::max(out.strongest.gravity, glm::length(c.gravity));
+        out.strongest.wind = std::max(out.strongest.wind, glm::length(c.wind));
+    });
+    const base::Ticks oldest = log_.empty() ? 0 : now - log_.tickOf(log_.front());
+    out.strongest.seconds = float(base::toSeconds(std::min(oldest, program_.longestLife)));
+    out.meetsGround = meetsGround_;
+    out.meetsOthers = meetsOthers_;
+    return out;
+}
+
+base::Bounds GpuEmitter::bounds(base::Ticks now) const
+{
+    if (steps_)
+        return boundsOfStepped(program_.def, weather(now));
+    const float seconds = float(base::toSeconds(program_.longestLife));
     glm::vec3 low = conditions_[0].pull, high = low;
     for (const MotionCondition& condition : conditions_) {
         low = glm::min(low, condition.pull);
         high = glm::max(high, condition.pull);
     }
-    return boundsOfAll(program_.def, low, high, float(base::toSeconds(program_.longestLife)));
+    return boundsOfAll(program_.def, low, high, seconds);
 }
 
 void GpuEmitter::publish(const base::GroupInfo& base, base::KindId kind, const BirthKey& key, base::Ticks now,
                          base::FrameSnapshot& snapshot) const
 {
-    base::SnapshotGroup& group = snapshot.addGroup(kind, base::kMostGpuWords);
+    constexpr size_t kFewRuns = 16; // room changes rarely
+    const size_t room = steps_ ? std::bit_ceil(std::max(stepLog_.runs(), kFewRuns)) : 0;
+    base::SnapshotGroup& group =
+        snapshot.addGroup(kind, base::kMostGpuWords + room * sizeof(base::GpuStepRun) / 8);
     std::array<base::GpuBirthRun, base::kMostGpuRuns> runs;
     std::array<base::GpuCondition, base::kMostGpuConditions> conditions;
     base::GpuParticleMoment moment{};
@@ -137,6 +204,7 @@ void GpuEmitter::publish(const base::GroupInfo& base, base::KindId kind, const B
     moment.window = count();
     moment.runs = uint32_t(log_.runs());
     moment.conditions = uint32_t(conditions_.size());
+    moment.stepRuns = uint32_t(stepLog_.runs());
     log_.publish(now, runs);
     for (size_t i = 0; i < conditions_.size(); ++i) {
         const glm::vec3& pull = conditions_[i].pull;
@@ -146,15 +214,20 @@ void GpuEmitter::publish(const base::GroupInfo& base, base::KindId kind, const B
     put(at, std::span<const base::GpuParticleMoment>(&moment, 1));
     put(at, std::span<const base::GpuBirthRun>(runs).first(moment.runs));
     put(at, std::span<const base::GpuCondition>(conditions).first(moment.conditions));
+    std::array<base::GpuStepRun, base::kMostGpuStepRuns> steps;
+    stepLog_.publish(now, steps);
+    put(at, std::span<const base::GpuStepRun>(steps).first(moment.stepRuns));
     group.setProgram(program_.gpu);
     writeConstants(program_.def, program_.def.look, 1.0f, group.editConstants());
     base::GroupInfo& info = group.editInfo();
     info = base;
     info.kind = kind;
-    info.count = uint32_t(
-        (sizeof moment + moment.runs * sizeof runs[0] + moment.conditions * sizeof conditions[0]) / 8);
+    info.count =
+        uint32_t((sizeof moment + moment.runs * sizeof runs[0] + moment.conditions * sizeof conditions[0] +
+                  moment.stepRuns * sizeof(base::GpuStepRun)) /
+                 8);
     if (moment.window > 0)
-        info.bounds = bounds();
+        info.bounds = bounds(now);
 }
 
 } // namespace fx::sim

@@ -7,7 +7,9 @@
 
 #include "simulation/emitters/birth_log.h"
 #include "simulation/emitters/gpu_replay.h"
+#include "simulation/emitters/step_log.h"
 
+#include <limits>
 #include <memory_resource>
 #include <vector>
 
@@ -24,7 +26,9 @@ public:
     const BirthLog& log() const { return log_; }
 
     /// Nothing is known of what happened before `now`, unless that is 0. Ends.
-    void clear(base::Ticks now, uint64_t next, const glm::vec3& pull);
+    void clear(const BirthKey& key, base::Ticks now, uint64_t next, const glm::vec3& pull);
+    /// A step that is about to be taken, wherever that happens. Only where motion has no closed form.
+    void noteStep(const StepContext& context);
     /// Gravity or wind change.
     void setPull(base::Ticks now, const glm::vec3& pull);
     /// Births were dropped before `now`.
@@ -34,10 +38,19 @@ public:
     /// Forgets what can no longer be alive at `now`.
     void forget(base::Ticks now);
 
+    /// Whether a step asks for more than the GPU knows.
+    bool asksTooMuch(const StepContext& context) const
+    {
+        constexpr base::Ticks kLongest = std::numeric_limits<uint32_t>::max(); // about 6 s
+        return (heedsHost_ && (context.collider || context.contactHook)) ||
+               (steps_ && context.stepTicks > kLongest);
+    }
+    /// Whether particles may die before their time.
+    bool kills() const { return kills_; }
     bool isOn() const { return on_; }
     /// Whether all that lives at `now` is known, and small enough to be published.
     bool mayBegin(base::Ticks now) const;
-    bool mayGoOn() const;
+    bool mayGoOn(base::Ticks now) const;
     void begin() { on_ = true; }
     void end() { on_ = false; }
 
@@ -53,13 +66,20 @@ public:
                  base::FrameSnapshot& snapshot) const;
 
 private:
-    base::Bounds bounds() const;
+    base::Bounds bounds(base::Ticks now) const;
+    StepWeather weather(base::Ticks now) const;
     base::Ticks lastDeath(const BirthKey& key) const;
 
     const ParticleProgram& program_;
     uint32_t rows_;
     base::Ticks window_; ///< [tick] longer than any life
+    bool steps_;         ///< motion has no closed form
+    bool kills_;
+    bool heedsHost_;
+    bool meetsGround_ = false; ///< see StepWeather
+    bool meetsOthers_ = false;
     BirthLog log_;
+    StepLog stepLog_;
     std::pmr::vector<MotionCondition> conditions_; ///< the first holds for all that may be alive
     base::Ticks known_ = 0;                        ///< nothing is missing since then
     base::Ticks dropped_ = -1;                     ///< [tick] births were dropped before then; -1: never

@@ -1,12 +1,16 @@
 #include "simulation/emitters/gpu_program.h"
 
-#include "foundation/math/elementary.h"
+#include "simulation/emitters/gpu_numbers.h"
 #include "simulation/emitters/gpu_replay.h"
-#include "simulation/particles/fields/turn.h"
+#include "simulation/particles/builtin_ops.h"
+#include "simulation/particles/gpu_module_source.h"
 #include "simulation/particles/particle_program.h"
 #include "simulation/particles/shapes/shape_sample.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
 #include <iterator>
 
 #ifndef FXSDK_GPU_PARTICLES
@@ -18,7 +22,7 @@ namespace fx::sim {
 namespace {
 
 constexpr uint32_t kMostRows = 65535u * 256u; // of the work groups that every OpenGL 4.5 can be asked for
-constexpr float kPi = 3.14159265f;
+constexpr size_t kMostModules = 48;
 
 bool changesRate(const Emission& emission)
 {
@@ -32,114 +36,61 @@ bool changesRate(const Emission& emission)
 bool isKnown(const ShapeOp& births)
 {
     const ShapeDef* const shape = shapeOf(births);
-    return shape && shape->kind < ShapeKind::Mesh &&
-           (shape->kind != ShapeKind::Cone || !(shape->height > 0.0f));
+    return shape && shape->kind < ShapeKind::Mesh;
+}
+
+using Ops = std::vector<std::shared_ptr<const TileOp>>;
+
+/// As ParticleProgram has them.
+Ops opsOf(const EmitterDef& def)
+{
+    Ops ops;
+    addBuiltinOps(def, ops);
+    ops.insert(ops.end(), def.modules.begin(), def.modules.end());
+    std::stable_sort(ops.begin(), ops.end(),
+                     [](const auto& a, const auto& b) { return a->phase() < b->phase(); });
+    return ops;
+}
+
+constexpr size_t kScratchBytes = 8192; ///< of what modules prepare for a step
+
+/// Where what each module prepares begins, and after the last one the end.
+std::vector<size_t> scratchPlaces(const Ops& ops)
+{
+    std::vector<size_t> places{0};
+    for (const auto& op : ops)
+        places.push_back(places.back() + (op->scratchBytes() + 63) / 64 * 64);
+    return places;
+}
+
+std::string_view obstacleOfSteps(const EmitterDef& def)
+{
+    constexpr float kSome = 10.0f;
+    constexpr float kLongestLife = 0.75f * float(base::kMostGpuSteps) / 60.0f; // at the usual step
+    if (std::max(def.lifetime.min, def.lifetime.max) > kLongestLife)
+        return "its particles live through too many steps";
+    const Ops ops = opsOf(def);
+    base::GpuModules modules;
+    for (const auto& op : ops)
+        if (const GpuModuleSource* const source = gpuSourceOf(*op); !source || !source->describe(modules))
+            return "it meets a mesh or a height field, or is drawn to a mesh, or its vector field is too "
+                   "large";
+    if (scratchPlaces(ops).back() > kScratchBytes || modules.uses.size() > kMostModules)
+        return "it has too many modules";
+    StepWeather weather;
+    weather.strongest = {kSome, kSome, kSome};
+    const base::Bounds bounds = boundsOfStepped(def, weather);
+    return std::isfinite(bounds.max.x) ? "" : "nothing says how far its particles may get";
 }
 
 /// What the emitter does besides being drawn, or does in a way that no shader knows.
 std::string_view obstacleOfModules(const EmitterDef& def)
 {
     if (def.births && !isKnown(*def.births))
-        return "its shape is a mesh, a spline, a volume or a cone with a height";
-    if (!def.modules.empty())
-        return "forces or collisions beyond gravity, drag and a constant wind act on it";
-    if (def.forces.curlStrength > 0.0f)
-        return "turbulence acts on it";
-    if (def.forces.buoyancy != 0.0f)
-        return "buoyancy acts on it";
-    if (def.forces.bounce >= 0.0f)
-        return "it meets the ground";
-    return changesRate(def.emission) ? "its rate of births changes" : "";
-}
-
-/// {min, max} as particles are drawn from it: the same number twice where nothing is drawn.
-void setRange(float (&out)[2], const base::Range& range)
-{
-    out[0] = range.min;
-    out[1] = range.max > range.min ? range.max : range.min;
-}
-
-/// What the members of an emitter say of its shape, as a ShapeDef.
-ShapeDef plainShapeOf(const EmitterDef& def)
-{
-    ShapeDef shape;
-    shape.kind = ShapeKind(uint8_t(def.shape));
-    shape.position = def.position;
-    shape.size = def.size;
-    shape.angle = def.angle;
-    return shape;
-}
-
-base::GpuShape gpuShapeOf(const ShapeDef& shape)
-{
-    switch (shape.kind) {
-    case ShapeKind::Sphere:
-        return base::GpuShape::Ball;
-    case ShapeKind::Box:
-        return shape.onSurface ? base::GpuShape::BoxFaces : base::GpuShape::Box;
-    case ShapeKind::Cone:
-        return base::GpuShape::Cone;
-    case ShapeKind::Line:
-        return base::GpuShape::Line;
-    case ShapeKind::Disc:
-        return base::GpuShape::Disc;
-    case ShapeKind::Torus:
-        return base::GpuShape::Torus;
-    default:
-        return base::GpuShape::Point;
-    }
-}
-
-void setShape(const ShapeDef& shape, base::GpuParticleNumbers& n)
-{
-    const glm::vec3 axis = unitOrUp(shape.axis);
-    for (int a = 0; a < 3; ++a) {
-        n.position[a] = shape.position[a];
-        n.size[a] = shape.size[a];
-        n.axis[a] = axis[a];
-    }
-    const float angle = std::clamp(shape.angle, 0.0f, kPi);
-    n.cosLimit = shape.kind == ShapeKind::Cone
-                     ? float(base::sinCosTurns(double(angle) / 6.283185307179586).cos)
-                     : -1.0f;
-    n.inner = shape.onSurface ? 1.0f : std::clamp(shape.inner, 0.0f, 1.0f);
-    n.tube = std::clamp(shape.tube, 0.0f, std::max(shape.size.x, 0.0f));
-}
-
-void setCurves(float (&out)[5][base::kGpuCurveSamples], const base::ColorCurve& color,
-               const base::ScalarCurve& opacity, const base::ScalarCurve& size)
-{
-    for (size_t c = 0; c < 3; ++c)
-        std::ranges::copy(samplesOf(color, c), out[c]);
-    std::ranges::copy(samplesOf(opacity, 0), out[3]);
-    std::ranges::copy(samplesOf(size, 0), out[4]);
-}
-
-base::GpuParticleNumbers numbersOf(const EmitterDef& def, const ParticleProgram& program)
-{
-    const EmitterLook& look = def.look;
-    base::GpuParticleNumbers n{};
-    setShape(def.births ? *shapeOf(*def.births) : plainShapeOf(def), n);
-    // Speeds are not drawn like the others: a range that falls is a range too.
-    n.speed[0] = def.speed.min;
-    n.speed[1] =
-        def.speed.max > def.speed.min || program.stores[stored::PerLife] ? def.speed.max : def.speed.min;
-    setRange(n.lifetime, def.lifetime);
-    n.perLife = program.constant[stored::PerLife];
-    setRange(n.radius, def.radius);
-    setRange(n.opacity, look.opacity);
-    setRange(n.brightness, look.brightness);
-    setRange(n.angle, look.angle);
-    setRange(n.spin, look.spin);
-    setRange(n.frame, look.firstFrame);
-    n.drag = def.forces.drag > 0.0f ? std::min(def.forces.drag, 1e6f) : 0.0f;
-    n.perDrag = n.drag > 0.0f ? 1.0f / n.drag : 0.0f;
-    n.frames = float(look.tileColumns * look.tileRows);
-    n.framesPerSecond = look.framesPerSecond;
-    n.perFastest = look.fastest > 0.0f ? 1.0f / look.fastest : 0.0f;
-    setCurves(n.lifeCurves, look.colorOverLife, def.opacityOverLife, def.sizeOverLife);
-    setCurves(n.speedCurves, look.colorOverSpeed, look.opacityOverSpeed, look.sizeOverSpeed);
-    return n;
+        return "its shape is a mesh, a spline or a volume";
+    if (changesRate(def.emission))
+        return "its rate of births changes";
+    return def.isBallistic() ? "" : obstacleOfSteps(def);
 }
 
 /// The emitter itself goes along, so that its rows can be made anywhere and at any time.
@@ -149,9 +100,8 @@ public:
     explicit EmitterGpuProgram(const EmitterDef& def)
         : def_(def), program_((def_.compute = ComputeOn::Cpu, def_))
     {
-        numbers = numbersOf(def_, program_);
-        const ShapeDef shape = def_.births ? *shapeOf(*def_.births) : plainShapeOf(def_);
-        features.shape = gpuShapeOf(shape);
+        numbers = gpuNumbersOf(def_, program_);
+        features.shape = gpuShapeOf(def_);
         features.turned = numbers.axis[1] != 1.0f;
         features.frames = def_.look.frames == FrameClock::OverLife    ? base::GpuFrames::OverLife
                           : def_.look.frames == FrameClock::PerSecond ? base::GpuFrames::PerSecond
@@ -160,10 +110,15 @@ public:
         features.lifeVaries = program_.stores[stored::PerLife];
         features.drags = numbers.drag > 0.0f;
         features.bySpeed = program_.bySpeed != nullptr;
+        features.wide = def_.births != nullptr;
+        features.lifeTable = program_.looks.byTable;
+        features.speedTable = features.bySpeed && program_.bySpeed->byTable;
         features.columns = program_.published;
+        if (!program_.ballistic)
+            setModules();
         rows = std::max(def_.maxParticles, 1u);
         float size = 0.0f;
-        for (const float sample : numbers.lifeCurves[4])
+        for (const float sample : samplesOf(def_.sizeOverLife, 0))
             size += sample / float(base::kGpuCurveSamples);
         meanRadius = 0.5f * (numbers.radius[0] + numbers.radius[1]) * size;
     }
@@ -172,10 +127,71 @@ public:
     {
         replayGroup(program_, group, out);
     }
+    void writeSteps(const base::SnapshotGroup& group, int64_t since,
+                    std::vector<uint32_t>& out) const override
+    {
+        const base::GpuParticleMoment moment = base::gpuMomentOf(group);
+        const base::Ticks from = std::max(since, moment.now - longestKept(program_));
+        for (uint32_t r = 0; r < moment.stepRuns; ++r) {
+            const base::GpuStepRun run = base::gpuStepRunOf(group, moment, r);
+            for (uint32_t i = base::gpuStepsBefore(run, moment.now, from); i < run.count; ++i)
+                writeStep(moment, run, i, out);
+        }
+    }
 
 private:
+    void setModules()
+    {
+        base::GpuModules modules;
+        for (const auto& op : program_.ops) {
+            wordPlaces_.push_back(modules.stepWords);
+            sources_.push_back(gpuSourceOf(*op));
+            sources_.back()->describe(modules);
+        }
+        features.steps = true;
+        features.modules = std::move(modules.uses);
+        moduleNumbers = std::move(modules.numbers);
+        features.stepWords = base::kGpuStepHead + modules.stepWords;
+        kills = modules.kills;
+        heedsHost = modules.heedsHost;
+        places_ = scratchPlaces(program_.ops);
+    }
+
+    void writeStep(const base::GpuParticleMoment& moment, const base::GpuStepRun& run, uint32_t number,
+                   std::vector<uint32_t>& out) const
+    {
+        const base::Ticks begin = moment.now - run.age + run.length * base::Ticks(number);
+        const glm::vec3 gravity(run.gravity[0], run.gravity[1], run.gravity[2]);
+        const StepContext step = contextOf(
+            {begin, begin + run.length, gravity, {run.wind[0], run.wind[1], run.wind[2]}, run.ground},
+            {moment.seed, moment.solver});
+        const TileContext context{step, begin + run.length, step.wind + def_.forces.wind,
+                                  base::toSeconds(begin), step.seconds()};
+        const glm::vec3& wind = context.wind;
+        const base::GpuStepWords head{moment.now - context.end,
+                                      uint32_t(run.length),
+                                      context.seconds,
+                                      {gravity.x, gravity.y, gravity.z},
+                                      {wind.x, wind.y, wind.z},
+                                      run.ground,
+                                      0};
+        const size_t at = out.size();
+        out.resize(at + features.stepWords);
+        std::memcpy(&out[at], &head, sizeof head);
+        alignas(64) std::array<std::byte, kScratchBytes> scratch;
+        uint32_t* const words = out.data() + at + base::kGpuStepHead;
+        for (size_t k = 0; k < program_.ops.size(); ++k) {
+            const TileOp& op = *program_.ops[k];
+            op.prepare(context, scratch.data() + places_[k]);
+            sources_[k]->writeWords(scratch.data() + places_[k], words + wordPlaces_[k]);
+        }
+    }
+
     EmitterDef def_;
     ParticleProgram program_;
+    std::vector<size_t> places_; ///< of what modules prepare
+    std::vector<uint32_t> wordPlaces_;
+    std::vector<const GpuModuleSource*> sources_; ///< the program's modules
 };
 
 } // namespace

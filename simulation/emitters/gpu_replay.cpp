@@ -117,6 +117,7 @@ void replayGroup(const ParticleProgram& program, const base::SnapshotGroup& grou
     const Published published = readWords(group);
     const base::GpuParticleMoment& moment = published.moment;
     ParticleStore store(program, out.memory());
+    const std::vector<ReplayStep> steps = stepsOf(group, moment.now - longestKept(program));
     const ReplayInput input{
         {moment.seed, moment.solver},
         moment.next - moment.window,
@@ -124,8 +125,10 @@ void replayGroup(const ParticleProgram& program, const base::SnapshotGroup& grou
         [&](uint64_t first, std::span<base::Ticks> ticks) { ticksOf(published, first, ticks); },
         published.conditions,
         moment.now,
-        program.stores[stored::X]};
-    const LookJob job = replayBirths(program, input, store);
+        program.stores[stored::X],
+        steps};
+    const LookJob job =
+        program.ballistic ? replayBirths(program, input, store) : replaySteps(program, input, store);
     publishRows(job, out.schema().find(base::kParticleKind.name), group.info(), nullptr, out);
 }
 

@@ -3,6 +3,7 @@
 /// if it had been stepped there all along.
 #pragma once
 
+#include "simulation/emitters/step_log.h"
 #include "simulation/particles/birth_kernel.h"
 #include "simulation/particles/look_kernel.h"
 
@@ -10,6 +11,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace fx::sim {
 
@@ -20,6 +22,24 @@ struct MotionCondition
     glm::vec3 pull;    ///< [m/s2] see LookJob
 };
 
+/// One step of particles whose motion has no closed form.
+struct ReplayStep
+{
+    base::Ticks begin, end;
+    glm::vec3 gravity; ///< see StepConditions
+    glm::vec3 wind;
+    float ground;
+};
+
+/// [tick] Longer than any life, roundings included.
+base::Ticks longestKept(const ParticleProgram& program);
+
+/// The steps of a group that ended after `since`.
+std::vector<ReplayStep> stepsOf(const base::SnapshotGroup& group, base::Ticks since);
+
+/// What modules get for one of them; neither memory nor tasks.
+StepContext contextOf(const ReplayStep& step, const BirthKey& key);
+
 struct ReplayInput
 {
     BirthKey key;
@@ -29,11 +49,14 @@ struct ReplayInput
     std::function<void(uint64_t first, std::span<base::Ticks> out)> ticksOf;
     std::span<const MotionCondition> conditions; ///< ascending, at least one
     base::Ticks now;
-    bool placed; ///< see ParticleStore::placed
+    bool placed;                            ///< see ParticleStore::placed
+    std::span<const ReplayStep> steps = {}; ///< all in which they lived; where motion has no closed form
 };
 
 /// Fills `store` with what lives of the births. @return what there is to be looked at
 LookJob replayBirths(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
+/// The same step by step.
+LookJob replaySteps(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
 
 /// From now on, motion begins where it has come to.
 void restartMotion(const LookJob& job, ParticleStore& store);
@@ -49,5 +72,20 @@ void publishRows(const LookJob& job, base::KindId kind, const base::GroupInfo& b
 /// What is drawn within lives of at most `seconds` stays in this box, whatever is drawn at random.
 /// @param low, high [m/s2] between these are the pulls, component by component
 base::Bounds boundsOfAll(const EmitterDef& def, const glm::vec3& low, const glm::vec3& high, float seconds);
+
+/// What has acted on particles since the oldest of them was born, besides modules.
+struct StepWeather
+{
+    ReachConditions strongest; ///< and how long that is
+    glm::vec3 low{0.0f};       ///< [m/s2] between these were the pulls of gravity and wind, see LookJob
+    glm::vec3 high{0.0f};
+    float lowGround = 0.0f; ///< [m] between these was the ground plane, -infinity for none
+    float highGround = 0.0f;
+    bool meetsGround = false; ///< particles do not fall below it
+    bool meetsOthers = false; ///< they may go anywhere from there
+};
+
+/// As boundsOfAll() where modules move particles; infinite when nobody knows.
+base::Bounds boundsOfStepped(const EmitterDef& def, const StepWeather& weather);
 
 } // namespace fx::sim

@@ -64,11 +64,10 @@ public:
         const float* cosine; ///< of kPhases phases
         const float* sine;
     };
+    static constexpr uint32_t kPhases = 16;
+    Parts parts() const; ///< as long as it lives
 
 private:
-    static constexpr uint32_t kPhases = 16;
-    Parts parts() const;
-
     uint32_t seed_;
     float strength_;
     float perScale_;

@@ -3,8 +3,10 @@
 #include "foundation/random/philox.h"
 #include "simulation/motion/curl_noise.h"
 #include "simulation/motion/ground_lanes.h"
+#include "simulation/particles/gpu_module_source.h"
 
 #include <algorithm>
+#include <bit>
 #include <new>
 
 namespace fx::sim {
@@ -12,12 +14,25 @@ namespace fx::sim {
 namespace {
 
 /// Gravity, buoyancy, wind and linear drag.
-class AirOp final : public TileOp
+class AirOp final : public TileOp, public GpuModuleSource
 {
 public:
-    explicit AirOp(const EmitterForces& forces) : forces_(forces) {}
+    explicit AirOp(const EmitterDef& def) : def_(def), forces_(def.forces) {}
 
     TilePhase phase() const override { return TilePhase::Force; }
+    bool describe(base::GpuModules& out) const override
+    {
+        if (forces_.buoyancy == 0.0f) {
+            out.add(base::GpuModule::Gravity, {forces_.gravity});
+            return true;
+        }
+        out.add(base::GpuModule::Lift,
+                {forces_.gravity, forces_.buoyancy / kAirTemperature, def_.temperature.min - kAirTemperature,
+                 def_.temperature.max - kAirTemperature});
+        for (size_t i = 0; i <= base::kCurveSamples; ++i)
+            out.numbers.push_back(def_.temperatureOverLife.at(float(i) / float(base::kCurveSamples))[0]);
+        return true;
+    }
     void run(const TileContext& context, const void*, Tile& tile) const override
     {
         const float drag = forces_.drag > 0.0f ? std::min(forces_.drag, 1e6f) : 0.0f;
@@ -36,11 +51,12 @@ public:
     }
 
 private:
+    const EmitterDef& def_; ///< outlives its program
     EmitterForces forces_;
 };
 
 /// Turbulent air.
-class CurlOp final : public TileOp
+class CurlOp final : public TileOp, public GpuModuleSource
 {
 public:
     explicit CurlOp(const EmitterForces& forces) : forces_(forces) {}
@@ -63,6 +79,24 @@ public:
             turns *= 2.0;
         }
     }
+    bool describe(base::GpuModules& out) const override
+    {
+        for (uint32_t k = 0; k < octaves(); ++k)
+            out.add(base::GpuModule::Curl, {}, kCurlWords);
+        return true;
+    }
+    void writeWords(const void* scratch, uint32_t* out) const override
+    {
+        for (uint32_t k = 0; k < octaves(); ++k) {
+            const CurlNoise::Parts parts = (static_cast<const CurlNoise*>(scratch) + k)->parts();
+            *out++ = parts.seed;
+            *out++ = std::bit_cast<uint32_t>(parts.gain);
+            *out++ = std::bit_cast<uint32_t>(parts.perScale);
+            for (const float* const table : {parts.cosine, parts.sine})
+                for (uint32_t i = 0; i < CurlNoise::kPhases; ++i)
+                    *out++ = std::bit_cast<uint32_t>(table[i]);
+        }
+    }
     void run(const TileContext&, const void* scratch, Tile& tile) const override
     {
         const CurlNoise* const noise = static_cast<const CurlNoise*>(scratch);
@@ -71,12 +105,13 @@ public:
     }
 
 private:
+    static constexpr uint32_t kCurlWords = 3 + 2 * CurlNoise::kPhases;
     uint32_t octaves() const { return std::clamp(forces_.curlOctaves, 1u, 8u); }
     EmitterForces forces_;
 };
 
 /// The ground plane and the host's geometry.
-class GroundOp final : public TileOp
+class GroundOp final : public TileOp, public GpuModuleSource
 {
 public:
     explicit GroundOp(const EmitterForces& forces)
@@ -85,6 +120,12 @@ public:
 
     TilePhase phase() const override { return TilePhase::Contact; }
     bool collides() const override { return true; }
+    bool describe(base::GpuModules& out) const override
+    {
+        out.add(base::GpuModule::Bounce, {restitution_, friction_});
+        out.heedsHost = true;
+        return true;
+    }
     void run(const TileContext& context, const void*, Tile& tile) const override
     {
         const GroundContact ground{context.step.groundHeight, restitution_, friction_};
@@ -134,7 +175,7 @@ private:
 
 void addBuiltinOps(const EmitterDef& def, std::vector<std::shared_ptr<const TileOp>>& ops)
 {
-    ops.push_back(std::make_shared<AirOp>(def.forces));
+    ops.push_back(std::make_shared<AirOp>(def));
     if (def.forces.curlStrength > 0.0f)
         ops.push_back(std::make_shared<CurlOp>(def.forces));
     if (def.forces.bounce >= 0.0f)

@@ -15,6 +15,14 @@ constexpr const char* kSparks = R"({"version": 1, "name": "sparks", "emitters": 
      "emission": {"rate": 400}, "lifetime": {"min": 0.3, "max": 0.8}, "radius": 0.03, "maxParticles": 500,
      "appearance": {"kind": "sprite", "order": "depth", "luminance": 5000}}]})";
 
+/// Sprites whose motion has no closed form.
+constexpr const char* kFlakes = R"({"version": 1, "name": "flakes", "emitters": [
+    {"name": "flakes", "compute": "gpu", "shape": "sphere", "size": [1, 0, 0], "position": [0, 2, 0],
+     "emission": {"rate": 400}, "lifetime": {"min": 0.3, "max": 0.8}, "radius": 0.03, "maxParticles": 500,
+     "forces": {"drag": 2, "curlStrength": 1, "gust": [1, 0, 1]},
+     "collisions": [{"shape": "plane", "position": [0, 1.5, 0], "response": "stick"}],
+     "appearance": {"kind": "sprite", "order": "depth", "luminance": 5000}}]})";
+
 } // namespace
 
 class ViewGpu : public ViewApiTest
@@ -127,6 +135,33 @@ TEST_F(ViewGpu, doesNotChangeTheHashesOfTheScene)
     uint64_t a = 0, b = 0;
     ASSERT_EQ(fxScene_GetStateHash(drawn, &a), FX_OK) << fxGetLastErrorMessage();
     ASSERT_EQ(fxScene_GetStateHash(other, &b), FX_OK);
+    EXPECT_EQ(a, b);
+}
+
+/// All that later steps depend on, wherever rows are: with a view that computes them and without any.
+TEST_F(ViewGpu, leavesTheSimulationOfSteppedEmittersAsItIs)
+{
+    const FxSceneDef def = fxDefaultSceneDef();
+    FxScene* scenes[2] = {};
+    for (FxScene*& scene : scenes) {
+        ASSERT_EQ(fxCreateScene(context_, &def, &scene), FX_OK);
+        FxInstanceDef instance = fxDefaultInstanceDef();
+        instance.preset = loadText(context_, kFlakes);
+        FxInstanceId id{};
+        ASSERT_EQ(fxScene_CreateInstance(scene, &instance, &id), FX_OK) << fxGetLastErrorMessage();
+    }
+    ASSERT_EQ(fxDestroyView(view_), FX_OK);
+    ASSERT_EQ(fxCreateView(context_, scenes[0], nullptr, &view_), FX_OK);
+    for (int i = 0; i < 90; ++i) {
+        for (FxScene* scene : scenes)
+            ASSERT_EQ(fxScene_Update(scene, 1.0 / 60.0), FX_OK);
+        const FxFrameDef frameDef = frame();
+        ASSERT_EQ(fxView_Render(view_, &frameDef), FX_OK);
+    }
+    EXPECT_EQ(statistics().gpuParticles, 500u);
+    uint64_t a = 0, b = 0;
+    ASSERT_EQ(fxScene_GetSimulationHash(scenes[0], &a), FX_OK) << fxGetLastErrorMessage();
+    ASSERT_EQ(fxScene_GetSimulationHash(scenes[1], &b), FX_OK);
     EXPECT_EQ(a, b);
 }
 

@@ -89,6 +89,7 @@ void GpuParticleTest::SetUp()
     graph_ = std::make_unique<render::FrameGraph>(std::pmr::get_default_resource());
     backend_ = std::make_unique<render::GlBackend>(*device_, std::pmr::get_default_resource());
     emitters_ = std::make_unique<render::GpuEmitters>(*device_, std::pmr::get_default_resource());
+    states_ = makeStates();
     view_->setAssets(&assets_);
     view_->settings().exposureEv100 = 12.0f;
     view_->settings().lighting.skyLuminance = glm::vec3(2000.0f);
@@ -115,6 +116,7 @@ Picture GpuParticleTest::draw(const base::FrameSnapshot& newer, const base::Fram
 
 void GpuParticleTest::TearDown()
 {
+    states_.reset();
     emitters_.reset();
     backend_.reset();
     graph_.reset();
@@ -128,7 +130,7 @@ std::shared_ptr<const sim::EffectDef> GpuParticleTest::load(const std::string& t
     return preset->effect;
 }
 
-Rows GpuParticleTest::computed(const base::SnapshotGroup& group)
+Rows GpuParticleTest::computed(const base::SnapshotGroup& group, render::GpuStates& states)
 {
     const auto& features = group.program()->features;
     const uint32_t count = group.program()->rows;
@@ -147,13 +149,17 @@ Rows GpuParticleTest::computed(const base::SnapshotGroup& group)
     device_->gl.NamedBufferSubData(in->name(), 0, GLsizeiptr(in->bytes()), group.column64(0).data());
     render::ParticleBatch batch{};
     batch.newer = {out->name(), {}, 0, out->bytes()};
-    const render::GpuRowsJob job{(*entry)->program,
-                                 0,
-                                 true,
-                                 {(*entry)->numbers.name(), {}, 0, (*entry)->numbers.bytes()},
-                                 {in->name(), {}, 0, in->bytes()},
-                                 at,
-                                 count};
+    render::GpuRowsJob job{(*entry)->program,
+                           0,
+                           true,
+                           {(*entry)->numbers.name(), {}, 0, (*entry)->numbers.bytes()},
+                           {in->name(), {}, 0, in->bytes()},
+                           at,
+                           count};
+    states.nextFrame();
+    const base::Status prepared = states.prepare(group, job);
+    EXPECT_TRUE(prepared.ok()) << prepared.message();
+    steps_ = job.stepCount;
     graph_->begin();
     batch.newer.id = graph_->importBuffer({"rows", out->bytes()}, out->name());
     render::GpuRowsPass::addTo(*graph_, {&job, 1}, {&batch, 1});

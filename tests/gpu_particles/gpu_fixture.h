@@ -8,6 +8,7 @@
 #include "rendering/frame_graph/frame_graph.h"
 #include "rendering/gl/gl_backend.h"
 #include "rendering/gpu_particles/gpu_emitters.h"
+#include "rendering/gpu_particles/gpu_states.h"
 #include "simulation/world.h"
 #include "tests/rendering/view/view_fixture.h"
 
@@ -69,7 +70,12 @@ protected:
 
     std::shared_ptr<const sim::EffectDef> load(const std::string& text);
     /// What the GPU makes of a group of the kind "gpuParticle".
-    Rows computed(const base::SnapshotGroup& group);
+    Rows computed(const base::SnapshotGroup& group) { return computed(group, *states_); }
+    Rows computed(const base::SnapshotGroup& group, render::GpuStates& states);
+    std::unique_ptr<render::GpuStates> makeStates()
+    {
+        return std::make_unique<render::GpuStates>(*device_, std::pmr::get_default_resource());
+    }
     /// The picture of two steps, half way between them.
     Picture draw(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
     base::Status drawInto(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
@@ -79,6 +85,8 @@ protected:
     std::unique_ptr<render::FrameGraph> graph_;
     std::unique_ptr<render::GlBackend> backend_;
     std::unique_ptr<render::GpuEmitters> emitters_;
+    std::unique_ptr<render::GpuStates> states_;
+    uint32_t steps_ = 0; ///< that the last computed() has taken
 };
 
 } // namespace fx::test

@@ -57,11 +57,12 @@ TEST_F(GpuObstacles, areNamedAndLeaveTheEmitterToTheCpu)
         {effectText(sprite + R"(, "trail": {"lifetime": 0.5})", "gpu"), "trails"},
         {effectText(sprite + R"(, "light": {})", "gpu"), "lights"},
         {effectText(sprite + R"(, "shape": "mesh", "file": "library:debris-chunk.obj")", "gpu"), "shape"},
-        {effectText(sprite + R"(, "forces": {"curlStrength": 1})", "gpu"), "turbulence"},
-        {effectText(sprite + R"(, "forces": {"buoyancy": 1})", "gpu"), "buoyancy"},
-        {effectText(sprite + R"(, "forces": {"bounce": 0.5})", "gpu"), "ground"},
-        {effectText(sprite + R"(, "forces": {"gust": [1, 0, 0]})", "gpu"), "forces"},
-        {effectText(sprite + R"(, "collisions": [{"shape": "plane"}])", "gpu"), "collisions"},
+        {effectText(sprite + R"(, "collisions": [{"shape": "mesh", "file": "library:debris-chunk.obj"}])",
+                    "gpu"),
+         "meets a mesh"},
+        {effectText(sprite + R"(, "forces": {"attractors": [{"strength": 1, "falloff": "spring"}]})", "gpu"),
+         "how far"},
+        {effectText(sprite + R"(, "lifetime": 60, "forces": {"curlStrength": 1})", "gpu"), "too many steps"},
         {effectText(sprite + R"(, "events": [{"on": "death", "emit": "b"}])", "gpu",
                     R"(, {"name": "b", "appearance": {"kind": "sprite"}})"),
          "events"},
@@ -75,6 +76,28 @@ TEST_F(GpuObstacles, areNamedAndLeaveTheEmitterToTheCpu)
                   R"({"rate": 100, "duration": 2, "rateOverTime": {"keys": [[0, 0], [1, 1]]}})");
     EXPECT_NE(obstacle(curve).find("rate of births"), std::string_view::npos);
     expectRows(curve);
+}
+
+/// Of the drawn emitters of the library, all but those that others depend on.
+TEST_F(GpuObstacles, keepOnlyWhatOthersDependOnFromTheGpu)
+{
+    size_t computed = 0, drawn = 0;
+    for (const std::string& name : libraryNames()) {
+        const auto effect = load(libraryText(name, "gpu"));
+        for (const auto& solver : effect->solvers) {
+            const auto* emitter = dynamic_cast<const sim::EmitterDef*>(solver.get());
+            if (!emitter || emitter->look.kind == sim::Appearance::Medium)
+                continue;
+            ++drawn;
+            const bool isLinked = emitter->fed || !emitter->events.empty() || emitter->light.given ||
+                                  emitter->trail.lifetime > 0.0f;
+            EXPECT_EQ(sim::gpuObstacle(*emitter).empty(), !isLinked)
+                << name << " " << emitter->name << ": " << sim::gpuObstacle(*emitter);
+            computed += isLinked ? 0 : 1;
+        }
+    }
+    EXPECT_EQ(computed, 15u);
+    EXPECT_EQ(drawn, 30u);
 }
 
 TEST_F(GpuObstacles, cosmeticEmittersAreOutsideOfTheHashOfWhatIsSeen)

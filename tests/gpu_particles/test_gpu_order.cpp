@@ -39,7 +39,8 @@ struct TestRows
 class GpuOrder : public GpuParticleTest
 {
 protected:
-    std::vector<uint32_t> ordered(const TestRows& rows, render::GpuOrderJob job, uint32_t* outLiving)
+    std::vector<uint32_t> ordered(const TestRows& rows, render::GpuOrderJob job, uint32_t* outLiving,
+                                  uint32_t radixFrom = render::kRadixOrderRows)
     {
         auto buffer = render::GlBuffer::create(*device_, rows.values.size() * 4, "rows");
         device_->gl.NamedBufferSubData(buffer->name(), 0, GLsizeiptr(buffer->bytes()), rows.values.data());
@@ -50,7 +51,7 @@ protected:
         batch.block.rows[0] = n;
         graph_->begin();
         batch.newer.id = graph_->importBuffer({"rows", buffer->bytes()}, buffer->name());
-        render::GpuOrderPass::addTo(*graph_, {&job, 1}, {&batch, 1});
+        render::GpuOrderPass::addTo(*graph_, {&job, 1}, {&batch, 1}, radixFrom);
         graph_->keep(batch.order.id);
         graph_->keep(batch.arguments);
         graph_->compile();
@@ -90,6 +91,9 @@ TEST_F(GpuOrder, isThatOfTheCpu)
             uint32_t living = 0;
             const auto got = ordered(rows, {0, byAge, leastFirst, isParallel, eye, 2.0f, -0.25f}, &living);
             ASSERT_EQ(living, want.size());
+            uint32_t byRadix = 0;
+            EXPECT_EQ(ordered(rows, {0, byAge, leastFirst, isParallel, eye, 2.0f, -0.25f}, &byRadix, 0), got);
+            EXPECT_EQ(byRadix, living);
             // Distances are the same within the rounding of a square root; most are equal bit for bit.
             for (size_t i = 0; i < want.size(); ++i)
                 ASSERT_NEAR(distances[got[i]], distances[want[i]], 2e-6f * std::abs(distances[want[i]])) << i;

@@ -64,7 +64,7 @@ TEST_F(GpuView, picturesAreThoseOfTheCpuForEveryPresetOfTheLibrary)
             const bool isInView = view_->statistics().gpuParticles > 0;
             EXPECT_EQ(ran("gpu particles"), isInView);
             // Groups that overlap do not take turns by distance: which is in front differs here and there.
-            EXPECT_LE(meanDifference(a, b), 2e-3 * meanOf(a) + 1e-7) << name << " " << seconds;
+            EXPECT_LE(meanDifference(a, b), 6e-3 * meanOf(a) + 1e-7) << name << " " << seconds;
             EXPECT_LE(maxDifference(a, b), 4e-2 * *std::max_element(a.texels.begin(), a.texels.end()))
                 << name << " " << seconds;
             pictures += isInView && meanOf(a) > 1e-6 ? 1 : 0;
@@ -119,6 +119,45 @@ TEST_F(GpuView, aRowIsComputedOnceAStepAndAWarmFrameAllocatesNothing)
     draw(gpu.publishedLast(), gpu.older()); // the same step again
     EXPECT_EQ(computes(), 0);
     EXPECT_TRUE(ran("gpu particle order")) << "the camera may have moved";
+}
+
+/// Steps are taken where a view looks, but what is seen does not depend on when it has looked before.
+TEST_F(GpuView, steppedParticlesAreTheSameInEveryViewAndCostNoHeap)
+{
+    const std::string emitter =
+        R"({"compute": "gpu", "shape": "sphere", "size": [1, 0, 0], "position": [0, 2, 0],
+        "lifetime": 1, "speed": 2, "emission": {"rate": 1000}, "maxParticles": 1100, "forces": {"drag": 1,
+        "curlStrength": 2, "bounce": 0.5}, "appearance": {"kind": "sprite", "luminance": 3000}})";
+    OneEffect gpu(schema_, load(R"({"version": 1, "emitters": [)" + emitter + ", " + emitter + "]}"), true);
+    const auto makeView = [this] {
+        auto view =
+            std::make_unique<render::ViewRenderer>(device_.get(), &schema_, std::pmr::get_default_resource());
+        view->settings() = view_->settings();
+        view->setAssets(&assets_);
+        return view;
+    };
+    auto seldom = makeView();
+    for (int i = 1; i <= 24; ++i) {
+        gpu.playTo(1.0 + i / 60.0);
+        gpu.publish();
+        const Picture picture = draw(gpu.publishedLast(), gpu.older());
+        EXPECT_TRUE(ran("gpu particles"));
+        if (i % 8 != 0)
+            continue;
+        auto late = makeView();
+        for (auto* other : {&seldom, &late}) {
+            std::swap(view_, *other);
+            EXPECT_EQ(maxDifference(draw(gpu.publishedLast(), gpu.older()), picture), 0.0) << i;
+            std::swap(view_, *other);
+        }
+        EXPECT_GT(meanOf(picture), 0.0);
+    }
+    gpu.playTo(1.0 + 25 / 60.0);
+    gpu.publish();
+    render::HeapCounter counter;
+    const base::Status status = drawInto(gpu.publishedLast(), gpu.older());
+    EXPECT_EQ(counter.stop(), 0);
+    EXPECT_TRUE(status.ok()) << status.message();
 }
 
 /// A driver that refuses the program: nothing of it is drawn, and nothing else fails.

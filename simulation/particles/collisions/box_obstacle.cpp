@@ -1,3 +1,4 @@
+#include "foundation/snapshot/gpu_modules.h"
 #include "simulation/particles/collisions/obstacles.h"
 #include "simulation/particles/fields/turn.h"
 
@@ -61,6 +62,13 @@ public:
     Outline outline(const StepContext&) const override
     {
         return {Outline::Ball, center_, glm::length(half_), isHollow_};
+    }
+
+    bool describe(base::GpuModules& out) const override
+    {
+        out.add(base::GpuModule::Box, {center_.x, center_.y, center_.z, axis_.x, axis_.y, axis_.z, half_.x,
+                                       half_.y, half_.z, isHollow_ ? 1.0f : 0.0f, glm::length(half_)});
+        return true;
     }
 
 private:

@@ -7,6 +7,7 @@
 #include "foundation/simd/instruction_set.h"
 #include "simulation/particles/collisions/contact_path.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
+#include "simulation/particles/gpu_module_source.h"
 
 #include <algorithm>
 
@@ -67,7 +68,7 @@ HWY_EXPORT(markNear);
 
 namespace {
 
-class CollisionOp final : public TileOp
+class CollisionOp final : public TileOp, public GpuModuleSource
 {
 public:
     explicit CollisionOp(std::span<const CollisionDef> defs)
@@ -84,6 +85,21 @@ public:
     TilePhase phase() const override { return TilePhase::Contact; }
     bool collides() const override { return heedsScene_; }
     bool keepsFlags() const override { return holds_; }
+    bool describe(base::GpuModules& out) const override
+    {
+        for (const ObstacleEntry& entry : entries_) {
+            const size_t before = out.uses.size();
+            if (!entry.obstacle->describe(out))
+                return false;
+            if (out.uses.size() == before)
+                continue; // it is not there
+            out.numbers.insert(out.numbers.end(),
+                               {float(uint8_t(entry.response)), entry.restitution, entry.friction});
+            out.kills = out.kills || entry.response == ContactResponse::Kill;
+            out.sticks = out.sticks || entry.response == ContactResponse::Stick;
+        }
+        return true;
+    }
     void run(const TileContext& context, const void*, Tile& tile) const override
     {
         alignas(64) float near[kTileRows] = {};

@@ -1,3 +1,4 @@
+#include "foundation/snapshot/gpu_modules.h"
 #include "simulation/particles/collisions/obstacles.h"
 
 #include <glm/geometric.hpp>
@@ -36,6 +37,13 @@ public:
         return {true, hit.share, leg.from + hit.share * (leg.to - leg.from), hit.normal};
     }
 
+    /// What the host gives: while there is nothing, there is nothing to do.
+    bool describe(base::GpuModules& out) const override
+    {
+        out.heedsHost = true;
+        return !own_;
+    }
+
 private:
     const Collider* colliderOf(const StepContext& step) const { return own_ ? &*own_ : step.collider; }
 
@@ -66,6 +74,11 @@ public:
         if (!(share >= 0.0f && share <= 1.0f) || !(size > 0.0f && size < 1e30f))
             return {}; // not an answer
         return {true, share, leg.from + share * (leg.to - leg.from), n / size};
+    }
+    bool describe(base::GpuModules& out) const override
+    {
+        out.heedsHost = true;
+        return true;
     }
 };
 

@@ -34,6 +34,10 @@
 
 #include <memory>
 
+namespace fx::base {
+class GpuModules;
+}
+
 namespace fx::sim {
 
 /// Immutable. Any thread; allocates nothing.
@@ -59,6 +63,9 @@ public:
         bool isHollow = false;  ///< what is inside of the ball may be near
     };
     virtual Outline outline(const StepContext&) const { return {}; }
+    /// As GpuModuleSource::describe(): a module whose numbers go on with the response, restitution and
+    /// friction.
+    virtual bool describe(base::GpuModules&) const { return false; }
 };
 
 std::unique_ptr<Obstacle> makeObstacle(const CollisionDef& def);

@@ -1,3 +1,4 @@
+#include "foundation/snapshot/gpu_modules.h"
 #include "simulation/particles/collisions/obstacles.h"
 #include "simulation/particles/fields/turn.h"
 
@@ -40,6 +41,16 @@ public:
     Outline outline(const StepContext& step) const override
     {
         return {Outline::Plane, normal_, float(offsetOf(step)), false};
+    }
+
+    bool describe(base::GpuModules& out) const override
+    {
+        const double offset = isGround_ ? 0.0 : offset_ + double(margin_);
+        const float high = float(offset), middle = float(offset - double(high)); // in three parts: exact
+        const float low = float(offset - double(high) - double(middle));
+        out.add(isGround_ ? base::GpuModule::Ground : base::GpuModule::Plane,
+                {normal_.x, normal_.y, normal_.z, high, middle, low, margin_});
+        return true;
     }
 
 private:

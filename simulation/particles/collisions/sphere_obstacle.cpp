@@ -1,3 +1,4 @@
+#include "foundation/snapshot/gpu_modules.h"
 #include "simulation/particles/collisions/obstacles.h"
 #include "simulation/particles/fields/turn.h"
 
@@ -46,6 +47,12 @@ public:
     Outline outline(const StepContext&) const override
     {
         return {Outline::Ball, center_, radius_, sign_ < 0.0f};
+    }
+
+    bool describe(base::GpuModules& out) const override
+    {
+        out.add(base::GpuModule::Sphere, {center_.x, center_.y, center_.z, radius_, sign_});
+        return true;
     }
 
 private:

@@ -22,6 +22,7 @@
 
 #include "foundation/simd/instruction_set.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
+#include "simulation/particles/gpu_module_source.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,7 @@ HWY_EXPORT(runAttractor);
 
 namespace {
 
-class AttractorOp final : public TileOp
+class AttractorOp final : public TileOp, public GpuModuleSource
 {
 public:
     explicit AttractorOp(const AttractorDef& def) : def_(def) { def_.radius = std::max(def.radius, 1e-4f); }
@@ -108,6 +109,19 @@ public:
         return {s * ratio * ratio};
     }
     TilePhase phase() const override { return TilePhase::Force; }
+    bool describe(base::GpuModules& out) const override
+    {
+        const float s = def_.strength, r = def_.radius;
+        const glm::vec3& p = def_.position;
+        const float softening = std::max(def_.softening * def_.softening, 1e-12f);
+        const float reach = def_.reach > 0.0f ? def_.reach * def_.reach : std::numeric_limits<float>::max();
+        constexpr base::GpuModule kModules[] = {base::GpuModule::Spring, base::GpuModule::Constant,
+                                                base::GpuModule::Inverse, base::GpuModule::InverseSquare};
+        const float factors[] = {s / r, s, s * r, s * r * r};
+        const auto k = size_t(def_.falloff);
+        out.add(kModules[k], {p.x, p.y, p.z, softening, reach, factors[k]});
+        return true;
+    }
     void run(const TileContext&, const void*, Tile& tile) const override
     {
         base::applyInstructionSetLimit();

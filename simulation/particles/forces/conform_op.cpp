@@ -25,6 +25,7 @@
 
 #include "foundation/simd/instruction_set.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
+#include "simulation/particles/gpu_module_source.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,7 +125,7 @@ HWY_EXPORT(runConform);
 
 namespace {
 
-class ConformOp final : public TileOp
+class ConformOp final : public TileOp, public GpuModuleSource
 {
 public:
     explicit ConformOp(const ConformDef& def) : def_(def)
@@ -139,6 +140,17 @@ public:
         return {def_.stiffness * (def_.reach + std::abs(def_.distance))};
     }
     TilePhase phase() const override { return TilePhase::Force; }
+    bool describe(base::GpuModules& out) const override
+    {
+        if (def_.kind == SurfaceKind::Mesh)
+            return false;
+        const glm::vec3 &p = def_.position, &size = def_.size;
+        const float reach = def_.reach > 0.0f ? def_.reach : std::numeric_limits<float>::max();
+        out.add(def_.kind == SurfaceKind::Sphere ? base::GpuModule::ConformSphere
+                                                 : base::GpuModule::ConformBox,
+                {p.x, p.y, p.z, size.x, size.y, size.z, def_.distance, def_.stiffness, def_.damping, reach});
+        return true;
+    }
     void run(const TileContext&, const void*, Tile& tile) const override
     {
         base::applyInstructionSetLimit();

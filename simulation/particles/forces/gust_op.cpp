@@ -16,23 +16,35 @@
 /// @tests     tests/simulation/particles/modules/test_forces.cpp
 #include "foundation/random/philox.h"
 #include "simulation/particles/forces/force_ops.h"
+#include "simulation/particles/gpu_module_source.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace fx::sim {
 
 namespace {
 
-class GustOp final : public TileOp
+class GustOp final : public TileOp, public GpuModuleSource
 {
 public:
     explicit GustOp(const GustDef& def) : def_(def) {}
 
     TileBound bound() const override { return {0.0f, glm::length(def_.strength), false}; }
     TilePhase phase() const override { return TilePhase::Force; }
+    bool describe(base::GpuModules& out) const override
+    {
+        out.add(base::GpuModule::Gust, {}, 3);
+        return true;
+    }
+    void writeWords(const void* scratch, uint32_t* out) const override
+    {
+        for (int axis = 0; axis < 3; ++axis)
+            out[axis] = std::bit_cast<uint32_t>((*static_cast<const glm::vec3*>(scratch))[axis]);
+    }
     size_t scratchBytes() const override { return sizeof(glm::vec3); }
     void prepare(const TileContext& context, void* scratch) const override
     {
@@ -57,13 +69,19 @@ private:
     GustDef def_;
 };
 
-class QuadraticDragOp final : public TileOp
+class QuadraticDragOp final : public TileOp, public GpuModuleSource
 {
 public:
     explicit QuadraticDragOp(float coefficient) : coefficient_(std::max(coefficient, 0.0f)) {}
 
     TileBound bound() const override { return {0.0f, 0.0f, coefficient_ > 0.0f}; }
     TilePhase phase() const override { return TilePhase::Force; }
+    bool describe(base::GpuModules& out) const override
+    {
+        if (coefficient_ > 0.0f)
+            out.add(base::GpuModule::QuadraticDrag, {coefficient_});
+        return true;
+    }
     void run(const TileContext&, const void*, Tile& tile) const override
     {
         for (uint32_t i = 0; i < tile.padded; ++i)

@@ -6,6 +6,7 @@
 
 #include "foundation/simd/instruction_set.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
+#include "simulation/particles/gpu_module_source.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +91,7 @@ HWY_EXPORT(runVectorField);
 
 namespace {
 
-class VectorFieldOp final : public TileOp
+class VectorFieldOp final : public TileOp, public GpuModuleSource
 {
 public:
     explicit VectorFieldOp(const VectorFieldDef& def) : def_(def) { def_.scale = std::max(def.scale, 1e-6f); }
@@ -105,6 +106,19 @@ public:
         return def_.isAcceleration ? TileBound{longest} : TileBound{0.0f, longest, false};
     }
     TilePhase phase() const override { return TilePhase::Force; }
+    bool describe(base::GpuModules& out) const override
+    {
+        const FieldGrid& grid = *def_.grid;
+        const glm::vec3 low = def_.position + def_.scale * grid.low;
+        const glm::vec3 perCell = glm::vec3(1.0f) / (def_.scale * grid.cell);
+        if (grid.values.size() > kMostOnGpu)
+            return false;
+        out.add(def_.isAcceleration ? base::GpuModule::FieldForce : base::GpuModule::FieldAir,
+                {low.x, low.y, low.z, perCell.x, perCell.y, perCell.z, float(grid.nodes.x),
+                 float(grid.nodes.y), float(grid.nodes.z), def_.strength});
+        out.numbers.insert(out.numbers.end(), grid.values.begin(), grid.values.end());
+        return true;
+    }
     void run(const TileContext&, const void*, Tile& tile) const override
     {
         base::applyInstructionSetLimit();
@@ -113,6 +127,7 @@ public:
     }
 
 private:
+    static constexpr size_t kMostOnGpu = size_t(1) << 24; ///< numbers, which go with each emitter
     VectorFieldDef def_;
 };
 

@@ -30,6 +30,7 @@
 #include "foundation/simd/instruction_set.h"
 #include "simulation/particles/fields/turn.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
+#include "simulation/particles/gpu_module_source.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +79,7 @@ HWY_EXPORT(runVortex);
 
 namespace {
 
-class VortexOp final : public TileOp
+class VortexOp final : public TileOp, public GpuModuleSource
 {
 public:
     explicit VortexOp(const VortexDef& def) : def_(def)
@@ -93,6 +94,15 @@ public:
         return {def_.hold * def_.speed * def_.speed / def_.radius, air, false};
     }
     TilePhase phase() const override { return TilePhase::Force; }
+    bool describe(base::GpuModules& out) const override
+    {
+        const glm::vec3 &p = def_.position, &k = def_.axis;
+        const float r = def_.radius;
+        out.add(def_.hold > 0.0f ? base::GpuModule::HoldingVortex : base::GpuModule::Vortex,
+                {p.x, p.y, p.z, k.x, k.y, k.z, r * r, 2.0f * r * def_.speed, 2.0f * r * def_.pull,
+                 r * r * def_.lift, -def_.hold});
+        return true;
+    }
     void run(const TileContext&, const void*, Tile& tile) const override
     {
         base::applyInstructionSetLimit();

@@ -79,14 +79,6 @@ ShapePlace sampleDisc(const ShapeDef& def, const Uniform& u)
     return {def.size.x * discRadius(u[1], innerShare(def)) * onCircle(u[0]), kUp};
 }
 
-/// [1] growth of a cone's radius with its height
-double slopeOf(const ShapeDef& def)
-{
-    const base::SinCos half =
-        base::sinCosTurns(double(std::clamp(def.angle, 0.0f, kSteepest)) / 6.283185307179586);
-    return half.sin / half.cos;
-}
-
 /// In the cone above the disc, or on its side.
 ShapePlace sampleTallCone(const ShapeDef& def, const Uniform& u)
 {
@@ -243,6 +235,13 @@ private:
 };
 
 } // namespace
+
+double slopeOf(const ShapeDef& def)
+{
+    const base::SinCos half =
+        base::sinCosTurns(double(std::clamp(def.angle, 0.0f, kSteepest)) / 6.283185307179586);
+    return half.sin / half.cos;
+}
 
 ShapePlace sampleShape(const ShapeDef& def, const Uniform& place, const Uniform& heading)
 {

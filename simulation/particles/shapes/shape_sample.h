@@ -48,6 +48,9 @@ struct ShapePlace
 ShapePlace sampleShape(const ShapeDef& def, const std::array<float, 4>& place,
                        const std::array<float, 4>& heading);
 
+/// [1] The growth of a cone's radius with its height.
+double slopeOf(const ShapeDef& def);
+
 /// The same for many births.
 std::unique_ptr<ShapeOp> makeShapeOp(const ShapeDef& def);
 

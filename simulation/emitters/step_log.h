@@ -1,0 +1,97 @@
+/// @file step_log.h
+/// Which steps an emitter has taken under which conditions, remembered as runs of equal steps: with its
+/// births all that its particles depend on.
+#pragma once
+
+#include "foundation/snapshot/gpu_modules.h"
+#include "foundation/time/ticks.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::sim {
+
+/// What a step does to particles.
+struct StepConditions
+{
+    glm::vec3 gravity{0.0f}; ///< [m/s2] local
+    glm::vec3 wind{0.0f};    ///< [m/s] local, without the emitter's own
+    float ground = 0.0f;     ///< [m] see StepContext::groundHeight
+    float intensity = 1.0f;  ///< of births
+    bool emitting = true;
+
+    bool operator==(const StepConditions&) const = default;
+};
+
+/// One step out of a run.
+struct LoggedStep
+{
+    base::Ticks begin, end;
+    const StepConditions& conditions;
+};
+
+/// Keeps the steps of a window of time.
+class StepLog
+{
+    struct Run
+    {
+        base::Ticks begin;
+        base::Ticks length;
+        uint32_t count;
+        uint64_t history; ///< of everything before it, and of how it begins
+        StepConditions conditions;
+
+        base::Ticks end() const { return begin + length * base::Ticks(count); }
+        /// The first that ended after `tick`, or their count.
+        uint32_t firstSince(base::Ticks tick) const
+        {
+            if (tick < begin)
+                return 0;
+            return tick >= end() ? count : uint32_t((tick - begin) / length);
+        }
+    };
+
+public:
+    explicit StepLog(std::pmr::memory_resource* memory) : runs_(memory) {}
+
+    /// Nothing is known of steps before now. @param seed of what follows
+    void clear(uint64_t seed, uint32_t solver);
+    /// A step is taken. @param next index of the next birth before it
+    void add(base::Ticks begin, base::Ticks length, uint64_t next, const StepConditions& conditions);
+    /// Forgets steps that ended before `tick`.
+    void forget(base::Ticks tick);
+
+    size_t runs() const { return runs_.size(); }
+    /// How many steps ended after `tick`.
+    uint64_t stepsSince(base::Ticks tick) const;
+    /// Calls take(const StepConditions&) for each run.
+    template <class Take>
+    void forEachRun(Take&& take) const
+    {
+        for (const Run& run : runs_)
+            take(run.conditions);
+    }
+    /// @param out at least runs() of them
+    void publish(base::Ticks now, std::span<base::GpuStepRun> out) const;
+    /// Calls take(LoggedStep) for each step that ended after `tick`, in order.
+    template <class Take>
+    void forEachSince(base::Ticks tick, Take&& take) const
+    {
+        for (const Run& run : runs_)
+            for (uint32_t i = run.firstSince(tick); i < run.count; ++i) {
+                const base::Ticks begin = run.begin + run.length * base::Ticks(i);
+                take(LoggedStep{begin, begin + run.length, run.conditions});
+            }
+    }
+
+private:
+    std::pmr::vector<Run> runs_; ///< ascending
+    uint64_t history_ = 0;
+    uint32_t clears_ = 0;
+};
+
+} // namespace fx::sim
