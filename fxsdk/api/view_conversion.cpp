@@ -103,7 +103,8 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     settings.overlay = given.activationOverlay != 0;
     settings.layerDivisor = int(1.0f / given.layerScale);
     settings.fragmentBudget = given.fragmentBudget;
-    settings.lod = {given.lodBias, given.lodImpostorPixels};
+    settings.lod.bias = given.lodBias;
+    settings.lod.impostorPixels = given.lodImpostorPixels;
     outSettings = settings;
     return {};
 }

@@ -102,6 +102,9 @@ FxViewStatistics gatherStatistics(const FxView& view)
     statistics.impostors = frame.impostors;
     statistics.impostorsTaken = frame.impostorsTaken;
     statistics.gpuParticles = uint32_t(frame.gpuParticles);
+    statistics.particlesThinned = frame.particlesThinned;
+    statistics.keptRowBytes = frame.keptRowBytes;
+    statistics.sharedRowBytes = frame.sharedRowBytes;
     return statistics;
 }
 

@@ -1,6 +1,7 @@
 #include "fxsdk/cli/bench_budget.h"
 
 #include "fxsdk/assets/read_file.h"
+#include "fxsdk/cli/budget_check.h"
 #include "fxsdk/cli/default_stage.h"
 #include "fxsdk/cli/exit_code.h"
 #include "fxsdk/cli/interrupt.h"
@@ -45,6 +46,7 @@ public:
 
     base::Status run(int width, int height, std::optional<StageClock> clock);
     void print() const;
+    std::string fault() const;
 
 private:
     base::Status start(int width, int height, std::optional<StageClock> clock);
@@ -260,6 +262,14 @@ void BudgetBench::print() const
         std::printf("in %d frames even the lowest settings were expected to exceed the budget\n", saturated_);
 }
 
+std::string BudgetBench::fault() const
+{
+    const auto shares = [&](const Contestant& c) {
+        return BudgetShares{double(c.over) / double(done_), double(c.switches) / double(done_)};
+    };
+    return findBudgetFault(shares(controller_), shares(fixed_), shares(naive_));
+}
+
 base::Result<quality::Calibration> calibrationOf(const BenchBudgetArguments& arguments)
 {
     if (arguments.calibration.empty())
@@ -296,7 +306,11 @@ int runBenchBudget(const BenchBudgetArguments& arguments)
     if (status = bench.run(width, height, clock); !status)
         return failed(status, exitCodeOf(status));
     bench.print();
-    return kSuccess;
+    const std::string fault = arguments.check ? bench.fault() : "";
+    if (fault.empty())
+        return kSuccess;
+    std::fprintf(stderr, "fx bench budget: %s\n", fault.c_str());
+    return kFailed;
 }
 
 } // namespace fx::cli

@@ -18,6 +18,7 @@ struct BenchBudgetArguments
     double budget = 0;            ///< [ms] 0: 1.5 times a frame of the least load at full quality
     int frames = 120;             ///< of each section of equal load
     bool json = false;
+    bool check = false; ///< fail when the controller misses its bounds, or when the load is no trial
 };
 
 /// Prints one line for each way to choose quality: the controller, fixed quality, and a naive controller.

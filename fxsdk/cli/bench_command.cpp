@@ -69,6 +69,8 @@ void addLod(CLI::App& bench, int& outExitCode)
         ->check(CLI::Range(1, 1000));
     command->add_option("--flight", options->flight, "Frames of the flight; 0: none")
         ->check(CLI::Range(0, 100000));
+    command->add_flag("--check", options->check,
+                      "Fail when a change of level is seen in the flight, or hard switches are not");
     command->add_flag("--json", options->json, "One object a level");
     command->callback([options, &outExitCode] { outExitCode = runBenchLod(*options); });
 }
@@ -100,6 +102,9 @@ void addBudget(CLI::App& bench, int& outExitCode)
     command->add_option("--budget", arguments->budget,
                         "[ms] default: 1.5 times a frame of the least load at full quality");
     command->add_option("--frames", arguments->frames, "Frames of equal load")->capture_default_str();
+    command->add_flag("--check", arguments->check,
+                      "Fail when the controller is over budget in more than 5 % of the frames or changes "
+                      "settings in more than 3 %, or when the others keep that");
     command->add_flag("--json", arguments->json, "One object a way to choose quality");
     command->callback([arguments, &outExitCode] { outExitCode = runBenchBudget(*arguments); });
 }

@@ -1,6 +1,7 @@
 // fx bench lod: what a level of detail saves, what it changes, and whether flying in shows it.
 #include "fxsdk/cli/bench_lod.h"
 
+#include "fxsdk/cli/bench_lod_flight.h"
 #include "fxsdk/cli/bench_scene.h"
 #include "fxsdk/cli/exit_code.h"
 #include "fxsdk/cli/json_line.h"
@@ -16,27 +17,11 @@
 namespace fx::cli {
 namespace {
 
-/// What is measured; the first is what the others are compared with.
-struct LodCase
-{
-    float bias;           ///< FxViewSettings::lodBias
-    float impostorPixels; ///< FxViewSettings::lodImpostorPixels
-};
-constexpr std::array<LodCase, 6> kCases{{{0, 0}, {1, 0}, {4, 0}, {16, 0}, {0, 13}, {4, 13}}};
-
-/// Until pictures have been taken and have replaced what they show.
-uint32_t warmFrames(const LodCase& what)
-{
-    return what.impostorPixels > 0 ? 30 : 1;
-}
-
+constexpr std::array<LodCase, 7> kCases{{{0, 0}, {1, 0}, {4, 0}, {16, 0}, {0, 13}, {4, 13}, {16, 0, true}}};
 constexpr std::array<const char*, 4> kPresets{"smoke-column", "campfire", "steam", "gas-fire"};
-constexpr double kNearest = 150.0;  ///< [m]
-constexpr double kSpacing = 18.0;   ///< [m]
-constexpr uint32_t kSeeds = 16;     ///< instances with the same seed share a simulation
-constexpr int kSettleSteps = 420;   ///< until as many die as are born
-constexpr double kEyeHeight = 40.0; ///< [m]
-constexpr double kFlight = 60.0;    ///< [m] towards the field
+constexpr double kSpacing = 18.0; ///< [m]
+constexpr uint32_t kSeeds = 16;   ///< instances with the same seed share a simulation
+constexpr int kSettleSteps = 420; ///< until as many die as are born
 
 /// Of one case.
 struct LodRow
@@ -47,9 +32,7 @@ struct LodRow
     FxViewStatistics view = {};
     double meanError = 0; ///< [1] sum of differences over sum of light
     double mostError = 0; ///< [1] largest difference over the brightest value
-    double mostStep = 0;  ///< [1] the same from frame to frame of the flight
-    double meanStep = 0;  ///< [1]
-    double pop = 0; ///< [1] largest change of the difference to the same flight without, from frame to frame
+    LodFlight flight{};
 };
 
 double seconds(clockid_t clock)
@@ -70,8 +53,8 @@ base::Status addField(BenchScene& scene, uint32_t count)
     }
     uint32_t placed = 0;
     for (uint32_t row = 0; placed < count; ++row) { // as wide as the view at that distance
-        const double distance = kNearest + kSpacing * row;
-        const int half = int(0.3 * distance / kSpacing);
+        const double distance = kLodNearest + kSpacing * row;
+        const int half = int(kLodWidest * distance / kSpacing);
         for (int column = -half; column <= half && placed < count; ++column, ++placed)
             if (base::Status status = scene.add(presets[placed % presets.size()], kSpacing * column,
                                                 -distance, placed / presets.size() % kSeeds, 0);
@@ -79,19 +62,6 @@ base::Status addField(BenchScene& scene, uint32_t count)
                 return status;
     }
     return {};
-}
-
-FxViewSettings settingsOf(const LodCase& what)
-{
-    FxViewSettings settings = fxDefaultViewSettings();
-    settings.dazzle = 0;
-    for (int i = 0; i < 3; ++i) {
-        settings.sunIlluminance[i] = 60'000.0f;
-        settings.skyLuminance[i] = 3'000.0f;
-    }
-    settings.lodBias = what.bias;
-    settings.lodImpostorPixels = what.impostorPixels;
-    return settings;
 }
 
 /// Largest difference of two pictures in units of the brightest value, and the mean one of the light.
@@ -134,63 +104,6 @@ base::Status drawTimed(BenchScene& scene, uint32_t frames, LodRow& row)
     return {};
 }
 
-/// The same moment until nothing changes by itself.
-base::Status drawStill(BenchScene& scene, const LodCase& what, std::vector<float>& outPicture)
-{
-    for (uint32_t i = 0; i < warmFrames(what); ++i) {
-        scene.clear();
-        if (base::Status status = scene.draw(); !status)
-            return status;
-    }
-    outPicture = scene.picture();
-    return {};
-}
-
-/// Largest change of (now - reference) since the frame before, in units of the brightest value.
-double popOf(const std::vector<float>& now, const std::vector<float>& before,
-             const std::vector<float>& reference, const std::vector<float>& referenceBefore)
-{
-    double most = 0, brightest = 0;
-    for (size_t i = 0; i < now.size(); ++i) {
-        if (i % 4 == 3)
-            continue;
-        most = std::max(most, std::abs((double(now[i]) - double(reference[i])) -
-                                       (double(before[i]) - double(referenceBefore[i]))));
-        brightest = std::max(brightest, std::abs(double(reference[i])));
-    }
-    return brightest > 0 ? most / brightest : 0.0;
-}
-
-/// @param ioReference pictures of the flight without a level of detail; empty: this is that flight
-base::Status fly(BenchScene& scene, const BenchLodOptions& options,
-                 std::vector<std::vector<float>>& ioReference, LodRow& row)
-{
-    const bool isReference = ioReference.empty();
-    std::vector<float> before;
-    scene.moveTo(0.0, kEyeHeight, 0.0);
-    if (base::Status status = drawStill(scene, row.what, before); !status || options.flight == 0)
-        return status;
-    before.clear();
-    for (uint32_t i = 0; i < options.flight; ++i) {
-        scene.moveTo(0.0, kEyeHeight, -kFlight * i / options.flight);
-        scene.clear();
-        if (base::Status status = scene.draw(); !status)
-            return status;
-        std::vector<float> picture = scene.picture();
-        double most = 0, mean = 0;
-        if (!before.empty())
-            compare(picture, before, most, mean);
-        row.mostStep = std::max(row.mostStep, most);
-        row.meanStep += mean / options.flight;
-        if (isReference)
-            ioReference.push_back(picture);
-        else if (i > 0)
-            row.pop = std::max(row.pop, popOf(picture, before, ioReference[i], ioReference[i - 1]));
-        before = std::move(picture);
-    }
-    return {};
-}
-
 base::Status measure(const BenchLodOptions& options, std::vector<LodRow>& outRows)
 {
     auto made = BenchScene::create({true, true, options.pixels});
@@ -204,11 +117,11 @@ base::Status measure(const BenchLodOptions& options, std::vector<LodRow>& outRow
         outRows.push_back({what});
     if (status.ok())
         status = scene.look(0.0);
-    scene.moveTo(0.0, kEyeHeight, 0.0);
+    scene.moveTo(0.0, kLodEyeHeight, 0.0);
     const auto forAll = [&](auto&& measureRow) {
         for (LodRow& row : outRows) {
             if (status.ok())
-                status = scene.setView(settingsOf(row.what));
+                status = scene.setView(lodSettings(row.what));
             if (status.ok())
                 status = measureRow(row);
         }
@@ -224,8 +137,32 @@ base::Status measure(const BenchLodOptions& options, std::vector<LodRow>& outRow
         return drawn;
     });
     std::vector<std::vector<float>> flight;
-    forAll([&](LodRow& row) { return fly(scene, options, flight, row); });
+    forAll([&](LodRow& row) {
+        return fly(scene, {options.pixels, options.flight}, row.what, flight, row.flight);
+    });
     return status;
+}
+
+/// What is wrong with the flights; empty: nothing.
+std::string findFault(const std::vector<LodRow>& rows)
+{
+    for (const LodRow& row : rows) {
+        const bool hasLevels = row.what.bias > 0.0f || row.what.impostorPixels > 0.0f;
+        if (hasLevels && row.flight.changedFrames == 0)
+            return "no level has changed in the flight: use more --flight frames or --instances";
+        if (row.what.isHard && isSmall(row.flight))
+            return "hard switches have not been seen: the flight shows nothing";
+        if (!row.what.isHard && !isSmall(row.flight)) {
+            char text[200];
+            std::snprintf(text, sizeof text,
+                          "bias %g, pictures %g: one pop in 100 is over %.3f and one is %.3f; allowed are %g "
+                          "and %.3f",
+                          double(row.what.bias), double(row.what.impostorPixels), row.flight.pop.p99(),
+                          row.flight.pop.largest(), kLodPopP99, kLodPopMost * row.flight.pop.motionLargest());
+            return text;
+        }
+    }
+    return {};
 }
 
 void print(const LodRow& row, const LodRow& full, const BenchLodOptions& options)
@@ -247,16 +184,23 @@ void print(const LodRow& row, const LodRow& full, const BenchLodOptions& options
                                           {"ratio_submit", row.submit / full.submit},
                                           {"error_mean", row.meanError},
                                           {"error_most", row.mostError},
-                                          {"flight_step_most", row.mostStep},
-                                          {"flight_step_mean", row.meanStep},
-                                          {"flight_pop", row.pop}},
+                                          {"hard", row.what.isHard},
+                                          {"flight_changed_frames", row.flight.changedFrames},
+                                          {"flight_motion_most", row.flight.pop.motionLargest()},
+                                          {"flight_motion_p99", row.flight.pop.motionP99()},
+                                          {"flight_pop_most", row.flight.pop.largest()},
+                                          {"flight_pop_p99", row.flight.pop.p99()},
+                                          {"flight_small", isSmall(row.flight)}},
                                          readMachine()));
-    std::printf("bias %3g, pictures %2g: %4u, %6u blobs, groups %4u %4u %4u %4u, %8.2f ms (%.3f), submit "
-                "%7.2f ms (%.3f), error "
-                "mean %.4f most %.4f, flight most %.4f mean %.4f pop %.4f\n",
-                double(row.what.bias), double(row.what.impostorPixels), row.view.impostors, row.view.blobs,
-                g[0], g[1], g[2], g[3], row.milliseconds, row.milliseconds / full.milliseconds, row.submit,
-                row.submit / full.submit, row.meanError, row.mostError, row.mostStep, row.meanStep, row.pop);
+    std::printf(
+        "%s %3g, pictures %2g: %4u, %6u blobs, groups %4u %4u %4u %4u, %8.2f ms (%.3f), submit "
+        "%7.2f ms (%.3f), error mean %.4f most %.4f, flight pop p99 %.4f most %.4f (motion %.4f %.4f) "
+        "in %u frames\n",
+        row.what.isHard ? "hard" : "bias", double(row.what.bias), double(row.what.impostorPixels),
+        row.view.impostors, row.view.blobs, g[0], g[1], g[2], g[3], row.milliseconds,
+        row.milliseconds / full.milliseconds, row.submit, row.submit / full.submit, row.meanError,
+        row.mostError, row.flight.pop.p99(), row.flight.pop.largest(), row.flight.pop.motionP99(),
+        row.flight.pop.motionLargest(), row.flight.changedFrames);
 }
 
 } // namespace
@@ -270,7 +214,11 @@ int runBenchLod(const BenchLodOptions& options)
     }
     for (const LodRow& row : rows)
         print(row, rows.front(), options);
-    return kSuccess;
+    const std::string fault = options.check ? findFault(rows) : "";
+    if (fault.empty())
+        return kSuccess;
+    std::fprintf(stderr, "fx bench lod: %s\n", fault.c_str());
+    return kFailed;
 }
 
 } // namespace fx::cli

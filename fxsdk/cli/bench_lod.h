@@ -13,6 +13,7 @@ struct BenchLodOptions
     uint32_t repeats = 12; ///< frames of which the mean time is taken
     uint32_t flight = 48;  ///< frames
     bool json = false;
+    bool check = false; ///< fail when a change of level is seen, or when the control's are not
 };
 
 /// @return exit code

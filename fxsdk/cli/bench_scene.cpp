@@ -1,5 +1,6 @@
 #include "fxsdk/cli/bench_scene.h"
 
+#include "fxsdk/api/view_object.h"
 #include "fxsdk/cli/api_status.h"
 #include "rendering/gl/gl_read_texture.h"
 
@@ -128,6 +129,12 @@ void BenchScene::moveTo(double x, double y, double z)
 base::Status BenchScene::setView(const FxViewSettings& settings)
 {
     return toStatus(fxView_SetSettings(view_, &settings));
+}
+
+void BenchScene::holdDetail(bool isHeld)
+{
+    if (view_)
+        view_->renderer.settings().lod.hold = isHeld;
 }
 
 void BenchScene::clear()

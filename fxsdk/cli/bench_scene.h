@@ -38,6 +38,8 @@ public:
     /// Where the camera of draw() is, as far as it is not turned; what is simulated does not change by it.
     void moveTo(double x, double y, double z);
     base::Status setView(const FxViewSettings& settings);
+    /// Levels of detail stay as the last frame has left them, until this is false or setView() is called.
+    void holdDetail(bool isHeld);
     base::Status update();
     base::Status draw();          ///< nothing without GL
     void finish();                ///< waits for the GPU

@@ -66,7 +66,7 @@ void FrameBuilder::beginImpostors(const FrameRequest& request, const ViewSetting
     exposureEv100_ = settings.exposureEv100;
     const float most = settings.layerOutputs || camera.orthographic ? 0.0f : settings.lod.impostorPixels;
     impostors_.begin({std::min(most, LodSettings::kMostImpostorPixels), request.deltaTime, content,
-                      lightingStamp_, request.resetHistory || mustForget_},
+                      lightingStamp_, request.resetHistory || mustForget_, settings.lod.hold},
                      camera);
     mustForget_ = false;
 }

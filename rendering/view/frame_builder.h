@@ -34,6 +34,7 @@ public:
     bool anyDetail() const { return anyDetail_; }                   ///< some blob has procedural detail
     const GatherCounts& counts() const { return counts_; }
     const LodCounts& lodCounts() const { return lod_.counts(); } ///< groups by level of detail
+    LevelOfDetail& lod() { return lod_; } ///< of this frame, for what is drawn beside the blobs
     /// The brightest fires of all effects, brightest first.
     std::span<const EffectLight> lights() const { return {lights_.data(), lightCount_}; }
     /// The blobs as a stream whose elements are the drawn ones; count 0 without any.

@@ -1,5 +1,6 @@
 #include "rendering/view/group_merger.h"
 
+#include "foundation/math/hash.h"
 #include "rendering/view/snapshot_match.h"
 
 #include <glm/geometric.hpp>
@@ -155,7 +156,8 @@ void copyRibbon(const RowWriter& rows, uint64_t member)
 } // namespace
 
 GroupMerger::GroupMerger(const base::SnapshotSchema* schema, std::pmr::memory_resource* memory)
-    : members_(memory), sets_(memory), taken_(memory), newer_(schema, memory), older_(schema, memory)
+    : members_(memory), sets_(memory), taken_(memory), parts_(memory), partsBegin_(memory),
+      newerStamps_(memory), olderStamps_(memory), newer_(schema, memory), older_(schema, memory)
 {}
 
 bool GroupMerger::joins(const Set& set, const SnapshotGroup& group) const
@@ -190,11 +192,11 @@ void GroupMerger::collect(const base::SnapshotPair& snapshots)
         const uint32_t member = uint32_t(members_.size());
         auto set = std::find_if(sets_.begin(), sets_.end(), [&](const Set& s) { return joins(s, group); });
         if (set == sets_.end()) {
-            members_.push_back({&group, older, 0, rows, kNone});
+            members_.push_back({&group, older, g, before, 0, rows, kNone});
             sets_.push_back({member, member, 1, rows, g});
             continue;
         }
-        members_.push_back({&group, older, set->rows, rows, kNone});
+        members_.push_back({&group, older, g, before, set->rows, rows, kNone});
         members_[set->last].next = member;
         set->last = member;
         set->rows += rows;
@@ -241,7 +243,40 @@ void GroupMerger::write(const base::SnapshotPair& snapshots, const Set& set, boo
     info.bounds = isBounded ? bounds : base::Bounds{};
 }
 
-void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of)
+/// What decides the rows that write() makes of a member.
+RowStamp GroupMerger::stampOf(const Set& set, uint32_t member, bool isOlder, bool isRibbon,
+                              const SnapshotRowStamps& rows) const
+{
+    const Member& m = members_[member];
+    RowStamp part{m.firstRow, m.rows, 0};
+    const SnapshotGroup* from = isOlder ? m.older : m.newer;
+    const uint64_t own =
+        from && !rows.parts.empty() ? rows.of(isOlder ? m.olderIndex : m.newerIndex)[0].stamp : 0;
+    if (own == 0)
+        return part;
+    const base::Placement& place = from->info().placement;
+    const glm::vec3 offset = place.position - members_[set.first].newer->info().placement.position;
+    const float turned[] = {offset.x,         offset.y,         offset.z,         place.scale,
+                            place.rotation.x, place.rotation.y, place.rotation.z, place.rotation.w};
+    const uint64_t number = isRibbon ? member + 1 : 0; // is in the numbers of strips
+    part.stamp = base::hashBytes(base::hashWord(own, number), turned, sizeof turned) | 1;
+    return part;
+}
+
+void GroupMerger::listParts(const base::SnapshotPair& snapshots, const Set& set,
+                            const SnapshotRowStamps& newerRows, const SnapshotRowStamps& olderRows)
+{
+    const bool ribbon = isRibbon(*snapshots.newer, *members_[set.first].newer);
+    for (uint32_t m = set.first; m != kNone; m = members_[m].next) {
+        parts_.push_back({members_[m].newer->info(), members_[m].firstRow, members_[m].rows});
+        newerStamps_.push_back(stampOf(set, m, false, ribbon, newerRows));
+        olderStamps_.push_back(stampOf(set, m, true, ribbon, olderRows));
+    }
+    partsBegin_.push_back(parts_.size());
+}
+
+void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of,
+                        const SnapshotRowStamps& newerRows, const SnapshotRowStamps& olderRows)
 {
     if (of == built_ && sequence_ > 0)
         return;
@@ -250,6 +285,10 @@ void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of
     newer_.begin(snapshots.newer ? snapshots.newer->tick() : 0, sequence_);
     older_.begin(snapshots.older ? snapshots.older->tick() : 0, sequence_);
     taken_.clear();
+    parts_.clear();
+    newerStamps_.clear();
+    olderStamps_.clear();
+    partsBegin_.assign(1, 0);
     hasOlder_ = snapshots.older != nullptr;
     if (!snapshots.newer)
         return;
@@ -258,6 +297,7 @@ void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of
         if (set.count < 2)
             continue;
         write(snapshots, set, false);
+        listParts(snapshots, set, newerRows, olderRows);
         if (hasOlder_)
             write(snapshots, set, true);
     }

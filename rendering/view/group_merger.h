@@ -5,6 +5,7 @@
 
 #include "foundation/snapshot/particle_kind.h"
 #include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/view/row_thinning.h"
 #include "rendering/view/snapshot_stamps.h"
 
 #include <cstdint>
@@ -31,10 +32,21 @@ public:
     GroupMerger(const base::SnapshotSchema* schema, std::pmr::memory_resource* memory);
 
     /// @param of the snapshots: nothing is done again while they stay
-    void build(const base::SnapshotPair& snapshots, const StampPair& of);
+    /// @param newerRows, olderRows  stamps of their groups; without parts: not known
+    void build(const base::SnapshotPair& snapshots, const StampPair& of,
+               const SnapshotRowStamps& newerRows = {}, const SnapshotRowStamps& olderRows = {});
     /// What build() has merged; without groups when there was nothing to merge.
     base::SnapshotPair merged() const { return {&newer_, hasOlder_ ? &older_ : nullptr}; }
     StampPair stamps() const { return {2 * sequence_, hasOlder_ ? 2 * sequence_ - 1 : 0}; } ///< of merged()
+    /// Stamps of the rows of merged(), one part a member. They follow from stamps of what was merged by a
+    /// hash of 64 bits.
+    SnapshotRowStamps newerRows() const { return {newerStamps_, partsBegin_, {}}; }
+    SnapshotRowStamps olderRows() const { return {olderStamps_, partsBegin_, {}}; }
+    /// Which rows of a group of merged() came from which group.
+    std::span<const RowPart> partsOf(size_t group) const
+    {
+        return {parts_.data() + partsBegin_[group], partsBegin_[group + 1] - partsBegin_[group]};
+    }
     /// By group of the newer snapshot: 1 where it is part of a merged group.
     std::span<const uint8_t> taken() const { return taken_; }
 
@@ -43,6 +55,7 @@ private:
     {
         const base::SnapshotGroup* newer;
         const base::SnapshotGroup* older; ///< null: there is none, or a ribbon
+        size_t newerIndex, olderIndex;    ///< in their snapshots
         uint32_t firstRow;
         uint32_t rows;
         uint32_t next; ///< of the same set; kNone ends it
@@ -59,11 +72,18 @@ private:
     void collect(const base::SnapshotPair& snapshots);
     bool joins(const Set& set, const base::SnapshotGroup& group) const;
     void write(const base::SnapshotPair& snapshots, const Set& set, bool isOlder);
+    RowStamp stampOf(const Set& set, uint32_t member, bool isOlder, bool isRibbon,
+                     const SnapshotRowStamps& rows) const;
+    void listParts(const base::SnapshotPair& snapshots, const Set& set, const SnapshotRowStamps& newerRows,
+                   const SnapshotRowStamps& olderRows);
 
     StampPair built_; ///< what merged() was made of
     std::pmr::vector<Member> members_;
     std::pmr::vector<Set> sets_;
     std::pmr::vector<uint8_t> taken_;
+    std::pmr::vector<RowPart> parts_;
+    std::pmr::vector<size_t> partsBegin_;                  ///< by group of newer_, and the end
+    std::pmr::vector<RowStamp> newerStamps_, olderStamps_; ///< of parts_
     base::FrameSnapshot newer_, older_;
     bool hasOlder_ = false;
     uint64_t sequence_ = 0;

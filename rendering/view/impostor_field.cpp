@@ -12,6 +12,12 @@ namespace {
 constexpr float kMarginPixels = 3.0f; ///< around the ball: blobs are widened to pixels
 constexpr float kFarEnough = 8.0f;    ///< [1] distance over radius: nearer, perspective would show
 
+/// [1] side of the picture of a ball that has a radius of so many pixels, over the ball's diameter.
+float sideOf(float pixels)
+{
+    return 1.0f + kMarginPixels / pixels;
+}
+
 } // namespace
 
 ImpostorField::ImpostorField(std::pmr::memory_resource* memory)
@@ -32,7 +38,7 @@ void ImpostorField::begin(const Frame& frame, const CameraGeometry& camera)
             freeTiles_.push_back(2 * pair);
     for (Entry& entry : entries_) {
         entry.isUsed = false;
-        entry.mix = std::min(entry.mix + float(frame.seconds) / kInterval, 1.0f);
+        entry.mix = std::min(entry.mix + (frame.hold ? 0.0f : float(frame.seconds) / kInterval), 1.0f);
         entry.hasPicture = entry.hasPicture && !frame.forget && entry.lighting == frame.lighting;
     }
 }
@@ -63,12 +69,12 @@ uint32_t ImpostorField::take(Entry& entry, const ImpostorSubject& subject, const
     entry.direction = direction;
     entry.right = glm::normalize(glm::cross(direction, camera_->up));
     entry.up = glm::cross(entry.right, direction);
+    entry.olderPixels = isFirst ? subject.pixels : entry.pixels;
     entry.pixels = subject.pixels;
-    entry.extent = subject.radius * (1.0f + kMarginPixels / subject.pixels);
     entry.content = frame_.content;
     entry.lighting = frame_.lighting;
-    takings_.push_back(
-        {subject.center, entry.extent, entry.right, entry.up, direction, entry.tiles + entry.newest});
+    takings_.push_back({subject.center, subject.radius * sideOf(subject.pixels), entry.right, entry.up,
+                        direction, entry.tiles + entry.newest});
     return uint32_t(takings_.size() - 1);
 }
 
@@ -76,12 +82,12 @@ ImpostorPlan ImpostorField::plan(const ImpostorSubject& subject)
 {
     ImpostorPlan plan;
     const float distance = glm::length(subject.center);
-    if (!(subject.pixels < frame_.mostPixels) || distance < kFarEnough * subject.radius ||
+    if ((!frame_.hold && !(subject.pixels < frame_.mostPixels)) || distance < kFarEnough * subject.radius ||
         camera_->orthographic)
         return plan;
     Entry* entry = find(subject.instance);
     if (!entry) {
-        if (freeTiles_.empty())
+        if (freeTiles_.empty() || frame_.hold)
             return plan;
         Entry made;
         made.instance = subject.instance;
@@ -92,7 +98,8 @@ ImpostorPlan ImpostorField::plan(const ImpostorSubject& subject)
     }
     entry->isUsed = true;
     const glm::vec3 direction = subject.center / distance;
-    const bool isDue = !entry->hasPicture || (entry->mix >= 1.0f && isStale(*entry, subject, direction));
+    const bool isDue =
+        !frame_.hold && (!entry->hasPicture || (entry->mix >= 1.0f && isStale(*entry, subject, direction)));
     if (isDue && takings_.size() < kImpostorTakings) {
         plan.isTaken = true;
         plan.slot = take(*entry, subject, direction);
@@ -100,7 +107,7 @@ ImpostorPlan ImpostorField::plan(const ImpostorSubject& subject)
     const float wanted = 1.0f - glm::smoothstep(kBand * frame_.mostPixels, frame_.mostPixels, subject.pixels);
     if (!entry->hasPicture)
         entry->presence = 0.0f;
-    else
+    else if (!frame_.hold)
         entry->presence = std::min(wanted, entry->presence + float(frame_.seconds) / kFadeSeconds);
     if (entry->presence > 0.0f)
         show(*entry, subject, entry->presence);
@@ -113,10 +120,11 @@ void ImpostorField::show(const Entry& entry, const ImpostorSubject& subject, flo
 {
     const uint32_t older = entry.hasOlder ? entry.newest ^ 1u : entry.newest; // a tile that was written
     // the square grows with what is shown: the ball's radius may have changed since
-    shown_.push_back({{subject.center, subject.radius * (1.0f + kMarginPixels / entry.pixels)},
-                      {entry.right, float(entry.tiles + entry.newest)},
-                      {entry.up, float(entry.tiles + older)},
-                      {entry.mix, opacity, subject.radius, 0.0f}});
+    shown_.push_back(
+        {{subject.center, subject.radius * sideOf(entry.pixels)},
+         {entry.right, float(entry.tiles + entry.newest)},
+         {entry.up, float(entry.tiles + older)},
+         {entry.mix, opacity, subject.radius, sideOf(entry.pixels) / sideOf(entry.olderPixels)}});
     distances_.push_back(glm::length(subject.center));
 }
 

@@ -52,6 +52,7 @@ public:
         uint64_t content;  ///< stamp of what is shown: equal ones show the same
         uint64_t lighting; ///< hash of what lights it: pictures of another lighting are not shown
         bool forget;       ///< the camera has jumped
+        bool hold = false; ///< pictures and their shares stay as they are
     };
     void begin(const Frame& frame, const CameraGeometry& camera);
     /// To be asked for once a frame and effect.
@@ -76,8 +77,8 @@ private:
         float presence = 0.0f;  ///< [1] share that is shown by pictures at all
         glm::vec3 direction{0}; ///< in which the newer was taken
         glm::vec3 right{0}, up{0};
-        float pixels = 0.0f; ///< [pixel] then
-        float extent = 0.0f; ///< [m] half the side of the square then
+        float pixels = 0.0f;      ///< [pixel] then
+        float olderPixels = 0.0f; ///< [pixel] when the older was taken
         uint64_t content = 0;
         uint64_t lighting = 0;
         bool hasPicture = false;

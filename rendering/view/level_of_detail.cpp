@@ -46,6 +46,7 @@ bool LevelOfDetail::Entry::operator<(const Entry& other) const
 
 void LevelOfDetail::begin(const LodSettings& settings, const CameraGeometry& camera, int height, bool forget)
 {
+    settings_.hold = settings.hold;
     const bool isSame = settings == settings_ && !forget;
     settings_ = settings;
     camera_ = &camera;
@@ -73,37 +74,48 @@ float LevelOfDetail::radiusOnPicture(const base::GroupInfo& group, const base::P
     return distance > radius ? radius * pixelsPerSlope_ / distance : kEverything;
 }
 
-/// Stays where it is within a band around what is wanted, so that small movements of the camera change
-/// nothing, and follows along the border of the band without a jump.
-float LevelOfDetail::follow(const base::GroupInfo& group, float wanted)
+const LevelOfDetail::Entry* LevelOfDetail::lastOf(const base::GroupInfo& group) const
 {
-    Entry entry{group.instance, group.solver, uint32_t(group.kind), wanted};
-    const auto before = std::lower_bound(last_.begin(), last_.end(), entry);
-    if (before != last_.end() && !(entry < *before))
-        entry.share = std::clamp(before->share, wanted / kBand, wanted * kBand);
-    now_.push_back(entry);
-    return entry.share;
+    const Entry entry{group.instance, group.solver, uint32_t(group.kind), 0.0f, 0.0f};
+    const auto found = std::lower_bound(last_.begin(), last_.end(), entry);
+    return found != last_.end() && !(entry < *found) ? &*found : nullptr;
 }
 
-LodLevel LevelOfDetail::levelOf(const base::GroupInfo& group, const base::Placement& place)
+LodLevel LevelOfDetail::find(const base::GroupInfo& group, const base::Placement& place, uint32_t pieces,
+                             uint32_t wholes)
 {
-    const float radius =
-        settings_.bias > 0.0f && group.count > 0 ? radiusOnPicture(group, place) : kEverything;
-    if (!(radius < kEverything)) {
-        ++counts_[0];
+    float radius = isOn() && wholes > 0 ? radiusOnPicture(group, place) : kEverything;
+    if (!(radius < kEverything))
         return {};
-    }
+    const Entry* last = lastOf(group);
+    if (settings_.hold && last)
+        radius = last->radius;
     const float fineness = 1.0f / std::sqrt(settings_.bias);
     const float disc = std::numbers::pi_v<float> * radius * radius;
-    const float kept = std::max(disc / settings_.bias, kLeastKept);
+    float share = std::max(disc / (settings_.bias * float(pieces)), kLeastKept / float(wholes));
+    if (last) // within the band it stays, so that a trembling camera changes nothing; beyond it follows
+        share = settings_.hold ? last->share : std::clamp(last->share, share / kBand, share * kBand);
+    now_.push_back({group.instance, group.solver, uint32_t(group.kind), share, radius});
     LodLevel level;
-    level.ramp = LodRamp(follow(group, kept / float(group.count)));
+    level.ramp = LodRamp(share);
     level.grownPixels = kGrown / fineness;
     level.swollenPixels = kSwollen * radius;
     const float cells = 2.0f * radius * fineness / kShadowCell;
     level.shadowCoarse = std::clamp(std::log2(kFinestCells / cells), 0.0f, LodLevel::kCoarsest);
+    return level;
+}
+
+LodLevel LevelOfDetail::levelOf(const base::GroupInfo& group, const base::Placement& place)
+{
+    const LodLevel level = find(group, place, group.count, group.count);
     ++counts_[countedAs(level.ramp)];
     return level;
+}
+
+LodLevel LevelOfDetail::levelOfRows(const base::GroupInfo& group, const base::Placement& place,
+                                    uint32_t pieces, uint32_t wholes)
+{
+    return find(group, place, std::max(pieces, 1u), wholes);
 }
 
 } // namespace fx::render

@@ -111,6 +111,13 @@ public:
     /// @param place of the group relative to the eye
     LodLevel levelOf(const base::GroupInfo& group, const base::Placement& place);
 
+    /// The same for rows of particles and ribbons, which the counts leave out.
+    /// @param pieces  that are drawn without a level of detail, particles or pieces of strips
+    /// @param wholes  particles or strips that they make up, of which kLeastKept stay
+    LodLevel levelOfRows(const base::GroupInfo& group, const base::Placement& place, uint32_t pieces,
+                         uint32_t wholes);
+
+    bool isOn() const { return settings_.bias > 0.0f; }
     const LodCounts& counts() const { return counts_; } ///< of this frame so far
 
 private:
@@ -119,11 +126,14 @@ private:
         uint64_t instance;
         uint32_t solver;
         uint32_t kind;
-        float share; ///< as it is, within the band around what is wanted
+        float share;  ///< as it is, within the band around what is wanted
+        float radius; ///< [pixel] on the picture
         bool operator<(const Entry& other) const;
     };
     float radiusOnPicture(const base::GroupInfo& group, const base::Placement& place) const;
-    float follow(const base::GroupInfo& group, float wanted);
+    LodLevel find(const base::GroupInfo& group, const base::Placement& place, uint32_t pieces,
+                  uint32_t wholes);
+    const Entry* lastOf(const base::GroupInfo& group) const;
 
     LodSettings settings_;
     const CameraGeometry* camera_ = nullptr;

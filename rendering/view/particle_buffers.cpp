@@ -34,6 +34,21 @@ bool isDrawn(const base::FrameSnapshot& snapshot, size_t group, bool withCompute
            kind == snapshot.schema().find(base::kParticleKind.name);
 }
 
+/// Rows of a group: some more than it has, so that others stay where they are when it grows.
+uint64_t roomFor(uint64_t rows)
+{
+    return roundUp(rows, std::max<uint64_t>(std::bit_floor(rows) / 8, 16));
+}
+
+/// [byte] a row of the columns that are uploaded.
+uint64_t rowBytes(std::span<const base::ColumnDesc> columns, const std::array<int32_t, 16>& places)
+{
+    uint64_t bytes = 0;
+    for (size_t c = 0; c < std::min(columns.size(), places.size()); ++c)
+        bytes += places[c] >= 0 ? base::columnElementSize(columns[c].type) : 0;
+    return bytes;
+}
+
 base::Status ensure(GlDevice& device, GlMappedBuffer& buffer, uint64_t bytes, const char* label)
 {
     if (buffer.bytes() >= bytes)
@@ -46,13 +61,29 @@ base::Status ensure(GlDevice& device, GlMappedBuffer& buffer, uint64_t bytes, co
     return {};
 }
 
+/// Of rows that are thinned out each has its look beside it.
+size_t orderBytes(const ParticleGroup& group)
+{
+    return group.order.size_bytes() * (group.looks.empty() ? 1 : 2);
+}
+
+void writeOrder(const ParticleGroup& group, uint32_t* out)
+{
+    if (group.looks.empty()) {
+        std::memcpy(out, group.order.data(), group.order.size_bytes());
+        return;
+    }
+    for (const uint32_t row : group.order) {
+        *out++ = row;
+        *out++ = group.looks[row];
+    }
+}
+
 } // namespace
 
 ParticleBuffers::ParticleBuffers(GlDevice& device, std::pmr::memory_resource* memory)
-    : device_(device), places_{Place{{}, {}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
-                               Place{{}, {}, {}, 0, std::pmr::vector<GroupPlace>(memory)},
-                               Place{{}, {}, {}, 0, std::pmr::vector<GroupPlace>(memory)}},
-      assets_(device, memory), emitters_(device, memory), states_(device, memory), jobs_(memory)
+    : device_(device), places_{Place(memory), Place(memory), Place(memory)}, assets_(device, memory),
+      emitters_(device, memory), states_(device, memory), jobs_(memory)
 {}
 
 uint64_t ParticleBuffers::bytes() const
@@ -64,6 +95,7 @@ uint64_t ParticleBuffers::bytes() const
 }
 
 ParticleBuffers::Sizes ParticleBuffers::layOut(const base::FrameSnapshot& snapshot,
+                                               const SnapshotRowStamps& rows,
                                                std::pmr::vector<GroupPlace>& out) const
 {
     const auto alignment = uint64_t(std::max(device_.limits().storageAlignment, 64));
@@ -78,6 +110,11 @@ ParticleBuffers::Sizes ParticleBuffers::layOut(const base::FrameSnapshot& snapsh
         const std::span<const base::ColumnDesc> columns =
             program ? base::kParticleColumns : snapshot.schema().kind(group.info().kind).columns;
         GroupPlace& place = out[g];
+        if (rows.alikeOf(g) != g) {
+            place = out[rows.alikeOf(g)];
+            place.isShared = true;
+            continue;
+        }
         place.isComputed = program != nullptr;
         if (program) {
             place.wordsOffset = roundUp(end.mapped, alignment);
@@ -93,7 +130,7 @@ ParticleBuffers::Sizes ParticleBuffers::layOut(const base::FrameSnapshot& snapsh
             if (!isThere || !(drawnColumns(isRibbon) >> c & 1))
                 continue;
             place.columns[c] = int32_t(words);
-            words += roundUp(rowCount(group) * base::columnElementSize(columns[c].type) / 4, 16);
+            words += roundUp(roomFor(rowCount(group)) * base::columnElementSize(columns[c].type) / 4, 16);
         }
         place.bytes = words * 4;
         rowsEnd = place.offset + place.bytes;
@@ -101,30 +138,68 @@ ParticleBuffers::Sizes ParticleBuffers::layOut(const base::FrameSnapshot& snapsh
     return end;
 }
 
-void ParticleBuffers::write(const base::FrameSnapshot& snapshot, Place& place)
+void ParticleBuffers::write(const base::FrameSnapshot& snapshot, const SnapshotRowStamps& rows, Place& place)
 {
+    auto before = place.groupsBefore.begin(); // both lie by rising offsets
+    const auto isOfRows = [](const GroupPlace& at) { return at.bytes > 0 && !at.isComputed && !at.isShared; };
     for (size_t g = 0; g < place.groups.size(); ++g) {
-        const GroupPlace& at = place.groups[g];
+        GroupPlace& at = place.groups[g];
         const base::SnapshotGroup& group = snapshot.group(g);
-        const auto columns = snapshot.schema().kind(group.info().kind).columns;
         if (at.isComputed) {
             std::memcpy(place.buffer.data() + at.wordsOffset, group.column64(0).data(), at.wordsBytes);
             uploadedBytes_ += at.wordsBytes;
             continue;
         }
-        for (size_t c = 0; at.bytes > 0 && c < std::min(columns.size(), at.columns.size()); ++c) {
-            if (at.columns[c] < 0)
-                continue;
-            std::byte* target = place.buffer.data() + at.offset + size_t(at.columns[c]) * 4;
-            const bool isWide = columns[c].type == base::ColumnType::U64;
-            const auto bytes = isWide ? std::as_bytes(group.column64(c)) : std::as_bytes(group.column(c));
-            std::memcpy(target, bytes.data(), bytes.size());
-            uploadedBytes_ += bytes.size();
-        }
+        const auto columns = snapshot.schema().kind(group.info().kind).columns;
+        if (at.isShared)
+            sharedBytes_ += group.count() * rowBytes(columns, at.columns);
+        if (!isOfRows(at))
+            continue;
+        while (before != place.groupsBefore.end() && (!isOfRows(*before) || before->offset < at.offset))
+            ++before;
+        const bool isSame = before != place.groupsBefore.end() && before->offset == at.offset &&
+                            before->bytes == at.bytes && before->columns == at.columns;
+        const RowStamp unknown{0, group.count(), 0};
+        writeRows(group, columns, rows.parts.empty() ? std::span(&unknown, 1) : rows.of(g),
+                  isSame ? &*before : nullptr, at, place);
     }
 }
 
-base::Status ParticleBuffers::makeResident(const base::FrameSnapshot& snapshot, uint64_t stamp, Place*& out)
+/// @param before what lay there until now, in the same columns; null: something else
+void ParticleBuffers::writeRows(const base::SnapshotGroup& group, std::span<const base::ColumnDesc> columns,
+                                std::span<const RowStamp> parts, const GroupPlace* before, GroupPlace& at,
+                                Place& place)
+{
+    at.rowsBegin = place.rows.size();
+    auto held =
+        before ? place.rowsBefore.begin() + std::ptrdiff_t(before->rowsBegin) : place.rowsBefore.end();
+    const auto heldEnd =
+        before ? place.rowsBefore.begin() + std::ptrdiff_t(before->rowsEnd) : place.rowsBefore.end();
+    for (const RowStamp& part : parts) { // both lie by rising rows
+        place.rows.push_back(part);
+        while (held != heldEnd && held->first < part.first)
+            ++held;
+        const uint64_t bytes = part.count * rowBytes(columns, at.columns);
+        if (part.stamp != 0 && held != heldEnd && *held == part) {
+            keptBytes_ += bytes;
+            continue;
+        }
+        for (size_t c = 0; c < std::min(columns.size(), at.columns.size()); ++c) {
+            if (at.columns[c] < 0)
+                continue;
+            const size_t size = base::columnElementSize(columns[c].type);
+            const auto from = columns[c].type == base::ColumnType::U64 ? std::as_bytes(group.column64(c))
+                                                                       : std::as_bytes(group.column(c));
+            std::memcpy(place.buffer.data() + at.offset + size_t(at.columns[c]) * 4 + part.first * size,
+                        from.data() + part.first * size, part.count * size);
+        }
+        uploadedBytes_ += bytes;
+    }
+    at.rowsEnd = place.rows.size();
+}
+
+base::Status ParticleBuffers::makeResident(const base::FrameSnapshot& snapshot, uint64_t stamp,
+                                           const SnapshotRowStamps& rows, Place*& out)
 {
     for (Place& place : places_)
         if (place.stamp == stamp) {
@@ -135,19 +210,32 @@ base::Status ParticleBuffers::makeResident(const base::FrameSnapshot& snapshot, 
     out = &*std::min_element(places_.begin(), places_.end(),
                              [](const Place& a, const Place& b) { return a.usedFrame < b.usedFrame; });
     out->stamp = 0;
-    const Sizes sizes = layOut(snapshot, out->groups);
-    if (base::Status status =
-            ensure(device_, out->buffer, std::max<uint64_t>(sizes.mapped, 1), "particle rows");
-        !status)
-        return status;
-    if (base::Status status = ensureComputed(out->computed, sizes.computed); !status) {
-        refusesGpu_ = true;
+    out->groupsBefore.swap(out->groups);
+    out->rowsBefore.swap(out->rows);
+    out->rows.clear();
+    const Sizes sizes = layOut(snapshot, rows, out->groups);
+    if (base::Status status = makeRoom(sizes, *out); !status) {
+        out->groups.clear(); // nothing of it was written
         return status;
     }
-    write(snapshot, *out);
+    write(snapshot, rows, *out);
     out->stamp = stamp;
     out->usedFrame = frame_;
     return {};
+}
+
+base::Status ParticleBuffers::makeRoom(const Sizes& sizes, Place& place)
+{
+    const uint32_t name = place.buffer.name();
+    if (base::Status status =
+            ensure(device_, place.buffer, std::max<uint64_t>(sizes.mapped, 1), "particle rows");
+        !status)
+        return status;
+    if (place.buffer.name() != name)
+        place.groupsBefore.clear();
+    base::Status status = ensureComputed(place.computed, sizes.computed);
+    refusesGpu_ = refusesGpu_ || !status;
+    return status;
 }
 
 base::Status ParticleBuffers::ensureComputed(GlBuffer& buffer, uint64_t bytes)
@@ -206,7 +294,7 @@ base::Status ParticleBuffers::writeOrders(ParticleFrame& frame)
     const auto alignment = uint64_t(std::max(device_.limits().storageAlignment, 64));
     uint64_t bytes = 0;
     for (const ParticleGroup& group : frame.groups())
-        bytes = roundUp(bytes, alignment) + group.order.size_bytes();
+        bytes = roundUp(bytes, alignment) + orderBytes(group);
     if (bytes == 0)
         return {};
     GlMappedBuffer& buffer = orders_[frame_ % orders_.size()];
@@ -218,9 +306,9 @@ base::Status ParticleBuffers::writeOrders(ParticleFrame& frame)
         if (order.empty())
             continue;
         const uint64_t offset = roundUp(end, alignment);
-        std::memcpy(buffer.data() + offset, order.data(), order.size_bytes());
-        frame.batches()[i].order = {buffer.name(), {}, offset, order.size_bytes()};
-        end = offset + order.size_bytes();
+        writeOrder(frame.groups()[i], reinterpret_cast<uint32_t*>(buffer.data() + offset));
+        frame.batches()[i].order = {buffer.name(), {}, offset, orderBytes(frame.groups()[i])};
+        end = offset + orderBytes(frame.groups()[i]);
     }
     uploadedBytes_ += end;
     return {};
@@ -254,10 +342,10 @@ base::Status ParticleBuffers::findAssets(ParticleFrame& frame, const base::Asset
     return {};
 }
 
-base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const StampPair& stamps,
+base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
                                       ParticleFrame& frame, const base::AssetTable* assets)
 {
-    uploadedBytes_ = 0;
+    uploadedBytes_ = keptBytes_ = sharedBytes_ = 0;
     jobs_.clear();
     if (frame.groups().empty()) {
         idle();
@@ -270,9 +358,12 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
     Place* older = nullptr;
     Place* newer = nullptr;
     if (snapshots.older)
-        if (base::Status status = makeResident(*snapshots.older, stamps.older, older); !status)
+        if (base::Status status =
+                makeResident(*snapshots.older, stamps.snapshots.older, stamps.olderRows, older);
+            !status)
             return status;
-    if (base::Status status = makeResident(*snapshots.newer, stamps.newer, newer); !status)
+    if (base::Status status = makeResident(*snapshots.newer, stamps.snapshots.newer, stamps.newerRows, newer);
+        !status)
         return status;
     if (base::Status status = writeOrders(frame); !status)
         return status;
@@ -299,7 +390,7 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
 
 void ParticleBuffers::keep(const ParticleFrame& frame)
 {
-    uploadedBytes_ = 0;
+    uploadedBytes_ = keptBytes_ = sharedBytes_ = 0;
     jobs_.clear();
     if (frame.groups().empty())
         idle();
@@ -315,6 +406,7 @@ void ParticleBuffers::idle()
         place.buffer = {};
         place.computed = {};
         place.stamp = 0;
+        place.groups.clear();
     }
     for (GlMappedBuffer& order : orders_)
         order = {};

@@ -85,7 +85,9 @@ int asCount(float value)
 /// The order of one group, by which the next begins.
 struct ParticleFrame::Orderer
 {
-    explicit Orderer(std::pmr::memory_resource* memory) : sort(memory), distances(memory) {}
+    explicit Orderer(std::pmr::memory_resource* memory)
+        : sort(memory), distances(memory), looks(memory), kept(memory)
+    {}
 
     uint64_t instance = 0;
     uint32_t solver = 0;
@@ -94,6 +96,8 @@ struct ParticleFrame::Orderer
     base::ParticleOrder mode = base::ParticleOrder::None;
     DepthSort sort;
     std::pmr::vector<float> distances;
+    std::pmr::vector<uint32_t> looks; ///< by row, where it is thinned out
+    std::pmr::vector<uint32_t> kept;  ///< rows, where they have no order
 };
 
 ParticleFrame::ParticleFrame(std::pmr::memory_resource* memory)
@@ -115,7 +119,7 @@ void ParticleFrame::build(const ParticleFrameInputs& in)
     batches_.clear();
     streams_.clear();
     gpuOrders_.clear();
-    rows_ = orderedRows_ = 0;
+    rows_ = orderedRows_ = thinnedRows_ = 0;
     fragments_ = {};
     if (!in.snapshots->newer)
         return;
@@ -171,6 +175,7 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
                         index,
                         olderIndex,
                         {},
+                        {},
                         asId(constants[constant::Texture]),
                         asId(constants[constant::Motion]),
                         asId(constants[constant::Mesh]),
@@ -199,9 +204,9 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
         stream.distance = distance - constants[constant::OrderBias];
         if (batch.isComputed)
             orderOnGpu(in, place, group, batch);
-        else if (!isRibbon)
-            orderRows(in, place, group, batch, stream);
     }
+    if (!batch.isComputed)
+        arrangeRows(in, place, group, batch, stream);
     if (batch.instances == 0)
         return;
     rows_ += batch.instances;
@@ -288,17 +293,60 @@ void ParticleFrame::orderOnGpu(const ParticleFrameInputs& in, const base::Placem
     batch.block.strip.z = 1.0f;
 }
 
-/// Empty rows are left out of an order. Distances are those of the newer snapshot: what happens within a step
-/// hardly changes the order.
-void ParticleFrame::orderRows(const ParticleFrameInputs& in, const base::Placement& place,
-                              ParticleGroup& group, ParticleBatch& batch, DrawStream& stream)
+bool ParticleFrame::thin(const ParticleFrameInputs& in, const base::Placement& place,
+                         const ParticleGroup& group, const ParticleBatch& batch, Orderer& orderer)
+{
+    const bool isRibbon = batch.shape == BatchShape::Ribbon;
+    const RowShape shape = isRibbon ? (batch.isSolid ? RowShape::SolidStrip : RowShape::Strip)
+                                    : (batch.isSolid ? RowShape::Body : RowShape::Card);
+    const float pixels = 0.5f * float(in.request->targets.height) * std::abs(in.camera->clipScale.y);
+    const auto parts = in.merger ? in.merger->partsOf(group.newerIndex) : std::span<const RowPart>{};
+    return thinRows({group.newer, parts, place, shape, in.camera, pixels}, *in.lod, orderer.looks,
+                    thinnedRows_);
+}
+
+/// Which rows are drawn, and in which order. Computed ones are neither thinned out nor ordered here.
+void ParticleFrame::arrangeRows(const ParticleFrameInputs& in, const base::Placement& place,
+                                ParticleGroup& group, ParticleBatch& batch, DrawStream& stream)
 {
     const base::SnapshotGroup& rows = *group.newer;
-    const auto mode = base::ParticleOrder(uint32_t(rows.constants()[constant::Order]));
-    if (mode == base::ParticleOrder::None)
+    const auto mode = batch.isSolid || batch.shape == BatchShape::Ribbon
+                          ? base::ParticleOrder::None
+                          : base::ParticleOrder(uint32_t(rows.constants()[constant::Order]));
+    const bool mayThin = in.lod && in.lod->isOn();
+    if (mode == base::ParticleOrder::None && !mayThin)
         return;
     Orderer& orderer = ordererOf(rows.info());
     orderer.usedFrame = frame_;
+    const bool isThinned = mayThin && thin(in, place, group, batch, orderer);
+    if (mode != base::ParticleOrder::None) {
+        sortRows(in, place, group, mode, isThinned, orderer);
+        orderedRows_ += group.order.size();
+    } else if (isThinned) {
+        orderer.kept.clear();
+        for (uint32_t i = 0; i < batch.instances; ++i)
+            if (orderer.looks[i] != 0)
+                orderer.kept.push_back(i);
+        group.order = orderer.kept;
+    } else {
+        return;
+    }
+    if (isThinned)
+        group.looks = orderer.looks;
+    batch.instances = stream.count = uint32_t(group.order.size());
+    batch.block.strip.z = isThinned ? 2.0f : 1.0f;
+    if (mode == base::ParticleOrder::Depth) {
+        stream.distances = orderer.distances.data();
+        stream.order = group.order.data();
+    }
+}
+
+/// Empty rows are left out of an order. Distances are those of the newer snapshot: what happens within a step
+/// hardly changes the order.
+void ParticleFrame::sortRows(const ParticleFrameInputs& in, const base::Placement& place,
+                             ParticleGroup& group, base::ParticleOrder mode, bool isThinned, Orderer& orderer)
+{
+    const base::SnapshotGroup& rows = *group.newer;
     if (orderer.mode != mode)
         orderer.sort.forget();
     orderer.mode = mode;
@@ -315,15 +363,11 @@ void ParticleFrame::orderRows(const ParticleFrameInputs& in, const base::Placeme
         for (size_t i = 0; i < rows.count(); ++i)
             distances[i] = radius[i] > 0.0f ? age[i] : DepthSort::kAbsent;
     }
+    for (size_t i = 0; isThinned && i < rows.count(); ++i)
+        if (orderer.looks[i] == 0)
+            distances[i] = DepthSort::kAbsent;
     group.order = mode == base::ParticleOrder::Youngest ? orderer.sort.nearestFirst(orderer.distances)
                                                         : orderer.sort.farthestFirst(orderer.distances);
-    orderedRows_ += group.order.size();
-    batch.instances = stream.count = uint32_t(group.order.size());
-    batch.block.strip.z = 1.0f;
-    if (mode == base::ParticleOrder::Depth) {
-        stream.distances = distances;
-        stream.order = group.order.data();
-    }
 }
 
 } // namespace fx::render

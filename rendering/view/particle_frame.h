@@ -10,6 +10,8 @@
 #include "rendering/view/depth_sort.h"
 #include "rendering/view/draw_runs.h"
 #include "rendering/view/fragment_estimate.h"
+#include "rendering/view/group_merger.h"
+#include "rendering/view/level_of_detail.h"
 #include "rendering/view/view_types.h"
 
 #include <memory>
@@ -26,6 +28,7 @@ struct ParticleGroup
     const base::SnapshotGroup* older; ///< null: none, or a ribbon
     size_t newerIndex, olderIndex;    ///< in their snapshots
     std::span<const uint32_t> order;  ///< rows as they are drawn; empty: all as they are
+    std::span<const uint32_t> looks;  ///< by row, see thinRows(); empty: nothing is thinned out
     uint32_t texture, motion, mesh;   ///< ids in the asset table
     int columns, rows;                ///< frames of the texture
 };
@@ -42,6 +45,8 @@ struct ParticleFrameInputs
     const CameraGeometry* camera;
     std::span<const EffectLight> lights; ///< at most four are used
     std::span<const uint8_t> left = {};  ///< by group of the newer snapshot: 1 where it is left out
+    LevelOfDetail* lod = nullptr;        ///< begun for this frame; null: everything is drawn
+    const GroupMerger* merger = nullptr; ///< that made the snapshots; null: they are the scene's
 };
 
 /// Owns the orders of one view; they and all memory are kept from frame to frame.
@@ -64,6 +69,7 @@ public:
     std::span<const DrawStream> streams() const { return streams_; }
     uint64_t rows() const { return rows_; }               ///< of all groups that are drawn
     uint64_t orderedRows() const { return orderedRows_; } ///< in orders
+    uint64_t thinnedRows() const { return thinnedRows_; } ///< left to others by the level of detail
     /// Estimated, of what does not hide.
     const FragmentCounts& fragments() const { return fragments_; }
 
@@ -74,8 +80,12 @@ private:
     void fillBlock(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
                    ParticleBatch& batch);
     void fillLights(const ParticleFrameInputs& in, ParticleBlock& block);
-    void orderRows(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
-                   ParticleBatch& batch, DrawStream& stream);
+    void arrangeRows(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
+                     ParticleBatch& batch, DrawStream& stream);
+    bool thin(const ParticleFrameInputs& in, const base::Placement& place, const ParticleGroup& group,
+              const ParticleBatch& batch, Orderer& orderer);
+    static void sortRows(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
+                         base::ParticleOrder mode, bool isThinned, Orderer& orderer);
     void orderOnGpu(const ParticleFrameInputs& in, const base::Placement& place, const ParticleGroup& group,
                     ParticleBatch& batch);
     Orderer& ordererOf(const base::GroupInfo& info);
@@ -89,6 +99,7 @@ private:
     uint64_t frame_ = 0;
     uint64_t rows_ = 0;
     uint64_t orderedRows_ = 0;
+    uint64_t thinnedRows_ = 0;
     FragmentCounts fragments_{};
 };
 

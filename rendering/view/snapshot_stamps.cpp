@@ -27,14 +27,8 @@ bool sameGroup(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
     if (info.kind != other.kind || info.instance != other.instance || info.solver != other.solver ||
         info.count != other.count || a.program() != b.program() || !samePlace(info, other))
         return false;
-    for (size_t c = 0; c < columns.size(); ++c) {
-        if (a.has(c) != b.has(c))
-            return false;
-        const bool isWide = columns[c].type == base::ColumnType::U64;
-        if (isWide ? !sameBytes(a.column64(c), b.column64(c)) : !sameBytes(a.column(c), b.column(c)))
-            return false;
-    }
-    return sameBytes(a.ids(), b.ids()) && sameBytes(a.constants(), b.constants());
+    return haveSameRows(a, b, columns) && sameBytes(a.ids(), b.ids()) &&
+           sameBytes(a.constants(), b.constants());
 }
 
 } // namespace
@@ -53,32 +47,47 @@ StampPair SnapshotStamps::stampsOf(const base::SnapshotPair& snapshots)
 {
     StampPair stamps;
     if (snapshots.older) {
-        stamps.older = find(*snapshots.older);
-        if (stamps.older == 0)
-            remember(*snapshots.older, stamps.older = ++last_);
+        if (!find(*snapshots.older))
+            remember(*snapshots.older, nullptr, ++last_);
+        stamps.older = find(*snapshots.older)->stamp;
     }
     if (snapshots.newer) {
-        stamps.newer = find(*snapshots.newer);
-        if (stamps.newer == 0) {
+        if (!find(*snapshots.newer)) {
             const bool isSame = snapshots.older && holdSame(*snapshots.newer, *snapshots.older);
-            remember(*snapshots.newer, stamps.newer = isSame ? stamps.older : ++last_);
+            remember(*snapshots.newer, snapshots.older, isSame ? stamps.older : ++last_);
         }
+        stamps.newer = find(*snapshots.newer)->stamp;
     }
     return stamps;
 }
 
-uint64_t SnapshotStamps::find(const base::FrameSnapshot& snapshot) const
+SnapshotRowStamps SnapshotStamps::rowsOf(const base::FrameSnapshot& snapshot) const
+{
+    const Known* known = find(snapshot);
+    return known ? known->rows.stamps() : SnapshotRowStamps{};
+}
+
+const SnapshotStamps::Known* SnapshotStamps::find(const base::FrameSnapshot& snapshot) const
 {
     for (const Known& known : known_)
         if (known.snapshot == &snapshot && known.sequence == snapshot.sequence() &&
             known.tick == snapshot.tick())
-            return known.stamp;
-    return 0;
+            return &known;
+    return nullptr;
 }
 
-void SnapshotStamps::remember(const base::FrameSnapshot& snapshot, uint64_t stamp)
+void SnapshotStamps::remember(const base::FrameSnapshot& snapshot, const base::FrameSnapshot* older,
+                              uint64_t stamp)
 {
-    known_[next_] = {&snapshot, snapshot.sequence(), snapshot.tick(), stamp};
+    const SnapshotRowStamps before = older ? rowsOf(*older) : SnapshotRowStamps{};
+    if (&known_[next_] == (older ? find(*older) : nullptr))
+        next_ = (next_ + 1) % known_.size(); // it has to stay for this frame
+    Known& known = known_[next_];
+    known.rows.build(snapshot, older, before, lastRows_);
+    known.snapshot = &snapshot;
+    known.sequence = snapshot.sequence();
+    known.tick = snapshot.tick();
+    known.stamp = stamp;
     next_ = (next_ + 1) % known_.size();
 }
 

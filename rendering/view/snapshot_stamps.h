@@ -2,10 +2,11 @@
 /// Numbers that tell whether two snapshots hold the same, so that what was made of one need not be made
 /// again.
 ///
-/// Threads: one thread at a time. Allocates nothing.
+/// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/view/row_stamps.h"
 
 #include <array>
 #include <cstdint>
@@ -31,23 +32,33 @@ struct StampPair
 class SnapshotStamps
 {
 public:
+    explicit SnapshotStamps(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+        : known_{Known(memory), Known(memory), Known(memory), Known(memory)}
+    {}
+
     StampPair stampsOf(const base::SnapshotPair& snapshots);
+    /// Stamps of the rows of a snapshot of the last stampsOf(); valid until the next one.
+    SnapshotRowStamps rowsOf(const base::FrameSnapshot& snapshot) const;
 
 private:
     /// Names a snapshot: those of one ring differ in their number, those of two in their address.
     struct Known
     {
+        explicit Known(std::pmr::memory_resource* memory) : rows(memory) {}
+
         const base::FrameSnapshot* snapshot = nullptr; ///< never followed; null: none
         uint64_t sequence = 0;
         base::Ticks tick = 0;
         uint64_t stamp = 0;
+        RowStamps rows;
     };
-    uint64_t find(const base::FrameSnapshot& snapshot) const; ///< 0: not known
-    void remember(const base::FrameSnapshot& snapshot, uint64_t stamp);
+    const Known* find(const base::FrameSnapshot& snapshot) const; ///< null: not known
+    void remember(const base::FrameSnapshot& snapshot, const base::FrameSnapshot* older, uint64_t stamp);
 
-    std::array<Known, 4> known_{};
+    std::array<Known, 4> known_;
     size_t next_ = 0; ///< of known_, to be overwritten
     uint64_t last_ = 0;
+    uint64_t lastRows_ = 0;
 };
 
 } // namespace fx::render

@@ -35,7 +35,7 @@ struct ViewRenderer::Impl
         : device(d), graph(memory), backend(*d, memory), builder(memory),
           merger(schema, memory), single{ParticleFrame(memory), ParticleBuffers(*d, memory)},
           joined{ParticleFrame(memory), ParticleBuffers(*d, memory)}, batches(memory), runs(memory),
-          streams(memory), timer(*d)
+          streams(memory), stamps(memory), timer(*d)
     {}
 
     struct Particles
@@ -49,9 +49,10 @@ struct ViewRenderer::Impl
                         const ViewSettings& settings); ///< everything that is to be drawn
     base::Status gatherAnew(const base::SnapshotPair& snapshots, const StampPair& stamps,
                             const FrameRequest& request, const ViewSettings& settings);
+    SnapshotRowStamps rowsOf(const base::FrameSnapshot* snapshot) const;
     base::Status makeRoom(GlBuffer& buffer, size_t bytes, const char* label);
     base::Status makeRoomForImpostors();
-    base::Status add(Particles& particles, const ParticleFrameInputs& inputs, const StampPair& of);
+    base::Status add(Particles& particles, const ParticleFrameInputs& inputs, const UploadStamps& of);
     void releaseBlobs();
     void releaseImpostors();
     void releaseUnused();
@@ -174,6 +175,11 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     return {};
 }
 
+SnapshotRowStamps ViewRenderer::Impl::rowsOf(const base::FrameSnapshot* snapshot) const
+{
+    return snapshot ? stamps.rowsOf(*snapshot) : SnapshotRowStamps{};
+}
+
 base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots, const StampPair& now,
                                             const FrameRequest& request, const ViewSettings& settings)
 {
@@ -186,14 +192,18 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
     if (builder.impostorStream().count > 0)
         streams.push_back(builder.impostorStream());
     fragments = estimateFragments(builder.blobs(), camera, request.targets.width, request.targets.height);
-    merger.build(snapshots, now);
+    const UploadStamps own{now, rowsOf(snapshots.newer), rowsOf(snapshots.older)};
+    merger.build(snapshots, now, own.newerRows, own.olderRows);
     const base::SnapshotPair merged = merger.merged();
-    if (base::Status status =
-            add(single, {&snapshots, &request, &settings, &camera, builder.lights(), merger.taken()}, now);
-        !status)
+    ParticleFrameInputs inputs{&snapshots, &request, &settings, &camera, builder.lights()};
+    inputs.lod = &builder.lod();
+    inputs.left = merger.taken();
+    if (base::Status status = add(single, inputs, own); !status)
         return status;
-    if (base::Status status =
-            add(joined, {&merged, &request, &settings, &camera, builder.lights()}, merger.stamps());
+    inputs.snapshots = &merged;
+    inputs.left = {};
+    inputs.merger = &merger;
+    if (base::Status status = add(joined, inputs, {merger.stamps(), merger.newerRows(), merger.olderRows()});
         !status)
         return status;
     if (base::Status status = makeRoom(blobBuffer, builder.blobs().size_bytes(), "blobs"); !status)
@@ -205,7 +215,7 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
 }
 
 base::Status ViewRenderer::Impl::add(Particles& particles, const ParticleFrameInputs& inputs,
-                                     const StampPair& of)
+                                     const UploadStamps& of)
 {
     particles.frame.build(inputs);
     const bool refused = particles.buffers.refusesGpu();
@@ -316,6 +326,7 @@ FrameStatistics ViewRenderer::Impl::count(int divisor)
     for (const ParticleBatch& batch : batches)
         statistics.gpuParticles += batch.isComputed ? batch.instances : 0;
     statistics.particlesOrdered = single.frame.orderedRows() + joined.frame.orderedRows();
+    statistics.particlesThinned = single.frame.thinnedRows() + joined.frame.thinnedRows();
     statistics.keptLists = keptLists;
     statistics.impostors = uint32_t(builder.impostors().size());
     statistics.impostorsTaken = keptLists ? 0 : uint32_t(builder.takenTiles().size());
@@ -323,6 +334,8 @@ FrameStatistics ViewRenderer::Impl::count(int divisor)
                                (keptLists ? 0
                                           : builder.blobs().size_bytes() + builder.impostors().size_bytes() +
                                                 builder.takenBlobs().size_bytes());
+    statistics.keptRowBytes = single.buffers.keptBytes() + joined.buffers.keptBytes();
+    statistics.sharedRowBytes = single.buffers.sharedBytes() + joined.buffers.sharedBytes();
     statistics.sortedElements = keptLists ? 0 : statistics.particlesOrdered + builder.blobs().size();
     statistics.passes = outputs.anyPass ? uint32_t(graph.executedPasses().size()) : 0;
     statistics.drawCalls = outputs.anyPass ? backend.drawCalls() : 0;

@@ -82,6 +82,9 @@ struct LodSettings
                                  ///< are drawn as pictures of themselves, at most kMostImpostorPixels
     static constexpr float kMostImpostorPixels = 13.0f; ///< a picture has 32 texels, some of them a margin
 
+    bool hold = false; ///< levels and pictures stay as the last frame has left them, whatever the camera
+                       ///< does: to measure what changing them does to the picture
+
     bool operator==(const LodSettings&) const = default;
 };
 
@@ -152,8 +155,11 @@ struct FrameStatistics
     uint32_t lodGroups[4] = {0, 0, 0, 0}; ///< groups of blobs drawn in full; at least half, an eighth; less
     uint64_t particles = 0;               ///< rows and pieces of ribbons that were drawn
     uint64_t gpuParticles = 0;            ///< of those, rows that the GPU computed
-    uint64_t particlesOrdered = 0;        ///< of those, in an order of depth or age
+    uint64_t particlesThinned = 0;        ///< left to others by the level of detail
+    uint64_t particlesOrdered = 0;        ///< of those drawn, in an order of depth or age
     uint64_t uploadedBytes = 0;           ///< [byte] of blobs and particles, written for this frame
+    uint64_t keptRowBytes = 0;            ///< [byte] of rows that were there from steps before
+    uint64_t sharedRowBytes = 0;          ///< [byte] of rows that are the same as another group's of the step
     uint64_t sortedElements = 0;          ///< put into an order of distance or age for this frame
     bool keptLists = false;               ///< what the last frame gathered, sorted and uploaded served again
     uint32_t passes = 0;                  ///< executed

@@ -11,15 +11,17 @@ flat in vec4 impostorTiles;
 in vec2 impostorPlace;
 layout(location = 0) out vec4 light;
 
-vec4 pictureAt(vec2 tile)
+// `size` of the square, in sides of the picture.
+vec4 pictureAt(vec2 tile, float size)
 {
-    vec2 texel = tile + clamp(impostorPlace * 32.0, vec2(0.5), vec2(31.5)); // never into the neighbor's tile
+    vec2 place = 0.5 + (impostorPlace - 0.5) * size;
+    vec2 texel = tile + clamp(place * 32.0, vec2(0.5), vec2(31.5)); // never into the neighbor's tile
     return textureLod(impostorAtlas, texel / vec2(64.0 * 32.0, 32.0 * 32.0), 0.0);
 }
 
 void main()
 {
-    vec4 picture = mix(pictureAt(impostorTiles.zw), pictureAt(impostorTiles.xy), impostorLook.x);
+    vec4 picture = mix(pictureAt(impostorTiles.zw, impostorLook.w), pictureAt(impostorTiles.xy, 1.0), impostorLook.x);
     float surface = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r;
     float before = clamp(0.5 + 0.5 * (surface - length(impostorCenter.xyz)) / impostorLook.z, 0.0, 1.0);
     float share = impostorLook.y * before; // of the optical depth

@@ -6,7 +6,8 @@ struct Impostor
     vec4 center; // xyz [m] relative to the eye; w half the side of the square [m]
     vec4 right;  // xyz axis of the picture; w tile of the newer picture
     vec4 up;     // xyz; w tile of the older one
-    vec4 look;   // x share of the newer; y share of the effect that is drawn; z radius [m]
+    vec4 look;   // x share of the newer; y share of the effect that is drawn; z radius [m];
+                 // w side of the square over that of the older picture
 };
 layout(std430, binding = 0) readonly buffer Impostors { Impostor impostors[]; };
 

@@ -31,7 +31,8 @@ vec3 acrossAt(int row)
 
 void main()
 {
-    int row = rows.z + gl_InstanceID;
+    int row = rowOfRank(rows.z + gl_InstanceID);
+    vec2 levelLook = lookOfRank(rows.z + gl_InstanceID);
     fragmentPlace = vec3(0.0);
     fragmentTexture = vec2(0.0);
     fragmentColor = vec4(0.0);
@@ -53,7 +54,7 @@ void main()
             later = (back - young) / (old - young);
     }
     vec3 center = mix(pointAt(at), pointAt(row + 1), later);
-    float halfWidth = mix(newerValue(3, at), newerValue(3, row + 1), later) * placePosition.w;
+    float halfWidth = mix(newerValue(3, at), newerValue(3, row + 1), later) * placePosition.w * levelLook.x;
     float shown = max(halfWidth, moment.w * pixelSize(center));
     vec4 color = mix(newerColor(5, at), newerColor(5, row + 1), later);
     fragmentPlace = center + acrossAt(at) * (side * shown);
@@ -62,6 +63,6 @@ void main()
     vec3 white = vec3(shine.x);
     if (shine.y > 0.0)
         white += shine.y * scatteredByBall(center);
-    fragmentColor = vec4(color.rgb * white, color.a * halfWidth / max(shown, 1e-30));
+    fragmentColor = vec4(color.rgb * white, opacityOf(color.a * halfWidth / max(shown, 1e-30), levelLook));
     gl_Position = clipOf(fragmentPlace);
 }

@@ -36,6 +36,15 @@ void standUp(Particle p, out vec3 horizontal, out vec3 vertical)
     horizontal = turned;
 }
 
+// A rectangle of `area` times the area: its short side grows first, so that streaks become wider before they become longer.
+vec2 grown(vec2 extent, float area)
+{
+    float least = max(min(extent.x, extent.y), 1e-30);
+    float narrow = max(min(area, max(extent.x, extent.y) / least), 1.0);
+    vec2 both = extent * sqrt(area / narrow);
+    return extent.x < extent.y ? vec2(both.x * narrow, both.y) : vec2(both.x, both.y * narrow);
+}
+
 void main()
 {
     Particle p = fetchParticle(rowOfRank(rows.z + gl_InstanceID));
@@ -52,6 +61,8 @@ void main()
     vec2 extent = vec2(p.radius * look.x, p.radius);
     if (int(alignAxis.w) == 1)
         extent.y += 0.5 * look.y * length(p.velocity);
+    vec2 levelLook = lookOfRank(rows.z + gl_InstanceID);
+    extent = grown(extent, levelLook.x * levelLook.x);
     float least = moment.w * pixelSize(p.center);
     vec2 shown = max(extent, vec2(least)); // what is smaller than a pixel is widened to it and thinned as much
     float thinned = extent.x * extent.y / max(shown.x * shown.y, 1e-30);
@@ -62,6 +73,6 @@ void main()
     vec3 white = vec3(shine.x);
     if (shine.y > 0.0)
         white += shine.y * scatteredByBall(p.center);
-    fragmentColor = vec4(p.color.rgb * white, p.color.a * thinned);
+    fragmentColor = vec4(p.color.rgb * white, opacityOf(p.color.a * thinned, levelLook));
     gl_Position = clipOf(fragmentPlace);
 }

@@ -27,7 +27,20 @@ vec4 olderColor(int column, int row)
 }
 
 // The row that is drawn as number `rank`.
-int rowOfRank(int rank) { return strip.z > 0.5 ? int(drawOrder[rank]) : rank; }
+int rowOfRank(int rank)
+{
+    if (strip.z > 1.5)
+        return int(drawOrder[2 * rank]);
+    return strip.z > 0.5 ? int(drawOrder[rank]) : rank;
+}
+
+// What the level of detail makes of it: factors of its size and of its opacity.
+vec2 lookOfRank(int rank) { return strip.z > 1.5 ? unpackHalf2x16(drawOrder[2 * rank + 1]) : vec2(1.0); }
+float opacityOf(float opacity, vec2 levelLook)
+{
+    bool covers = look.w < 0.5; // and cannot do so more than wholly
+    return levelLook.y == 1.0 ? opacity : covers ? min(opacity * levelLook.y, 1.0) : opacity * levelLook.y;
+}
 
 vec3 rotated(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 

@@ -1,10 +1,12 @@
 // The controller against written-down loads: numbers that must hold, and two controllers for which they do
 // not.
+#include "fxsdk/quality/calibration_file.h"
 #include "tests/quality/scripted_load.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numeric>
 
 namespace fx::quality::test {
 
@@ -128,6 +130,40 @@ TEST(BudgetController, doesNotRiseWithinASecondOfAFallHoweverShortTheFrames)
         }
     }
     EXPECT_GT(stepSum(controller.choice()), stepSum(low));
+}
+
+/// The shipped ladders under loads of 1, 2.5 and 8, each for some seconds.
+TEST(BudgetController, keepsABudgetWithTheShippedLaddersAndUsesLevelsOfDetailAndGlare)
+{
+    const auto calibration = builtInCalibration();
+    ASSERT_TRUE(calibration.ok());
+    BudgetController controller(calibration->ladders);
+    const size_t count = controller.ladders().size();
+    const std::vector<double> weights(count, 1.0);
+    constexpr double kTopTime = 0.7 * kBudget; // of everything, at load 1
+    int over = 0, frames = 0;
+    bool usesLevels = false, dropsGlare = false, hasAll = false;
+    for (const double load : {1.0, 2.5, 1.0, 8.0, 1.0, 4.0})
+        for (int k = 0; k < 600; ++k, ++frames) {
+            std::vector<double> times;
+            render::ViewSettings settings;
+            for (size_t i = 0; i < count; ++i) {
+                const LadderStep& step = controller.ladders()[i].steps[controller.choice()[i]];
+                times.push_back(load * kTopTime / double(count) * step.cost);
+                apply(step.knobs, settings);
+            }
+            usesLevels = usesLevels || settings.lod.bias > 0.0f;
+            dropsGlare = dropsGlare || !settings.dazzle.enabled;
+            hasAll = settings.lod.bias == 0.0f && settings.dazzle.enabled && settings.particleShare == 1.0f;
+            EXPECT_TRUE(hasAll || load > 1.0 || k > 0 || frames > 0) << "it begins with the best";
+            over += std::accumulate(times.begin(), times.end(), 0.0) > kBudget ? 1 : 0;
+            controller.observe(controller.choice(), times);
+            controller.choose({kBudget, kFrameTime, false, weights});
+        }
+    EXPECT_LE(double(over) / frames, kMostOver);
+    EXPECT_LE(double(controller.switches()) / frames, kMostSwitches);
+    EXPECT_TRUE(usesLevels);
+    EXPECT_TRUE(dropsGlare);
 }
 
 TEST(BudgetController, changesNothingWhileSomethingIsCaughtUpWith)

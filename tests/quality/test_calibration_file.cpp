@@ -37,7 +37,7 @@ TEST(BuiltInCalibration, isReadAndItsLaddersRise)
 {
     const auto calibration = builtInCalibration();
     ASSERT_TRUE(calibration.ok()) << calibration.status().message();
-    ASSERT_EQ(calibration->ladders.size(), 2u);
+    ASSERT_EQ(calibration->ladders.size(), 3u);
     for (const Ladder& ladder : calibration->ladders) {
         EXPECT_GE(ladder.steps.size(), 2u) << ladder.technique;
         for (size_t k = 1; k < ladder.steps.size(); ++k) {
@@ -46,6 +46,26 @@ TEST(BuiltInCalibration, isReadAndItsLaddersRise)
         }
     }
     EXPECT_FALSE(calibration->origin.empty());
+}
+
+TEST(BuiltInCalibration, knowsLevelsOfDetailAndGlare)
+{
+    const auto calibration = builtInCalibration();
+    ASSERT_TRUE(calibration.ok()) << calibration.status().message();
+    const auto ladderOf = [&](const std::string& name) {
+        for (const Ladder& ladder : calibration->ladders)
+            if (ladder.technique == name)
+                return ladder;
+        return Ladder{};
+    };
+    int withLevels = 0;
+    for (const LadderStep& step : ladderOf("media").steps)
+        withLevels += step.knobs.lodBias.value_or(0.0f) > 0.0f ? 1 : 0;
+    EXPECT_GE(withLevels, 1);
+    const Ladder dazzle = ladderOf("dazzle");
+    ASSERT_EQ(dazzle.steps.size(), 2u);
+    EXPECT_EQ(dazzle.steps[0].knobs.dazzle, false);
+    EXPECT_EQ(dazzle.steps[1].knobs.dazzle, true);
 }
 
 TEST(CalibrationFile, comesBackAsItWasWritten)

@@ -99,10 +99,10 @@ typedef struct FxViewSettings
                               ///< what these settings say. Otherwise it may fall below, never rise above
                               ///< them; what is simulated does not depend on it.
     uint32_t budgetClock;     ///< FX_BUDGET_CLOCK_...; default FX_BUDGET_CLOCK_GPU
-    float lodBias; ///< [1] 0..256, level of detail: an effect keeps one particle of its media for so many
-                   ///< pixels of its disc on the picture, at least twelve, which take over the light of the
-                   ///< others without a jump; 1 is hardly to be seen, 16 is; 0 (default): everything is
-                   ///< drawn. What is simulated does not depend on it.
+    float lodBias; ///< [1] 0..256, level of detail: an effect keeps one particle, or piece of a ribbon,
+                   ///< for so many pixels of its disc on the picture, at least twelve, which take over the
+                   ///< light and the cover of the others without a jump; 1 is hardly to be seen, 16 is; 0
+                   ///< (default): everything is drawn. What is simulated does not depend on it.
     float lodImpostorPixels; ///< [pixel] 0..13, an effect whose ball has a smaller radius on the picture is
                              ///< drawn as a picture of itself, which is taken anew ten times a second while
                              ///< it changes, or when it is seen from elsewhere, and fades into the next; not
@@ -209,9 +209,14 @@ typedef struct FxViewStatistics
     uint32_t lodGroups[4];  ///< groups of particles of media by what lodBias leaves of them: all; at least
                             ///< half; at least an eighth; less
     uint32_t impostors;     ///< effects that lodImpostorPixels made pictures of themselves
-    uint32_t impostorsTaken; ///< pictures taken anew for the frame
-    uint32_t gpuParticles;   ///< particles that the GPU computed for what was drawn, or would have if they
-                             ///< lived: the capacity of their emitters
+    uint32_t impostorsTaken;   ///< pictures taken anew for the frame
+    uint32_t gpuParticles;     ///< particles that the GPU computed for what was drawn, or would have if they
+                               ///< lived: the capacity of their emitters
+    uint64_t particlesThinned; ///< sprites, meshes and pieces of ribbons that lodBias left to others
+    uint64_t keptRowBytes;   ///< [byte] of sprites, meshes and ribbons that stand still and were not written
+                             ///< again, although others of the step were
+    uint64_t sharedRowBytes; ///< [byte] of the same that were not written because another instance of the
+                             ///< same simulation has them
 } FxViewStatistics;
 
 /// Pictures that the last frame kept; GL names, 0 when settings.layerOutputs was 0. Fill structSize with

@@ -198,3 +198,22 @@ TEST_F(Impostors, areHiddenByWhatStandsBeforeThem)
     setDepth(std::vector<float>(kSize * kSize, 0.0f)); // a wall at the near plane
     EXPECT_NEAR(sum(show(snapshot, 1)), 0.0, 1e-4);
 }
+
+TEST_F(Impostors, thePictureBeforeKeepsItsSizeWhenAnotherIsTakenFromNearer)
+{
+    view_->settings().lod.impostorPixels = 13.0f;
+    const auto snapshot = cloud({0, 0, -distanceOf(6.0)});
+    const Picture far = show(snapshot, 40);
+    ASSERT_EQ(taken_, 1u);
+    request_.camera = cameraAt({0, 0, -0.3 * distanceOf(6.0)});
+    view_->settings().lod.hold = true;
+    const Picture held = show(snapshot);
+    ASSERT_EQ(taken_, 1u);
+    view_->settings().lod.hold = false;
+    const Picture first = show(snapshot);
+    ASSERT_EQ(taken_, 2u) << "1.4 times as large";
+    EXPECT_LT(test::maxDifference(first, held), 0.02 * brightest(held)) << "it begins as the older one";
+    EXPECT_GT(test::maxDifference(first, far), 0.1 * brightest(held));
+    EXPECT_GT(test::maxDifference(show(snapshot, 20), held), 0.02 * brightest(held))
+        << "and becomes the newer";
+}

@@ -1,0 +1,71 @@
+/// @file row_stamps.h
+/// Numbers that tell whether rows of particles and ribbons are those that were uploaded before, group by
+/// group, and whether several groups hold the same rows, as instances do that share a simulation.
+///
+/// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
+#pragma once
+
+#include "foundation/snapshot/frame_snapshot.h"
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// Some rows of a group. Equal numbers, 0 apart, stand for the same columns, bit for bit.
+struct RowStamp
+{
+    uint32_t first = 0, count = 0;
+    uint64_t stamp = 0; ///< 0: nothing is known
+
+    bool operator==(const RowStamp&) const = default;
+};
+
+/// Of all groups of a snapshot.
+struct SnapshotRowStamps
+{
+    std::span<const RowStamp> parts; ///< of all groups, one after the other
+    std::span<const size_t> begin;   ///< of each group, and the end; empty: one part a group
+    std::span<const uint32_t> alike; ///< first group with the same rows, or the group; empty: all differ
+
+    std::span<const RowStamp> of(size_t group) const
+    {
+        return begin.empty() ? parts.subspan(group, 1)
+                             : parts.subspan(begin[group], begin[group + 1] - begin[group]);
+    }
+    size_t alikeOf(size_t group) const { return alike.empty() ? group : alike[group]; }
+};
+
+/// Whether the columns of two groups of one kind are the same, bit for bit; ids, constants and placements may
+/// differ.
+bool haveSameRows(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
+                  std::span<const base::ColumnDesc> columns);
+
+/// Stamps the groups of the kinds "particle" and "ribbon" of snapshots that follow each other.
+class RowStamps
+{
+public:
+    explicit RowStamps(std::pmr::memory_resource* memory)
+        : parts_(memory), before_(memory), alike_(memory), table_(memory)
+    {}
+
+    /// @param older  null, or a snapshot of the same scene; what it shares with `newer` has the same stamps
+    /// @param before stamps of `older`; without parts: not known
+    void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older,
+               const SnapshotRowStamps& before, uint64_t& ioLast);
+    SnapshotRowStamps stamps() const { return {parts_, {}, alike_}; }
+
+private:
+    uint64_t stampOf(const base::FrameSnapshot& newer, size_t group, const base::FrameSnapshot* older,
+                     uint64_t& ioLast) const;
+    void findAlike(const base::FrameSnapshot& snapshot, size_t group);
+
+    std::pmr::vector<RowStamp> parts_;
+    std::pmr::vector<RowStamp> before_;
+    std::pmr::vector<uint32_t> alike_;
+    std::pmr::vector<uint32_t> table_; ///< groups by a sample of their rows; open addressing
+};
+
+} // namespace fx::render
