@@ -66,6 +66,7 @@ struct Run
     uint64_t steppedIn = 0;      ///< number of the last step that stepped it
     uint32_t users = 0;          ///< instances that it stands for; 0: unused
     uint32_t hidden = 0;         ///< users that are out of sight; when all are, the run is paused
+    bool pooled = false;         ///< its only solver is in a pool; `simulated` is of the time before
     bool released =
         false; ///< its solvers are gone; `kept`, or nothing when it has not begun, says how it was
     std::shared_ptr<const EffectDef> effect;

@@ -69,6 +69,8 @@ struct ContactHook
 };
 
 class EmitterCrowd;
+class EmitterPools;
+struct PoolRequest;
 /// The same in the world, as the host gives it.
 struct HostContact
 {
@@ -141,6 +143,10 @@ public:
     virtual void passTo(base::Ticks, StepCounters&) {}
     /// The instance stands at `placement` now, and got there while its own time stood still.
     virtual void standAt(const base::Placement&) {}
+    /// Joins a pool of emitters, which computes it from then on until it leaves: meanwhile it is neither
+    /// stepped nor published, and all other questions are answered as ever. @return whether it has joined
+    virtual bool joinPool(EmitterPools&, const PoolRequest&) { return false; }
+    virtual void leavePool() {}
     /// publish(), but what is in the columns may be left to `crowd`. @return false, and nothing has happened,
     /// when it wants nothing of it
     virtual bool joinPublication(const base::GroupInfo&, base::FrameSnapshot&, EmitterCrowd&) const

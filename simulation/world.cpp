@@ -25,7 +25,7 @@ glm::vec3 toLocal(const base::Placement& placement, const glm::vec3& world)
 World::World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory,
              const Environment& environment, bool share)
     : environment_(environment), schema_(schema), tasks_(tasks), memory_(memory), share_(share),
-      scratch_(memory), crowd_(memory), runs_(schema, memory, share)
+      scratch_(memory), crowd_(memory), pools_(memory), runs_(schema, memory, share)
 {}
 
 Slot World::add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden)
@@ -82,8 +82,13 @@ void World::change(Slot slot, const InstanceStart& start)
 {
     Instance& instance = instances_[slot];
     const RunIndex before = instance.run;
-    endRest(before, now_);
     const RunConditions wanted = conditionsOf(*runs_.at(before).effect, start);
+    if (runs_.at(before).pooled && runs_.at(before).conditions.equals(wanted)) {
+        instance.start = start; // it only stands elsewhere
+        ++moves_;
+        return;
+    }
+    endRest(before, now_);
     const uint32_t hiddenBefore = runs_.at(before).hidden;
     instance.run = isLagging(runs_.at(before)) ? changeLater(before, wanted) : runs_.change(before, wanted);
     instance.start = start;
@@ -166,32 +171,45 @@ StepCounters World::step(std::span<const Slot> active, base::Ticks tick, base::T
     const base::FloatingPointScope floatingPoint;
     ++stepNumber_;
     crowd_.forget();
+    joining_.clear();
     divideRuns(active);
-    for (size_t k = 0; k < active.size(); ++k) {
-        fetchAhead(active, k);
-        const RunIndex index = instances_[active[k]].run;
-        Run& run = runs_.at(index);
-        if (run.steppedIn == stepNumber_)
-            continue;
-        if (run.restUntil >= now_) {
-            ++resting_;
-            continue;
-        }
-        run.steppedIn = stepNumber_;
-        if (run.quietUntil >= now_ && run.simulated == tick) {
-            passQuietly(run, counters);
-            continue;
-        }
-        endRest(index, tick);
-        stepRun(index, tick, stepTicks, counters, &crowd_);
-        if (!mayRest_)
-            continue;
-        const base::Ticks rest = restOf(run);
-        run.restUntil = rest > now_ ? rest : 0;
-        run.quietUntil = quietOf(run);
-    }
+    if (!mayPool_ || pools_.now() != tick || stepTicks > kLongestPoolStep)
+        endPools();
+    const bool isPlanned = stepPlan_.holds(active, pools_.revision());
+    const std::span<const Slot> list = isPlanned ? stepPlan_.others : active;
+    for (size_t k = 0; k < list.size(); ++k)
+        stepSlot(list, k, tick, stepTicks, counters);
     crowd_.close();
+    stepPools(active, isPlanned, counters);
     return counters;
+}
+
+void World::stepSlot(std::span<const Slot> list, size_t place, base::Ticks tick, base::Ticks stepTicks,
+                     StepCounters& counters)
+{
+    fetchAhead(list, place);
+    const RunIndex index = instances_[list[place]].run;
+    Run& run = runs_.at(index);
+    if (run.steppedIn == stepNumber_)
+        return;
+    if (run.restUntil >= now_) {
+        ++resting_;
+        return;
+    }
+    run.steppedIn = stepNumber_;
+    if (run.pooled)
+        return; // later, with all others
+    if (run.quietUntil >= now_ && run.simulated == tick)
+        return passQuietly(run, counters);
+    endRest(index, tick);
+    stepRun(index, tick, stepTicks, counters, &crowd_);
+    if (!mayRest_)
+        return;
+    const base::Ticks rest = restOf(run);
+    run.restUntil = rest > now_ ? rest : 0;
+    run.quietUntil = quietOf(run);
+    if (canPool(run))
+        joining_.push_back(index);
 }
 
 /// Asks the memory for what is wanted of those that follow in a list.
@@ -407,26 +425,32 @@ void World::publish(std::span<const Slot> active, base::FrameSnapshot& snapshot)
 {
     const base::FloatingPointScope floatingPoint;
     crowd_.beginPublication(snapshot, tasks_);
+    if (!pools_.empty()) {
+        publishPools(active, snapshot);
+    } else {
+        for (size_t k = 0; k < active.size(); ++k) {
+            fetchAhead(active, k);
+            publishSlot(active[k], snapshot);
+        }
+        crowd_.endPublication();
+    }
+}
+
+void World::publishSlot(Slot slot, base::FrameSnapshot& snapshot) const
+{
+    const Instance& instance = instances_[slot];
+    const Run& run = runs_.at(instance.run);
     base::GroupInfo info;
+    info.instance = instance.start.instance;
+    info.placement = instance.start.placement;
     const auto publishOne = [&](const Solver& solver) {
         if (!solver.joinPublication(info, snapshot, crowd_))
             solver.publish(info, snapshot);
     };
-    for (size_t k = 0; k < active.size(); ++k) {
-        fetchAhead(active, k);
-        const Instance& instance = instances_[active[k]];
-        const Run& run = runs_.at(instance.run);
-        info.instance = instance.start.instance;
-        info.placement = instance.start.placement;
-        info.solver = 0;
-        if (run.only) {
-            publishOne(*run.only);
-            continue;
-        }
-        for (; info.solver < run.solvers.size(); ++info.solver)
-            publishOne(*run.solvers[info.solver]);
-    }
-    crowd_.endPublication();
+    if (run.only)
+        return publishOne(*run.only);
+    for (; info.solver < run.solvers.size(); ++info.solver)
+        publishOne(*run.solvers[info.solver]);
 }
 
 } // namespace fx::sim

@@ -16,8 +16,10 @@
 #include "foundation/memory/arena.h"
 #include "simulation/effect_def.h"
 #include "simulation/emitters/emitter_crowd.h"
+#include "simulation/emitters/emitter_pools.h"
 #include "simulation/run_pool.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -72,7 +74,11 @@ public:
     bool isHidden(Slot slot) const { return instances_[slot].hidden; }
     /// True when the state has not reached the present.
     bool lags(Slot slot) const;
-    base::Ticks simulated(Slot slot) const { return runs_.at(instances_[slot].run).simulated; }
+    base::Ticks simulated(Slot slot) const
+    {
+        const Run& run = runs_.at(instances_[slot].run);
+        return run.pooled ? pools_.now() : run.simulated;
+    }
     /// True when so much waits to be told to it that it should be caught up.
     bool crowded(Slot slot) const;
     /// Takes a hidden instance towards the present, as if it had never been out of sight unless `policy` says
@@ -94,9 +100,15 @@ public:
     /// Scene time, at least the present, up to which steps change nothing that is seen of the instance: they
     /// are not taken.
     base::Ticks restsUntil(Slot slot) const;
+    uint32_t pooled() const
+    {
+        return pools_.members();
+    }                                             ///< instances that are computed together, see EmitterPool
     uint32_t resting() const { return resting_; } ///< slots that the last step() let rest
     /// false: every step is taken.
     void allowRest(bool allow) { mayRest_ = allow; }
+    /// false: every emitter is computed by itself, from the next step on. Nobody can tell from the results.
+    void allowPools(bool allow) { mayPool_ = allow; }
     /// Whether emitters that may be computed on the GPU are published as what is needed for that, from the
     /// next step on; see StepContext::gpuParticles.
     void setGpuParticles(bool onGpu) { gpuParticles_ = onGpu; }
@@ -146,6 +158,7 @@ public:
     /// A step of nobody: time passes until `now`.
     void passTime(base::Ticks now)
     {
+        endPools();
         now_ = now;
         resting_ = 0;
     }
@@ -178,6 +191,30 @@ private:
         bool hidden = false;
         InstanceStart start;
     };
+
+    /// What is found anew only when the list or the pools have changed.
+    struct Plan
+    {
+        std::vector<Slot> active; ///< the list
+        std::vector<Slot> others; ///< those of it that are in no pool
+        uint64_t revision = 0;    ///< of the pools
+
+        bool holds(std::span<const Slot> list, uint64_t now) const
+        {
+            return revision == now && std::ranges::equal(active, list);
+        }
+    };
+    bool canPool(const Run& run) const;
+    void leavePool(RunIndex index);
+    void endPools();
+    void stepPools(std::span<const Slot> active, bool isPlanned, StepCounters& counters);
+    void joinPools();
+    void planStep(std::span<const Slot> active);
+    void publishPools(std::span<const Slot> active, base::FrameSnapshot& snapshot) const;
+    void makeRoster(std::span<const Slot> active) const;
+    void stepSlot(std::span<const Slot> list, size_t place, base::Ticks tick, base::Ticks stepTicks,
+                  StepCounters& counters);
+    void publishSlot(Slot slot, base::FrameSnapshot& snapshot) const;
 
     RunConditions conditionsOf(const EffectDef& effect, const InstanceStart& start) const;
     Slot takeSlot(const InstanceStart& start, RunIndex run);
@@ -222,13 +259,25 @@ private:
     bool share_;
     base::Arena scratch_;
     mutable EmitterCrowd crowd_; ///< of the step or the publication in hand; empty otherwise
+    EmitterPools pools_;         ///< before the runs, whose solvers are in them
     RunPool runs_;
     std::vector<Instance> instances_;
     std::vector<Slot> free_;
+    Plan stepPlan_;
+    std::vector<RunIndex> joining_; ///< runs that a step has taken to where a pool could go on
+    std::vector<RunIndex> left_;    ///< runs that left their pool in a step
+    mutable Plan publishPlan_;
+    mutable uint64_t placed_ = 0; ///< of publishPlan_: see moves_
+    uint64_t moves_ = 1;          ///< goes up when an instance whose run is in a pool has been moved
+    mutable uint64_t rosters_ = 0;
+    mutable std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_; ///< snapshots hold some of them
+    mutable std::shared_ptr<base::GroupRoster> roster_;                  ///< of the last publication
+    mutable std::vector<uint32_t> ends_;                                 ///< see FrameSnapshot::setRoster()
     uint64_t stepNumber_ = 0;
     base::Ticks now_ = 0; ///< end of the last step
     uint32_t resting_ = 0;
     bool mayRest_ = true;
+    bool mayPool_ = true;
     bool gpuParticles_ = false;
 };
 

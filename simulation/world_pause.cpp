@@ -37,6 +37,7 @@ void World::retire(Slot slot)
     Instance& instance = instances_[slot];
     if (instance.hidden)
         --runs_.at(instance.run).hidden;
+    leavePool(instance.run);
     runs_.retire(instance.run, now_);
     instance = Instance{};
     free_.push_back(slot);
@@ -146,6 +147,8 @@ base::Ticks World::restsUntil(Slot slot) const
 base::Ticks World::restOf(const Run& run) const
 {
     const RunClock& clock = run.conditions.clock;
+    if (run.pooled)
+        return pools_.now(); // it has particles
     const base::Ticks local = clock.toLocal(run.simulated);
     if (run.solvers.empty() || local <= 0 || clock.rate == 0)
         return run.simulated;
@@ -161,6 +164,7 @@ base::Ticks World::restOf(const Run& run) const
 /// Takes a run that is stepped but rests to `tick`.
 void World::endRest(RunIndex index, base::Ticks tick)
 {
+    leavePool(index);
     Run& run = runs_.at(index);
     if (run.restUntil == 0)
         return;
@@ -173,7 +177,7 @@ void World::endRest(RunIndex index, base::Ticks tick)
 void World::endRests()
 {
     for (RunIndex index = 0; index < runs_.size(); ++index)
-        if (runs_.at(index).users > 0)
+        if (runs_.at(index).users > 0 && !runs_.at(index).pooled) // who is in a pool does not rest
             endRest(index, now_);
 }
 

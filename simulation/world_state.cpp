@@ -116,6 +116,8 @@ RunIndex World::joinRun(RunIndex index, const Entry& entry, StateReader& reader)
 
 void World::swap(World& other) noexcept
 {
+    endPools();
+    other.endPools();
     runs_.swap(other.runs_);
     std::swap(instances_, other.instances_);
     std::swap(free_, other.free_);

@@ -9,61 +9,26 @@ namespace fx::base {
 
 namespace {
 
-/// Floats from the beginning of a column to that of the next.
-size_t columnFloats(ColumnType type, size_t capacity)
+uint64_t hashGroup(uint64_t h, const SnapshotGroup& group, std::span<const ColumnDesc> columns)
 {
-    const size_t line = 64 / sizeof(float);
-    const size_t rows = (capacity + line - 1) / line * line;
-    return rows * columnElementSize(type) / sizeof(float);
-}
-
-bool isIn(ColumnSet present, size_t column)
-{
-    return (present >> column & 1) != 0;
-}
-
-size_t floatsFor(const KindDesc& kind, size_t capacity, ColumnSet present)
-{
-    size_t floats = 0;
-    for (size_t c = 0; c < kind.columns.size(); ++c)
-        floats += isIn(present, c) ? columnFloats(kind.columns[c].type, capacity) : 0;
-    return floats;
+    const GroupInfo& info = group.info();
+    h = hashWord(h, info.kind);
+    h = hashWord(h, info.instance);
+    h = hashWord(h, info.solver);
+    h = hashBytes(h, &info.placement.position, sizeof info.placement.position);
+    h = hashBytes(h, &info.placement.rotation, sizeof info.placement.rotation);
+    h = hashBytes(h, &info.placement.scale, sizeof info.placement.scale);
+    h = hashBytes(h, group.constants().data(), group.constants().size_bytes());
+    h = hashBytes(h, group.ids().data(), group.ids().size_bytes());
+    for (size_t c = 0; c < columns.size(); ++c)
+        h = hashBytes(h, group.column(c).data(), group.column(c).size() * columnElementSize(columns[c].type));
+    return h;
 }
 
 } // namespace
 
-bool SnapshotGroup::fits(const KindDesc& kind, size_t capacity, ColumnSet present) const
-{
-    return floatsFor(kind, capacity, present) <= storage_.capacity() &&
-           (!kind.hasIds || capacity <= ids_.size());
-}
-
-void SnapshotGroup::prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present)
-{
-    const KindDesc& desc = schema.kind(kind);
-    const size_t floats = floatsFor(desc, capacity, present);
-    if (storage_.capacity() < floats)
-        storage_ = Column<float>(memory_, floats);
-    if (desc.hasIds && ids_.size() < capacity)
-        ids_.resize(capacity);
-    size_t offset = 0;
-    for (size_t c = 0; c < desc.columns.size(); ++c) {
-        lines_[c] = uint32_t(offset / kRowsPerLine);
-        offset += isIn(present, c) ? columnFloats(desc.columns[c].type, capacity) : 0;
-    }
-    constantCount_ = uint32_t(desc.constants.size());
-    forgetConstants();
-    capacity_ = capacity;
-    present_ = present;
-    hasIds_ = desc.hasIds;
-    isExact_ = bytes() == floats * sizeof(float) + (desc.hasIds ? capacity * sizeof(uint64_t) : 0);
-    info_ = GroupInfo{};
-    info_.kind = kind;
-    program_.reset();
-}
-
 FrameSnapshot::FrameSnapshot(const SnapshotSchema* schema, std::pmr::memory_resource* memory)
-    : schema_(schema), memory_(memory), groups_(memory)
+    : schema_(schema), memory_(memory), groups_(memory), ends_(memory)
 {}
 
 void FrameSnapshot::begin(Ticks tick, uint64_t sequence)
@@ -71,6 +36,26 @@ void FrameSnapshot::begin(Ticks tick, uint64_t sequence)
     tick_ = tick;
     sequence_ = sequence;
     groupCount_ = 0;
+    poolCount_ = 0;
+    roster_.reset();
+}
+
+PooledRows& FrameSnapshot::addPool(KindId kind, size_t capacity, ColumnSet present, uint32_t each)
+{
+    if (poolCount_ == pools_.size())
+        pools_.push_back(std::make_unique<PooledRows>(memory_));
+    PooledRows& pool = *pools_[poolCount_++];
+    pool.prepare(*schema_, kind, capacity, present, each);
+    return pool;
+}
+
+void FrameSnapshot::setRoster(std::shared_ptr<const GroupRoster> roster, std::span<const uint32_t> ends)
+{
+    if (!spread_)
+        spread_ = std::make_unique<SpreadGroups>(memory_);
+    ends_.assign(ends.begin(), ends.end());
+    roster_ = std::move(roster);
+    spread_->prepare(*this);
 }
 
 SnapshotGroup& FrameSnapshot::findGroup(KindId kind, size_t capacity, ColumnSet present)
@@ -98,24 +83,14 @@ SnapshotGroup& FrameSnapshot::findGroup(KindId kind, size_t capacity, ColumnSet 
 uint64_t FrameSnapshot::hash() const
 {
     uint64_t h = hashWord(0, uint64_t(tick_));
-    for (size_t g = 0; g < groupCount_; ++g) {
-        const SnapshotGroup& group = groups_[g];
-        const GroupInfo& info = group.info();
-        if (group.count() == 0 || info.isCosmetic)
-            continue; // what shows nothing is as if it were not there
-        h = hashWord(h, info.kind);
-        h = hashWord(h, info.instance);
-        h = hashWord(h, info.solver);
-        h = hashBytes(h, &info.placement.position, sizeof info.placement.position);
-        h = hashBytes(h, &info.placement.rotation, sizeof info.placement.rotation);
-        h = hashBytes(h, &info.placement.scale, sizeof info.placement.scale);
-        h = hashBytes(h, group.constants().data(), group.constants().size_bytes());
-        h = hashBytes(h, group.ids().data(), group.ids().size_bytes());
-        const std::span<const ColumnDesc> columns = schema_->kind(info.kind).columns;
-        for (size_t c = 0; c < columns.size(); ++c)
-            h = hashBytes(h, group.column(c).data(),
-                          group.column(c).size() * columnElementSize(columns[c].type));
-    }
+    const auto add = [&h, this](const SnapshotGroup& group) {
+        if (group.count() > 0 && !group.info().isCosmetic) // what shows nothing is as if it were not there
+            h = hashGroup(h, group, schema_->kind(group.info().kind).columns);
+    };
+    if (roster_)
+        spread_->forEach(*this, add);
+    else
+        std::for_each(groups_.begin(), groups_.begin() + std::ptrdiff_t(groupCount_), add);
     return h;
 }
 

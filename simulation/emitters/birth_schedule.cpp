@@ -13,6 +13,7 @@ using base::Ticks;
 
 constexpr uint64_t kMostBirths = uint64_t(1) << 62;
 constexpr WideInt kParticle = WideInt(base::kTicksPerSecond) << 32; // D of a constant rate
+constexpr WideInt kLowestEven = WideInt(1 << 22);                   // q of a rate of 1e-3 /s
 constexpr int kFineBits = 16;                                       // more in D of a rate that changes
 constexpr Ticks kLongestCurve = 1'000'000 * base::kTicksPerSecond;
 constexpr Ticks kSegments = Ticks(base::kCurveSamples);
@@ -328,6 +329,24 @@ void BirthSchedule::restore(StateReader& reader)
     nextIndex_ = reader.value<uint64_t>(0, kMostBirths, "an emitter's births are out of range");
     for (ScheduledBurst& burst : bursts_)
         burst.next = reader.value<uint64_t>(0, burst.cycles, "a burst has fewer cycles");
+}
+
+std::optional<EvenBirths> BirthSchedule::evenBirths(Ticks tick, double intensity, bool emitting) const
+{
+    if (curved_ || log_ || !bursts_.empty() || tick < start_ || tick >= end_)
+        return std::nullopt;
+    const WideInt rate = pieceAt(tick, end_, {tick, end_, intensity, emitting}).rate;
+    if (rate < kLowestEven)
+        return std::nullopt;
+    const Ticks to = tick > quiet_.to && tick <= quiet_.until ? tick : quiet_.to;
+    const WideInt waiting = -progress_ - quiet_.rate * (to - quiet_.from);
+    EvenBirths births;
+    births.tick = tick + Ticks(waiting / rate);
+    births.rest = uint64_t(waiting % rate);
+    births.stride = Ticks(kParticle / rate);
+    births.more = uint64_t(kParticle % rate);
+    births.rate = uint64_t(rate);
+    return births;
 }
 
 bool BirthSchedule::exhausted(Ticks tick) const

@@ -42,6 +42,7 @@
 
 #include <cstdint>
 #include <memory_resource>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -71,6 +72,26 @@ struct BirthWindow
     base::Ticks end;      ///< the next window begins here
     double intensity = 1; ///< multiplies rate and burst counts
     bool emitting = true; ///< false: what would be born in the window never is
+};
+
+/// Births at a constant rate, one after another, found without dividing: (4) of birth-ticks.
+struct EvenBirths
+{
+    base::Ticks tick = kForever; ///< of the next
+    base::Ticks stride = 0;      ///< whole ticks from one to the next
+    uint64_t rest = 0;           ///< what the quotient of `tick` leaves
+    uint64_t more = 0;           ///< by which it grows from one to the next
+    uint64_t rate = 1;           ///< q, the divisor
+
+    void goOn()
+    {
+        tick += stride;
+        rest += more;
+        if (rest >= rate) {
+            rest -= rate;
+            ++tick;
+        }
+    }
 };
 
 /// Rate and bursts of one emitter, advanced window by window without gaps. Ties: bursts by declaration, then
@@ -108,6 +129,10 @@ public:
         if (tick > quiet_.to && tick <= quiet_.until)
             quiet_.to = tick;
     }
+    /// All births from `tick`, the end of the last window, until end(), as long as the host wants the same;
+    /// none when they do not come at a constant rate of at least 1e-3 /s, or not yet.
+    std::optional<EvenBirths> evenBirths(base::Ticks tick, double intensity, bool emitting) const;
+    base::Ticks end() const { return end_; } ///< of the rate
     /// True when nothing can be born from `tick` on.
     bool exhausted(base::Ticks tick) const;
     /// Nobody is born from `tick`, the end of the last window, until then, as long as the host wants the

@@ -61,6 +61,8 @@ void EmitterSolver::listenAgain()
 
 uint32_t EmitterSolver::elementCount() const
 {
+    if (pool_)
+        return pool_->countAlive(member_);
     if (!gpu_ || !gpu_->isOn())
         return store_.countAlive(now_);
     const bool mayBeEmpty =

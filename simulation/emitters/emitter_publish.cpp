@@ -19,7 +19,8 @@ constexpr uint32_t kChunk = 1024;                                 // rows that a
 constexpr uint32_t kMinChunks = EmitterSolver::kFewRows / kChunk; // fewer cost less than another thread
 constexpr size_t kBeyondCache = 8 << 20; // [byte] of a group that is not kept in the cache of a core
 
-/// The columns of a group, null where it lacks one.
+} // namespace
+
 LookColumns columnsOf(base::SnapshotGroup& group)
 {
     const auto floats = [&group](size_t c) { return group.has(c) ? group.editColumn(c).data() : nullptr; };
@@ -39,6 +40,8 @@ LookColumns columnsOf(base::SnapshotGroup& group)
     out.stream = group.bytes() > kBeyondCache;
     return out;
 }
+
+namespace {
 
 /// All rows of the window, spread over threads where there are many.
 LookBounds writeAll(const LookJob& job, const LookColumns& out, base::TaskRunner* tasks)
@@ -123,6 +126,7 @@ LookJob EmitterSolver::lookJob() const
 
 void EmitterSolver::publish(const base::GroupInfo& instance, base::FrameSnapshot& snapshot) const
 {
+    catchUpWithPool();
     base::GroupInfo base = instance;
     if (space_ && started_)
         base.placement = space_->home();
@@ -163,6 +167,7 @@ bool EmitterSolver::joinPublication(const base::GroupInfo& base, base::FrameSnap
 {
     if (!publishesWithMany_)
         return false;
+    catchUpWithPool();
     const uint32_t rows = store_.window().count;
     base::SnapshotGroup& group =
         addRows(program_, store_.capacity(), rows, {kinds_.particle, base}, snapshot);

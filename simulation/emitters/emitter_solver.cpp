@@ -61,6 +61,7 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
         isSmall && program_.ballistic && !def.inWorld && !isLinked() && !(def.trail.lifetime > 0.0f);
     publishesWithMany_ = isSmall && isDrawn && !def.inWorld && kinds.particle != base::kNoKind &&
                          !(def.trail.lifetime > 0.0f) && !def.light.given;
+    poolable_ = isPoolable();
     if (def.trail.lifetime > 0.0f)
         trails_.emplace(def.trail, store_.capacity(), memory);
     if (def.inWorld)
@@ -111,6 +112,7 @@ void EmitterSolver::heedConditions(const StepContext& context)
 
 void EmitterSolver::step(const StepContext& context)
 {
+    leavePool();
     if (!space_)
         return stepHere(context);
     if (!started_)
@@ -218,6 +220,8 @@ void EmitterSolver::move(const StepContext& context, uint64_t firstIndex, EventR
 
 bool EmitterSolver::finished(base::Ticks tick) const
 {
+    if (pool_)
+        return false; // it has particles
     const bool isEmpty =
         gpu_ && gpu_->isOn() ? schedule_.exhausted(tick) && gpu_->isEmpty(key_, now_) : store_.empty();
     return isEmpty && !(trails_ && !trails_->empty()) && schedule_.exhausted(tick) &&
@@ -239,6 +243,7 @@ bool EmitterSolver::neverDrops(double intensity) const
 
 bool EmitterSolver::canSeek(const StepContext& context, base::Ticks tick) const
 {
+    catchUpWithPool();
     const bool isForwards = tick >= now_ || !started_;
     if (isForwards && restsThrough(context, tick))
         return true;
@@ -263,6 +268,8 @@ bool EmitterSolver::restsThrough(const StepContext& context, base::Ticks tick) c
 
 base::Ticks EmitterSolver::restsUntil(base::Ticks tick) const
 {
+    if (pool_)
+        return tick; // it has particles
     const bool hasRows = !(gpu_ && gpu_->isOn());
     const bool isEmpty = hasRows && store_.empty() && !(trails_ && !trails_->empty());
     if (!isEmpty || !started_ || tick != now_ || interest_.in(EventKind::Host))
@@ -272,6 +279,7 @@ base::Ticks EmitterSolver::restsUntil(base::Ticks tick) const
 
 void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
 {
+    leavePool();
     if (!space_)
         return seekHere(context, tick);
     if (!started_ || tick < now_)
@@ -321,6 +329,7 @@ void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
 
 void EmitterSolver::save(StateWriter& writer) const
 {
+    catchUpWithPool();
     writer.value(now_);
     writer.flag(started_);
     writer.value(motionBegin_);
@@ -343,6 +352,7 @@ void EmitterSolver::save(StateWriter& writer) const
 
 void EmitterSolver::restore(StateReader& reader)
 {
+    leavePool();
     now_ = reader.value<base::Ticks>(0, kForever, "an emitter's clock is out of range");
     started_ = reader.flag();
     motionBegin_ = reader.value<base::Ticks>(0, now_, "an emitter's clock is out of range");

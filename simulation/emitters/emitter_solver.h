@@ -4,6 +4,7 @@
 
 #include "simulation/emitters/birth_schedule.h"
 #include "simulation/emitters/emitter_def.h"
+#include "simulation/emitters/emitter_pools.h"
 #include "simulation/emitters/event_scan.h"
 #include "simulation/emitters/gpu_emitter.h"
 #include "simulation/emitters/moved_space.h"
@@ -33,6 +34,11 @@ class EmitterSolver final : public Solver
 public:
     /// @param def outlives the solver
     EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds, std::pmr::memory_resource* memory);
+    ~EmitterSolver() override
+    {
+        if (pool_)
+            pool_->forget(member_);
+    }
 
     void step(const StepContext& context) override;
     void standAt(const base::Placement& placement) override
@@ -40,12 +46,15 @@ public:
         if (space_ && started_)
             space_->jumpTo(placement);
     }
+    bool joinPool(EmitterPools& pools, const PoolRequest& request) override;
+    void leavePool() override;
     base::Ticks quietUntil(base::Ticks tick) const override
     {
-        return bornWithMany_ && started_ ? std::max(tick, schedule_.quietUntil()) : tick;
+        return bornWithMany_ && started_ && !pool_ ? std::max(tick, schedule_.quietUntil()) : tick;
     }
     void passTo(base::Ticks tick, StepCounters& counters) override
     {
+        leavePool();
         now_ = tick;
         endStep(counters);
     }
@@ -70,6 +79,12 @@ public:
     uint64_t dropped() const { return dropped_; }     ///< births that found their row taken
 
     static constexpr uint32_t kFewRows = 8192; ///< emitters of so few do things together
+    // ---- for its pool ----
+    const EmitterPool* pool() const { return pool_; } ///< that computes it now, null for none
+    uint32_t member() const { return member_; }       ///< of the pool
+    base::KindId particleKind() const { return kinds_.particle; }
+    /// The store holds the present again; the rest follows.
+    void takeBack(base::Ticks now, uint32_t highWater, uint64_t dropped);
     // ---- for the crowd ----
     ParticleStore& store() { return store_; }
     const ParticleProgram& program() const { return program_; }
@@ -93,6 +108,13 @@ private:
                   std::shared_ptr<const ParticleProgram> program, std::pmr::memory_resource* memory);
     void begin(const StepContext& context);
     bool joins(const StepContext& context) const;
+    bool isPoolable() const;
+    /// What is asked of it is answered by its own state, which a pool may have run ahead of.
+    void catchUpWithPool() const
+    {
+        if (pool_)
+            pool_->write(member_);
+    }
     void stepHere(const StepContext& context);
     struct Conditions
     {
@@ -189,6 +211,9 @@ private:
     bool started_ = false;
     bool bornWithMany_;      ///< see EmitterCrowd
     bool publishesWithMany_; ///< likewise
+    bool poolable_;
+    uint32_t member_ = 0;         ///< of the pool
+    EmitterPool* pool_ = nullptr; ///< that computes it; then what follows may be of the past
     EmitterKinds kinds_;
     ParticleStore store_;
     BirthSchedule schedule_;

@@ -89,7 +89,7 @@ void BirthBatch<Rows>::findRows()
 {
     rows_.forEach([this](ParticleStore& store, uint32_t row, uint32_t i) {
         const Birth& birth = rows_.birth(i);
-        free_[i] = !store.isAlive(row, birth.tick);
+        free_[i] = Rows::kAreFree || !store.isAlive(row, birth.tick);
         if (!free_[i])
             return;
         store.index[row] = birth.index;
@@ -219,6 +219,16 @@ uint32_t storeBirths(const ParticleProgram& program, const BirthKey& key, std::s
         living += BirthBatch<RowsOfOne>(program, key, rows).run();
     }
     return living;
+}
+
+void storePooled(const ParticleProgram& program, uint32_t solver, std::span<const PooledBirth> births,
+                 ParticleStore& store)
+{
+    for (size_t begin = 0; begin < births.size(); begin += kTileRows) {
+        const size_t size = std::min<size_t>(births.size() - begin, kTileRows);
+        const RowsOfPool rows(births.subspan(begin, size), store);
+        static_cast<void>(BirthBatch<RowsOfPool>(program, {0, solver}, rows).run());
+    }
 }
 
 void storeScattered(const ParticleProgram& program, uint32_t solver, std::span<ScatteredBirth> births)

@@ -36,4 +36,16 @@ struct ScatteredBirth
 /// emitter stand in order and have different rows.
 void storeScattered(const ParticleProgram& program, uint32_t solver, std::span<ScatteredBirth> births);
 
+/// A birth in one emitter of many that share the rows of one store.
+struct PooledBirth
+{
+    Birth row;      ///< index and tick as the store counts
+    uint64_t index; ///< of the particle in its own emitter
+    uint64_t seed;
+};
+
+/// The same for emitters that share a store. Indices ascend without gaps, and their rows are free.
+void storePooled(const ParticleProgram& program, uint32_t solver, std::span<const PooledBirth> births,
+                 ParticleStore& store);
+
 } // namespace fx::sim

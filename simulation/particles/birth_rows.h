@@ -13,6 +13,7 @@ namespace fx::sim {
 class RowsOfOne
 {
 public:
+    static constexpr bool kAreFree = false; ///< nobody asks whether somebody lives there
     RowsOfOne(std::span<const Birth> births, ParticleStore& store) : births_(births), store_(store) {}
 
     uint32_t count() const { return uint32_t(births_.size()); }
@@ -53,10 +54,52 @@ private:
     ParticleStore& store_;
 };
 
+/// Births of many emitters in one store.
+class RowsOfPool
+{
+public:
+    static constexpr bool kAreFree = true; ///< nobody asks whether somebody lives there
+    RowsOfPool(std::span<const PooledBirth> births, ParticleStore& store) : births_(births), store_(store) {}
+
+    uint32_t count() const { return uint32_t(births_.size()); }
+    const Birth& birth(uint32_t i) const { return births_[i].row; }
+    ParticleStore& first() const { return store_; }
+    void prepare(BirthTile& tile) const
+    {
+        tile.seedsDiffer = true;
+        const uint32_t padded = (count() + kTilePadding - 1) / kTilePadding * kTilePadding;
+        for (uint32_t i = 0; i < padded; ++i) {
+            const PooledBirth& from = births_[std::min(i, count() - 1)];
+            RowsOfOne::setIndex(tile, i, from.index);
+            tile.seedLow[i] = uint32_t(from.seed);
+            tile.seedHigh[i] = uint32_t(from.seed >> 32);
+        }
+    }
+    template <class F>
+    void forEach(F&& f) const
+    {
+        uint32_t row = store_.rowOf(births_[0].row.index);
+        for (uint32_t i = 0; i < count(); ++i) {
+            f(store_, row, i);
+            row = row + 1 == store_.capacity() ? 0 : row + 1;
+        }
+    }
+    float* run(size_t column) const
+    {
+        const uint32_t row = store_.rowOf(births_[0].row.index);
+        return row + count() <= store_.capacity() ? store_.values[column].data() + row : nullptr;
+    }
+
+private:
+    std::span<const PooledBirth> births_;
+    ParticleStore& store_;
+};
+
 /// Births of many emitters.
 class RowsOfMany
 {
 public:
+    static constexpr bool kAreFree = false; ///< nobody asks whether somebody lives there
     explicit RowsOfMany(std::span<ScatteredBirth> births) : births_(births) {}
 
     uint32_t count() const { return uint32_t(births_.size()); }

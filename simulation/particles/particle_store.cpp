@@ -1,5 +1,7 @@
 #include "simulation/particles/particle_store.h"
 
+#include "simulation/emitters/birth_schedule.h"
+
 #include <algorithm>
 #include <optional>
 #include <type_traits>
@@ -10,6 +12,8 @@ namespace {
 
 constexpr uint64_t kMostIndex = uint64_t(1) << 62;
 
+constexpr base::Ticks kLongAgo = base::Ticks(1) << 61; // longer than any life
+constexpr uint32_t kBeyondBrief = uint32_t(1) << 31;   // [tick] 3.04 s, longer than any brief life
 constexpr size_t kFewRows = 1024;
 constexpr size_t kSkew = 320; ///< [byte] between large columns: else all of them meet in the same cache sets
 
@@ -44,9 +48,11 @@ private:
 
 } // namespace
 
-ParticleStore::ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory)
-    : capacity_(std::max(program.def.maxParticles, 1u)), brief_(program.brief), mortal_(program.mortal),
-      alwaysPlaced_(program.stores[stored::X]), placed(program.stores[stored::X]), constant(program.constant)
+ParticleStore::ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory,
+                             uint32_t capacity)
+    : capacity_(capacity > 0 ? capacity : std::max(program.def.maxParticles, 1u)), brief_(program.brief),
+      mortal_(program.mortal), alwaysPlaced_(program.stores[stored::X]), placed(program.stores[stored::X]),
+      constant(program.constant)
 {
     // Kernels work on whole vectors: every column can be read and written up to the next multiple.
     const size_t rows = (size_t(capacity_) + kTilePadding - 1) / kTilePadding * kTilePadding;
@@ -126,6 +132,35 @@ void ParticleStore::clear(uint64_t next)
     frontUntil_ = 0;
 }
 
+void ParticleStore::clear(uint64_t front, uint64_t next, base::Ticks now)
+{
+    clear(next);
+    front_ = front;
+    for (uint32_t row = 0; row < capacity_; ++row)
+        endRow(row, now);
+}
+
+void ParticleStore::copyRow(const ParticleStore& from, uint32_t fromRow, uint32_t row, const Birth& birth)
+{
+    index[row] = birth.index;
+    born[row] = birth.tick;
+    if (brief_)
+        bornShort[row] = uint32_t(birth.tick);
+    for (size_t c = 0; c < stored::Count; ++c)
+        if (values[c].data() && (placed || !isPlace(c)))
+            values[c][row] = from.values[c][fromRow];
+}
+
+void ParticleStore::endRow(uint32_t row, base::Ticks now)
+{
+    index[row] = kNobody;
+    born[row] = now - kLongAgo;
+    if (brief_)
+        bornShort[row] = uint32_t(now) - kBeyondBrief;
+    if (values[stored::PerLife].data())
+        values[stored::PerLife][row] = kNoLife;
+}
+
 void ParticleStore::save(StateWriter& writer, base::Ticks now) const
 {
     writer.value(front_);
@@ -155,11 +190,8 @@ void ParticleStore::restore(StateReader& reader, base::Ticks now)
     front_ = reader.ok() ? front : next;
     placed = reader.flag() || alwaysPlaced_;
     const uint32_t count = reader.value<uint32_t>(0, capacity_, "an emitter has room for fewer particles");
-    // Rows that nobody lives in must not look alive: their age is more than any life.
     for (uint32_t row = 0; row < capacity_; ++row)
-        born[row] = now;
-    if (brief_)
-        std::fill_n(bornShort.data(), capacity_, uint32_t(now) + 1); // 2^32 - 1 ticks ago
+        endRow(row, now);
     for (uint32_t i = 0; i < count && reader.ok(); ++i)
         restoreRow(reader, now);
 }

@@ -18,6 +18,8 @@
 
 namespace fx::sim {
 
+struct Birth;
+
 constexpr uint64_t kNobody = ~uint64_t(0); ///< birth index of a row that nobody has lived in
 
 /// Rows that may hold living particles: those below `count` outside of [gapBegin, gapEnd).
@@ -47,7 +49,8 @@ private:
 class ParticleStore
 {
 public:
-    ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory);
+    /// @param capacity rows, 0: as many as the definition says
+    ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory, uint32_t capacity = 0);
 
     uint32_t capacity() const { return capacity_; }
     uint32_t rowOf(uint64_t particle) const { return uint32_t(particle % capacity_); }
@@ -97,6 +100,13 @@ public:
     uint32_t countAlive(base::Ticks now) const;
     /// Empties all rows; the next birth has index `next`.
     void clear(uint64_t next);
+    /// The same where the indices [front, next) have been given out: `front` and maybe more of them are going
+    /// to be put into their rows.
+    void clear(uint64_t front, uint64_t next, base::Ticks now);
+    /// Copies a particle of a store of the same program into `row`, as the one of that index and birth.
+    void copyRow(const ParticleStore& from, uint32_t fromRow, uint32_t row, const Birth& birth);
+    /// Who lives in `row` does no more. For brief lives: until it leaves the window, at most 3 s from now.
+    void endRow(uint32_t row, base::Ticks now);
 
     void save(StateWriter& writer, base::Ticks now) const;
     /// @param now [tick] local time of the state: what is alive was born before it and dies after it

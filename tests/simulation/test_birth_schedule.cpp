@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -84,6 +85,41 @@ TEST(BirthSchedule, anyPartitionOfTimeGivesTheSameBirths)
             ASSERT_EQ(got[i].tick, want[i].tick) << cut;
         }
     }
+}
+
+TEST(BirthSchedule, evenBirthsAreThoseOfTheWindows)
+{
+    for (const float rate : {0.01f, 7.3f, 59.94f, 4000.0f})
+        for (const float phase : {0.0f, 0.37f}) {
+            const Ticks end = base::toTicks(rate < 1 ? 2000.0 : 20.0);
+            const std::vector<Birth> want = birthsUntil(steady(rate), phase, end, kTicksPerSecond / 60);
+            BirthSchedule schedule(steady(rate), std::pmr::get_default_resource());
+            schedule.setPhase(phase);
+            const Ticks from = 5 * kTicksPerSecond / 7;
+            size_t i = schedule.advance({0, from}, {}).total;
+            auto births = schedule.evenBirths(from, 1.0, true);
+            ASSERT_TRUE(births.has_value());
+            for (; births->tick < end; births->goOn(), ++i)
+                ASSERT_EQ(births->tick, want.at(i).tick) << rate << ' ' << phase << ' ' << i;
+            EXPECT_EQ(i, want.size());
+        }
+}
+
+TEST(BirthSchedule, birthsThatDoNotComeEvenlyAreNotSaidToDo)
+{
+    Emission burst = steady(5.0f);
+    burst.bursts = {{3.0f, 4}};
+    Emission bent = steady(5.0f, 0, 10.0f);
+    const std::array<base::CurveKey<1>, 2> keys{{{0.0f, {0.0f}}, {1.0f, {1.0f}}}};
+    bent.rateOverTime = base::ScalarCurve(std::span<const base::CurveKey<1>>(keys));
+    for (const Emission& emission : {burst, bent, steady(0.0f), steady(5.0f, 2.0f), steady(5.0f, 0, 0.5f)}) {
+        BirthSchedule schedule(emission, std::pmr::get_default_resource());
+        schedule.advance({0, kTicksPerSecond}, {});
+        EXPECT_FALSE(schedule.evenBirths(kTicksPerSecond, 1.0, true).has_value());
+    }
+    BirthSchedule silent(steady(5.0f), std::pmr::get_default_resource());
+    EXPECT_FALSE(silent.evenBirths(0, 1.0, false).has_value());
+    EXPECT_FALSE(silent.evenBirths(0, 0.0, true).has_value());
 }
 
 TEST(BirthSchedule, indicesAndTicksAscend)

@@ -1,0 +1,155 @@
+/// @file pooled_groups.h
+/// Many small groups of one kind that are published as one pool of rows, in whatever order suits the writer.
+///
+/// Readers ask FrameSnapshot::group() as for any other group: the first question gives each row of each pool
+/// to its group. A snapshot that nobody reads, or whose pools are read as they are, never pays for that.
+#pragma once
+
+#include "foundation/snapshot/snapshot_group.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+#include <memory_resource>
+#include <mutex>
+#include <type_traits>
+#include <vector>
+
+namespace fx::base {
+
+class FrameSnapshot;
+
+/// Copies rows of a pool into the storage of a group.
+class RowCopier
+{
+public:
+    RowCopier() = default;
+    /// @param each capacity of each group
+    RowCopier(const KindDesc& kind, const SnapshotGroup& pool, uint32_t each);
+
+    void copy(uint32_t row, float* storage, uint32_t place) const
+    {
+        for (size_t k = 0; k < floatCount_; ++k)
+            storage[floats_[k].to + place] = floats_[k].from[row];
+        for (size_t k = 0; k < wideCount_; ++k)
+            std::memcpy(storage + wides_[k].to + 2 * size_t(place), wides_[k].from + 2 * size_t(row),
+                        2 * sizeof(float));
+    }
+    glm::vec3 center(uint32_t row) const
+    {
+        return {floats_[0].from[row], floats_[1].from[row], floats_[2].from[row]};
+    }
+    size_t floats() const { return floatsInAll_; } ///< that the columns of a group take
+
+private:
+    struct Copied
+    {
+        const float* from;
+        size_t to; ///< in the storage of each group
+    };
+    std::array<Copied, kMostColumns> floats_{};
+    std::array<Copied, kMostColumns> wides_{};
+    size_t floatCount_ = 0;
+    size_t wideCount_ = 0;
+    size_t floatsInAll_ = 0;
+};
+
+/// The rows of many groups that have the same columns, constants and capacity; the first three columns are
+/// where elements are. Members are the writer's numbers of the groups.
+struct PooledRows
+{
+    struct Range
+    {
+        uint32_t begin = 0;
+        uint32_t end = 0;
+    };
+
+    explicit PooledRows(std::pmr::memory_resource* memory) : rows(memory), owner(memory), counts(memory) {}
+    static constexpr uint32_t kMostPerGroup = 256; ///< rows
+    static constexpr uint32_t kMostMembers = 1u << 24;
+    static constexpr uint32_t nameOf(uint32_t member, uint32_t place) { return member << 8 | place; }
+    uint32_t memberOf(uint32_t row) const { return owner[row] >> 8; }
+    uint32_t placeOf(uint32_t row) const { return owner[row] & 0xFF; }
+    /// Room for `capacity` rows; memory, constants and owners stay where they fit.
+    /// @param each capacity of each group, at most kMostPerGroup
+    void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present,
+                 uint32_t each);
+
+    SnapshotGroup rows;                ///< columns and constants; of its info only the kind counts
+    std::array<Range, 2> used;         ///< rows that may show something
+    std::pmr::vector<uint32_t> owner;  ///< by row: nameOf() its member and its row in that one's group
+    std::pmr::vector<uint32_t> counts; ///< by member: count of its group
+    uint32_t groupCapacity = 0;        ///< of each group
+    RowCopier copier;
+    size_t radiusColumn = 0;  ///< a row with 0 there is empty
+    uint64_t number = 0;      ///< of the constants, see SnapshotGroup::keepsConstants()
+    float corner = 1;         ///< [1] farthest corner of what is drawn, over the radius
+    uint64_t writer = 0;      ///< who wrote owners and places, 0: nobody
+    uint64_t writtenUpTo = 0; ///< how far, in the writer's own count
+};
+
+/// Groups whose rows are in pools, in the order of the snapshot. Immutable while a snapshot has it.
+struct GroupRoster
+{
+    struct Entry
+    {
+        uint64_t instance = 0;
+        Placement placement;
+        uint32_t solver = 0;
+        uint32_t pool = 0;    ///< of the snapshot
+        uint32_t member = 0;  ///< of the pool
+        uint32_t stretch = 0; ///< it stands behind so many stretches of added groups
+        bool isCosmetic = false;
+    };
+    std::vector<Entry> entries;
+    uint64_t shape = 0; ///< of which pools the entries are; another one for each other list
+};
+
+/// The groups that the rows of pools belong to, made when they are asked for.
+class SpreadGroups
+{
+public:
+    explicit SpreadGroups(std::pmr::memory_resource* memory)
+        : memory_(memory), groups_(memory), order_(memory), scratch_(memory), first_(memory), ends_(memory),
+          rows_(memory)
+    {}
+
+    /// A new publication: nothing is spread any more, and there is memory for all. Writer.
+    void prepare(const FrameSnapshot& snapshot);
+    /// Group `index` of the snapshot, whether it was added or is one of a pool. Any thread.
+    const SnapshotGroup& group(const FrameSnapshot& snapshot, size_t index);
+    /// Calls f(group) for all groups in order; those of pools last for the call alone and take no memory of
+    /// their own. Any thread, one at a time.
+    template <class F>
+    void forEach(const FrameSnapshot& snapshot, F&& f)
+    {
+        const auto call = [](void* user, const SnapshotGroup& group) {
+            (*static_cast<std::remove_reference_t<F>*>(user))(group);
+        };
+        visit(snapshot, call, const_cast<void*>(static_cast<const void*>(&f)));
+    }
+
+private:
+    using Visitor = void (*)(void* user, const SnapshotGroup& group);
+    void spread(const FrameSnapshot& snapshot);
+    void visit(const FrameSnapshot& snapshot, Visitor visitor, void* user);
+    void sortRows(const FrameSnapshot& snapshot);
+    void open(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry, SnapshotGroup& group) const;
+    void fill(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry, SnapshotGroup& group) const;
+
+    std::mutex mutex_;              ///< guards what follows while it is being spread
+    std::atomic<bool> done_{false}; ///< it has been, and is constant until the next publication
+    uint64_t shape_ = 0;            ///< that there is memory for
+    std::pmr::memory_resource* memory_;
+    std::pmr::vector<SnapshotGroup> groups_;       ///< by entry of the roster
+    std::pmr::vector<const SnapshotGroup*> order_; ///< all groups of the snapshot
+    std::pmr::vector<SnapshotGroup> scratch_;      ///< of visit(), by pool
+    std::pmr::vector<size_t> first_;               ///< by pool: of its members in ends_
+    std::pmr::vector<uint32_t> ends_;              ///< by member, pool after pool: behind its last in rows_
+    std::pmr::vector<uint32_t> rows_;              ///< of the pools, by member
+};
+
+} // namespace fx::base
