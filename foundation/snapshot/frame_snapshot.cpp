@@ -70,6 +70,7 @@ void FrameSnapshot::begin(Ticks tick, uint64_t sequence)
 {
     tick_ = tick;
     sequence_ = sequence;
+    secondsBack_ = 0;
     groupCount_ = 0;
 }
 

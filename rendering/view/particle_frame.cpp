@@ -240,7 +240,7 @@ void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placeme
                 kLeastHalfSide};
     b.atlas = {float(group.columns * group.rows), c[constant::FrameBlend], c[constant::MotionScale],
                group.texture ? 1.0f : 0.0f};
-    b.strip = {group.motion ? 1.0f : 0.0f, c[constant::ArcPerTile], 0.0f, c[constant::Edge]};
+    b.strip = {group.motion ? 1.0f : 0.0f, c[constant::ArcPerTile], c[constant::TailAge], c[constant::Edge]};
     fillLights(in, b);
 }
 
