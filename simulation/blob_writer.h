@@ -23,7 +23,7 @@ public:
     /// @param capacity elements the solver can ever have, so that later snapshots reuse the group's memory
     BlobWriter(base::FrameSnapshot& snapshot, const base::GroupInfo& base, base::KindId kind, uint32_t count,
                uint32_t capacity)
-        : group_(snapshot.addGroup(kind, capacity)), count_(count)
+        : group_(snapshot.addGroup(kind, capacity)), count_(count), secondsBack_(snapshot.secondsBack())
     {
         base::GroupInfo& info = group_.editInfo();
         info = base;
@@ -37,23 +37,36 @@ public:
     void copy(size_t index, const float* values) { std::copy_n(values, count_, column(index)); }
     void fill(size_t index, float value) { std::fill_n(column(index), count_, value); }
 
-    /// Bounds from the positions and radii that have been written.
+    /// Bounds from what has been written: of the balls, drawn out along their way while the shutter is open,
+    /// and of those born since the snapshot before, at any moment since.
     void closeBounds()
     {
         namespace blob = base::blob_column;
         const float* radius = column(blob::Radius);
-        const float* x = column(blob::PositionX);
-        const float* y = column(blob::PositionY);
-        const float* z = column(blob::PositionZ);
+        const float* age = column(blob::Age);
+        const float shutter = constant(base::blob_constant::Shutter);
         base::Bounds bounds;
-        for (uint32_t i = 0; i < count_; ++i)
-            bounds.add({x[i], y[i], z[i]}, radius[i]);
+        for (uint32_t i = 0; i < count_; ++i) {
+            const glm::vec3 position = vector(blob::PositionX, i);
+            bounds.add(position, radius[i]);
+            const float back = age[i] <= kLater * secondsBack_ ? std::min(age[i], secondsBack_) : 0.0f;
+            if (back + shutter > 0.0f)
+                bounds.add(position - vector(blob::VelocityX, i) * (back + shutter), radius[i]);
+        }
         group_.editInfo().bounds = bounds;
     }
 
 private:
+    static constexpr float kLater = 1.001f; ///< rounding of ages
+
+    glm::vec3 vector(size_t first, uint32_t i)
+    {
+        return {column(first)[i], column(first + 1)[i], column(first + 2)[i]};
+    }
+
     base::SnapshotGroup& group_;
     uint32_t count_;
+    float secondsBack_;
 };
 
 } // namespace fx::sim

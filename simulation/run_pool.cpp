@@ -67,6 +67,22 @@ void Run::save(StateWriter& writer) const
         solver->save(writer);
 }
 
+void Run::saveBriefly(StateWriter& writer) const
+{
+    for (const std::unique_ptr<Solver>& solver : solvers)
+        solver->saveBriefly(writer);
+}
+
+base::Ticks Run::memory() const
+{
+    if (!changes.empty() || !told.empty() || conditions.clock.rate == 0)
+        return kNever;
+    base::Ticks longest = 0;
+    for (const std::unique_ptr<Solver>& solver : solvers)
+        longest = std::max(longest, solver->memory(conditions.parameters));
+    return longest;
+}
+
 void Run::restore(StateReader& reader)
 {
     for (const std::unique_ptr<Solver>& solver : solvers)
@@ -138,6 +154,8 @@ RunIndex RunPool::copy(RunIndex index)
     run.field = from.field;
     if (run.released) {
         run.pristine = from.pristine;
+        run.brief = from.brief;
+        run.forgottenAt = from.forgottenAt;
         if (from.kept)
             run.kept.emplace(std::move(state));
         return made;

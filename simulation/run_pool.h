@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <memory_resource>
 #include <optional>
@@ -76,6 +77,9 @@ struct Run
     std::shared_ptr<const DistanceField> field;  ///< keeps that of the conditions of a paused run
     std::shared_ptr<const StateBuffer> pristine; ///< of the solvers before their first step
     std::optional<StateBuffer> kept;
+    bool brief = false; ///< what is kept lacks what lived, none of which is alive by now
+    base::Ticks forgottenAt =
+        kNever;             ///< scene time at which nobody of those in the state lives; of a released run
     bool fresh = false;     ///< no step has touched it: another instance may still join
     uint32_t nextFresh = 0; ///< see RunPool
 
@@ -85,10 +89,15 @@ struct Run
     uint32_t visits = 0;    ///< users in the list of that step
     uint32_t division = 0;  ///< run of those users
 
+    static constexpr base::Ticks kNever = std::numeric_limits<base::Ticks>::max();
     bool isPaused() const { return hidden == users; }
+    /// [tick] of local time after which nothing is left of what lives now, see Solver::memory(); kNever also
+    /// while the host has more to tell.
+    base::Ticks memory() const;
     /// The solvers have been made or given away.
     void meetSolvers() { only = solvers.size() == 1 ? solvers.front().get() : nullptr; }
     void save(StateWriter& writer) const;
+    void saveBriefly(StateWriter& writer) const;
     void restore(StateReader& reader);
 };
 
@@ -118,7 +127,8 @@ public:
     /// Gives a released run its solvers back.
     void materialize(RunIndex index);
     /// Puts the solvers of a run aside for others of its kind and keeps its state as bytes.
-    void release(RunIndex index, base::Ticks now);
+    /// @param mayForget what lives need not be kept once all of it is dead
+    void release(RunIndex index, base::Ticks now, bool mayForget);
     /// Frees the solvers that were put aside before `tick`.
     void trimSpares(base::Ticks tick);
     size_t spares() const { return spares_.size(); }

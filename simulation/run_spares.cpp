@@ -57,21 +57,34 @@ void RunPool::materialize(RunIndex index)
     run.meetSolvers();
     run.pristine = std::move(made.pristine);
     run.kept.reset();
-    run.released = false;
+    run.released = run.brief = false;
 }
 
-void RunPool::release(RunIndex index, base::Ticks now)
+void RunPool::release(RunIndex index, base::Ticks now, bool mayForget)
 {
-    Run& run = runs_[index];
-    if (run.released)
+    const bool isReleased = runs_[index].released;
+    mayForget = mayForget && runs_[index].changes.empty();
+    if (isReleased && (!mayForget || runs_[index].brief || runs_[index].forgottenAt > now))
         return;
+    if (isReleased)
+        materialize(index);
+    Run& run = runs_[index];
+    if (!isReleased) {
+        const RunClock& clock = run.conditions.clock;
+        const base::Ticks memory = run.memory();
+        run.forgottenAt =
+            memory == Run::kNever ? memory : clock.toScene(clock.toLocal(run.simulated) + memory);
+    }
+    const bool brief = mayForget && run.forgottenAt <= now;
     if (!run.fresh) {
         StateBuffer state(memory_);
-        run.save(state);
+        brief ? run.saveBriefly(state) : run.save(state);
+        state.shrink();
         run.kept.emplace(std::move(state));
     }
     putAside(run, now);
     run.released = true;
+    run.brief = brief;
 }
 
 /// Never fails. The oldest make room.

@@ -165,6 +165,17 @@ public:
     /// Writes everything that later steps and publications depend on, and nothing else: equal states write
     /// equal bytes.
     virtual void save(StateWriter& writer) const = 0;
+    /// [tick] of local time after which nothing is left of what lives now, as long as the host's parameters
+    /// stay as they are; the largest number where that cannot be told.
+    virtual base::Ticks memory(const InstanceParameters&) const
+    {
+        return std::numeric_limits<base::Ticks>::max();
+    }
+    /// save() without what lives. What restore() takes from it is right once memory() has passed.
+    virtual void saveBriefly(StateWriter& writer) const { save(writer); }
+    /// Goes forwards to local time `tick` without those who are born meanwhile: right once memory() has
+    /// passed after it. Only where memory() is known; the context's own tick and stepTicks are ignored.
+    virtual void passOver(const StepContext&, base::Ticks) {}
     /// Takes the state of a solver of the same definition and quality; from there on it gives the same bits.
     /// Checks whatever could harm it. After a failure, kept by the reader, the solver may only be destroyed.
     virtual void restore(StateReader& reader) = 0;

@@ -405,6 +405,32 @@ bool World::jump(RunIndex index, base::Ticks from, base::Ticks to, StepCounters&
     return canSeek;
 }
 
+void World::passOver(Slot slot, base::Ticks stepTicks)
+{
+    const base::FloatingPointScope floatingPoint;
+    const RunIndex index = instances_[slot].run;
+    if (!isLagging(runs_.at(index)))
+        return;
+    runs_.materialize(index);
+    const base::Ticks memory = runs_.at(index).memory();
+    if (memory == Run::kNever)
+        return;
+    const RunClock clock = runs_.at(index).conditions.clock;
+    const base::Ticks local = clock.toLocal(now_) - memory;
+    const base::Ticks from = local > 0 ? clock.toScene(local) / stepTicks * stepTicks : 0;
+    if (from <= runs_.at(index).simulated || isFinished(runs_.at(index), runs_.at(index).simulated))
+        return;
+    StepCounters uncounted; // nothing is stepped
+    runs_.touch(index);
+    withContext(index, uncounted, [&](StepContext& context, const Run& run) {
+        for (uint32_t i = 0; i < run.solvers.size(); ++i) {
+            context.solverIndex = i;
+            run.solvers[i]->passOver(context, clock.toLocal(from));
+        }
+    });
+    runs_.at(index).simulated = from;
+}
+
 /// Steps from local time `from` to `to` on the schedule of an instance that is played from 0.
 void World::replay(RunIndex index, base::Ticks from, base::Ticks to, base::Ticks stepTicks,
                    StepCounters& counters)

@@ -91,7 +91,12 @@ public:
     /// One step of any length from where the state is to the present, of a hidden instance.
     void stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counters);
     /// Puts the solvers of a paused simulation aside and keeps its state as bytes.
-    void release(Slot slot);
+    /// @param mayForget it will be caught up without a trace: those who will be dead by then need not be kept
+    /// @return scene time at which another call would free more; the largest number for never
+    base::Ticks release(Slot slot, bool mayForget);
+    /// Where nothing is left of what lived long ago, a lagging simulation goes to a step shortly before the
+    /// present from which catchUp() gives the same bits as from where it was.
+    void passOver(Slot slot, base::Ticks stepTicks);
     /// Gives a hidden instance its solvers back.
     void materialize(Slot slot) { runs_.materialize(instances_[slot].run); }
     /// Frees solvers that were put aside before `tick`.

@@ -131,11 +131,14 @@ void World::stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counter
         stepRun(index, run.simulated, now_ - run.simulated, counters);
 }
 
-void World::release(Slot slot)
+base::Ticks World::release(Slot slot, bool mayForget)
 {
     const RunIndex index = instances_[slot].run;
-    if (runs_.at(index).isPaused())
-        runs_.release(index, now_);
+    const Run& run = runs_.at(index);
+    if (!run.isPaused())
+        return Run::kNever;
+    runs_.release(index, now_, mayForget);
+    return mayForget && !run.brief && run.kept && run.forgottenAt > now_ ? run.forgottenAt : Run::kNever;
 }
 
 base::Ticks World::restsUntil(Slot slot) const

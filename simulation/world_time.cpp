@@ -45,6 +45,10 @@ void World::seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounter
     const base::FloatingPointScope floatingPoint;
     isolate(slot);
     const RunIndex index = instances_[slot].run;
+    if (runs_.at(index).brief) { // those who lived then are known again at the present only
+        uint64_t unlimited = UINT64_MAX;
+        catchUp(slot, CatchUp::Analytic, stepTicks, unlimited, counters);
+    }
     runs_.materialize(index);
     Run& run = runs_.at(index);
     runs_.touch(index);

@@ -35,6 +35,7 @@ void FrameSnapshot::begin(Ticks tick, uint64_t sequence)
 {
     tick_ = tick;
     sequence_ = sequence;
+    secondsBack_ = 0;
     groupCount_ = 0;
     poolCount_ = 0;
     roster_.reset();

@@ -31,6 +31,8 @@ public:
     std::pmr::memory_resource* memory() const { return memory_; }
     Ticks tick() const { return tick_; }
     uint64_t sequence() const { return sequence_; } ///< 1 for the first published, then rising by 1; 0: never
+    /// [s] since the snapshot before; what was born within them is drawn on its way. 0: there is none.
+    float secondsBack() const { return secondsBack_; }
     size_t groupCount() const { return groupCount_ + (roster_ ? roster_->entries.size() : 0); }
     /// The first call on a snapshot with pools gives their rows to their groups. It allocates nothing.
     const SnapshotGroup& group(size_t index) const
@@ -43,6 +45,8 @@ public:
 
     // ---- for the writer, before publication ----
     void begin(Ticks tick, uint64_t sequence);
+    /// To be called after begin().
+    void follows(const FrameSnapshot& before) { secondsBack_ = float(toSeconds(tick_ - before.tick_)); }
     /// A group with room for `capacity` elements; fill it and set its info (count, bounds). The memory of a
     /// group of an earlier snapshot is reused when one is large enough, whatever its position was.
     /// @param present columns of the kind that the group is to have
@@ -86,6 +90,7 @@ private:
     std::pmr::memory_resource* memory_;
     Ticks tick_ = 0;
     uint64_t sequence_ = 0;
+    float secondsBack_ = 0;
     size_t groupCount_ = 0;
     std::pmr::vector<SnapshotGroup>
         groups_; ///< the first groupCount_ are valid, the rest keep memory for later

@@ -139,6 +139,7 @@ enum : size_t
     Mesh,        ///< id in the AssetTable, 0: none
     ArcPerTile,  ///< [m] length of a ribbon that one width of texture covers; 0: the strip's own
     Edge,        ///< [1] share of a ribbon's half width over which it fades to its edges, 0..1
+    TailAge,     ///< [s] age at which a ribbon ends; its rows may go on a little, for moments before this one
     Count
 };
 }
@@ -175,7 +176,7 @@ inline constexpr ColumnDesc kParticleConstants[particle_constant::Count] = {
     {"axisZ", "1"},     {"aspect", "1"},     {"stretch", "s"}, {"luminance", "cd/m2"},
     {"lit", "1"},       {"softness", "m"},   {"texture", "1"}, {"tileColumns", "1"},
     {"tileRows", "1"},  {"frameBlend", "1"}, {"motion", "1"},  {"motionScale", "1"},
-    {"mesh", "1"},      {"arcPerTile", "m"}, {"edge", "1"},
+    {"mesh", "1"},      {"arcPerTile", "m"}, {"edge", "1"},    {"tailAge", "s"},
 };
 
 inline constexpr KindDesc kParticleKind{"particle", kParticleColumns, kParticleConstants, false};

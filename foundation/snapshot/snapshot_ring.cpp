@@ -29,6 +29,8 @@ FrameSnapshot& SnapshotRing::beginWrite(Ticks tick)
         writing_ = slots_.back().snapshot.get();
     }
     writing_->begin(tick, sequence_ + (staged_ ? 2 : 1));
+    if (const FrameSnapshot* before = staged_ ? staged_ : newest_)
+        writing_->follows(*before);
     return *writing_;
 }
 

@@ -34,10 +34,8 @@ public:
         Scope(SingleCaller& caller, const char* rule)
         {
             if (!caller.thread.isCaller())
-                status_ = {base::Code::WrongThread, rule};
-            else if (caller.busy_)
-                status_ = {base::Code::ReEntrant, "a callback must not call the object that is calling it"};
-            else
+                rule_ = rule;
+            else if (!caller.busy_)
                 entered_ = &caller;
             if (entered_)
                 entered_->busy_ = true;
@@ -49,11 +47,19 @@ public:
         }
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
-        const base::Status& status() const { return status_; }
+        explicit operator bool() const { return entered_ != nullptr; }
+        base::Status status() const ///< made when it is asked for: every call passes through here
+        {
+            if (entered_)
+                return {};
+            return rule_ ? base::Status(base::Code::WrongThread, rule_)
+                         : base::Status(base::Code::ReEntrant,
+                                        "a callback must not call the object that is calling it");
+        }
 
     private:
         SingleCaller* entered_ = nullptr;
-        base::Status status_;
+        const char* rule_ = nullptr; ///< that was broken
     };
 
     /// For the owner's thread or one that is about to become it.

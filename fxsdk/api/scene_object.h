@@ -85,7 +85,7 @@ FxResult insideScene(const char* function, FxScene* scene, F&& body) noexcept
         if (!scene)
             return invalid("scene is null");
         const SingleCaller::Scope scope(scene->caller, kSceneThreadRule);
-        return scope.status() ? body() : scope.status();
+        return scope ? body() : scope.status();
     });
 }
 

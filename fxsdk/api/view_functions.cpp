@@ -6,6 +6,7 @@
 #include "rendering/gl/gl_state_guard.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace {
@@ -108,6 +109,46 @@ FxViewStatistics gatherStatistics(const FxView& view)
     return statistics;
 }
 
+/// Whether a frame draws nothing and needs no look at its camera. Every frame of a scene at rest comes here.
+bool sleepsThrough(const FxView& view, const FxFrameDef* frame)
+{
+    return view.sleeps && frame && view.scene->scene.showsNothing() &&
+           frame->structSize == sizeof view.sleptFrame &&
+           std::memcmp(frame, &view.sleptFrame, sizeof view.sleptFrame) == 0;
+}
+
+Status renderFrame(FxView& view, const FxFrameDef* frame)
+{
+    FxFrameDef known;
+    if (Status status = fx::api::readStruct(frame, "frame", fxDefaultFrameDef(), known); !status)
+        return status;
+    fx::render::FrameRequest request;
+    if (Status status = fx::api::convertFrame(known, request); !status)
+        return status;
+    if (view.sleeps && view.scene->scene.showsNothing()) { // only the camera is another
+        view.sleptFrame = known;
+        Status status = fx::render::ViewRenderer::check(request);
+        view.sleeps = status.ok();
+        return status;
+    }
+    const uint64_t before = view.context->memory.allocationCount();
+    const ShownSnapshots shown(view.scene->scene);
+    request.interpolation = shown->interpolation;
+    request.time = shown->time;
+    const bool marks = view.renderer.settings().overlay;
+    if (marks) {
+        view.scene->scene.copyMarks(view.marks);
+        fx::api::makeOverlay(view.marks, request.camera.origin, view.overlay);
+        request.overlay = view.overlay;
+    }
+    const FrameQuality quality(view, known);
+    Status status = view.renderer.render(shown->snapshots, request);
+    view.allocations = view.context->memory.allocationCount() - before;
+    view.sleeps = status.ok() && !marks && view.renderer.isAsleep() && !view.quality.isControlled();
+    view.sleptFrame = known;
+    return status;
+}
+
 } // namespace
 
 void fx::api::destroyView(FxView* view)
@@ -180,25 +221,9 @@ FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings)
 FxResult fxView_Render(FxView* view, const FxFrameDef* frame)
 {
     return fx::api::insideView("fxView_Render", view, [&]() -> Status {
-        FxFrameDef known;
-        if (Status status = fx::api::readStruct(frame, "frame", fxDefaultFrameDef(), known); !status)
-            return status;
-        fx::render::FrameRequest request;
-        if (Status status = fx::api::convertFrame(known, request); !status)
-            return status;
-        const uint64_t before = view->context->memory.allocationCount();
-        const ShownSnapshots shown(view->scene->scene);
-        request.interpolation = shown->interpolation;
-        request.time = shown->time;
-        if (view->renderer.settings().overlay) {
-            view->scene->scene.copyMarks(view->marks);
-            fx::api::makeOverlay(view->marks, request.camera.origin, view->overlay);
-            request.overlay = view->overlay;
-        }
-        const FrameQuality quality(*view, known);
-        Status status = view->renderer.render(shown->snapshots, request);
-        view->allocations = view->context->memory.allocationCount() - before;
-        view->scene->gpuSeen.store(view->renderer.canComputeParticles() ? FxScene::kRemembered : 0u);
+        Status status = sleepsThrough(*view, frame) ? Status() : renderFrame(*view, frame);
+        view->scene->gpuSeen.store(view->renderer.canComputeParticles() ? FxScene::kRemembered : 0u,
+                                   std::memory_order_relaxed);
         return status;
     });
 }

@@ -35,6 +35,7 @@ struct FxView
         if (settings.overlay != renderer.settings().overlay)
             scene->scene.wantMarks(settings.overlay);
         renderer.settings() = settings;
+        sleeps = false;
     }
 
     FxContext* context;
@@ -44,6 +45,8 @@ struct FxView
     fx::render::ViewRenderer renderer;
     fx::quality::ViewQuality quality;
     uint64_t allocations = 0; ///< during the last frame
+    bool sleeps = false; ///< the last frame drew nothing, and neither does the next while the scene is empty
+    FxFrameDef sleptFrame = fxDefaultFrameDef(); ///< known to be valid; only while the view sleeps
 };
 
 namespace fx::api {
@@ -69,7 +72,7 @@ FxResult insideView(const char* function, FxView* view, F&& body) noexcept
         if (!view)
             return invalid("view is null");
         const SingleCaller::Scope scope(view->context->gl, kGlThreadRule);
-        return scope.status() ? body() : scope.status();
+        return scope ? body() : scope.status();
     });
 }
 

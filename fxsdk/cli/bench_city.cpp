@@ -138,6 +138,8 @@ int runBenchCity(const BenchCityOptions& options)
 {
     if (options.check)
         return checkCity(options);
+    if (options.turn > 0)
+        return turnCity(options);
     const std::vector<CityPlace> city = cityPlaces(options.instances);
     const CityRun all = measure(options, city);
     std::vector<CityPlace> seen;

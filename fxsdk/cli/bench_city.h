@@ -12,6 +12,7 @@ struct BenchCityOptions
 {
     uint32_t instances = 10'000;
     uint32_t frames = 240;
+    double turn = 0;    ///< [degree] a frame; above 0: how long updates take while the camera turns so fast
     bool gl = false;    ///< draw each frame as well
     bool check = false; ///< compare with a city that hides nothing, instead of measuring time
     bool json = false;
@@ -38,5 +39,8 @@ std::string cityPreset(int index, const std::string& offscreen, bool ballistic);
 /// Hashes, memory and pictures of the city against one that hides nothing.
 /// @return exit code: 0, or 1 when one differs that must not
 int checkCity(const BenchCityOptions& options);
+
+/// Times, replays and memory while the camera turns by `options.turn` a frame. @return exit code
+int turnCity(const BenchCityOptions& options);
 
 } // namespace fx::cli

@@ -47,6 +47,8 @@ void addCity(CLI::App& bench, int& outExitCode)
     command->add_option("--instances", options->instances, "Effects in the city")
         ->check(CLI::Range(100, 1000000));
     command->add_option("--frames", options->frames, "Frames to measure")->check(CLI::Range(1, 100000));
+    command->add_option("--turn", options->turn, "Turn by so many degrees a frame: times, replays, memory")
+        ->check(CLI::Range(0.0, 180.0));
     command->add_flag("--gl", options->gl, "A view draws each frame as well");
     command->add_flag(
         "--check", options->check,

@@ -30,9 +30,9 @@ extern "C" [[gnu::noinline]] void fxIdleFrames(IdleFrames* frames)
     for (int i = 0; i < frames->count; ++i) {
         if (frames->options->turn)
             frames->failed |= !frames->scene->look(0.01 * (i % 10)).ok();
-        frames->failed |= !frames->scene->update().ok();
+        frames->failed |= fxScene_Update(frames->scene->scene(), 1.0 / 60.0) != FX_OK;
         if (frames->options->gl)
-            frames->failed |= !frames->scene->draw().ok();
+            frames->failed |= fxView_Render(frames->scene->view(), &frames->scene->frameDef()) != FX_OK;
         if (!frames->options->visitAll)
             continue;
         for (const FxInstanceId id : frames->scene->instances())

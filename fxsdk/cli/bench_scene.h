@@ -51,6 +51,8 @@ public:
     void remove(size_t index); ///< of instances()
 
     FxScene* scene() const { return scene_; }
+    FxView* view() const { return view_; }                ///< null without GL
+    const FxFrameDef& frameDef() const { return frame_; } ///< of the view's next frame
     const std::vector<FxInstanceId>& instances() const { return instances_; }
     FxSceneStatistics statistics() const;
     FxViewStatistics viewStatistics() const;

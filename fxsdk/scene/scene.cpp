@@ -239,9 +239,10 @@ void Scene::publish(base::Ticks tick, double interpolation)
     emptyPublications_ = active_.size() > 0 ? 0 : emptyPublications_ + 1;
     if (emptyPublications_ > 2) { // what is shown, and what was before it, is as empty as this would be
         emptyPublications_ = 3;
-        std::lock_guard lock(presentation_);
+        showsNothing_.store(true, std::memory_order_release);
         return show(tick, interpolation);
     }
+    showsNothing_.store(false, std::memory_order_release);
     base::FrameSnapshot& snapshot = ring_.beginWrite(tick);
     world_.publish(active_.slots(), snapshot);
     std::lock_guard lock(presentation_);
@@ -263,9 +264,10 @@ void Scene::stageReturned(base::Ticks tick)
 
 void Scene::show(base::Ticks newest, double interpolation)
 {
-    interpolation_ = interpolation;
-    shownTime_ =
+    const double time =
         std::max(base::toSeconds(newest) - (1.0 - interpolation) * base::toSeconds(clock_.stepTicks()), 0.0);
+    interpolation_.store(interpolation, std::memory_order_relaxed);
+    shownTime_.store(time, std::memory_order_relaxed);
 }
 
 SceneCounters Scene::counters() const
@@ -300,7 +302,8 @@ uint64_t Scene::stateHash()
 Presentation Scene::acquire()
 {
     std::lock_guard lock(presentation_);
-    return {ring_.acquire(), interpolation_, shownTime_};
+    return {ring_.acquire(), interpolation_.load(std::memory_order_relaxed),
+            shownTime_.load(std::memory_order_relaxed)};
 }
 
 } // namespace fx::scene

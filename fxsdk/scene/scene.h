@@ -235,6 +235,8 @@ public:
     void copyMarks(std::pmr::vector<Mark>& out);
 
     Presentation acquire();
+    /// True while there is nothing in what acquire() gives. [any thread]
+    bool showsNothing() const { return showsNothing_.load(std::memory_order_acquire); }
     void release(const base::SnapshotPair& snapshots) { ring_.release(snapshots); }
 
 private:
@@ -294,7 +296,8 @@ private:
 
     void publish(base::Ticks tick, double interpolation);
     void stageReturned(base::Ticks tick);
-    void show(base::Ticks newest, double interpolation); ///< with presentation_ held
+    /// With presentation_ held, unless there is nothing to see.
+    void show(base::Ticks newest, double interpolation);
     static sim::InstanceStart startOf(const IdTable<Instance>& instances, uint32_t index);
 
     using Effects = std::vector<std::shared_ptr<const sim::EffectDef>>;
@@ -338,8 +341,9 @@ private:
     uint64_t nextSerial_ = 0;
 
     std::mutex presentation_; ///< makes publication and the members below one change for acquire()
-    double interpolation_ = 0;
-    double shownTime_ = 0;
+    std::atomic<double> interpolation_{0}; ///< changed without the mutex while there is nothing to see
+    std::atomic<double> shownTime_{0};     ///< likewise
+    std::atomic<bool> showsNothing_{false};
     std::pmr::vector<Mark> marks_;
     std::atomic<int> marksWanted_{0};
 };

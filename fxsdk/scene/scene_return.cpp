@@ -9,7 +9,13 @@ namespace fx::scene {
 
 namespace {
 constexpr base::Ticks kShortestRest = 4; ///< steps; a shorter rest is not worth the way out and back
+
+/// Whether instances of a policy reach the present as if they had never been hidden.
+bool mayForget(sim::CatchUp policy)
+{
+    return policy == sim::CatchUp::Analytic || policy == sim::CatchUp::Replay;
 }
+} // namespace
 
 /// Puts a hidden or resting instance on its way to the present. Allocates nothing: place() made room.
 void Scene::comeBack(uint32_t index)
@@ -55,13 +61,15 @@ bool Scene::catchUp(uint32_t index, uint64_t& ioBudget)
     const Instance& instance = instances_.at(index);
     const sim::CatchUp policy = instance.wasResting ? sim::CatchUp::Analytic : instance.policy;
     const base::Ticks before = world_.simulated(instance.slot);
-    const base::Ticks lag = clock_.simulated() - before;
     sim::StepCounters work;
     bool done = false;
     if (policy == sim::CatchUp::Analytic || policy == sim::CatchUp::Skip) {
         uint64_t nothing = 0; // a jump, which needs no steps
         done = world_.catchUp(instance.slot, policy, clock_.stepTicks(), nothing, work);
     }
+    if (!done && mayForget(policy))
+        world_.passOver(instance.slot, clock_.stepTicks());
+    const base::Ticks lag = clock_.simulated() - world_.simulated(instance.slot);
     if (!done && lag > options_.maxCatchUp && !options_.lockStep) {
         ++counters_.catchUpsSkipped;
         uint64_t nothing = 0;
@@ -108,8 +116,8 @@ void Scene::ringAlarms(base::Ticks until)
             world_.retire(instance.slot);
             finish(index);
         } else {
-            world_.release(instance.slot);
-            setAlarm(index, endOf(instance));
+            const base::Ticks next = world_.release(instance.slot, mayForget(instance.policy));
+            setAlarm(index, std::min(std::max(next, until + 1), endOf(instance)));
         }
     }
 }
@@ -166,6 +174,8 @@ void Scene::settleOne(uint32_t index, bool alsoInexact)
         return world_.materialize(instance.slot);
     uint64_t unlimited = UINT64_MAX;
     const bool isResting = instance.state == InstanceState::Resting;
+    if (instance.policy == sim::CatchUp::Replay)
+        world_.passOver(instance.slot, clock_.stepTicks());
     world_.catchUp(instance.slot, isResting ? sim::CatchUp::Analytic : instance.policy, clock_.stepTicks(),
                    unlimited, counters_.work);
     if (!world_.finished(instance.slot, clock_.simulated())) {

@@ -335,6 +335,7 @@ void Scene::take(Restored& state)
     world_.setNow(simulated);
     forgetSight();
     std::swap(moved_, state.moved);
+    showsNothing_.store(false, std::memory_order_release);
     std::lock_guard lock(presentation_);
     ring_.publish();
     ring_.forgetOlder();

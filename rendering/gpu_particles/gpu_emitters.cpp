@@ -19,7 +19,7 @@ static_assert(uint32_t(RandomPurpose::Position) == 1 && uint32_t(RandomPurpose::
 static_assert(base::kTicksPerSecond == 705'600'000, "shared/gpu_particle_words.glsl has its reciprocal");
 
 constexpr ProgramDesc kRows{"gpu particles", nullptr, nullptr, "passes/gpu_particles.comp.glsl", nullptr};
-constexpr uint64_t kFramesKept = 600;
+constexpr uint64_t kFramesKept = 300;
 
 bool has(base::ColumnSet columns, size_t column)
 {
@@ -146,7 +146,7 @@ uint64_t GpuEmitters::bytes() const
 void GpuEmitters::nextFrame()
 {
     ++frame_;
-    std::erase_if(entries_, [this](const Entry& entry) { return frame_ - entry.usedFrame > kFramesKept; });
+    std::erase_if(entries_, [this](const Entry& entry) { return frame_ - entry.usedFrame >= kFramesKept; });
 }
 
 } // namespace fx::render

@@ -57,6 +57,7 @@ struct ViewRenderer::Impl
     void releaseImpostors();
     void releaseUnused();
     FrameStatistics rest();
+    bool holdsNothing() const; ///< that rest() gives back
     FrameStatistics count(int divisor);
     void readBack(FrameStatistics& statistics); ///< waits for the GPU
 
@@ -106,23 +107,6 @@ uint64_t contentOf(const StampPair& stamps, double interpolation)
 base::Status invalid(std::string message)
 {
     return {base::Code::InvalidArgument, std::move(message)};
-}
-
-base::Status checkRequest(const FrameRequest& request)
-{
-    const HostTargets& targets = request.targets;
-    if (targets.width <= 0 || targets.height <= 0)
-        return invalid("frame: width and height must be positive");
-    if (targets.color == 0 && !targets.useFramebuffer)
-        return invalid("frame: neither a color texture nor a framebuffer is given");
-    const CameraView& camera = request.camera;
-    if (!base::allFinite(glm::value_ptr(camera.view), 16) ||
-        !base::allFinite(glm::value_ptr(camera.projection), 16) ||
-        !base::allFinite(glm::value_ptr(camera.origin), 3))
-        return invalid("frame: view, projection or origin is not finite");
-    if (camera.projection[0][0] == 0.0f || camera.projection[1][1] == 0.0f)
-        return invalid("frame: the projection has no extent (its first or second diagonal element is 0)");
-    return {};
 }
 
 /// Nothing is to be seen, and nothing else would change the host's picture.
@@ -290,6 +274,12 @@ FrameStatistics ViewRenderer::Impl::rest()
     return statistics;
 }
 
+bool ViewRenderer::Impl::holdsNothing() const
+{
+    return backend.pooledBytes() == 0 && single.buffers.bytes() == 0 && joined.buffers.bytes() == 0 &&
+           blobBuffer.name() == 0 && impostorBuffer.name() == 0 && impostorAtlas.name() == 0 && !key;
+}
+
 void ViewRenderer::Impl::releaseBlobs()
 {
     blobBuffer = {};
@@ -397,15 +387,34 @@ void ViewRenderer::warmUp(const base::GpuParticleProgram& emitter)
     impl_->single.buffers.warmUp(emitter);
 }
 
+base::Status ViewRenderer::check(const FrameRequest& request)
+{
+    const HostTargets& targets = request.targets;
+    if (targets.width <= 0 || targets.height <= 0)
+        return invalid("frame: width and height must be positive");
+    if (targets.color == 0 && !targets.useFramebuffer)
+        return invalid("frame: neither a color texture nor a framebuffer is given");
+    const CameraView& camera = request.camera;
+    if (!base::allFinite(glm::value_ptr(camera.view), 16) ||
+        !base::allFinite(glm::value_ptr(camera.projection), 16) ||
+        !base::allFinite(glm::value_ptr(camera.origin), 3))
+        return invalid("frame: view, projection or origin is not finite");
+    if (camera.projection[0][0] == 0.0f || camera.projection[1][1] == 0.0f)
+        return invalid("frame: the projection has no extent (its first or second diagonal element is 0)");
+    return {};
+}
+
 base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const FrameRequest& asked)
 {
     Impl& s = *impl_;
-    if (base::Status status = checkRequest(asked); !status)
+    if (base::Status status = check(asked); !status)
         return status;
     if (base::Status status = checkSensorLaw(settings_.dazzle); !status)
         return status;
+    asleep_ = false;
     if (leavesPictureAlone(snapshots, asked, settings_)) {
         statistics_ = s.rest();
+        asleep_ = statistics_.glCalls == 0 && s.holdsNothing();
         return {};
     }
     s.idleFrames = 0;

@@ -69,6 +69,12 @@ public:
     /// Compiles what computes the particles of an emitter. Nothing happens where that is not possible.
     void warmUp(const base::GpuParticleProgram& emitter);
 
+    /// The last frame left the picture alone and nothing is kept that time would give back: as long as there
+    /// is nothing to draw, further calls of render() change nothing at all.
+    bool isAsleep() const { return asleep_; }
+    /// What render() would refuse; all that is left to do for a frame while the view sleeps.
+    static base::Status check(const FrameRequest& request);
+
     const FrameStatistics& statistics() const { return statistics_; }
     LayerTextures layers() const;
     /// Names of the passes that the last frame executed, in order.
@@ -79,6 +85,7 @@ private:
     ViewSettings settings_;
     FrameStatistics statistics_;
     ScreenShare covered_;
+    bool asleep_ = false;
     std::unique_ptr<Impl> impl_;
 };
 

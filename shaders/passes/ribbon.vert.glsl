@@ -53,12 +53,24 @@ void main()
         if (!isSecond && young < back)
             later = (back - young) / (old - young);
     }
-    vec3 center = mix(pointAt(at), pointAt(row + 1), later);
-    float halfWidth = mix(newerValue(3, at), newerValue(3, row + 1), later) * placePosition.w * levelLook.x;
+    // Rows go on behind the age at which the ribbon ends; at an earlier moment that age lay farther back.
+    int from = at;
+    if (look.x > 0.0 && newerPlace(7) >= 0) {
+        float young = newerValue(7, row);
+        float old = newerValue(7, row + 1);
+        if (young >= look.x + back)
+            return;
+        if (isSecond && old > look.x + back) {
+            from = row;
+            later = (look.x + back - young) / (old - young);
+        }
+    }
+    vec3 center = mix(pointAt(from), pointAt(row + 1), later);
+    float halfWidth = mix(newerValue(3, from), newerValue(3, row + 1), later) * placePosition.w * levelLook.x;
     float shown = max(halfWidth, moment.w * pixelSize(center));
-    vec4 color = mix(newerColor(5, at), newerColor(5, row + 1), later);
+    vec4 color = mix(newerColor(5, from), newerColor(5, row + 1), later);
     fragmentPlace = center + acrossAt(at) * (side * shown);
-    float arc = mix(newerValue(4, at), newerValue(4, row + 1), later);
+    float arc = mix(newerValue(4, from), newerValue(4, row + 1), later);
     fragmentTexture = vec2(0.5 + 0.5 * side, strip.y > 0.0 ? arc / strip.y : arc);
     vec3 white = vec3(shine.x);
     if (shine.y > 0.0)

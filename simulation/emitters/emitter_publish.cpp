@@ -89,6 +89,7 @@ void writeConstants(const EmitterDef& def, const EmitterLook& look, float arcPer
     constants[constant::MotionScale] = look.motionScale;
     constants[constant::Mesh] = float(look.mesh);
     constants[constant::ArcPerTile] = arcPerTile;
+    constants[constant::TailAge] = 0.0f;
 }
 
 namespace {

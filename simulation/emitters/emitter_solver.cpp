@@ -310,7 +310,7 @@ void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
     base::Ticks from = now_;
     if (neverDrops(double(context.parameters->intensity))) {
         // Whoever was born before then is dead.
-        const base::Ticks dead = tick - program_.longestLife - base::kTicksPerSecond;
+        const base::Ticks dead = tick - lifetimeOf(double(context.parameters->intensity));
         if (dead > from) {
             const BirthWindow past{from, dead, double(context.parameters->intensity),
                                    context.parameters->emitting};
@@ -329,6 +329,11 @@ void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
 
 void EmitterSolver::save(StateWriter& writer) const
 {
+    saveState(writer, true);
+}
+
+void EmitterSolver::saveState(StateWriter& writer, bool withRows) const
+{
     catchUpWithPool();
     writer.value(now_);
     writer.flag(started_);
@@ -340,7 +345,9 @@ void EmitterSolver::save(StateWriter& writer) const
     if (interest_.in(EventKind::Host))
         writer.value(hostEvents_);
     schedule_.save(writer, now_);
-    if (gpu_ && gpu_->isOn())
+    if (!withRows)
+        store_.saveEmpty(writer);
+    else if (gpu_ && gpu_->isOn())
         saveFromGpu(writer);
     else
         store_.save(writer, now_);

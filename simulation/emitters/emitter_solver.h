@@ -74,6 +74,10 @@ public:
     base::Ticks restsUntil(base::Ticks tick) const override;
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
+    /// Where particles know nothing of each other nor of those before them, and none is ever dropped.
+    base::Ticks memory(const InstanceParameters& parameters) const override;
+    void saveBriefly(StateWriter& writer) const override { saveState(writer, false); }
+    void passOver(const StepContext& context, base::Ticks tick) override;
 
     uint32_t highWater() const { return highWater_; } ///< the most rows that were in use after a step
     uint64_t dropped() const { return dropped_; }     ///< births that found their row taken
@@ -128,6 +132,8 @@ private:
     /// True while nobody lives and nobody is born up to `tick`.
     bool restsThrough(const StepContext& context, base::Ticks tick) const;
     void seekHere(const StepContext& context, base::Ticks tick);
+    base::Ticks lifetimeOf(double intensity) const;
+    void saveState(StateWriter& writer, bool withRows) const;
     std::span<Birth> birthRoom(const StepContext& context) const;
     void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to, std::span<Birth> room);
     void storeBatch(const StepContext& context, std::span<const Birth> births);

@@ -19,7 +19,8 @@ void EmitterSolver::publishTrails(const base::GroupInfo& base, base::FrameSnapsh
     group.editInfo().kind = kinds_.ribbon;
     writeConstants(def_, def_.trail.look, def_.trail.arcPerTile, group.editConstants());
     group.editConstants()[base::particle_constant::Edge] = def_.trail.edge;
-    group.editInfo().count = trails_->publish(now_, group);
+    group.editConstants()[base::particle_constant::TailAge] = def_.trail.lifetime;
+    group.editInfo().count = trails_->publish(now_, base::toTicks(double(snapshot.secondsBack())), group);
 }
 
 /// A sprite emits its luminance from its projected area; a medium from the smaller of that and its cross

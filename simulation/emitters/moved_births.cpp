@@ -10,11 +10,11 @@ void EmitterSolver::toHome(StepContext& context, std::optional<Collider>& collid
 {
     const base::Placement& home = space_->home();
     if (context.placement.rotation != home.rotation || context.placement.scale != home.scale) {
-        // What is of the world is not turned there and back: no rounding. The preset's wind is the
-        // instance's.
+        // What is of the world is not turned there and back: no rounding. The preset's own wind is air too:
+        // like the emitter's it stays as it was where the instance began, and does not turn with it.
         context.gravity = space_->fromWorld(context.worldGravity);
-        context.wind = space_->turned(context.effectWind) +
-                       space_->fromWorld(context.worldWind) / std::max(home.scale, 1e-6f);
+        context.wind =
+            context.effectWind + space_->fromWorld(context.worldWind) / std::max(home.scale, 1e-6f);
     }
     if (context.collider) {
         collider.emplace(context.collider->field(), space_->home());

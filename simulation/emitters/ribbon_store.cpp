@@ -11,6 +11,7 @@ namespace fx::sim {
 namespace {
 
 constexpr double kSecondsPerTick = 1.0 / double(base::kTicksPerSecond);
+constexpr base::Ticks kPast = base::kTicksPerSecond / 30; ///< for which points are kept after they have gone
 
 /// Where the particle in `row` is at `tick`.
 glm::vec3 placeOf(const LookJob& job, uint32_t row, base::Ticks tick, glm::vec3* outVelocity = nullptr)
@@ -131,11 +132,11 @@ void RibbonStore::followRow(const LookJob& job, uint32_t row, base::Ticks begin,
 void RibbonStore::forget(uint32_t row, base::Ticks now)
 {
     Trail& trail = trails_[row];
-    while (trail.count > 1 && now - pointOf(row, 1).tick >= lifetime_) {
+    while (trail.count > 1 && now - pointOf(row, 1).tick >= lifetime_ + kPast) {
         trail.first = (trail.first + 1) % def_.maxPoints;
         --trail.count;
     }
-    if (trail.ended && now - trail.head.tick >= lifetime_) {
+    if (trail.ended && now - trail.head.tick >= lifetime_ + kPast) {
         const uint64_t index = trail.index;
         trail = Trail{};
         trail.index = index;
@@ -149,6 +150,7 @@ struct RibbonStore::Writer
     base::SnapshotGroup& group;
     double perLife;
     base::Ticks now;
+    float life; ///< [s]
     uint32_t count = 0;
     base::Bounds bounds{};
 
@@ -168,19 +170,33 @@ struct RibbonStore::Writer
         ++count;
     }
 
+    /// [m] where a strip ends for its age: the arc length at the age of 1 / perLife. (3)
+    float endOf(uint32_t first) const
+    {
+        namespace column = base::ribbon_column;
+        const auto arc = group.column(column::Arc), age = group.column(column::Age);
+        for (uint32_t i = count; i-- > first + 1;)
+            if (age[i - 1] < life)
+                return age[i] <= life
+                           ? arc[i]
+                           : arc[i] + (arc[i - 1] - arc[i]) * ((age[i] - life) / (age[i] - age[i - 1]));
+        return count > first ? arc[first] : 0.0f;
+    }
+
     /// The rows from `first` on are a strip.
     void finish(uint32_t first, const glm::vec3& tint)
     {
         namespace column = base::ribbon_column;
         const auto arc = group.editColumn(column::Arc);
         const float head = count > first ? arc[first] : 0.0f;
-        const float end = count > first ? arc[count - 1] : 0.0f;
+        const float end = endOf(first);
         for (uint32_t i = first; i < count; ++i) {
             const float t =
                 std::min(group.editColumn(column::Age)[i] * float(perLife / kSecondsPerTick), 1.0f);
             float opacity = def.opacityAlong.at(t)[0];
             if (def.softEnds > 0.0f)
-                opacity *= std::min(std::min(head - arc[i], arc[i] - end) / def.softEnds, 1.0f); // (4)
+                opacity *=
+                    std::clamp(std::min(head - arc[i], arc[i] - end) / def.softEnds, 0.0f, 1.0f); // (4)
             const auto color = def.colorAlong.at(t);
             group.editColumn64(column::Color)[i] =
                 base::packHalfs(color[0] * tint.x, color[1] * tint.y, color[2] * tint.z, opacity);
@@ -190,12 +206,13 @@ struct RibbonStore::Writer
     }
 };
 
-uint32_t RibbonStore::publish(base::Ticks now, base::SnapshotGroup& group) const
+uint32_t RibbonStore::publish(base::Ticks now, base::Ticks past, base::SnapshotGroup& group) const
 {
-    Writer out{def_, group, 1.0 / double(lifetime_), now};
+    Writer out{def_, group, 1.0 / double(lifetime_), now, float(double(lifetime_) * kSecondsPerTick)};
+    const base::Ticks shown = lifetime_ + std::clamp<base::Ticks>(past, 0, kPast);
     for (uint32_t row = 0; row < rows_ && count_ > 0; ++row) {
         const Trail& trail = trails_[row];
-        if (trail.count == 0)
+        if (trail.count == 0 || now - trail.head.tick >= shown)
             continue;
         const uint32_t begin = out.count;
         if (trail.head.tick > pointOf(row, trail.count - 1).tick)
@@ -203,7 +220,7 @@ uint32_t RibbonStore::publish(base::Ticks now, base::SnapshotGroup& group) const
         const Point* younger = &trail.head;
         for (uint32_t k = trail.count; k-- > 0;) {
             const Point& point = pointOf(row, k);
-            const base::Ticks over = now - point.tick - lifetime_;
+            const base::Ticks over = now - point.tick - shown;
             if (over < 0) {
                 out.put(point, trail.index);
             } else {
@@ -212,7 +229,7 @@ uint32_t RibbonStore::publish(base::Ticks now, base::SnapshotGroup& group) const
                 const float share = between > 0 ? float(double(over) / double(between)) : 0.0f;
                 end.position += share * (younger->position - point.position);
                 end.arc += share * (younger->arc - point.arc);
-                end.tick = now - lifetime_;
+                end.tick = now - shown;
                 out.put(end, trail.index);
                 break;
             }

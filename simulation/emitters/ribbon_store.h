@@ -19,6 +19,8 @@
 ///   so that a point never changes its arc length while it is seen. The head lies where the particle is, or
 ///   where it died, with (2) from the newest point. The tail ends at the age T: between the last point that
 ///   is younger and the first that is not, place and arc length are interpolated in proportion to time (3)
+///   What is published goes on beyond that age for up to a step, so that the tail is known at any moment
+///   between two steps; whoever draws it ends it at the age T of that moment.
 ///   Near its ends, at arc length s between the tail's s_t and the head's s_h, a strip whose ends are soft
 ///   over f has its opacity times
 ///       min(s_h - s, s - s_t, f) / f                                                        (4)
@@ -53,7 +55,9 @@ public:
     /// Most rows that publish() writes.
     size_t mostPoints() const { return size_t(rows_) * (def_.maxPoints + 1); }
     /// Writes all trails as they are at `now`. @return rows written
-    uint32_t publish(base::Ticks now, base::SnapshotGroup& group) const;
+    /// @param past [tick] before `now` for which the tails are to be known as well; about that much longer
+    /// they are
+    uint32_t publish(base::Ticks now, base::Ticks past, base::SnapshotGroup& group) const;
     void clear();
 
     void save(StateWriter& writer) const;

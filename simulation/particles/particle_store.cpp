@@ -181,6 +181,14 @@ void ParticleStore::save(StateWriter& writer, base::Ticks now) const
     }
 }
 
+void ParticleStore::saveEmpty(StateWriter& writer) const
+{
+    writer.value(next_);
+    writer.value(next_);
+    writer.flag(placed);
+    writer.value(uint32_t(0));
+}
+
 void ParticleStore::restore(StateReader& reader, base::Ticks now)
 {
     const uint64_t front = reader.value<uint64_t>(0, kMostIndex, "an emitter's births are out of range");

@@ -109,6 +109,7 @@ public:
     void endRow(uint32_t row, base::Ticks now);
 
     void save(StateWriter& writer, base::Ticks now) const;
+    void saveEmpty(StateWriter& writer) const; ///< the same, once all who live now are dead
     /// @param now [tick] local time of the state: what is alive was born before it and dies after it
     void restore(StateReader& reader, base::Ticks now);
 

@@ -75,6 +75,7 @@ class StateBuffer final : public StateWriter
 public:
     explicit StateBuffer(std::pmr::memory_resource* memory) : bytes_(memory) {}
     std::span<const std::byte> bytes() const { return bytes_; }
+    void shrink() { bytes_.shrink_to_fit(); }
     /// Puts the bytes into another writer as if they had been written there.
     void copyTo(StateWriter& other) const { other.values(std::span<const std::byte>(bytes_)); }
 

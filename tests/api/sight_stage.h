@@ -110,18 +110,20 @@ inline Effect toyEffect(const ToyKind& kind)
 }
 
 /// Real particles: 60 a second that live half of one.
-inline Effect fountainEffect()
+/// @param curls their motion is integrated
+inline Effect fountainEffect(bool curls = false, float longestLife = 0.5f)
 {
     auto emitter = std::make_unique<sim::EmitterDef>();
-    emitter->maxParticles = 64;
+    emitter->maxParticles = uint32_t(128.0f * longestLife);
     emitter->shape = sim::EmitterShape::Sphere;
     emitter->size = glm::vec3(0.2f);
     emitter->emission.rate = 60;
     emitter->emission.duration = std::numeric_limits<float>::infinity();
-    emitter->lifetime = {0.4f, 0.5f};
+    emitter->lifetime = {0.8f * longestLife, longestLife};
     emitter->speed = {0.5f, 1.0f};
     emitter->radius = {0.1f, 0.1f};
     emitter->forces.drag = 0.5f;
+    emitter->forces.curlStrength = curls ? 1.0f : 0.0f;
     auto effect = emptyEffect();
     effect->solvers.push_back(std::move(emitter));
     return effect;

@@ -14,13 +14,14 @@ namespace fx::test {
 struct TechniqueRow
 {
     std::string name;
-    std::string members;  ///< of a preset that calls for it; empty: a setting of the view does
-    std::string standsOn; ///< another technique that it draws with; empty: none
-    std::vector<std::string> passes;
+    std::string members;             ///< of a preset that calls for it; empty: a setting of the view does
+    std::string standsOn;            ///< another technique that it draws with; empty: none
+    std::vector<std::string> passes; ///< of a frame right after a step
     std::set<std::string> programs;
     GlLedger::Counts textures, buffers;
     /// Of those above, what no row has but those that stand on this one.
     std::set<std::string> ownPasses, ownPrograms;
+    bool meetsMesh = false; ///< its effect collides with the host's geometry, which is there with it
 };
 
 /// An emitter of 60 particles a second about the origin, with more members of its own.
@@ -66,7 +67,7 @@ inline TechniqueRow trailsRow()
             {"scene distance", "media", "composite"},
             {"composite (blend)", "ribbons"},
             {{"R32F", 1}, {"RGBA32F", 1}, {"RGBA8 array", 1}},
-            {{"particle rows", 2}, {"uniform ring", 1}},
+            {{"particle rows", 3}, {"uniform ring", 1}},
             {},
             {"ribbons"}};
 }
@@ -79,7 +80,7 @@ inline TechniqueRow spritesRow()
             {"scene distance", "media", "composite"},
             {"composite (blend)", "sprites"},
             {{"R32F", 1}, {"RGBA32F", 1}, {"RGBA8 array", 1}},
-            {{"particle orders", 3}, {"particle rows", 2}, {"uniform ring", 1}},
+            {{"particle orders", 3}, {"particle rows", 3}, {"uniform ring", 1}},
             {},
             {"sprites"}};
 }
@@ -93,7 +94,7 @@ inline TechniqueRow meshesRow()
             {"scene distance", "solid particles", "composite"},
             {"composite (blend)", "particle meshes"},
             {{"Depth32F", 1}, {"R32F", 2}, {"RGBA32F", 1}, {"RGBA8 array", 1}},
-            {{"particle mesh", 1}, {"particle rows", 2}, {"uniform ring", 1}},
+            {{"particle mesh", 1}, {"particle rows", 3}, {"uniform ring", 1}},
             {"solid particles"},
             {"particle meshes"}};
 }
@@ -109,6 +110,42 @@ inline TechniqueRow lightsRow() ///< a list for the host: nothing is drawn
             {},
             {},
             {}};
+}
+
+/// Geometry of the host that effects collide with: steps ask it, and nothing is drawn of it.
+inline TechniqueRow sceneMeshRow()
+{
+    TechniqueRow row{"scene mesh",
+                     emitterMembers(R"("appearance": {"kind": "none"}, "collisions": [{"shape": "scene"}])"),
+                     "",
+                     {},
+                     {},
+                     {},
+                     {},
+                     {},
+                     {}};
+    row.meetsMesh = true;
+    return row;
+}
+
+/// Sprites whose rows and order the GPU computes.
+inline TechniqueRow gpuParticlesRow()
+{
+    return {
+        "gpu particles",
+        emitterMembers(
+            R"("compute": "gpu", "maxParticles": 100, "appearance": {"kind": "sprite", "order": "depth"})"),
+        "sprites",
+        {"scene distance", "gpu particles", "gpu particle order", "media", "composite"},
+        {"composite (blend)", "gpu particle order", "gpu particles", "sprites"},
+        {{"R32F", 1}, {"RGBA32F", 1}, {"RGBA8 array", 1}},
+        {{"computed particle rows", 3},
+         {"frame buffer", 3},
+         {"gpu particle numbers", 1},
+         {"particle rows", 3},
+         {"uniform ring", 1}},
+        {"gpu particles", "gpu particle order"},
+        {"gpu particles", "gpu particle order"}};
 }
 
 inline TechniqueRow dazzleRow()
@@ -130,11 +167,14 @@ inline std::vector<TechniqueRow> techniqueRows()
         "billboard layers", emitterMembers(R"("layer": "dust", "albedoOverLife": [0.5, 0.5, 0.5])"), "");
     billboards.ownPasses = {"blob upload"};
     billboards.ownPrograms = {"media"};
-    std::vector<TechniqueRow> rows{billboards,  shimmerRow(), trailsRow(), spritesRow(),
-                                   meshesRow(), lightsRow(),  dazzleRow()};
+    std::vector<TechniqueRow> rows{billboards,  shimmerRow(), trailsRow(),    spritesRow(),
+                                   meshesRow(), lightsRow(),  sceneMeshRow(), dazzleRow()};
 #if FXSDK_WITH_SPH
     rows.push_back(billboardRow("sph gas", R"("gas": [{"particles": 40, "heat": 0, "detailAmount": 0}])",
                                 "billboard layers"));
+#endif
+#if FXSDK_WITH_GPU_PARTICLES
+    rows.push_back(gpuParticlesRow());
 #endif
     return rows;
 }

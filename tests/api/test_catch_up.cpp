@@ -103,13 +103,14 @@ scene::SceneOptions shortBudget()
 TEST(CatchUp, twoHundredRandomScriptsLeaveNoTraceInAnalyticReplayedAndAuthoritativeEffects)
 {
     uint64_t hidden = 0, replayed = 0;
-    const Effect jumping = toyEffect({true}), chained = toyEffect({false}), fountain = fountainEffect();
+    const Effect jumping = toyEffect({true}), chained = toyEffect({false}), fountain = fountainEffect(),
+                 curling = fountainEffect(true);
     const Effect kept = withPolicy(toyEffect({false, 3}), CatchUp::Authoritative);
     const Effect wished = withPolicy(toyEffect({false, 2}), CatchUp::Analytic); // cannot: it is replayed
     for (uint64_t seed = 0; seed < 200; ++seed) {
         VisibilityScript script(seed, shortBudget());
         for (int i = 0; i < 2; ++i)
-            for (const Effect& effect : {jumping, jumping, chained, chained, fountain, kept, wished})
+            for (const Effect& effect : {jumping, jumping, chained, chained, fountain, curling, kept, wished})
                 script.add(effect);
         for (int k = 0; k < 14; ++k) {
             script.act();

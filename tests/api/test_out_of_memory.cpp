@@ -190,3 +190,72 @@ TEST(OutOfMemory, anUpdateWithoutMemoryStillTakesItsStepsAndRecovers)
     EXPECT_EQ(fxDestroyContext(context), FX_OK);
     EXPECT_EQ(memory.blocks(), 0);
 }
+
+namespace {
+
+/// A floor at y = -1 of the world.
+int meetFloor(void*, const double from[3], const double to[3], float* outShare, float outNormal[3])
+{
+    if (to[1] >= -1.0 || from[1] < to[1])
+        return 0;
+    *outShare = from[1] > -1.0 ? float((from[1] + 1.0) / (from[1] - to[1])) : 0.0f;
+    outNormal[0] = outNormal[2] = 0.0f;
+    outNormal[1] = 1.0f;
+    return 1;
+}
+
+/// Hail at two places that shares a simulation, until something is in its way.
+FxScene* makeHail(FxContext* context)
+{
+    const FxSceneDef sceneDef = fxDefaultSceneDef();
+    FxScene* scene = nullptr;
+    EXPECT_EQ(fxCreateScene(context, &sceneDef, &scene), FX_OK);
+    FxInstanceDef def = fxDefaultInstanceDef();
+    def.preset = loadText(context, R"({"version": 1, "ground": false, "emitters": [{"maxParticles": 64,
+        "shape": "disc", "size": 1, "emission": {"rate": 60}, "lifetime": 9, "radius": 0.01,
+        "appearance": {"kind": "sprite"}, "collisions": [{"shape": "hook", "bounce": 0.5}]}]})");
+    for (const double y : {0.0, 1.0}) {
+        def.position[1] = y;
+        FxInstanceId id{};
+        EXPECT_EQ(fxScene_CreateInstance(scene, &def, &id), FX_OK);
+    }
+    for (int frame = 0; frame < 10; ++frame)
+        EXPECT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+    return scene;
+}
+
+uint64_t hashOf(FxScene* scene)
+{
+    uint64_t hash = 0;
+    EXPECT_EQ(fxScene_GetSimulationHash(scene, &hash), FX_OK) << fxGetLastErrorMessage();
+    return hash;
+}
+
+} // namespace
+
+TEST(OutOfMemory, aContactHookIsSetOrTheSceneIsAsItWasAtEveryAllocation)
+{
+    HostAllocator memory;
+    const FxContextDef def = contextDefOf(memory);
+    FxContext* context = nullptr;
+    ASSERT_EQ(fxCreateContext(&def, &context), FX_OK);
+    FxScene *scene = makeHail(context), *other = makeHail(context);
+    FxContactHook hook = fxDefaultContactHook();
+    hook.meet = &meetFloor;
+    ASSERT_EQ(fxScene_SetContactHook(other, &hook), FX_OK);
+    const uint64_t before = hashOf(scene);
+    EXPECT_GT(sweep(memory,
+                    [&] {
+                        const FxResult result = fxScene_SetContactHook(scene, &hook);
+                        memory.failFrom(0);
+                        EXPECT_EQ(hashOf(scene), before);
+                        return result;
+                    }),
+              0u); // what they shared is copied
+    for (int frame = 0; frame < 60; ++frame)
+        for (FxScene* each : {scene, other})
+            ASSERT_EQ(fxScene_Update(each, kFrame), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(hashOf(scene), hashOf(other));
+    EXPECT_EQ(fxDestroyContext(context), FX_OK);
+    EXPECT_EQ(memory.blocks(), 0);
+}

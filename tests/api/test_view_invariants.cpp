@@ -135,3 +135,54 @@ TEST_F(ViewInvariants, workGrowsWithTheQualityOfAGas) // I5
     EXPECT_LT(low.blobs, high.blobs);
 }
 #endif
+
+TEST_F(ViewInvariants, aViewThatSleepsStillRefusesBadFramesAndWakesForWhateverThereIsToDraw) // I2
+{
+    const FxSceneDef sceneDef = fxDefaultSceneDef();
+    FxScene* scene = nullptr;
+    FxView* view = nullptr;
+    ASSERT_EQ(fxCreateScene(context_, &sceneDef, &scene), FX_OK);
+    FxViewSettings settings = fxDefaultViewSettings();
+    settings.dazzle = 0;
+    ASSERT_EQ(fxCreateView(context_, scene, &settings, &view), FX_OK);
+    const FxFrameDef good = frame();
+    const auto drawnBy = [&](int frames) {
+        FxViewStatistics shown{};
+        shown.structSize = sizeof shown;
+        for (int i = 0; i < frames; ++i) {
+            EXPECT_EQ(fxScene_Update(scene, fx::test::kFrame), FX_OK);
+            EXPECT_EQ(fxView_Render(view, &good), FX_OK) << fxGetLastErrorMessage();
+        }
+        EXPECT_EQ(fxView_GetStatistics(view, &shown), FX_OK);
+        return shown.passes;
+    };
+    EXPECT_EQ(drawnBy(10), 0u);
+    for (int kind = 0; kind < 4; ++kind) {
+        FxFrameDef bad = good;
+        if (kind == 0)
+            bad.view[0] = 2.0f;
+        if (kind == 1)
+            bad.projection[5] = 0.0f;
+        if (kind == 2)
+            bad.colorTexture = 0;
+        EXPECT_EQ(fxView_Render(view, kind == 3 ? nullptr : &bad), FX_ERROR_INVALID_ARGUMENT) << kind;
+        EXPECT_EQ(fxView_Render(view, &good), FX_OK);
+    }
+    FxInstanceDef def = fxDefaultInstanceDef();
+    def.preset = fx::test::loadText(context_, fx::test::burstPreset(40, 0.2));
+    def.destroyWhenFinished = 1;
+    for (int life = 0; life < 3; ++life) {
+        FxInstanceId id{};
+        ASSERT_EQ(fxScene_CreateInstance(scene, &def, &id), FX_OK) << fxGetLastErrorMessage();
+        EXPECT_GT(drawnBy(2), 0u) << life;
+        EXPECT_EQ(drawnBy(life == 1 ? 400 : 40), 0u) << life; // beyond the time until it gives memory back
+    }
+    settings.toneMap = 1; // of the host's own picture
+    ASSERT_EQ(fxView_SetSettings(view, &settings), FX_OK);
+    EXPECT_GT(drawnBy(1), 0u);
+    settings.toneMap = 0;
+    ASSERT_EQ(fxView_SetSettings(view, &settings), FX_OK);
+    EXPECT_EQ(drawnBy(3), 0u);
+    EXPECT_EQ(fxDestroyView(view), FX_OK);
+    EXPECT_EQ(fxDestroyScene(scene), FX_OK);
+}

@@ -47,19 +47,26 @@ public:
     }
     ~Host() { EXPECT_EQ(fxDestroyContext(context_), FX_OK) << fxGetLastErrorMessage(); }
 
+    FxPresetId load(const Row& row)
+    {
+        return test::loadText(context_, R"({"version": 1, "ground": false, )" + row.members + "}");
+    }
     void add(const Row& row)
     {
         if (row.members.empty())
             return;
+        setWall(row.meetsMesh || wall_);
         FxInstanceDef def = fxDefaultInstanceDef();
-        def.preset =
-            test::loadText(context_, std::string(R"({"version": 1, "ground": false, )") + row.members + "}");
+        def.preset = load(row);
         EXPECT_EQ(fxScene_CreateInstance(scene_, &def, &instances_.emplace_back()), FX_OK)
             << row.name << ": " << fxGetLastErrorMessage();
     }
     /// A triangle that effects collide with.
     void setWall(bool there)
     {
+        if (there == wall_)
+            return;
+        wall_ = there;
         const float corners[9] = {2, -15, -15, 2, 15, -15, 2, 0, 15};
         FxCollisionMesh mesh = fxDefaultCollisionMesh();
         mesh.positions = corners;
@@ -80,9 +87,12 @@ public:
         for (const FxInstanceId id : instances_)
             EXPECT_EQ(fxScene_DestroyInstance(scene_, id), FX_OK);
         instances_.clear();
+        setWall(false);
     }
+    /// After a frame of a view, so that the scene knows that somebody can compute for it.
     void play(int frames)
     {
+        draw(1);
         for (int i = 0; i < frames; ++i)
             EXPECT_EQ(fxScene_Update(scene_, test::kFrame), FX_OK) << fxGetLastErrorMessage();
     }
@@ -104,6 +114,14 @@ public:
             EXPECT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();
         }
     }
+    /// Ends with a frame right after a step.
+    void show()
+    {
+        play(12);
+        draw(2);
+        play(1);
+        draw(1);
+    }
     Names passes() const { return test::passNamesOf(view_); }
     FxViewStatistics statistics() const
     {
@@ -124,6 +142,7 @@ private:
     FxScene* scene_ = nullptr;
     FxView* view_ = nullptr;
     int drawn_ = 0; ///< frames
+    bool wall_ = false;
     std::vector<FxInstanceId> instances_;
 };
 
@@ -150,8 +169,7 @@ TEST(ViewTechniques, aSceneWithNothingButOneHasExactlyWhatItsRowLists)
     for (const Row& row : test::techniqueRows()) {
         Host host(isSetting(row));
         host.add(row);
-        host.play(12);
-        host.draw(3);
+        host.show();
         EXPECT_EQ(host.passes(), row.passes) << row.name;
         EXPECT_EQ(host.ledger().programs(), row.programs) << row.name;
         EXPECT_EQ(host.ledger().textures(), row.textures) << row.name;
@@ -177,8 +195,7 @@ TEST(ViewTechniques, aSceneWithAllButOneHasNothingThatOnlyThatOneCallsForAndEver
         }
         if (programs.contains("present") && programs.erase("composite (blend)") > 0)
             programs.insert("composite"); // with a pass behind it, it does not blend in place
-        host.play(12);
-        host.draw(3);
+        host.show();
         const Names executed = host.passes();
         for (const std::string& own : missing.ownPasses)
             EXPECT_FALSE(contains(executed, own)) << missing.name << ": " << own;
@@ -210,11 +227,11 @@ TEST(ViewTechniques, memoryIsGivenBackAfterAWhileAndComesBackWithoutCompiling)
         if (isSetting(row))
             continue; // somebody has asked for it: it is never idle
         Host host(false);
+        host.load(row); // programs of particles on the GPU are known by preset
         host.warmUp();
         const size_t programs = host.ledger().programs().size();
         host.add(row);
-        host.play(12);
-        host.draw(3);
+        host.show();
         EXPECT_EQ(host.ledger().textures(), row.textures) << row.name;
         host.clear();
         host.play(4);
@@ -229,8 +246,8 @@ TEST(ViewTechniques, memoryIsGivenBackAfterAWhileAndComesBackWithoutCompiling)
         host.play(12);
         host.draw(1);
         EXPECT_EQ(host.statistics().programsCompiled, 0u) << row.name;
+        host.show();
         EXPECT_EQ(host.passes(), row.passes) << row.name;
-        host.draw(2);
         EXPECT_EQ(host.ledger().textures(), row.textures) << row.name;
         EXPECT_EQ(host.ledger().buffers(), row.buffers) << row.name;
         EXPECT_EQ(host.ledger().programs().size(), programs) << row.name;

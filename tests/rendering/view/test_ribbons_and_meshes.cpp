@@ -139,6 +139,32 @@ TEST_F(RibbonTest, betweenTwoSnapshotsTheHeadIsWhereItsParticleIs)
     }
 }
 
+TEST_F(RibbonTest, betweenTwoSnapshotsTheTailIsWhereItWasAtThatMoment)
+{
+    // The same particle with a trail of 1 s, the rows of which are known for another second.
+    auto older = emptySnapshot(1.0);
+    addRibbon(older, {{{-1, 0, 0}, 0.5f}, {{-3, 0, 0}, 0.5f}});
+    auto newer = emptySnapshot(2.0);
+    std::vector<TestPoint> points;
+    for (int i = 0; i <= 5; ++i) {
+        points.push_back({{1.0f - 0.8f * float(i), 0, 0}, 0.5f});
+        points.back().age = 0.4f * float(i);
+    }
+    auto& group = addRibbon(newer, points);
+    for (const float age : {1.0f, 0.0f}) { // the second: it does not end for its age
+        set(group, constant::TailAge, age);
+        for (const double share : {1.0, 0.7, 0.5, 0.3, 0.0}) {
+            setPicture(std::vector<float>(size_t(kSide) * kSide * 4, 0.0f));
+            const Picture picture = renderPair(newer, &older, share, flatCamera());
+            const double head = -1.0 + 2.0 * share; // [m]; 10 pixels a meter, the middle at 50
+            const double tail = age > 0.0f ? head - 2.0 : -3.0;
+            EXPECT_NEAR(sum(picture), (head - tail) * 10 * 10, 6.0) << age << " " << share;
+            EXPECT_EQ(picture.at(int(50 + 10 * tail) - 2, 50)[0], 0.0f) << age << " " << share;
+            EXPECT_GT(picture.at(int(50 + 10 * tail) + 1, 50)[0], 0.9f * float(head > tail + 0.2)) << share;
+        }
+    }
+}
+
 TEST_F(RibbonTest, aSoftEdgeFadesAcrossAndAStretchedTextureDoesNotRepeat)
 {
     auto snapshot = emptySnapshot();

@@ -121,6 +121,33 @@ TEST(MovedEmitters, fallStraightDownInTheWorldHoweverTheInstanceIsTurned)
     }
 }
 
+TEST(MovedEmitters, theWindOfThePresetIsAirAndDoesNotTurnWithTheInstance)
+{
+    for (const bool ofEmitter : {false, true}) {
+        Stage stage;
+        auto def = dropper(0);
+        def->emission.rate = 0;
+        def->emission.bursts = {{0, 1}};
+        def->forces.drag = 1000.0f; // goes with the air
+        auto effect = std::make_shared<EffectDef>();
+        effect->hasGround = false;
+        (ofEmitter ? def->forces.wind : effect->wind) = {2, 0, 0};
+        effect->solvers.push_back(std::move(def));
+        InstanceStart start;
+        start.placement = turnedAboutZ(1.5707963f); // where it begins the wind blows along +Y
+        const Slot slot = stage.add(start, std::shared_ptr<const EffectDef>(std::move(effect)));
+        stage.step();
+        for (int i = 1; i <= 59; ++i) {
+            stage.world().setPlacement(slot, turnedAboutZ(1.5707963f + 0.1f * float(i)));
+            stage.step();
+        }
+        const auto seen = worldPositions(stage.look());
+        ASSERT_EQ(seen.size(), 1u);
+        EXPECT_NEAR(seen[0].x, 0.0, 1e-4) << ofEmitter;
+        EXPECT_NEAR(seen[0].y, 2.0, 1e-2) << ofEmitter;
+    }
+}
+
 TEST(MovedEmitters, turnedBirthsHeadWhereTheInstanceHeads)
 {
     Stage stage;

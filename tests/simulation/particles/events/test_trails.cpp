@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 
 using namespace fx;
 using namespace fx::sim;
@@ -37,9 +38,16 @@ public:
     const base::FrameSnapshot& look()
     {
         snapshot_.begin(now_, 1);
+        if (before_) {
+            base::FrameSnapshot before(&schema_, &memory_);
+            before.begin(now_ - *before_, 0);
+            snapshot_.follows(before);
+        }
         world_.publish(std::array{slot_}, snapshot_);
         return snapshot_;
     }
+    /// From now on each picture has one before it, so many ticks earlier.
+    void setBefore(base::Ticks ticks) { before_ = ticks; }
     const base::SnapshotGroup& groupOf(const base::KindDesc& kind)
     {
         look();
@@ -81,6 +89,7 @@ private:
     base::FrameSnapshot snapshot_;
     Slot slot_ = 0;
     base::Ticks now_ = 0;
+    std::optional<base::Ticks> before_;
 };
 
 /// One particle that moves along +Y with 3 m/s and leaves a trail of half a second.
@@ -280,6 +289,36 @@ TEST(Trails, knowHowLongAgoTheirParticleWasThere)
     EXPECT_NEAR(rows.back().age, 0.5f, 1e-6f);
     for (const RibbonRow& row : rows)
         EXPECT_NEAR(3.0f - row.arc, 3.0f * row.age, 1e-4f); // 3 m/s
+}
+
+TEST(Trails, goOnSoFarThatTheirTailIsKnownSinceTheSnapshotBefore)
+{
+    for (const bool isStretched : {false, true}) {
+        auto def = comet();
+        def->trail.softEnds = 0.5f;
+        def->trail.arcPerTile = isStretched ? 0.0f : 1.0f;
+        def->lifetime = {0.8f, 0.8f};
+        Pictures pictures(std::move(def));
+        for (int i = 0; i < 60; ++i) {
+            pictures.step();
+            if (i < 40 || i == 47) // at which it dies
+                continue;
+            pictures.setBefore(0);
+            const auto without = rowsOf(pictures.groupOf(base::kRibbonKind));
+            pictures.setBefore(kStep);
+            const auto& group = pictures.groupOf(base::kRibbonKind);
+            EXPECT_EQ(group.constants()[base::particle_constant::TailAge], 0.5f);
+            const auto rows = rowsOf(group);
+            ASSERT_GT(rows.size(), 1u);
+            EXPECT_NEAR(without.back().age, 0.5f, 1e-6f) << i;
+            EXPECT_NEAR(rows.back().age, 0.5f + 1.0f / 60.0f, 1e-6f) << i;
+            EXPECT_EQ(rows.back().opacity, 0.0f); // the end that fades is that of now
+            for (size_t k = 0; k + 1 < without.size(); ++k) {
+                EXPECT_NEAR(rows[k].arc, without[k].arc, 1e-5f) << i; // so is the one that textures reach
+                EXPECT_NEAR(rows[k].opacity, without[k].opacity, 2e-3f) << i;
+            }
+        }
+    }
 }
 
 TEST(Trails, softEndsFadeOverTheirLength)
