@@ -17,7 +17,7 @@ inline uint64_t hashWord(uint64_t hash, uint64_t word)
     return x ^ (x >> 31);
 }
 
-/// Mixes `size` bytes, eight at a time, and their number.
+/// Mixes `size` bytes, eight at a time, and their number. No bytes may have a null pointer.
 inline uint64_t hashBytes(uint64_t hash, const void* data, size_t size)
 {
     const char* bytes = static_cast<const char*>(data);
@@ -28,7 +28,8 @@ inline uint64_t hashBytes(uint64_t hash, const void* data, size_t size)
         hash = hashWord(hash, word);
     }
     uint64_t tail = 0;
-    std::memcpy(&tail, bytes, left);
+    if (left > 0) // nothing may lie nowhere
+        std::memcpy(&tail, bytes, left);
     return hashWord(hashWord(hash, tail), size);
 }
 

@@ -1,16 +1,10 @@
 #include "rendering/view/snapshot_stamps.h"
 
-#include <cstring>
+#include "foundation/memory/same_bytes.h"
 
 namespace fx::render {
 
 namespace {
-
-template <class T>
-bool sameBytes(std::span<const T> a, std::span<const T> b)
-{
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
-}
 
 bool samePlace(const base::GroupInfo& a, const base::GroupInfo& b)
 {
@@ -31,10 +25,11 @@ bool sameGroup(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
         if (a.has(c) != b.has(c))
             return false;
         const bool isWide = columns[c].type == base::ColumnType::U64;
-        if (isWide ? !sameBytes(a.column64(c), b.column64(c)) : !sameBytes(a.column(c), b.column(c)))
+        if (isWide ? !base::sameBytes(a.column64(c), b.column64(c))
+                   : !base::sameBytes(a.column(c), b.column(c)))
             return false;
     }
-    return sameBytes(a.ids(), b.ids()) && sameBytes(a.constants(), b.constants());
+    return base::sameBytes(a.ids(), b.ids()) && base::sameBytes(a.constants(), b.constants());
 }
 
 } // namespace

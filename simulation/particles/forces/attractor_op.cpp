@@ -20,7 +20,7 @@
 #define HWY_TARGET_INCLUDE "simulation/particles/forces/attractor_op.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
-#include "foundation/simd/instruction_set.h"
+#include "simulation/particles/forces/force_op.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
 
 #include <algorithm>
@@ -88,42 +88,32 @@ HWY_EXPORT(runAttractor);
 
 namespace {
 
-class AttractorOp final : public TileOp
+TileBound boundOf(const AttractorDef& def)
 {
-public:
-    explicit AttractorOp(const AttractorDef& def) : def_(def) { def_.radius = std::max(def.radius, 1e-4f); }
-    TileBound bound() const override
-    {
-        const float s = std::abs(def_.strength), ratio = def_.radius / std::max(def_.softening, 1e-30f);
-        switch (def_.falloff) {
-        case Falloff::Spring: // grows without end unless it ends somewhere
-            return def_.reach > 0.0f ? TileBound{s * def_.reach / def_.radius} : TileBound{};
-        case Falloff::Constant:
-            return {s};
-        case Falloff::Inverse:
-            return {s * ratio};
-        case Falloff::InverseSquare:
-            break;
-        }
-        return {s * ratio * ratio};
+    const float s = std::abs(def.strength), ratio = def.radius / std::max(def.softening, 1e-30f);
+    switch (def.falloff) {
+    case Falloff::Spring: // grows without end unless it ends somewhere
+        return def.reach > 0.0f ? TileBound{s * def.reach / def.radius} : TileBound{};
+    case Falloff::Constant:
+        return {s};
+    case Falloff::Inverse:
+        return {s * ratio};
+    case Falloff::InverseSquare:
+        break;
     }
-    TilePhase phase() const override { return TilePhase::Force; }
-    void run(const TileContext&, const void*, Tile& tile) const override
-    {
-        base::applyInstructionSetLimit();
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runAttractor)(def_, tile);
-    }
-
-private:
-    AttractorDef def_;
-};
+    return {s * ratio * ratio};
+}
 
 } // namespace
 
 std::unique_ptr<TileOp> makeAttractorOp(const AttractorDef& def)
 {
-    return std::make_unique<AttractorOp>(def);
+    AttractorDef kept = def;
+    kept.radius = std::max(def.radius, 1e-4f);
+    return makeForceOp(kept, boundOf(kept), [](const AttractorDef& d, Tile& tile) {
+        using namespace modules;
+        HWY_DYNAMIC_DISPATCH(runAttractor)(d, tile);
+    });
 }
 
 } // namespace fx::sim

@@ -23,7 +23,7 @@
 #define HWY_TARGET_INCLUDE "simulation/particles/forces/conform_op.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
-#include "foundation/simd/instruction_set.h"
+#include "simulation/particles/forces/force_op.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
 
 #include <algorithm>
@@ -124,37 +124,24 @@ HWY_EXPORT(runConform);
 
 namespace {
 
-class ConformOp final : public TileOp
+TileBound boundOf(const ConformDef& def)
 {
-public:
-    explicit ConformOp(const ConformDef& def) : def_(def)
-    {
-        def_.stiffness = std::max(def.stiffness, 0.0f);
-        def_.damping = std::max(def.damping, 0.0f);
-    }
-    TileBound bound() const override
-    {
-        if (def_.stiffness > 0.0f && !(def_.reach > 0.0f))
-            return {};
-        return {def_.stiffness * (def_.reach + std::abs(def_.distance))};
-    }
-    TilePhase phase() const override { return TilePhase::Force; }
-    void run(const TileContext&, const void*, Tile& tile) const override
-    {
-        base::applyInstructionSetLimit();
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runConform)(def_, tile);
-    }
-
-private:
-    ConformDef def_;
-};
+    if (def.stiffness > 0.0f && !(def.reach > 0.0f))
+        return {};
+    return {def.stiffness * (def.reach + std::abs(def.distance))};
+}
 
 } // namespace
 
 std::unique_ptr<TileOp> makeConformOp(const ConformDef& def)
 {
-    return std::make_unique<ConformOp>(def);
+    ConformDef kept = def;
+    kept.stiffness = std::max(def.stiffness, 0.0f);
+    kept.damping = std::max(def.damping, 0.0f);
+    return makeForceOp(kept, boundOf(kept), [](const ConformDef& d, Tile& tile) {
+        using namespace modules;
+        HWY_DYNAMIC_DISPATCH(runConform)(d, tile);
+    });
 }
 
 } // namespace fx::sim

@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "simulation/particles/forces/vector_field_op.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
-#include "foundation/simd/instruction_set.h"
+#include "simulation/particles/forces/force_op.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
 
 #include <algorithm>
@@ -90,37 +90,27 @@ HWY_EXPORT(runVectorField);
 
 namespace {
 
-class VectorFieldOp final : public TileOp
+TileBound boundOf(const VectorFieldDef& def)
 {
-public:
-    explicit VectorFieldOp(const VectorFieldDef& def) : def_(def) { def_.scale = std::max(def.scale, 1e-6f); }
-    TileBound bound() const override
-    {
-        float longest = 0.0f;
-        for (size_t i = 0; i + 2 < def_.grid->values.size(); i += 3) {
-            const float* v = &def_.grid->values[i];
-            longest = std::max(longest, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        }
-        longest = std::sqrt(longest) * std::abs(def_.strength);
-        return def_.isAcceleration ? TileBound{longest} : TileBound{0.0f, longest, false};
+    float longest = 0.0f;
+    for (size_t i = 0; i + 2 < def.grid->values.size(); i += 3) {
+        const float* v = &def.grid->values[i];
+        longest = std::max(longest, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     }
-    TilePhase phase() const override { return TilePhase::Force; }
-    void run(const TileContext&, const void*, Tile& tile) const override
-    {
-        base::applyInstructionSetLimit();
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runVectorField)(def_, tile);
-    }
-
-private:
-    VectorFieldDef def_;
-};
+    longest = std::sqrt(longest) * std::abs(def.strength);
+    return def.isAcceleration ? TileBound{longest} : TileBound{0.0f, longest, false};
+}
 
 } // namespace
 
 std::unique_ptr<TileOp> makeVectorFieldOp(const VectorFieldDef& def)
 {
-    return std::make_unique<VectorFieldOp>(def);
+    VectorFieldDef kept = def;
+    kept.scale = std::max(def.scale, 1e-6f);
+    return makeForceOp(kept, boundOf(kept), [](const VectorFieldDef& d, Tile& tile) {
+        using namespace modules;
+        HWY_DYNAMIC_DISPATCH(runVectorField)(d, tile);
+    });
 }
 
 } // namespace fx::sim

@@ -27,8 +27,8 @@
 #define HWY_TARGET_INCLUDE "simulation/particles/forces/vortex_op.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
-#include "foundation/simd/instruction_set.h"
 #include "simulation/particles/fields/turn.h"
+#include "simulation/particles/forces/force_op.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
 
 #include <algorithm>
@@ -78,37 +78,24 @@ HWY_EXPORT(runVortex);
 
 namespace {
 
-class VortexOp final : public TileOp
+TileBound boundOf(const VortexDef& def)
 {
-public:
-    explicit VortexOp(const VortexDef& def) : def_(def)
-    {
-        def_.axis = unitOrUp(def.axis);
-        def_.radius = std::max(def.radius, 1e-4f);
-        def_.hold = std::clamp(def.hold, 0.0f, 1.0f);
-    }
-    TileBound bound() const override
-    {
-        const float air = std::abs(def_.speed) + std::abs(def_.lift) + std::abs(def_.pull);
-        return {def_.hold * def_.speed * def_.speed / def_.radius, air, false};
-    }
-    TilePhase phase() const override { return TilePhase::Force; }
-    void run(const TileContext&, const void*, Tile& tile) const override
-    {
-        base::applyInstructionSetLimit();
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runVortex)(def_, tile);
-    }
-
-private:
-    VortexDef def_;
-};
+    const float air = std::abs(def.speed) + std::abs(def.lift) + std::abs(def.pull);
+    return {def.hold * def.speed * def.speed / def.radius, air, false};
+}
 
 } // namespace
 
 std::unique_ptr<TileOp> makeVortexOp(const VortexDef& def)
 {
-    return std::make_unique<VortexOp>(def);
+    VortexDef kept = def;
+    kept.axis = unitOrUp(def.axis);
+    kept.radius = std::max(def.radius, 1e-4f);
+    kept.hold = std::clamp(def.hold, 0.0f, 1.0f);
+    return makeForceOp(kept, boundOf(kept), [](const VortexDef& d, Tile& tile) {
+        using namespace modules;
+        HWY_DYNAMIC_DISPATCH(runVortex)(d, tile);
+    });
 }
 
 } // namespace fx::sim
