@@ -5,6 +5,7 @@
 // form: relative errors of the channels that are brighter than a thousandth of the brightest, and the least
 // time of a frame (not of those in wrong order: a view sorts, so that each blob is drawn in a frame of its
 // own there).
+#include "benchmarks/bench_failure.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/frame_snapshot.h"
 #include "fxsdk/cli/accuracy_cards.h"
@@ -29,6 +30,8 @@
 namespace {
 
 using namespace fx;
+using bench::fail;
+using bench::taken;
 using Cards = std::vector<cli::Card>;
 
 constexpr float kField = 2.4f;          ///< [m] that the width of the picture shows
@@ -41,12 +44,6 @@ struct Options
     int repeat = 5;
 };
 
-[[noreturn]] void fail(const std::string& what)
-{
-    std::fprintf(stderr, "bench_billboards: %s\n", what.c_str());
-    std::exit(1);
-}
-
 Options parse(int argc, char** argv)
 {
     Options options;
@@ -57,14 +54,6 @@ Options parse(int argc, char** argv)
     if (options.width < 1 || options.height < 1 || options.repeat < 1)
         fail("sizes and repetitions begin at 1");
     return options;
-}
-
-template <class T>
-T taken(base::Result<T>&& result)
-{
-    if (!result.ok())
-        fail(result.status().message());
-    return std::move(*result);
 }
 
 /// Cards stand in front of the eye, their z along the view.

@@ -4,6 +4,7 @@
 // simulated seconds a second of wall time, over all and over the worst of its seconds, the work behind them,
 // what the cloud looks like at the end, and how far apart its particles stay. --sound: `preset` limits the
 // speed of sound as the preset says, `mach` only by the quality's Mach number, `full` not at all.
+#include "benchmarks/bench_failure.h"
 #include "fxsdk/cli/explosion_run.h"
 #include "fxsdk/cli/json_line.h"
 
@@ -18,6 +19,7 @@
 namespace {
 
 using namespace fx;
+using bench::fail;
 using Clock = std::chrono::steady_clock;
 
 struct Options
@@ -27,12 +29,6 @@ struct Options
     uint32_t threads = 2;
     std::string sound = "preset";
 };
-
-[[noreturn]] void fail(const std::string& what)
-{
-    std::fprintf(stderr, "bench_explosion: %s\n", what.c_str());
-    std::exit(1);
-}
 
 Options parse(int argc, char** argv)
 {

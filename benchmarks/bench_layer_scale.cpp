@@ -4,6 +4,7 @@
 // inside, alone and among pillars before a wall. Prints one JSON object a case and scale: least wall time and
 // processor time of a frame, fragments estimated and counted, and errors against full size relative to the
 // brightest value. Fails when the estimate is no estimate or the picture is another one.
+#include "benchmarks/bench_failure.h"
 #include "foundation/random/philox.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/frame_snapshot.h"
@@ -27,6 +28,8 @@
 namespace {
 
 using namespace fx;
+using bench::fail;
+using bench::taken;
 
 constexpr float kNear = 0.1f;        ///< [m]
 constexpr double kWorstError = 0.15; ///< p99 at 1/4, of the brightest value
@@ -56,12 +59,6 @@ struct Cost
     double processorMs = 1e30; ///< of all threads
 };
 
-[[noreturn]] void fail(const std::string& what)
-{
-    std::fprintf(stderr, "bench_layer_scale: %s\n", what.c_str());
-    std::exit(1);
-}
-
 Options parse(int argc, char** argv)
 {
     Options options;
@@ -73,14 +70,6 @@ Options parse(int argc, char** argv)
     if (options.width < 8 || options.height < 8 || options.blobs < 1 || options.repeat < 1)
         fail("sizes begin at 8x8, counts at 1");
     return options;
-}
-
-template <class T>
-T taken(base::Result<T>&& result)
-{
-    if (!result.ok())
-        fail(result.status().message());
-    return std::move(*result);
 }
 
 /// Glowing smoke in a ball of 3 m, optical depth across about 3.

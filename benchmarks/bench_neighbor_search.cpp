@@ -5,6 +5,7 @@
 // caches hold what 262144 particles leave in them; the mean length of a list; a hash of all lists. Search =
 // sort + refit + lists, what a library must do for unsorted particles. Fails when a sample of lists is not
 // what a trial of all pairs finds.
+#include "benchmarks/bench_failure.h"
 #include "foundation/math/hash.h"
 #include "foundation/random/philox.h"
 #include "foundation/simd/instruction_set.h"
@@ -26,6 +27,7 @@
 namespace {
 
 using namespace fx;
+using bench::fail;
 
 struct Options
 {
@@ -34,12 +36,6 @@ struct Options
     double neighbors = 58;
     double margin = 0;
 };
-
-[[noreturn]] void fail(const std::string& what)
-{
-    std::fprintf(stderr, "bench_neighbor_search: %s\n", what.c_str());
-    std::exit(1);
-}
 
 Options parse(int argc, char** argv)
 {

@@ -5,6 +5,7 @@
 // simulation steps included), and what was drawn: the share of the picture that gas covers and the mean
 // number of layers over each covered pixel, so that the figure cannot be had by drawing little. Times are of
 // this machine; the paper's 15 s are of a CM-5 with 32 processors.
+#include "benchmarks/bench_failure.h"
 #include "fxsdk/cli/json_line.h"
 #include "fxsdk/fxsdk.h"
 #include "rendering/gl/gl_device.h"
@@ -26,6 +27,7 @@
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using fx::bench::fail;
 
 constexpr std::string_view kPreset = R"({
   "version": 1, "name": "paper",
@@ -50,12 +52,6 @@ struct FrameTime
     double update, submit, finish;
     double total() const { return update + submit + finish; }
 };
-
-[[noreturn]] void fail(const std::string& what)
-{
-    std::fprintf(stderr, "bench_paper_frame: %s\n", what.c_str());
-    std::exit(1);
-}
 
 void check(FxResult result, const char* what)
 {

@@ -10,6 +10,7 @@
 // 99th percentile of the relative error (against reference_integral.h, on every 37th packet) is no larger,
 // both in double, since sums of many small steps in float never get there; the ratio of the two times. Where
 // even steps of 0.1 mm do not reach it, the ratio is a lower bound.
+#include "benchmarks/bench_failure.h"
 #include "foundation/math/hash.h"
 #include "foundation/simd/instruction_set.h"
 #include "foundation/tasks/task_runner.h"
@@ -29,6 +30,7 @@
 namespace {
 
 using namespace fx;
+using bench::fail;
 
 struct Options
 {
@@ -36,12 +38,6 @@ struct Options
     uint32_t width = 480, height = 300;
     uint64_t validate = 0; ///< 0: nothing
 };
-
-[[noreturn]] void fail(const std::string& what)
-{
-    std::fprintf(stderr, "bench_ray_integral: %s\n", what.c_str());
-    std::exit(1);
-}
 
 Options parse(int argc, char** argv)
 {

@@ -2,11 +2,11 @@
 
 #include "foundation/math/bits.h"
 #include "foundation/math/hash.h"
+#include "foundation/memory/same_bytes.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 namespace fx::base {
@@ -16,12 +16,6 @@ namespace {
 Status invalid(std::string why)
 {
     return {Code::InvalidArgument, std::move(why)};
-}
-
-template <class T>
-bool sameBytes(std::span<const T> a, std::span<const T> b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
 }
 
 Status checkMesh(std::span<const MeshVertex> vertices, std::span<const uint32_t> indices)

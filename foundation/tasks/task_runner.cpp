@@ -1,5 +1,7 @@
 #include "foundation/tasks/task_runner.h"
 
+#include "foundation/tasks/loop_order.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -33,11 +35,16 @@ public:
                 body(argument, 0, count);
             return;
         }
+        LoopOrder order;
         arena_.execute([&] {
-            tbb::parallel_for(
-                tbb::blocked_range<uint32_t>(0, count, batch),
-                [&](const tbb::blocked_range<uint32_t>& r) { body(argument, r.begin(), r.end()); });
+            tbb::parallel_for(tbb::blocked_range<uint32_t>(0, count, batch),
+                              [&](const tbb::blocked_range<uint32_t>& r) {
+                                  order.enterCall();
+                                  body(argument, r.begin(), r.end());
+                                  order.leaveCall();
+                              });
         });
+        order.endLoop();
     }
 
 private:

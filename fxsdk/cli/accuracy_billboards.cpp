@@ -84,7 +84,7 @@ std::vector<render::RayBlob<T>> blobsOfRay(const std::vector<Card>& cards, const
     return blobs;
 }
 
-class BillboardAccuracy final : public AccuracyTechnique
+class BillboardAccuracy final : public CountedAccuracy
 {
 public:
     explicit BillboardAccuracy(const std::string& scene);
@@ -92,7 +92,10 @@ public:
     std::string_view scene() const override { return scene_; }
     const std::vector<AccuracySetting>& settings() const override { return settings_; }
     std::optional<MeasuredWork> work(size_t setting) override;
-    base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) override;
+
+protected:
+    double items() const override { return double(rays_.size()); }
+    void judge(size_t setting, AccuracySample& outSample) override;
 
 private:
     void makeReference();
@@ -180,20 +183,12 @@ std::vector<double> BillboardAccuracy::errors() const
     return errors;
 }
 
-base::Result<AccuracySample> BillboardAccuracy::run(size_t setting, const std::function<bool()>& stop)
+void BillboardAccuracy::judge(size_t, AccuracySample& outSample)
 {
-    if (stop())
-        return base::Status(base::Code::Interrupted, "interrupted");
-    AccuracySample sample;
-    const MeasuredWork measured = *work(setting);
-    sample.seconds = measured.seconds;
-    sample.instructions = measured.instructions;
-    sample.items = double(rays_.size());
     if (reference_.empty())
         makeReference();
-    storeErrors(errors(), sample);
-    sample.work = counters_;
-    return sample;
+    storeErrors(errors(), outSample);
+    outSample.work = counters_;
 }
 
 } // namespace

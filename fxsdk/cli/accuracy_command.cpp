@@ -78,7 +78,7 @@ base::Result<std::vector<AccuracyCurve>> measureAll(const AccuracyArguments& arg
             return curve.status();
         curves.push_back(std::move(*curve));
         if (interruptRequested())
-            return base::Status(base::Code::Interrupted, "interrupted");
+            return interruptedStatus();
     }
     return curves;
 }

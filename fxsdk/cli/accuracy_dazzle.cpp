@@ -67,7 +67,7 @@ std::vector<double> bySums(const std::vector<float>& gray)
     return out;
 }
 
-class DazzleAccuracy final : public AccuracyTechnique
+class DazzleAccuracy final : public CountedAccuracy
 {
 public:
     explicit DazzleAccuracy(const std::string& scene)
@@ -92,15 +92,11 @@ public:
         });
     }
 
-    base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) override
+protected:
+    double items() const override { return double(kPixels); }
+
+    void judge(size_t, AccuracySample& outSample) override
     {
-        if (stop())
-            return base::Status(base::Code::Interrupted, "interrupted");
-        AccuracySample sample;
-        const MeasuredWork measured = *work(setting);
-        sample.seconds = measured.seconds;
-        sample.instructions = measured.instructions;
-        sample.items = double(kPixels);
         if (reference_.empty())
             reference_ = bySums<long double>(gray_);
         std::vector<double> errors;
@@ -112,10 +108,9 @@ public:
             expected += static_cast<long double>(reference_[i]);
             dealt += std::max(static_cast<long double>(gray_[i]) - 1.0L, 0.0L);
         }
-        storeErrors(std::move(errors), sample);
-        sample.work = {{"pixels", kPixels},
-                       {"light_created_per_overflow", double((light - expected) / dealt)}};
-        return sample;
+        storeErrors(std::move(errors), outSample);
+        outSample.work = {{"pixels", kPixels},
+                          {"light_created_per_overflow", double((light - expected) / dealt)}};
     }
 
 private:

@@ -8,6 +8,7 @@
 
 #include "fxsdk/cli/accuracy_technique.h"
 #include "fxsdk/cli/explosion_run.h"
+#include "fxsdk/cli/interrupt.h"
 
 #include <algorithm>
 #include <array>
@@ -75,7 +76,7 @@ base::Result<ExplosionAccuracy::Played> ExplosionAccuracy::play(const ExplosionS
     Played out;
     for (int frame = 0; frame < kFrames; ++frame) {
         if (stop && stop())
-            return base::Status(base::Code::Interrupted, "interrupted");
+            return interruptedStatus();
         const auto begin = std::chrono::steady_clock::now();
         (*run)->step();
         out.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

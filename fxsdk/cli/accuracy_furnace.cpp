@@ -61,7 +61,7 @@ FurnaceRay<T> makeRay(double depth, uint32_t count, uint64_t seed)
 }
 
 template <class T>
-class FurnaceAccuracy final : public AccuracyTechnique
+class FurnaceAccuracy final : public CountedAccuracy
 {
 public:
     explicit FurnaceAccuracy(const std::string& scene)
@@ -93,25 +93,20 @@ public:
         return measured;
     }
 
-    base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) override
+protected:
+    double items() const override { return double(rays_.size()); }
+
+    void judge(size_t, AccuracySample& outSample) override
     {
-        if (stop())
-            return base::Status(base::Code::Interrupted, "interrupted");
-        AccuracySample sample;
-        const MeasuredWork measured = *work(setting);
-        sample.seconds = measured.seconds;
-        sample.instructions = measured.instructions;
-        sample.items = double(rays_.size());
         double excess = 0; // light that was created
         std::vector<double> errors;
         for (size_t i = 0; i < rays_.size(); ++i) {
             errors.push_back(double(lights_[i].radiance[0]) / rays_[i].light - 1.0);
             excess = std::max(excess, errors.back());
         }
-        storeErrors(std::move(errors), sample);
-        sample.work = toJson(counters_);
-        sample.work["excess"] = excess;
-        return sample;
+        storeErrors(std::move(errors), outSample);
+        outSample.work = toJson(counters_);
+        outSample.work["excess"] = excess;
     }
 
 private:

@@ -18,7 +18,7 @@ using render::IntegralSettings;
 constexpr uint32_t kWidth = 480, kHeight = 300; // [pixel]
 constexpr uint32_t kEvery = 29; // packets of 4 x 4 pixels: 310 of 9000, spread over the picture
 
-class RayIntegralAccuracy final : public AccuracyTechnique
+class RayIntegralAccuracy final : public CountedAccuracy
 {
 public:
     RayIntegralAccuracy(const std::string& scene, double opticalDepth)
@@ -38,20 +38,15 @@ public:
         return measureWork([&] { picture_.integrate(integrator, 0, picture_.packets(), lights_.data()); });
     }
 
-    base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) override
+protected:
+    double items() const override { return double(picture_.packets() * render::kPacketRays); }
+
+    void judge(size_t setting, AccuracySample& outSample) override
     {
-        if (stop())
-            return base::Status(base::Code::Interrupted, "interrupted");
-        AccuracySample sample;
-        const MeasuredWork measured = *work(setting);
-        sample.seconds = measured.seconds;
-        sample.instructions = measured.instructions;
-        sample.items = double(picture_.packets() * render::kPacketRays);
         if (reference_.empty())
             makeReference();
-        storeErrors(errors(), sample);
-        sample.work = counters(setting);
-        return sample;
+        storeErrors(errors(), outSample);
+        outSample.work = counters(setting);
     }
 
 private:

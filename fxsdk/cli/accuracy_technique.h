@@ -62,6 +62,19 @@ public:
     virtual std::optional<MeasuredWork> work(size_t /*setting*/) { return std::nullopt; }
 };
 
+/// A technique all of whose work is short enough to be counted: work() is what is timed.
+class CountedAccuracy : public AccuracyTechnique
+{
+public:
+    base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) final;
+
+protected:
+    /// Of one work().
+    virtual double items() const = 0;
+    /// Stores the errors and counters of the last work(), which was with this setting.
+    virtual void judge(size_t setting, AccuracySample& outSample) = 0;
+};
+
 /// Which of the errors the plot shows and the front is made of.
 enum class ShownError
 {

@@ -10,8 +10,6 @@
 namespace fx::cli {
 namespace {
 
-constexpr uint64_t kUsualCount = 40'000;
-constexpr uint64_t kMostCount = 10'000'000;
 constexpr float kStepsPerSecond = 60.0f;
 
 std::shared_ptr<const sim::EffectDef> emitter(std::string_view variant, uint64_t count)
@@ -37,26 +35,24 @@ std::shared_ptr<const sim::EffectDef> emitter(std::string_view variant, uint64_t
     return effect;
 }
 
-base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view variant, uint64_t count)
+} // namespace
+
+base::Result<BenchRow> benchEmit(const BenchSettings& settings, std::string_view variant)
 {
     BenchStage stage(settings.threads);
-    stage.add(emitter(variant, count), 1);
+    stage.add(emitter(variant, settings.count), 1);
     stage.play(4);
     const uint64_t before = stage.counters().born;
-    const uint32_t steps =
-        settings.steps > 0
-            ? settings.steps
-            : uint32_t(std::clamp<uint64_t>(20'000'000 / std::max<uint64_t>(count, 1), 30, 500));
+    const uint32_t steps = settings.steps > 0
+                               ? settings.steps
+                               : uint32_t(std::clamp<uint64_t>(20'000'000 / settings.count, 30, 500));
     for (uint32_t i = 0; i < steps; ++i) {
         if (interruptRequested())
-            return base::Status{base::Code::Interrupted, "interrupted"};
+            return interruptedStatus();
         stage.playTimed();
     }
     const double born = double(stage.counters().born - before) / double(steps);
     BenchRow row;
-    row.name = "emit";
-    row.variant = variant;
-    row.count = count;
     row.medianNanoseconds = 1e9 * quantile(stage.times(), 0.5) / born;
     row.p95Nanoseconds = 1e9 * quantile(stage.times(), 0.95) / born;
     row.hash = stage.hash();
@@ -65,26 +61,6 @@ base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view v
                 {"steps", steps},
                 {"dropped", stage.counters().dropped}};
     return row;
-}
-
-} // namespace
-
-base::Result<std::vector<BenchRow>> benchEmit(const BenchSettings& settings)
-{
-    const uint64_t count = settings.count > 0 ? settings.count : kUsualCount;
-    if (count > kMostCount)
-        return base::Status{base::Code::InvalidArgument, "--count: at most " + std::to_string(kMostCount) +
-                                                             " births a step can be measured"};
-    std::vector<BenchRow> rows;
-    for (const std::string_view variant : findBenchEntry("emit")->variants) {
-        if (!settings.variant.empty() && settings.variant != variant)
-            continue;
-        base::Result<BenchRow> row = measure(settings, variant, count);
-        if (!row)
-            return row.status();
-        rows.push_back(std::move(*row));
-    }
-    return rows;
 }
 
 } // namespace fx::cli

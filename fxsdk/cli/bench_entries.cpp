@@ -16,13 +16,16 @@ constexpr std::array<std::string_view, 3> kEmitVariants{"point", "sphere", "cone
 constexpr std::array<std::string_view, 2> kFrameVariants{"unsorted", "sorted"};
 
 constexpr std::array<BenchEntry, 5> kEntries{{
-    {"particles", "One emitter: step it, publish the snapshot", kParticleVariants, true, benchParticles},
+    {"particles", "One emitter: step it, publish the snapshot", kParticleVariants, true, 40'000, 50'000'000,
+     "particles", benchParticles},
     {"many-small", "The same number of particles in many small effects and in few", kManySmallVariants, false,
-     benchManySmall},
-    {"sort", "The order of drawing, on one thread", kSortVariants, false, benchSort},
-    {"emit", "Births: all particles are new in every step", kEmitVariants, false, benchEmit},
-    {"frame", "Update, upload, submission and drawing of sprites with OpenGL", kFrameVariants, true,
-     benchFrame},
+     10'000, uint64_t(1) << 32, "particles", benchManySmall},
+    {"sort", "The order of drawing, on one thread", kSortVariants, false, 400'000, 100'000'000, "elements",
+     benchSort},
+    {"emit", "Births: all particles are new in every step", kEmitVariants, false, 40'000, 10'000'000,
+     "births a step", benchEmit},
+    {"frame", "Update, upload, submission and drawing of sprites with OpenGL", kFrameVariants, true, 20'000,
+     16'000'000, "sprites", benchFrame},
 }};
 
 std::string hexadecimal(uint64_t hash)
@@ -45,6 +48,30 @@ const BenchEntry* findBenchEntry(std::string_view name)
         if (entry.name == name)
             return &entry;
     return nullptr;
+}
+
+base::Result<std::vector<BenchRow>> measureVariants(const BenchEntry& entry, const BenchSettings& asked)
+{
+    BenchSettings settings = asked;
+    if (settings.count == 0)
+        settings.count = entry.usualCount;
+    if (settings.count > entry.mostCount)
+        return base::Status{base::Code::InvalidArgument,
+                            "--count: at most " + std::to_string(entry.mostCount) + " " +
+                                std::string(entry.elements) + " can be measured"};
+    std::vector<BenchRow> rows;
+    for (const std::string_view variant : entry.variants) {
+        if (!settings.variant.empty() && settings.variant != variant)
+            continue;
+        base::Result<BenchRow> row = entry.measure(settings, variant);
+        if (!row)
+            return row.status();
+        row->name = entry.name;
+        row->variant = variant;
+        row->count = settings.count;
+        rows.push_back(std::move(*row));
+    }
+    return rows;
 }
 
 nlohmann::json toJson(const BenchRow& row)

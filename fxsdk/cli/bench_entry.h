@@ -17,7 +17,7 @@ namespace fx::cli {
 /// What the command line asked for.
 struct BenchSettings
 {
-    uint64_t count = 0;   ///< elements, 0: what the entry is usually measured with
+    uint64_t count = 0;   ///< elements, 0: BenchEntry::usualCount
     uint32_t threads = 1; ///< 0: as many as the machine has
     uint32_t steps = 0;   ///< that are timed, 0: as many as take about a second
     std::string variant;  ///< empty: all of the entry
@@ -44,13 +44,23 @@ struct BenchEntry
     std::string_view summary;
     std::span<const std::string_view> variants;
     bool hasGpu; ///< heeds BenchSettings::gpu
-    /// @return one row a variant asked for; Interrupted after a signal
-    base::Result<std::vector<BenchRow>> (*run)(const BenchSettings& settings);
+    uint64_t usualCount;
+    uint64_t mostCount;
+    std::string_view elements; ///< what is counted, as errors say it
+    /// One variant.
+    /// @param settings with a count of 1 to mostCount
+    /// @return Interrupted after a signal
+    base::Result<BenchRow> (*measure)(const BenchSettings& settings, std::string_view variant);
 };
 
 std::span<const BenchEntry> benchEntries();
 /// Null for an unknown name.
 const BenchEntry* findBenchEntry(std::string_view name);
+
+/// @return one row a variant asked for; InvalidArgument for more than entry.mostCount elements; the first
+/// error of
+///         a variant, Interrupted among them
+base::Result<std::vector<BenchRow>> measureVariants(const BenchEntry& entry, const BenchSettings& settings);
 
 nlohmann::json toJson(const BenchRow& row);
 std::string toText(const BenchRow& row);

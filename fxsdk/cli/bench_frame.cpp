@@ -13,8 +13,6 @@
 namespace fx::cli {
 namespace {
 
-constexpr uint64_t kUsualCount = 20'000;
-constexpr uint64_t kMostCount = 16'000'000;
 constexpr int kPixels = 512;
 constexpr uint32_t kWarmFrames = 200; // a life and some more
 constexpr uint32_t kPoolFrames = 4;   // with drawing, until the scene knows who computes
@@ -65,7 +63,9 @@ base::Status playFrame(BenchScene& scene, Times& times)
     return status;
 }
 
-base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view variant, uint64_t count)
+} // namespace
+
+base::Result<BenchRow> benchFrame(const BenchSettings& settings, std::string_view variant)
 {
     BenchScene::Options options;
     options.gl = true;
@@ -73,7 +73,7 @@ base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view v
     auto scene = BenchScene::create(options);
     if (!scene.ok())
         return scene.status();
-    auto preset = (*scene)->load(presetText(variant, count, settings.gpu));
+    auto preset = (*scene)->load(presetText(variant, settings.count, settings.gpu));
     if (!preset.ok())
         return preset.status();
     base::Status status = (*scene)->add(*preset, 0, 0, 1, 0);
@@ -85,7 +85,7 @@ base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view v
     const uint32_t frames = settings.steps > 0 ? settings.steps : 30;
     for (uint32_t i = 0; i < frames + kPoolFrames && status.ok(); ++i) {
         if (interruptRequested())
-            return base::Status{base::Code::Interrupted, "interrupted"};
+            return interruptedStatus();
         if (i == kPoolFrames)
             times = {}; // what came before has filled pools
         status = playFrame(**scene, times);
@@ -95,11 +95,8 @@ base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view v
     const FxViewStatistics view = (*scene)->viewStatistics();
     const auto milliseconds = [](const std::vector<double>& t) { return 1e3 * quantile(t, 0.5); };
     BenchRow row;
-    row.name = "frame";
-    row.variant = variant;
-    row.count = count;
-    row.medianNanoseconds = 1e9 * quantile(times.whole, 0.5) / double(count);
-    row.p95Nanoseconds = 1e9 * quantile(times.whole, 0.95) / double(count);
+    row.medianNanoseconds = 1e9 * quantile(times.whole, 0.5) / double(settings.count);
+    row.p95Nanoseconds = 1e9 * quantile(times.whole, 0.95) / double(settings.count);
     row.more = {{"ms_update", milliseconds(times.update)},
                 {"ms_upload", milliseconds(times.upload)},
                 {"ms_submit", milliseconds(times.submit)},
@@ -111,26 +108,6 @@ base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view v
                 {"path", view.gpuParticles > 0 ? "gpu" : "cpu"},
                 {"renderer", (*scene)->renderer()}};
     return row;
-}
-
-} // namespace
-
-base::Result<std::vector<BenchRow>> benchFrame(const BenchSettings& settings)
-{
-    const uint64_t count = settings.count > 0 ? settings.count : kUsualCount;
-    if (count > kMostCount)
-        return base::Status{base::Code::InvalidArgument,
-                            "--count: at most " + std::to_string(kMostCount) + " sprites can be measured"};
-    std::vector<BenchRow> rows;
-    for (const std::string_view variant : findBenchEntry("frame")->variants) {
-        if (!settings.variant.empty() && settings.variant != variant)
-            continue;
-        base::Result<BenchRow> row = measure(settings, variant, count);
-        if (!row)
-            return row.status();
-        rows.push_back(std::move(*row));
-    }
-    return rows;
 }
 
 } // namespace fx::cli

@@ -128,7 +128,7 @@ base::Status playTimed(BenchStage& stage, GpuStage& gpu, uint32_t steps, Times& 
 {
     for (uint32_t i = 0; i < steps; ++i) {
         if (interruptRequested())
-            return {base::Code::Interrupted, "interrupted"};
+            return interruptedStatus();
         stage.playTimed();
         double dispatch = 0, finish = 0;
         const auto held = stage.last();
@@ -157,9 +157,6 @@ base::Result<BenchRow> measureOnGpu(const BenchSettings& settings, std::string_v
     stage.add(effect, 1);
     stage.play(uint32_t(kSteadyAfter * 60.0));
     BenchRow row;
-    row.name = "particles";
-    row.variant = variant;
-    row.count = settings.count;
     const auto held = stage.last();
     const bool onGpu = held.newer->group(0).program() != nullptr;
     stage.release(held);

@@ -6,12 +6,13 @@
 namespace fx::cli {
 namespace {
 
-constexpr uint64_t kUsualCount = 10000;
 constexpr uint32_t kPerSmall = 10;   // particles of an effect in "many"
 constexpr uint32_t kPerLarge = 1000; // in "few"
 constexpr uint32_t kWarmSteps = uint32_t(kSteadyAfter * 60.0);
 
-base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view variant)
+} // namespace
+
+base::Result<BenchRow> benchManySmall(const BenchSettings& settings, std::string_view variant)
 {
     const uint32_t each = variant == "many" ? kPerSmall : kPerLarge;
     const std::shared_ptr<const sim::EffectDef> effect = benchEffect("lean", each);
@@ -21,33 +22,11 @@ base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view v
         stage.add(effect, i + 1); // different seeds: none is simulated together with another
     stage.play(kWarmSteps);
     BenchRow row;
-    row.name = "many-small";
-    row.variant = variant;
-    row.count = settings.count;
     const uint32_t steps = settings.steps > 0 ? settings.steps : 2000;
     if (base::Status status = timeStage(stage, steps, *effect, row); !status)
         return status;
     row.more["instances"] = instances;
     return row;
-}
-
-} // namespace
-
-base::Result<std::vector<BenchRow>> benchManySmall(const BenchSettings& asked)
-{
-    BenchSettings settings = asked;
-    if (settings.count == 0)
-        settings.count = kUsualCount;
-    std::vector<BenchRow> rows;
-    for (const std::string_view variant : findBenchEntry("many-small")->variants) {
-        if (!settings.variant.empty() && settings.variant != variant)
-            continue;
-        base::Result<BenchRow> row = measure(settings, variant);
-        if (!row)
-            return row.status();
-        rows.push_back(std::move(*row));
-    }
-    return rows;
 }
 
 } // namespace fx::cli

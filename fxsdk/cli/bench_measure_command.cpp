@@ -73,7 +73,7 @@ int runBench(const BenchArguments& arguments)
         if (variant.empty() && variants.size() > 1)
             return refused("--validate-hash: say with --variant what the hash is of");
     }
-    const base::Result<std::vector<BenchRow>> rows = entry->run(arguments.settings);
+    const base::Result<std::vector<BenchRow>> rows = measureVariants(*entry, arguments.settings);
     if (!rows) {
         std::fprintf(stderr, "fx bench: %s\n", rows.status().message().c_str());
         return exitCodeOf(rows.status());

@@ -8,15 +8,13 @@
 namespace fx::cli {
 namespace {
 
-constexpr uint64_t kUsualCount = 40000;
-constexpr uint64_t kMostCount = 50'000'000;
 constexpr uint32_t kWarmSteps = uint32_t(kSteadyAfter * 60.0);
 
 uint32_t stepsFor(const BenchSettings& settings)
 {
     if (settings.steps > 0)
         return settings.steps;
-    return uint32_t(std::clamp<uint64_t>(200'000'000 / std::max<uint64_t>(settings.count, 1), 60, 2000));
+    return uint32_t(std::clamp<uint64_t>(200'000'000 / settings.count, 60, 2000));
 }
 
 } // namespace
@@ -25,7 +23,7 @@ base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& 
 {
     for (uint32_t i = 0; i < steps; ++i) {
         if (interruptRequested())
-            return {base::Code::Interrupted, "interrupted"};
+            return interruptedStatus();
         stage.playTimed();
     }
     const double alive = double(std::max<uint64_t>(stage.particles(), 1));
@@ -44,47 +42,21 @@ base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& 
     return {};
 }
 
-namespace {
-
-base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view variant)
+base::Result<BenchRow> benchParticles(const BenchSettings& settings, std::string_view variant)
 {
+    if (settings.gpu)
+        return measureOnGpu(settings, variant);
     const std::shared_ptr<const sim::EffectDef> effect = benchEffect(variant, uint32_t(settings.count));
     BenchStage stage(settings.threads);
     stage.add(effect, 1);
     stage.play(kWarmSteps);
     const uint64_t allocations = stage.allocations();
     BenchRow row;
-    row.name = "particles";
-    row.variant = variant;
-    row.count = settings.count;
     if (base::Status status = timeStage(stage, stepsFor(settings), *effect, row); !status)
         return status;
     row.more["dropped"] = stage.counters().dropped;
     row.more["allocations"] = stage.allocations() - allocations;
     return row;
-}
-
-} // namespace
-
-base::Result<std::vector<BenchRow>> benchParticles(const BenchSettings& asked)
-{
-    BenchSettings settings = asked;
-    if (settings.count == 0)
-        settings.count = kUsualCount;
-    if (settings.count > kMostCount)
-        return base::Status{base::Code::InvalidArgument,
-                            "--count: at most " + std::to_string(kMostCount) + " particles can be measured"};
-    std::vector<BenchRow> rows;
-    for (const std::string_view variant : findBenchEntry("particles")->variants) {
-        if (!settings.variant.empty() && settings.variant != variant)
-            continue;
-        base::Result<BenchRow> row =
-            settings.gpu ? measureOnGpu(settings, variant) : measure(settings, variant);
-        if (!row)
-            return row.status();
-        rows.push_back(std::move(*row));
-    }
-    return rows;
 }
 
 } // namespace fx::cli

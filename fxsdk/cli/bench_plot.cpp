@@ -43,13 +43,12 @@ base::Result<std::vector<Line>> measureLines(uint32_t threads)
             BenchSettings settings;
             settings.count = count;
             settings.threads = threads;
-            settings.variant = variant;
             settings.steps = count < 100'000 ? 300 : 20;
-            auto rows = benchParticles(settings);
-            if (!rows)
-                return rows.status();
+            const auto row = benchParticles(settings, variant);
+            if (!row)
+                return row.status();
             line.counts.push_back(double(count));
-            line.milliseconds.push_back(1e-6 * rows->front().medianNanoseconds * double(count));
+            line.milliseconds.push_back(1e-6 * row->medianNanoseconds * double(count));
             bar.update(++done);
             if (1e-3 * line.milliseconds.back() * 3.0 > kLongest)
                 break;

@@ -8,17 +8,17 @@
 namespace fx::cli {
 
 /// Plays and times `steps` frames of a stage whose instances all show `effect`.
-/// @param row has name, variant and count; gets everything else
+/// @param row gets everything but name, variant and count, which measureVariants() knows
 /// @return Interrupted after a signal
 base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& effect, BenchRow& row);
 
 /// One variant of the entry particles, computed on the GPU where it can; else as without.
 base::Result<BenchRow> measureOnGpu(const BenchSettings& settings, std::string_view variant);
 
-base::Result<std::vector<BenchRow>> benchParticles(const BenchSettings& settings);
-base::Result<std::vector<BenchRow>> benchManySmall(const BenchSettings& settings);
-base::Result<std::vector<BenchRow>> benchSort(const BenchSettings& settings);
-base::Result<std::vector<BenchRow>> benchEmit(const BenchSettings& settings);
-base::Result<std::vector<BenchRow>> benchFrame(const BenchSettings& settings);
+base::Result<BenchRow> benchParticles(const BenchSettings& settings, std::string_view variant);
+base::Result<BenchRow> benchManySmall(const BenchSettings& settings, std::string_view variant);
+base::Result<BenchRow> benchSort(const BenchSettings& settings, std::string_view variant);
+base::Result<BenchRow> benchEmit(const BenchSettings& settings, std::string_view variant);
+base::Result<BenchRow> benchFrame(const BenchSettings& settings, std::string_view variant);
 
 } // namespace fx::cli

@@ -18,9 +18,6 @@
 namespace fx::cli {
 namespace {
 
-constexpr uint64_t kUsualCount = 400'000;
-constexpr uint64_t kMostCount = 100'000'000;
-
 double threadSeconds()
 {
     timespec t{};
@@ -106,33 +103,21 @@ Sorting sortAgain(std::string_view variant, uint64_t count, uint32_t steps)
 
 } // namespace
 
-base::Result<std::vector<BenchRow>> benchSort(const BenchSettings& settings)
+base::Result<BenchRow> benchSort(const BenchSettings& settings, std::string_view variant)
 {
-    const uint64_t count = settings.count > 0 ? settings.count : kUsualCount;
-    if (count > kMostCount)
-        return base::Status{base::Code::InvalidArgument,
-                            "--count: at most " + std::to_string(kMostCount) + " elements can be measured"};
-    std::vector<BenchRow> rows;
-    for (const std::string_view variant : findBenchEntry("sort")->variants) {
-        if (!settings.variant.empty() && settings.variant != variant)
-            continue;
-        const Sorting sorting = sortAgain(variant, count, settings.steps > 0 ? settings.steps : 15);
-        if (interruptRequested())
-            return base::Status{base::Code::Interrupted, "interrupted"};
-        if (!sorting.isRight)
-            return base::Status{base::Code::Internal,
-                                "sort: the order of '" + std::string(variant) + "' is wrong"};
-        BenchRow row;
-        row.name = "sort";
-        row.variant = variant;
-        row.count = count;
-        row.medianNanoseconds = 1e9 * quantile(sorting.seconds, 0.5) / double(count);
-        row.p95Nanoseconds = 1e9 * quantile(sorting.seconds, 0.95) / double(count);
-        row.hash = sorting.hash;
-        row.more = {{"ns_per_particle_min", 1e9 * quantile(sorting.seconds, 0.0) / double(count)}};
-        rows.push_back(std::move(row));
-    }
-    return rows;
+    const Sorting sorting = sortAgain(variant, settings.count, settings.steps > 0 ? settings.steps : 15);
+    if (interruptRequested())
+        return interruptedStatus();
+    if (!sorting.isRight)
+        return base::Status{base::Code::Internal,
+                            "sort: the order of '" + std::string(variant) + "' is wrong"};
+    const double perElement = 1e9 / double(settings.count); // [ns]
+    BenchRow row;
+    row.medianNanoseconds = perElement * quantile(sorting.seconds, 0.5);
+    row.p95Nanoseconds = perElement * quantile(sorting.seconds, 0.95);
+    row.hash = sorting.hash;
+    row.more = {{"ns_per_particle_min", perElement * quantile(sorting.seconds, 0.0)}};
+    return row;
 }
 
 } // namespace fx::cli

@@ -1,6 +1,7 @@
 #include "fxsdk/cli/calibrate_ladders.h"
 
 #include "fxsdk/cli/default_stage.h"
+#include "fxsdk/cli/interrupt.h"
 #include "fxsdk/quality/calibration_file.h"
 
 #include <algorithm>
@@ -181,7 +182,7 @@ base::Status measureSubject(const Subject& subject, const CalibrateRules& rules,
             return status;
         for (std::vector<double>& round : seconds) {
             if (rules.stop && rules.stop())
-                return {base::Code::Interrupted, "interrupted"};
+                return interruptedStatus();
             if (base::Status status = measurement.round(false, round, errors); !status)
                 return status;
             roundDone();

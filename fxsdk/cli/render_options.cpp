@@ -56,9 +56,8 @@ base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
     return {};
 }
 
-} // namespace
-
-void addRenderOptions(CLI::App& command, RenderArguments& arguments)
+/// What is drawn, of when, and where it goes.
+void addOutputOptions(CLI::App& command, RenderArguments& arguments)
 {
     command
         .add_option(
@@ -82,6 +81,11 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments)
     command.add_option("--fps", arguments.framesPerSecond, "Frames a second; frame N shows the time N / fps")
         ->check(CLI::Range(0.1, 1000.0))
         ->capture_default_str();
+}
+
+/// How it looks.
+void addLookOptions(CLI::App& command, RenderArguments& arguments)
+{
     command
         .add_option("--quality", arguments.quality,
                     "low: homogeneous balls, no detail, no shimmer; medium: with "
@@ -104,7 +108,15 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments)
                     "*.blobs.csv too")
         ->check(CLI::IsMember({"gl", "reference"}))
         ->capture_default_str();
-    command.add_option("--stats", arguments.statistics, "Write one JSON object a frame to this file");
+    command.add_flag(
+        "--overlay", arguments.overlay,
+        "Look through the scene's camera only, and draw the boxes of all effects in the color of "
+        "their state: green active, red hidden, blue resting");
+}
+
+/// What may be saved in drawing.
+void addEconomyOptions(CLI::App& command, RenderArguments& arguments)
+{
     command
         .add_option("--layer-scale", arguments.layerScale,
                     "Width and height at which particles are drawn, over those of the picture")
@@ -125,13 +137,24 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments)
                     "[pixel] Radius below which effects are drawn as pictures of themselves; 0: none")
         ->check(CLI::Range(0.0f, 13.0f))
         ->capture_default_str();
-    command.add_flag(
-        "--overlay", arguments.overlay,
-        "Look through the scene's camera only, and draw the boxes of all effects in the color of "
-        "their state: green active, red hidden, blue resting");
+}
+
+void addReportOptions(CLI::App& command, RenderArguments& arguments)
+{
+    command.add_option("--stats", arguments.statistics, "Write one JSON object a frame to this file");
     command.add_flag("--overdraw", arguments.overdraw,
                      "Count shaded fragments and covered pixels in the statistics");
     command.add_flag("--json", arguments.json, "Print one JSON object a frame");
+}
+
+} // namespace
+
+void addRenderOptions(CLI::App& command, RenderArguments& arguments)
+{
+    addOutputOptions(command, arguments);
+    addLookOptions(command, arguments);
+    addEconomyOptions(command, arguments);
+    addReportOptions(command, arguments);
     addReferenceOptions(command, arguments.reference);
 }
 

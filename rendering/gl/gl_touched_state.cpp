@@ -168,36 +168,20 @@ void restoreActiveTexture(const Gl& gl, GLenum, uint32_t, const Saved& saved)
     gl.ActiveTexture(asEnum(saved.integers[0]));
 }
 
+/// A binding of a texture unit.
+void saveUnit(const Gl& gl, GLenum what, uint32_t unit, Saved& out)
+{
+    gl.ActiveTexture(GL_TEXTURE0 + unit);
+    out.integers[0] = integer(gl, what);
+}
+
 /// Only the unit's bindings of 2-D textures and arrays of them are ours: glBindTextureUnit(unit, 0) would
 /// also drop the host's cube map.
-void saveTexture(const Gl& gl, GLenum, uint32_t unit, Saved& out)
+void restoreTexture(const Gl& gl, GLenum what, uint32_t unit, const Saved& saved)
 {
     gl.ActiveTexture(GL_TEXTURE0 + unit);
-    out.integers[0] = integer(gl, GL_TEXTURE_BINDING_2D);
-}
-
-void restoreTexture(const Gl& gl, GLenum, uint32_t unit, const Saved& saved)
-{
-    gl.ActiveTexture(GL_TEXTURE0 + unit);
-    gl.BindTexture(GL_TEXTURE_2D, asName(saved.integers[0]));
-}
-
-void saveTextureArray(const Gl& gl, GLenum, uint32_t unit, Saved& out)
-{
-    gl.ActiveTexture(GL_TEXTURE0 + unit);
-    out.integers[0] = integer(gl, GL_TEXTURE_BINDING_2D_ARRAY);
-}
-
-void restoreTextureArray(const Gl& gl, GLenum, uint32_t unit, const Saved& saved)
-{
-    gl.ActiveTexture(GL_TEXTURE0 + unit);
-    gl.BindTexture(GL_TEXTURE_2D_ARRAY, asName(saved.integers[0]));
-}
-
-void saveSampler(const Gl& gl, GLenum, uint32_t unit, Saved& out)
-{
-    gl.ActiveTexture(GL_TEXTURE0 + unit);
-    out.integers[0] = integer(gl, GL_SAMPLER_BINDING);
+    gl.BindTexture(what == GL_TEXTURE_BINDING_2D ? GL_TEXTURE_2D : GL_TEXTURE_2D_ARRAY,
+                   asName(saved.integers[0]));
 }
 
 void restoreSampler(const Gl& gl, GLenum, uint32_t unit, const Saved& saved)
@@ -290,9 +274,9 @@ constexpr GlTouchedState kTable[] = {
     {"GL_CURRENT_PROGRAM", GL_CURRENT_PROGRAM, 1, saveInteger, restoreProgram},
     {"GL_VERTEX_ARRAY_BINDING", GL_VERTEX_ARRAY_BINDING, 1, saveInteger, restoreVertexArray},
     {"GL_DRAW_FRAMEBUFFER_BINDING", GL_DRAW_FRAMEBUFFER_BINDING, 1, saveInteger, restoreDrawFramebuffer},
-    {"GL_TEXTURE_BINDING_2D (units 0 to 7)", 0, 8, saveTexture, restoreTexture},
-    {"GL_TEXTURE_BINDING_2D_ARRAY (units 0 to 7)", 0, 8, saveTextureArray, restoreTextureArray},
-    {"GL_SAMPLER_BINDING (units 0 to 7)", 0, 8, saveSampler, restoreSampler},
+    {"GL_TEXTURE_BINDING_2D (units 0 to 7)", GL_TEXTURE_BINDING_2D, 8, saveUnit, restoreTexture},
+    {"GL_TEXTURE_BINDING_2D_ARRAY (units 0 to 7)", GL_TEXTURE_BINDING_2D_ARRAY, 8, saveUnit, restoreTexture},
+    {"GL_SAMPLER_BINDING (units 0 to 7)", GL_SAMPLER_BINDING, 8, saveUnit, restoreSampler},
     {"GL_IMAGE_BINDING_* (units 0 to 3)", 0, 4, saveImage, restoreImage},
     {"GL_UNIFORM_BUFFER_BINDING, _START, _SIZE (binding 0)", GL_UNIFORM_BUFFER, 1, saveIndexedBuffer,
      restoreIndexedBuffer},

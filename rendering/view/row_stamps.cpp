@@ -1,24 +1,18 @@
 #include "rendering/view/row_stamps.h"
 
 #include "foundation/math/hash.h"
+#include "foundation/memory/same_bytes.h"
 #include "foundation/snapshot/particle_kind.h"
 #include "rendering/view/snapshot_match.h"
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 namespace fx::render {
 
 namespace {
 
 constexpr uint32_t kEmpty = ~0u;
-
-template <class T>
-bool sameBytes(std::span<const T> a, std::span<const T> b)
-{
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
-}
 
 bool hasRows(const base::FrameSnapshot& snapshot, const base::SnapshotGroup& group)
 {
@@ -49,7 +43,8 @@ bool haveSameRows(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
         if (a.has(c) != b.has(c))
             return false;
         const bool isWide = columns[c].type == base::ColumnType::U64;
-        if (isWide ? !sameBytes(a.column64(c), b.column64(c)) : !sameBytes(a.column(c), b.column(c)))
+        if (isWide ? !base::sameBytes(a.column64(c), b.column64(c))
+                   : !base::sameBytes(a.column(c), b.column(c)))
             return false;
     }
     return true;

@@ -1,16 +1,10 @@
 #include "rendering/view/snapshot_stamps.h"
 
-#include <cstring>
+#include "foundation/memory/same_bytes.h"
 
 namespace fx::render {
 
 namespace {
-
-template <class T>
-bool sameBytes(std::span<const T> a, std::span<const T> b)
-{
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
-}
 
 bool samePlace(const base::GroupInfo& a, const base::GroupInfo& b)
 {
@@ -27,8 +21,8 @@ bool sameGroup(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
     if (info.kind != other.kind || info.instance != other.instance || info.solver != other.solver ||
         info.count != other.count || a.program() != b.program() || !samePlace(info, other))
         return false;
-    return haveSameRows(a, b, columns) && sameBytes(a.ids(), b.ids()) &&
-           sameBytes(a.constants(), b.constants());
+    return haveSameRows(a, b, columns) && base::sameBytes(a.ids(), b.ids()) &&
+           base::sameBytes(a.constants(), b.constants());
 }
 
 } // namespace

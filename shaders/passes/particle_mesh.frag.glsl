@@ -19,12 +19,5 @@ void main()
     if (dot(normal, lookAt(fragmentPlace)) > 0.0)
         normal = -normal; // both sides are matt
     vec3 white = vec3(shine.x) + shine.y * scatteredBySurface(fragmentPlace, normal);
-    float alpha = fragmentColor.a * texel.a;
-    float left = leftOver(fragmentPlace);
-#if FX_SOLID
-    alpha = left > 0.0 && alpha >= 0.5 ? 1.0 : 0.0;
-#else
-    alpha *= left;
-#endif
-    writeParticle(fragmentColor.rgb * texel.rgb * white, alpha, fragmentPlace);
+    writeParticle(fragmentColor.rgb * texel.rgb * white, fragmentColor.a * texel.a, fragmentPlace);
 }

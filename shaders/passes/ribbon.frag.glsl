@@ -17,11 +17,5 @@ void main()
         float inward = clamp((1.0 - abs(2.0 * fragmentTexture.x - 1.0)) / strip.w, 0.0, 1.0);
         alpha *= inward * inward * (3.0 - 2.0 * inward);
     }
-    float left = leftOver(fragmentPlace);
-#if FX_SOLID
-    alpha = left > 0.0 && alpha >= 0.5 ? 1.0 : 0.0;
-#else
-    alpha *= left;
-#endif
     writeParticle(fragmentColor.rgb * texel.rgb, alpha, fragmentPlace);
 }

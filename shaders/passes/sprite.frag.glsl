@@ -18,12 +18,5 @@ void main()
         float inside = max(1.0 - dot(fromCenter, fromCenter), 0.0);
         texel = vec4(1.0, 1.0, 1.0, inside * inside);
     }
-    float alpha = fragmentColor.a * texel.a;
-    float left = leftOver(fragmentPlace);
-#if FX_SOLID
-    alpha = left > 0.0 && alpha >= 0.5 ? 1.0 : 0.0;
-#else
-    alpha *= left;
-#endif
-    writeParticle(fragmentColor.rgb * texel.rgb, alpha, fragmentPlace);
+    writeParticle(fragmentColor.rgb * texel.rgb, fragmentColor.a * texel.a, fragmentPlace);
 }

@@ -25,7 +25,7 @@ float distanceOf(vec3 place)
     return rayOrigin.w > 0.5 ? dot(place, forward.xyz) : length(place);
 }
 
-// Share of the particle that the opaque scene and the near plane leave at `place`; 0 is to be discarded.
+// Share of the particle that the opaque scene and the near plane leave at `place`.
 float leftOver(vec3 place)
 {
     float behind = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r - distanceOf(place);
@@ -36,12 +36,18 @@ float leftOver(vec3 place)
     return room > 0.0 ? 1.0 : 0.0;
 }
 
+// alpha: of the particle alone, without the scene
 void writeParticle(vec3 light, float alpha, vec3 place)
 {
+    float left = leftOver(place);
+#if FX_SOLID
+    alpha = left > 0.0 && alpha >= 0.5 ? 1.0 : 0.0;
+#else
+    alpha *= left;
+#endif
     if (!(alpha > 0.0) || any(isnan(light)) || any(isinf(light)))
         discard;
 #if FX_SOLID
-    alpha = 1.0;
     float d = distanceOf(place);
     solidDistance = vec4(d, 0.0, 0.0, 1.0);
     gl_FragDepth = 1.0 / (1.0 + max(d, 0.0)); // nearer is more, as precise far away as a float is

@@ -19,6 +19,8 @@ namespace {
 template <class T>
 void put(std::byte*& io, std::span<const T> values)
 {
+    if (values.empty())
+        return; // they may lie nowhere
     std::memcpy(io, values.data(), values.size_bytes());
     io += values.size_bytes();
 }

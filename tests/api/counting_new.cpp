@@ -38,6 +38,7 @@ uint64_t fx::test::newCallsOfThisThread()
     return callsOfThisThread;
 }
 
+// All forms, so that sanitizers never see one form's memory released by another's.
 void* operator new(size_t size)
 {
     return allocateOrThrow(size, kDefault);
@@ -58,7 +59,15 @@ void* operator new(size_t size, const std::nothrow_t&) noexcept
 {
     return allocate(size, kDefault);
 }
+void* operator new[](size_t size, const std::nothrow_t&) noexcept
+{
+    return allocate(size, kDefault);
+}
 void* operator new(size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept
+{
+    return allocate(size, size_t(alignment));
+}
+void* operator new[](size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept
 {
     return allocate(size, size_t(alignment));
 }

@@ -10,14 +10,6 @@ namespace {
 
 constexpr uint64_t kMostAllocations = 10'000;
 
-FxContextDef contextDefOf(HostAllocator& memory)
-{
-    FxContextDef def = fxDefaultContextDef();
-    def.allocator = memory.hooks();
-    def.workers = 1;
-    return def;
-}
-
 /// Calls `action` with the first, the second, ... allocation failing until none fails any more.
 /// @param action returns its result; after FX_ERROR_OUT_OF_MEMORY everything must be as before
 /// @return how many allocations there were to fail
@@ -38,43 +30,60 @@ uint64_t sweep(HostAllocator& memory, F&& action)
     return 0;
 }
 
+/// A host whose memory runs out, and that has all of it back at the end of a test.
+class OutOfMemory : public testing::Test
+{
+protected:
+    OutOfMemory()
+    {
+        def_.allocator = memory_.hooks();
+        def_.workers = 1;
+    }
+    void TearDown() override
+    {
+        EXPECT_EQ(fxDestroyContext(context_), FX_OK);
+        EXPECT_EQ(memory_.blocks(), 0);
+    }
+    void createContext() { ASSERT_EQ(fxCreateContext(&def_, &context_), FX_OK); }
+    void createScene()
+    {
+        const FxSceneDef def = fxDefaultSceneDef();
+        ASSERT_EQ(fxCreateScene(context_, &def, &scene_), FX_OK);
+    }
+
+    HostAllocator memory_;
+    FxContextDef def_ = fxDefaultContextDef();
+    FxContext* context_ = nullptr;
+    FxScene* scene_ = nullptr;
+};
+
 } // namespace
 
-TEST(OutOfMemory, creatingAContextFailsCleanlyAtEveryAllocation)
+TEST_F(OutOfMemory, creatingAContextFailsCleanlyAtEveryAllocation)
 {
-    HostAllocator memory;
-    const FxContextDef def = contextDefOf(memory);
-    FxContext* context = nullptr;
-    EXPECT_GT(sweep(memory,
+    EXPECT_GT(sweep(memory_,
                     [&] {
-                        const FxResult result = fxCreateContext(&def, &context);
+                        const FxResult result = fxCreateContext(&def_, &context_);
                         if (result != FX_OK) {
-                            EXPECT_EQ(context, nullptr);
-                            EXPECT_EQ(memory.blocks(), 0);
+                            EXPECT_EQ(context_, nullptr);
+                            EXPECT_EQ(memory_.blocks(), 0);
                         }
                         return result;
                     }),
               0u);
-    EXPECT_EQ(fxDestroyContext(context), FX_OK);
-    EXPECT_EQ(memory.blocks(), 0);
 }
 
-TEST(OutOfMemory, presetsScenesAndInstancesFailCleanlyAtEveryAllocationAndTheNextCallWorks)
+TEST_F(OutOfMemory, presetsScenesAndInstancesFailCleanlyAtEveryAllocationAndTheNextCallWorks)
 {
-    HostAllocator memory;
-    const FxContextDef def = contextDefOf(memory);
-    FxContext* context = nullptr;
-    ASSERT_EQ(fxCreateContext(&def, &context), FX_OK);
-
+    createContext();
     const std::string text = burstPreset(200, 1.0);
     FxPresetId preset{};
-    EXPECT_GT(
-        sweep(memory, [&] { return fxLoadPresetText(context, text.data(), text.size(), nullptr, &preset); }),
-        0u);
+    EXPECT_GT(sweep(memory_,
+                    [&] { return fxLoadPresetText(context_, text.data(), text.size(), nullptr, &preset); }),
+              0u);
 
     const FxSceneDef sceneDef = fxDefaultSceneDef();
-    FxScene* scene = nullptr;
-    EXPECT_GT(sweep(memory, [&] { return fxCreateScene(context, &sceneDef, &scene); }), 0u);
+    EXPECT_GT(sweep(memory_, [&] { return fxCreateScene(context_, &sceneDef, &scene_); }), 0u);
 
     FxInstanceDef instanceDef = fxDefaultInstanceDef();
     instanceDef.preset = preset;
@@ -83,52 +92,45 @@ TEST(OutOfMemory, presetsScenesAndInstancesFailCleanlyAtEveryAllocationAndTheNex
     FxInstanceId id{};
     for (const int64_t start : {int64_t(0), FX_TICKS_PER_SECOND}) {
         instanceDef.startTick = start;
-        ASSERT_EQ(fxScene_GetStatistics(scene, &statistics), FX_OK);
+        ASSERT_EQ(fxScene_GetStatistics(scene_, &statistics), FX_OK);
         const uint32_t before = statistics.instances;
-        EXPECT_GT(sweep(memory,
+        EXPECT_GT(sweep(memory_,
                         [&] {
-                            const FxResult result = fxScene_CreateInstance(scene, &instanceDef, &id);
-                            EXPECT_EQ(fxScene_GetStatistics(scene, &statistics), FX_OK);
+                            const FxResult result = fxScene_CreateInstance(scene_, &instanceDef, &id);
+                            EXPECT_EQ(fxScene_GetStatistics(scene_, &statistics), FX_OK);
                             EXPECT_EQ(statistics.instances, before + (result == FX_OK ? 1 : 0));
                             return result;
                         }),
                   0u);
-        EXPECT_EQ(fxScene_IsValid(scene, id), 1u);
+        EXPECT_EQ(fxScene_IsValid(scene_, id), 1u);
     }
     for (int frame = 0; frame < 90; ++frame)
-        EXPECT_EQ(fxScene_Update(scene, kFrame), FX_OK);
-    EXPECT_EQ(fxDestroyContext(context), FX_OK);
-    EXPECT_EQ(memory.blocks(), 0);
+        EXPECT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
 }
 
-TEST(OutOfMemory, leavingASharedSimulationSavingAndRestoringFailCleanlyAtEveryAllocation)
+TEST_F(OutOfMemory, leavingASharedSimulationSavingAndRestoringFailCleanlyAtEveryAllocation)
 {
-    HostAllocator memory;
-    const FxContextDef def = contextDefOf(memory);
-    FxContext* context = nullptr;
-    ASSERT_EQ(fxCreateContext(&def, &context), FX_OK);
-    const FxSceneDef sceneDef = fxDefaultSceneDef();
-    FxScene* scene = nullptr;
-    ASSERT_EQ(fxCreateScene(context, &sceneDef, &scene), FX_OK);
+    createContext();
+    createScene();
     FxInstanceDef instanceDef = fxDefaultInstanceDef();
-    instanceDef.preset = loadText(context, fx::test::smallBlastPreset());
+    instanceDef.preset = loadText(context_, fx::test::smallBlastPreset());
     FxInstanceId first{}, second{};
-    ASSERT_EQ(fxScene_CreateInstance(scene, &instanceDef, &first), FX_OK);
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &instanceDef, &first), FX_OK);
     instanceDef.position[0] = 1.0; // geometry parts them
-    ASSERT_EQ(fxScene_CreateInstance(scene, &instanceDef, &second), FX_OK);
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &instanceDef, &second), FX_OK);
     for (int frame = 0; frame < 10; ++frame)
-        ASSERT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+        ASSERT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
 
     /// Sweeps over an action that must change nothing while it fails.
     const auto sweepUnchanged = [&](auto&& action) {
         uint64_t before = 0;
-        EXPECT_EQ(fxScene_GetSimulationHash(scene, &before), FX_OK);
-        EXPECT_GT(sweep(memory,
+        EXPECT_EQ(fxScene_GetSimulationHash(scene_, &before), FX_OK);
+        EXPECT_GT(sweep(memory_,
                         [&] {
                             const FxResult result = action();
-                            memory.failFrom(0);
+                            memory_.failFrom(0);
                             uint64_t after = 0;
-                            EXPECT_EQ(fxScene_GetSimulationHash(scene, &after), FX_OK);
+                            EXPECT_EQ(fxScene_GetSimulationHash(scene_, &after), FX_OK);
                             if (result != FX_OK) {
                                 EXPECT_EQ(after, before);
                             }
@@ -138,57 +140,48 @@ TEST(OutOfMemory, leavingASharedSimulationSavingAndRestoringFailCleanlyAtEveryAl
     };
     std::vector<std::byte> state(1 << 20);
     size_t size = 0;
-    sweepUnchanged([&] { return fxScene_SaveState(scene, state.data(), state.size(), &size); });
+    sweepUnchanged([&] { return fxScene_SaveState(scene_, state.data(), state.size(), &size); });
     FxInstanceParameters parameters = fxDefaultInstanceParameters();
     parameters.wind[0] = 2.0f;
-    sweepUnchanged([&] { return fxScene_SetParameters(scene, second, &parameters); });
-    sweepUnchanged([&] { return fxScene_RestoreState(scene, state.data(), size); });
-    EXPECT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+    sweepUnchanged([&] { return fxScene_SetParameters(scene_, second, &parameters); });
+    sweepUnchanged([&] { return fxScene_RestoreState(scene_, state.data(), size); });
+    EXPECT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
     const float corners[9] = {2, -3, -3, 2, 3, -3, 2, 0, 3};
     FxCollisionMesh mesh = fxDefaultCollisionMesh();
     mesh.positions = corners;
     mesh.vertexCount = 3;
     mesh.cellSize = 0.5f;
-    sweepUnchanged([&] { return fxScene_SetCollisionMesh(scene, &mesh); });
-    EXPECT_EQ(fxDestroyContext(context), FX_OK);
-    EXPECT_EQ(memory.blocks(), 0);
+    sweepUnchanged([&] { return fxScene_SetCollisionMesh(scene_, &mesh); });
 }
 
-TEST(OutOfMemory, anUpdateWithoutMemoryStillTakesItsStepsAndRecovers)
+TEST_F(OutOfMemory, anUpdateWithoutMemoryStillTakesItsStepsAndRecovers)
 {
-    HostAllocator memory;
-    const FxContextDef def = contextDefOf(memory);
-    FxContext* context = nullptr;
-    ASSERT_EQ(fxCreateContext(&def, &context), FX_OK);
-    const FxSceneDef sceneDef = fxDefaultSceneDef();
-    FxScene* scene = nullptr;
-    ASSERT_EQ(fxCreateScene(context, &sceneDef, &scene), FX_OK);
+    createContext();
+    createScene();
     FxInstanceDef instanceDef = fxDefaultInstanceDef();
-    instanceDef.preset = loadText(context, fountainPreset());
+    instanceDef.preset = loadText(context_, fountainPreset());
     FxInstanceId awake{}, late{};
-    ASSERT_EQ(fxScene_CreateInstance(scene, &instanceDef, &awake), FX_OK);
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &instanceDef, &awake), FX_OK);
     instanceDef.startTick = FX_TICKS_PER_SECOND / 60 * 2;
-    ASSERT_EQ(fxScene_CreateInstance(scene, &instanceDef, &late), FX_OK);
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &instanceDef, &late), FX_OK);
 
-    memory.failFrom(1);
-    EXPECT_EQ(fxScene_Update(scene, 4 * kFrame), FX_ERROR_OUT_OF_MEMORY); // no room for the first snapshots
-    EXPECT_TRUE(memory.hasFailed());
-    memory.failFrom(0);
+    memory_.failFrom(1);
+    EXPECT_EQ(fxScene_Update(scene_, 4 * kFrame), FX_ERROR_OUT_OF_MEMORY); // no room for the first snapshots
+    EXPECT_TRUE(memory_.hasFailed());
+    memory_.failFrom(0);
     FxSceneStatistics statistics{};
     statistics.structSize = sizeof statistics;
-    ASSERT_EQ(fxScene_GetStatistics(scene, &statistics), FX_OK);
+    ASSERT_EQ(fxScene_GetStatistics(scene_, &statistics), FX_OK);
     EXPECT_EQ(statistics.simulatedTick, FX_TICKS_PER_SECOND / 15);
     EXPECT_EQ(statistics.wakeFailures, 1u);
     FxInstanceState state{};
-    ASSERT_EQ(fxScene_GetInstanceState(scene, late, &state, nullptr), FX_OK);
+    ASSERT_EQ(fxScene_GetInstanceState(scene_, late, &state, nullptr), FX_OK);
     EXPECT_EQ(state, FX_INSTANCE_FINISHED);
 
-    EXPECT_EQ(fxScene_Update(scene, kFrame), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(fxScene_Update(scene_, kFrame), FX_OK) << fxGetLastErrorMessage();
     uint32_t particles = 0;
-    ASSERT_EQ(fxScene_GetInstanceState(scene, awake, &state, &particles), FX_OK);
+    ASSERT_EQ(fxScene_GetInstanceState(scene_, awake, &state, &particles), FX_OK);
     EXPECT_GT(particles, 0u);
-    EXPECT_EQ(fxDestroyContext(context), FX_OK);
-    EXPECT_EQ(memory.blocks(), 0);
 }
 
 namespace {

@@ -32,6 +32,12 @@ TEST(Hash, lengthAndOrderMatter)
     EXPECT_NE(hashWord(hashWord(0, 1), 2), hashWord(hashWord(0, 2), 1));
 }
 
+TEST(Hash, ofNothingDoesNotAskWhereItLies)
+{
+    const char byte = 1;
+    EXPECT_EQ(hashBytes(7, nullptr, 0), hashBytes(7, &byte, 0));
+}
+
 TEST(Hash, flippingOneBitFlipsAboutHalfOfTheResult)
 {
     int flips = 0;

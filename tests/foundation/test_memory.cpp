@@ -1,6 +1,7 @@
 #include "foundation/memory/arena.h"
 #include "foundation/memory/column.h"
 #include "foundation/memory/host_memory.h"
+#include "foundation/memory/same_bytes.h"
 
 #include <gtest/gtest.h>
 
@@ -145,4 +146,15 @@ TEST(Column, ofNothingAllocatesNothing)
     const Column<int> column(&memory, 0);
     EXPECT_EQ(column.data(), nullptr);
     EXPECT_EQ(memory.allocationCount(), 0u);
+}
+
+TEST(SameBytes, compareBitsAndNotValues)
+{
+    const float zero[] = {0.0f}, minus[] = {-0.0f}, two[] = {0.0f, 0.0f};
+    const std::span<const float> nothing;
+    EXPECT_TRUE(sameBytes<float>(zero, std::span(two).first(1)));
+    EXPECT_FALSE(sameBytes<float>(zero, minus));
+    EXPECT_FALSE(sameBytes<float>(zero, two));
+    EXPECT_FALSE(sameBytes<float>(zero, nothing));
+    EXPECT_TRUE(sameBytes<float>(nothing, std::span(two).first(0)));
 }

@@ -43,13 +43,7 @@ public:
     /// Steps every instance by `ticks` and sums the counters.
     void step(base::Ticks ticks = kStep)
     {
-        const sim::StepCounters c = world_.step(slots_, now_, ticks);
-        counters_.born += c.born;
-        counters_.dropped += c.dropped;
-        counters_.particleSteps += c.particleSteps;
-        counters_.neighborPairs += c.neighborPairs;
-        counters_.subSteps += c.subSteps;
-        counters_.clamped += c.clamped;
+        counters_ += world_.step(slots_, now_, ticks);
         now_ += ticks;
     }
     void play(int steps)

@@ -1,52 +1,7 @@
+#include "tests/api/counting_new.h"
 #include "tests/simulation/busy_effect.h"
 
 #include <gtest/gtest.h>
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
-namespace {
-std::atomic<long> allocations{0};
-
-void* counted(std::size_t size, std::size_t alignment)
-{
-    ++allocations;
-    void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-    if (!memory)
-        throw std::bad_alloc();
-    return memory;
-}
-} // namespace
-
-void* operator new(std::size_t size)
-{
-    return counted(size ? size : 1, alignof(std::max_align_t));
-}
-void* operator new(std::size_t size, std::align_val_t alignment)
-{
-    return counted(size, std::size_t(alignment));
-}
-void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept
-{
-    return counted(size, std::size_t(alignment));
-}
-void operator delete(void* memory) noexcept
-{
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept
-{
-    std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept
-{
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
-{
-    std::free(memory);
-}
 
 using namespace fx;
 using namespace fx::test;
@@ -58,19 +13,19 @@ TEST(Allocations, stepAndPublishMakeNoneAfterTheFirst)
     stage.add({}, busyEffect(200));
     stage.play(1); // scratch memory takes its size
     stage.look();
-    const long before = allocations.load();
+    const uint64_t before = newCalls();
     const uint64_t hostBefore = stage.memory().allocationCount();
     for (int i = 0; i < 60; ++i) {
         stage.step();
         stage.look();
     }
-    EXPECT_EQ(allocations.load() - before, 0);
+    EXPECT_EQ(newCalls() - before, 0u);
     EXPECT_EQ(stage.memory().allocationCount() - hostBefore, 0u);
 }
 
 TEST(Allocations, theCounterCounts)
 {
-    const long before = allocations.load();
+    const uint64_t before = newCalls();
     ::operator delete(::operator new(4)); // a direct call, which no compiler may leave out
-    EXPECT_EQ(allocations.load() - before, 1);
+    EXPECT_EQ(newCalls() - before, 1u);
 }

@@ -172,6 +172,11 @@ private:
     template <class Shared>
     void weigh(const GroupInput<T>& input, const Shared* shared);
     void chooseUnits(T largest, T brightest);
+    void takeRoom();
+    /// Where lanes enter and leave each blob. @return as begin()
+    template <class Shared>
+    V meetBlobs(const GroupInput<T>& input, const Shared* shared);
+    void orderEvents();
     /// Blobs that a lane misses get events where the lane has some already, so that they split nothing, and
     /// the lanes keep step: before the middle of a ray at its front, otherwise at its back.
     void placeMisses(V front, V back);
@@ -263,18 +268,16 @@ void IntervalWalk<V, kDegree, kProduct>::placeMisses(V front, V back)
     }
     foldRows<V, true>(events_, size_t(2) * kWidth, count_, scratch_.first.data());
     foldRows<V, false>(events_ + kWidth, size_t(2) * kWidth, count_, scratch_.last.data());
+    const size_t padded = scratch_.first.size() - kWidth;
+    for (size_t i = count_; i < padded; ++i) { // never between
+        scratch_.first[i] = std::numeric_limits<float>::max();
+        scratch_.last[i] = T(0) - scratch_.first[i];
+    }
 }
 
 template <class V, int kDegree, bool kProduct>
-template <class Shared>
-V IntervalWalk<V, kDegree, kProduct>::begin(const GroupInput<T>& input, const Shared* shared)
+void IntervalWalk<V, kDegree, kProduct>::takeRoom()
 {
-    count_ = input.count;
-    for (uint32_t i = 0; i < count_; ++i) {
-        __builtin_prefetch(input.center + size_t(i) * input.stride);
-        __builtin_prefetch(input.chord2 + size_t(i) * input.stride);
-    }
-    weigh(input, shared);
     const size_t lanes = size_t(count_) * kWidth;
     center_ = scratch_.center.room(lanes);
     chord2_ = scratch_.chord2.room(lanes);
@@ -291,6 +294,12 @@ V IntervalWalk<V, kDegree, kProduct>::begin(const GroupInput<T>& input, const Sh
     const size_t padded = (size_t(count_) + kWidth - 1) / kWidth * kWidth;
     scratch_.first.resize(padded + kWidth);
     scratch_.last.resize(padded + kWidth);
+}
+
+template <class V, int kDegree, bool kProduct>
+template <class Shared>
+V IntervalWalk<V, kDegree, kProduct>::meetBlobs(const GroupInput<T>& input, const Shared* shared)
+{
     const V scale = Lanes<V>::all(scale_);
     const V scale2 = Lanes<V>::all(scale_ * scale_);
     const V zero = Lanes<V>::all(T(0));
@@ -301,8 +310,8 @@ V IntervalWalk<V, kDegree, kProduct>::begin(const GroupInput<T>& input, const Sh
     V back = zero - front;
     V missing = zero;
     for (uint32_t i = 0; i < count_; ++i) {
-        const V center = smaller(
-            larger(Lanes<V>::load(input.center + size_t(i) * input.stride) * scale, zero - far), far);
+        const V center =
+            smaller(larger(Lanes<V>::load(input.center + size_t(i) * input.stride) * scale, zero - far), far);
         const V chord2 = larger(zero, Lanes<V>::load(input.chord2 + size_t(i) * input.stride) * scale2);
         const V half = root(chord2);
         const V first = smaller(larger(center - half, nearest), farthest);
@@ -320,15 +329,32 @@ V IntervalWalk<V, kDegree, kProduct>::begin(const GroupInput<T>& input, const Sh
     }
     const V any = Lanes<V>::load(center_); // of lanes that meet nothing: near, so that no power overflows
     placeMisses(chooseLess(back, front, any, front), chooseLess(back, front, any, back));
-    for (size_t i = count_; i < padded; ++i) { // never between
-        scratch_.first[i] = std::numeric_limits<float>::max();
-        scratch_.last[i] = T(0) - scratch_.first[i];
-    }
+    return missing;
+}
+
+template <class V, int kDegree, bool kProduct>
+void IntervalWalk<V, kDegree, kProduct>::orderEvents()
+{
     sortLanes<V>(events_, 2 * count_);
     scratch_.low.resize(2 * size_t(count_) + kWidth);
     scratch_.high.resize(2 * size_t(count_) + kWidth);
     foldRows<V, true>(events_, kWidth, 2 * count_, scratch_.low.data());
     foldRows<V, false>(events_, kWidth, 2 * count_, scratch_.high.data());
+}
+
+template <class V, int kDegree, bool kProduct>
+template <class Shared>
+V IntervalWalk<V, kDegree, kProduct>::begin(const GroupInput<T>& input, const Shared* shared)
+{
+    count_ = input.count;
+    for (uint32_t i = 0; i < count_; ++i) {
+        __builtin_prefetch(input.center + size_t(i) * input.stride);
+        __builtin_prefetch(input.chord2 + size_t(i) * input.stride);
+    }
+    weigh(input, shared);
+    takeRoom();
+    const V missing = meetBlobs(input, shared);
+    orderEvents();
     words_ = (count_ + 63) / 64;
     if (!isCompared())
         orderCandidates();

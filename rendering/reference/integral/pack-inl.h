@@ -7,6 +7,7 @@
 #define FX_INTEGRAL_PACK_INL
 #endif
 
+#include "foundation/simd/pack-inl.h"
 #include "rendering/reference/integral/lane_numbers.h"
 #include "rendering/reference/integral/ray_packet.h"
 
@@ -19,19 +20,8 @@ namespace fx::render::integral::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A vector of at most kPacketRays numbers.
 template <class T>
-struct Pack
-{
-    using Tag = hn::CappedTag<T, kPacketRays>;
-    using Vector = hn::Vec<Tag>;
-    static constexpr uint32_t kWidth = HWY_LANES(T) < kPacketRays ? uint32_t(HWY_LANES(T)) : kPacketRays;
-
-    Vector v;
-
-    Pack() = default; // trivial, so that structs of packs are
-    HWY_INLINE explicit Pack(Vector vector) : v(vector) {}
-};
+using Pack = base::HWY_NAMESPACE::Pack<T, kPacketRays>;
 
 template <class V>
 struct Lanes;
@@ -41,34 +31,11 @@ struct Lanes<Pack<T>>
 {
     using Scalar = T;
     static constexpr uint32_t kWidth = Pack<T>::kWidth;
-    static HWY_INLINE Pack<T> load(const T* from)
-    {
-        return Pack<T>(hn::LoadU(typename Pack<T>::Tag(), from));
-    }
-    static HWY_INLINE void store(T* to, Pack<T> x) { hn::StoreU(x.v, typename Pack<T>::Tag(), to); }
-    static HWY_INLINE Pack<T> all(T x) { return Pack<T>(hn::Set(typename Pack<T>::Tag(), x)); }
+    static HWY_INLINE Pack<T> load(const T* from) { return Pack<T>::load(from); }
+    static HWY_INLINE void store(T* to, Pack<T> x) { x.store(to); }
+    static HWY_INLINE Pack<T> all(T x) { return Pack<T>(x); }
 };
 
-template <class T>
-HWY_INLINE Pack<T> operator+(Pack<T> a, Pack<T> b)
-{
-    return Pack<T>(hn::Add(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Pack<T> operator-(Pack<T> a, Pack<T> b)
-{
-    return Pack<T>(hn::Sub(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Pack<T> operator*(Pack<T> a, Pack<T> b)
-{
-    return Pack<T>(hn::Mul(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Pack<T> operator/(Pack<T> a, Pack<T> b)
-{
-    return Pack<T>(hn::Div(a.v, b.v));
-}
 template <class T>
 HWY_INLINE Pack<T> chooseLess(Pack<T> a, Pack<T> b, Pack<T> yes, Pack<T> no)
 {
@@ -94,11 +61,6 @@ template <class T>
 HWY_INLINE Pack<T> maxOf(Pack<T> a, Pack<T> b)
 {
     return Pack<T>(hn::Max(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Pack<T> root(Pack<T> a)
-{
-    return Pack<T>(hn::Sqrt(a.v));
 }
 template <class T>
 HWY_INLINE bool anyLess(Pack<T> a, Pack<T> b)

@@ -20,9 +20,8 @@
 #define HWY_TARGET_INCLUDE "simulation/particles/forces/attractor_op.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
-#include "foundation/simd/instruction_set.h"
+#include "simulation/particles/forces/force_op.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
-#include "simulation/particles/gpu_module_source.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,55 +88,47 @@ HWY_EXPORT(runAttractor);
 
 namespace {
 
-class AttractorOp final : public TileOp, public GpuModuleSource
+TileBound boundOf(const AttractorDef& def)
 {
-public:
-    explicit AttractorOp(const AttractorDef& def) : def_(def) { def_.radius = std::max(def.radius, 1e-4f); }
-    TileBound bound() const override
-    {
-        const float s = std::abs(def_.strength), ratio = def_.radius / std::max(def_.softening, 1e-30f);
-        switch (def_.falloff) {
-        case Falloff::Spring: // grows without end unless it ends somewhere
-            return def_.reach > 0.0f ? TileBound{s * def_.reach / def_.radius} : TileBound{};
-        case Falloff::Constant:
-            return {s};
-        case Falloff::Inverse:
-            return {s * ratio};
-        case Falloff::InverseSquare:
-            break;
-        }
-        return {s * ratio * ratio};
+    const float s = std::abs(def.strength), ratio = def.radius / std::max(def.softening, 1e-30f);
+    switch (def.falloff) {
+    case Falloff::Spring: // grows without end unless it ends somewhere
+        return def.reach > 0.0f ? TileBound{s * def.reach / def.radius} : TileBound{};
+    case Falloff::Constant:
+        return {s};
+    case Falloff::Inverse:
+        return {s * ratio};
+    case Falloff::InverseSquare:
+        break;
     }
-    TilePhase phase() const override { return TilePhase::Force; }
-    bool describe(base::GpuModules& out) const override
-    {
-        const float s = def_.strength, r = def_.radius;
-        const glm::vec3& p = def_.position;
-        const float softening = std::max(def_.softening * def_.softening, 1e-12f);
-        const float reach = def_.reach > 0.0f ? def_.reach * def_.reach : std::numeric_limits<float>::max();
-        constexpr base::GpuModule kModules[] = {base::GpuModule::Spring, base::GpuModule::Constant,
-                                                base::GpuModule::Inverse, base::GpuModule::InverseSquare};
-        const float factors[] = {s / r, s, s * r, s * r * r};
-        const auto k = size_t(def_.falloff);
-        out.add(kModules[k], {p.x, p.y, p.z, softening, reach, factors[k]});
-        return true;
-    }
-    void run(const TileContext&, const void*, Tile& tile) const override
-    {
-        base::applyInstructionSetLimit();
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runAttractor)(def_, tile);
-    }
+    return {s * ratio * ratio};
+}
 
-private:
-    AttractorDef def_;
-};
+/// See GpuModuleSource.
+bool describe(const AttractorDef& def, base::GpuModules& out)
+{
+    const float s = def.strength, r = def.radius;
+    const glm::vec3& p = def.position;
+    const float softening = std::max(def.softening * def.softening, 1e-12f);
+    const float reach = def.reach > 0.0f ? def.reach * def.reach : std::numeric_limits<float>::max();
+    constexpr base::GpuModule kModules[] = {base::GpuModule::Spring, base::GpuModule::Constant,
+                                            base::GpuModule::Inverse, base::GpuModule::InverseSquare};
+    const float factors[] = {s / r, s, s * r, s * r * r};
+    const auto k = size_t(def.falloff);
+    out.add(kModules[k], {p.x, p.y, p.z, softening, reach, factors[k]});
+    return true;
+}
 
 } // namespace
 
 std::unique_ptr<TileOp> makeAttractorOp(const AttractorDef& def)
 {
-    return std::make_unique<AttractorOp>(def);
+    AttractorDef kept = def;
+    kept.radius = std::max(def.radius, 1e-4f);
+    return makeForceOp(kept, boundOf(kept), describe, [](const AttractorDef& d, Tile& tile) {
+        using namespace modules;
+        HWY_DYNAMIC_DISPATCH(runAttractor)(d, tile);
+    });
 }
 
 } // namespace fx::sim

@@ -23,9 +23,8 @@
 #define HWY_TARGET_INCLUDE "simulation/particles/forces/conform_op.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
-#include "foundation/simd/instruction_set.h"
+#include "simulation/particles/forces/force_op.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
-#include "simulation/particles/gpu_module_source.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,48 +124,36 @@ HWY_EXPORT(runConform);
 
 namespace {
 
-class ConformOp final : public TileOp, public GpuModuleSource
+TileBound boundOf(const ConformDef& def)
 {
-public:
-    explicit ConformOp(const ConformDef& def) : def_(def)
-    {
-        def_.stiffness = std::max(def.stiffness, 0.0f);
-        def_.damping = std::max(def.damping, 0.0f);
-    }
-    TileBound bound() const override
-    {
-        if (def_.stiffness > 0.0f && !(def_.reach > 0.0f))
-            return {};
-        return {def_.stiffness * (def_.reach + std::abs(def_.distance))};
-    }
-    TilePhase phase() const override { return TilePhase::Force; }
-    bool describe(base::GpuModules& out) const override
-    {
-        if (def_.kind == SurfaceKind::Mesh)
-            return false;
-        const glm::vec3 &p = def_.position, &size = def_.size;
-        const float reach = def_.reach > 0.0f ? def_.reach : std::numeric_limits<float>::max();
-        out.add(def_.kind == SurfaceKind::Sphere ? base::GpuModule::ConformSphere
-                                                 : base::GpuModule::ConformBox,
-                {p.x, p.y, p.z, size.x, size.y, size.z, def_.distance, def_.stiffness, def_.damping, reach});
-        return true;
-    }
-    void run(const TileContext&, const void*, Tile& tile) const override
-    {
-        base::applyInstructionSetLimit();
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runConform)(def_, tile);
-    }
+    if (def.stiffness > 0.0f && !(def.reach > 0.0f))
+        return {};
+    return {def.stiffness * (def.reach + std::abs(def.distance))};
+}
 
-private:
-    ConformDef def_;
-};
+/// See GpuModuleSource.
+bool describe(const ConformDef& def, base::GpuModules& out)
+{
+    if (def.kind == SurfaceKind::Mesh)
+        return false;
+    const glm::vec3 &p = def.position, &size = def.size;
+    const float reach = def.reach > 0.0f ? def.reach : std::numeric_limits<float>::max();
+    out.add(def.kind == SurfaceKind::Sphere ? base::GpuModule::ConformSphere : base::GpuModule::ConformBox,
+            {p.x, p.y, p.z, size.x, size.y, size.z, def.distance, def.stiffness, def.damping, reach});
+    return true;
+}
 
 } // namespace
 
 std::unique_ptr<TileOp> makeConformOp(const ConformDef& def)
 {
-    return std::make_unique<ConformOp>(def);
+    ConformDef kept = def;
+    kept.stiffness = std::max(def.stiffness, 0.0f);
+    kept.damping = std::max(def.damping, 0.0f);
+    return makeForceOp(kept, boundOf(kept), describe, [](const ConformDef& d, Tile& tile) {
+        using namespace modules;
+        HWY_DYNAMIC_DISPATCH(runConform)(d, tile);
+    });
 }
 
 } // namespace fx::sim

@@ -4,9 +4,8 @@
 #define HWY_TARGET_INCLUDE "simulation/particles/forces/vector_field_op.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
-#include "foundation/simd/instruction_set.h"
+#include "simulation/particles/forces/force_op.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
-#include "simulation/particles/gpu_module_source.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,51 +90,43 @@ HWY_EXPORT(runVectorField);
 
 namespace {
 
-class VectorFieldOp final : public TileOp, public GpuModuleSource
+TileBound boundOf(const VectorFieldDef& def)
 {
-public:
-    explicit VectorFieldOp(const VectorFieldDef& def) : def_(def) { def_.scale = std::max(def.scale, 1e-6f); }
-    TileBound bound() const override
-    {
-        float longest = 0.0f;
-        for (size_t i = 0; i + 2 < def_.grid->values.size(); i += 3) {
-            const float* v = &def_.grid->values[i];
-            longest = std::max(longest, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        }
-        longest = std::sqrt(longest) * std::abs(def_.strength);
-        return def_.isAcceleration ? TileBound{longest} : TileBound{0.0f, longest, false};
+    float longest = 0.0f;
+    for (size_t i = 0; i + 2 < def.grid->values.size(); i += 3) {
+        const float* v = &def.grid->values[i];
+        longest = std::max(longest, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     }
-    TilePhase phase() const override { return TilePhase::Force; }
-    bool describe(base::GpuModules& out) const override
-    {
-        const FieldGrid& grid = *def_.grid;
-        const glm::vec3 low = def_.position + def_.scale * grid.low;
-        const glm::vec3 perCell = glm::vec3(1.0f) / (def_.scale * grid.cell);
-        if (grid.values.size() > kMostOnGpu)
-            return false;
-        out.add(def_.isAcceleration ? base::GpuModule::FieldForce : base::GpuModule::FieldAir,
-                {low.x, low.y, low.z, perCell.x, perCell.y, perCell.z, float(grid.nodes.x),
-                 float(grid.nodes.y), float(grid.nodes.z), def_.strength});
-        out.numbers.insert(out.numbers.end(), grid.values.begin(), grid.values.end());
-        return true;
-    }
-    void run(const TileContext&, const void*, Tile& tile) const override
-    {
-        base::applyInstructionSetLimit();
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runVectorField)(def_, tile);
-    }
+    longest = std::sqrt(longest) * std::abs(def.strength);
+    return def.isAcceleration ? TileBound{longest} : TileBound{0.0f, longest, false};
+}
 
-private:
-    static constexpr size_t kMostOnGpu = size_t(1) << 24; ///< numbers, which go with each emitter
-    VectorFieldDef def_;
-};
+/// See GpuModuleSource.
+bool describe(const VectorFieldDef& def, base::GpuModules& out)
+{
+    constexpr size_t kMostOnGpu = size_t(1) << 24; // numbers, which go with each emitter
+    const FieldGrid& grid = *def.grid;
+    const glm::vec3 low = def.position + def.scale * grid.low;
+    const glm::vec3 perCell = glm::vec3(1.0f) / (def.scale * grid.cell);
+    if (grid.values.size() > kMostOnGpu)
+        return false;
+    out.add(def.isAcceleration ? base::GpuModule::FieldForce : base::GpuModule::FieldAir,
+            {low.x, low.y, low.z, perCell.x, perCell.y, perCell.z, float(grid.nodes.x), float(grid.nodes.y),
+             float(grid.nodes.z), def.strength});
+    out.numbers.insert(out.numbers.end(), grid.values.begin(), grid.values.end());
+    return true;
+}
 
 } // namespace
 
 std::unique_ptr<TileOp> makeVectorFieldOp(const VectorFieldDef& def)
 {
-    return std::make_unique<VectorFieldOp>(def);
+    VectorFieldDef kept = def;
+    kept.scale = std::max(def.scale, 1e-6f);
+    return makeForceOp(kept, boundOf(kept), describe, [](const VectorFieldDef& d, Tile& tile) {
+        using namespace modules;
+        HWY_DYNAMIC_DISPATCH(runVectorField)(d, tile);
+    });
 }
 
 } // namespace fx::sim

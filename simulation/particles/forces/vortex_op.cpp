@@ -27,10 +27,9 @@
 #define HWY_TARGET_INCLUDE "simulation/particles/forces/vortex_op.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
-#include "foundation/simd/instruction_set.h"
 #include "simulation/particles/fields/turn.h"
+#include "simulation/particles/forces/force_op.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
-#include "simulation/particles/gpu_module_source.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,46 +78,35 @@ HWY_EXPORT(runVortex);
 
 namespace {
 
-class VortexOp final : public TileOp, public GpuModuleSource
+TileBound boundOf(const VortexDef& def)
 {
-public:
-    explicit VortexOp(const VortexDef& def) : def_(def)
-    {
-        def_.axis = unitOrUp(def.axis);
-        def_.radius = std::max(def.radius, 1e-4f);
-        def_.hold = std::clamp(def.hold, 0.0f, 1.0f);
-    }
-    TileBound bound() const override
-    {
-        const float air = std::abs(def_.speed) + std::abs(def_.lift) + std::abs(def_.pull);
-        return {def_.hold * def_.speed * def_.speed / def_.radius, air, false};
-    }
-    TilePhase phase() const override { return TilePhase::Force; }
-    bool describe(base::GpuModules& out) const override
-    {
-        const glm::vec3 &p = def_.position, &k = def_.axis;
-        const float r = def_.radius;
-        out.add(def_.hold > 0.0f ? base::GpuModule::HoldingVortex : base::GpuModule::Vortex,
-                {p.x, p.y, p.z, k.x, k.y, k.z, r * r, 2.0f * r * def_.speed, 2.0f * r * def_.pull,
-                 r * r * def_.lift, -def_.hold});
-        return true;
-    }
-    void run(const TileContext&, const void*, Tile& tile) const override
-    {
-        base::applyInstructionSetLimit();
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runVortex)(def_, tile);
-    }
+    const float air = std::abs(def.speed) + std::abs(def.lift) + std::abs(def.pull);
+    return {def.hold * def.speed * def.speed / def.radius, air, false};
+}
 
-private:
-    VortexDef def_;
-};
+/// See GpuModuleSource.
+bool describe(const VortexDef& def, base::GpuModules& out)
+{
+    const glm::vec3 &p = def.position, &k = def.axis;
+    const float r = def.radius;
+    out.add(def.hold > 0.0f ? base::GpuModule::HoldingVortex : base::GpuModule::Vortex,
+            {p.x, p.y, p.z, k.x, k.y, k.z, r * r, 2.0f * r * def.speed, 2.0f * r * def.pull, r * r * def.lift,
+             -def.hold});
+    return true;
+}
 
 } // namespace
 
 std::unique_ptr<TileOp> makeVortexOp(const VortexDef& def)
 {
-    return std::make_unique<VortexOp>(def);
+    VortexDef kept = def;
+    kept.axis = unitOrUp(def.axis);
+    kept.radius = std::max(def.radius, 1e-4f);
+    kept.hold = std::clamp(def.hold, 0.0f, 1.0f);
+    return makeForceOp(kept, boundOf(kept), describe, [](const VortexDef& d, Tile& tile) {
+        using namespace modules;
+        HWY_DYNAMIC_DISPATCH(runVortex)(d, tile);
+    });
 }
 
 } // namespace fx::sim

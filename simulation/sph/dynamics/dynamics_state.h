@@ -48,6 +48,10 @@ struct DynamicsState
 
     uint32_t placeOf(uint32_t particle) const { return place[particle]; }
     std::span<const uint32_t> activePlaces() const { return active.first(activeCount); }
+    PairPlaces<T> pairsOf(std::span<const uint32_t> places) const
+    {
+        return {lists, records.data(), def.domain, places};
+    }
     double seconds(double ticks) const { return ticks * tick; }
 
     GasDynamicsDef def;

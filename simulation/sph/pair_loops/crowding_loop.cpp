@@ -55,28 +55,22 @@ template <class T>
 void addPiece(const CrowdedOwner<T>& owner, const GasRecord<T>* records, const uint32_t* entries,
               uint32_t count, LaneSums<T, kCrowdingSums>& sums)
 {
-    for (uint32_t p = 0; p < kLanes; p += Pack<T>::kWidth) {
-        Pack<T> sum[kCrowdingSums];
-        for (uint32_t s = 0; s < kCrowdingSums; ++s)
-            sum[s] = Pack<T>::load(sums.lane[s] + p);
-        for (uint32_t k = 0; k < count; k += kLanes)
-            addCrowding(owner, records, entries + k + p, sum);
-        for (uint32_t s = 0; s < kCrowdingSums; ++s)
-            sum[s].store(sums.lane[s] + p);
-    }
+    addVectors(
+        entries, count, sums, [&](const uint32_t* at, Pack<T>* sum) HWY_ATTR __attribute__((always_inline)) {
+            addCrowding(owner, records, at, sum);
+        });
 }
 
 template <class T>
-void sumAll(double range, const NeighborLists<T>& lists, const GasRecord<T>* records, const Domain& domain,
-            std::span<const uint32_t> places, const CrowdingResults<T>& out)
+void sumAll(double range, const PairPlaces<T>& of, const CrowdingResults<T>& out)
 {
-    const ImageRules<T> images(domain);
-    for (const uint32_t place : places) {
-        const CrowdedOwner<T> owner(range, records[place], place, images);
+    const ImageRules<T> images(of.domain);
+    for (const uint32_t place : of.places) {
+        const CrowdedOwner<T> owner(range, of.records[place], place, images);
         LaneSums<T, kCrowdingSums> sums;
         sums.clear();
-        lists.forEachPiece(place, [&](const uint32_t* entries, uint32_t count, bool)
-                                      HWY_ATTR { addPiece(owner, records, entries, count, sums); });
+        of.lists.forEachPiece(place, [&](const uint32_t* entries, uint32_t count, bool)
+                                         HWY_ATTR { addPiece(owner, of.records, entries, count, sums); });
         T total[kCrowdingSums];
         combineRows<kCrowdingSums>(sums, 0, total, Adding());
         out.x[place] = total[0];
@@ -88,16 +82,13 @@ void sumAll(double range, const NeighborLists<T>& lists, const GasRecord<T>* rec
     }
 }
 
-void sumFloats(double range, const NeighborLists<float>& lists, const GasRecord<float>* records,
-               const Domain& domain, std::span<const uint32_t> places, const CrowdingResults<float>& results)
+void sumFloats(double range, const PairPlaces<float>& of, const CrowdingResults<float>& results)
 {
-    sumAll(range, lists, records, domain, places, results);
+    sumAll(range, of, results);
 }
-void sumDoubles(double range, const NeighborLists<double>& lists, const GasRecord<double>* records,
-                const Domain& domain, std::span<const uint32_t> places,
-                const CrowdingResults<double>& results)
+void sumDoubles(double range, const PairPlaces<double>& of, const CrowdingResults<double>& results)
 {
-    sumAll(range, lists, records, domain, places, results);
+    sumAll(range, of, results);
 }
 
 } // namespace
@@ -115,23 +106,19 @@ HWY_EXPORT(sumDoubles);
 } // namespace pairs
 
 template <>
-void sumCrowding(double range, const NeighborLists<float>& lists, const GasRecord<float>* records,
-                 const Domain& domain, std::span<const uint32_t> places,
-                 const CrowdingResults<float>& results)
+void sumCrowding(double range, const PairPlaces<float>& of, const CrowdingResults<float>& results)
 {
     base::applyInstructionSetLimit();
     using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumFloats)(range, lists, records, domain, places, results);
+    HWY_DYNAMIC_DISPATCH(sumFloats)(range, of, results);
 }
 
 template <>
-void sumCrowding(double range, const NeighborLists<double>& lists, const GasRecord<double>* records,
-                 const Domain& domain, std::span<const uint32_t> places,
-                 const CrowdingResults<double>& results)
+void sumCrowding(double range, const PairPlaces<double>& of, const CrowdingResults<double>& results)
 {
     base::applyInstructionSetLimit();
     using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumDoubles)(range, lists, records, domain, places, results);
+    HWY_DYNAMIC_DISPATCH(sumDoubles)(range, of, results);
 }
 
 } // namespace fx::sim

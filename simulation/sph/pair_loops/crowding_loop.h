@@ -26,10 +26,7 @@
 /// @tests     tests/simulation/pair_loops/test_crowding_loop.cpp
 #pragma once
 
-#include "simulation/sph/neighbors/neighbor_lists.h"
-#include "simulation/sph/pair_loops/gas_record.h"
-
-#include <span>
+#include "simulation/sph/pair_loops/pair_places.h"
 
 namespace fx::sim {
 
@@ -41,12 +38,10 @@ struct CrowdingResults
     T *outwardX, *outwardY, *outwardZ; ///< E
 };
 
-/// G and E of `places` (a part of the lists' owners). Reads x, y, z, support and mass of the records; lists
-/// must hold all neighbors within the larger support. Runs on the calling thread (the caller splits the
-/// work).
+/// G and E of all places. Reads x, y, z, support and mass of the records; lists must hold all neighbors
+/// within the larger support. Runs on the calling thread (the caller splits the work).
 /// @param range [1] k in (0, 1]
 template <class T>
-void sumCrowding(double range, const NeighborLists<T>& lists, const GasRecord<T>* records,
-                 const Domain& domain, std::span<const uint32_t> places, const CrowdingResults<T>& results);
+void sumCrowding(double range, const PairPlaces<T>& of, const CrowdingResults<T>& results);
 
 } // namespace fx::sim

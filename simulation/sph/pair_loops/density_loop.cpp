@@ -21,8 +21,7 @@ template <class T>
 struct DensityJob
 {
     const DensityRules& rules;
-    const NeighborLists<T>& lists;
-    const GasRecord<T>* records;
+    const PairPlaces<T>& of;
     ImageRules<T> images;
     T reach;
     T self; ///< [1] (1 - e) w(0)
@@ -36,7 +35,7 @@ class Neighborhood
 {
 public:
     Neighborhood(const DensityJob<T>& job, uint32_t place, NeighborBlock<T>& block)
-        : job_(job), owner_(job.records[place], place, job.images), block_(block)
+        : job_(job), owner_(job.of.records[place], place, job.images), block_(block)
     {}
 
     /// Calls f() for every block, while the block holds it.
@@ -48,10 +47,10 @@ public:
             return;
         }
         blocks_ = 0;
-        job_.lists.forEachPiece(owner_.place, [&](const uint32_t* entries, uint32_t count, bool) HWY_ATTR {
+        job_.of.lists.forEachPiece(owner_.place, [&](const uint32_t* entries, uint32_t count, bool) HWY_ATTR {
             for (uint32_t begin = 0; begin < count; begin += NeighborBlock<T>::kCapacity) {
                 const uint32_t size = std::min(count - begin, NeighborBlock<T>::kCapacity);
-                block_.load(owner_, job_.records, entries + begin, size);
+                block_.load(owner_, job_.of.records, entries + begin, size);
                 ++blocks_;
                 f();
             }
@@ -73,7 +72,7 @@ SupportSearch<T> beginSearch(const DensityJob<T>& job, uint32_t place)
     const T largest = static_cast<T>(job.rules.largestSupport);
     const T bottom = std::min(std::max(smallest, guess * T(1.0 / 1024)), largest);
     const T top = std::max(std::min(largest, guess * (T(1) + job.reach)), bottom);
-    const T want = job.want * job.records[place].mass; // (2)
+    const T want = job.want * job.of.records[place].mass; // (2)
     return SupportSearch<T>(want, bottom, top, guess, static_cast<T>(job.rules.tolerance));
 }
 
@@ -100,7 +99,7 @@ void publish(const DensityJob<T>& job, uint32_t place, const SupportSearch<T>& s
              double norm)
 {
     const T support = search.support();
-    const T mass = job.self * job.records[place].mass + sum[kSumMass];
+    const T mass = job.self * job.of.records[place].mass + sum[kSumMass];
     const T growth = T(0) - sum[kSumGrowth];
     const bool atLargest = search.isAtTop() && support >= static_cast<T>(job.rules.largestSupport);
     const bool atSmallest = search.isAtBottom() && support <= static_cast<T>(job.rules.smallestSupport);
@@ -125,7 +124,7 @@ void sumOne(const DensityJob<T>& job, uint32_t place, NeighborBlock<T>& block)
     LaneSums<T, kDensitySums> sums;
     Neighborhood<T> neighborhood(job, place, block);
     SupportSearch<T> search = beginSearch(job, place);
-    const T self = job.self * job.records[place].mass;
+    const T self = job.self * job.of.records[place].mass;
     while (!search.isDone()) {
         const T perSupport = T(1) / search.support();
         sums.clear();
@@ -145,8 +144,7 @@ void sumOne(const DensityJob<T>& job, uint32_t place, NeighborBlock<T>& block)
 }
 
 template <class T>
-void sumAll(const DensityRules& rules, const NeighborLists<T>& lists, const GasRecord<T>* records,
-            const Domain& domain, T reach, std::span<const uint32_t> places, const DensityResults<T>& results)
+void sumAll(const DensityRules& rules, const PairPlaces<T>& of, T reach, const DensityResults<T>& results)
 {
     const double bias = rules.subtractSelfBias ? selfBias(rules.kernel, rules.neighbors) : 0.0;
     NeighborBlock<T> block;
@@ -154,29 +152,26 @@ void sumAll(const DensityRules& rules, const NeighborLists<T>& lists, const GasR
         using Shape = decltype(shape);
         const double want = 3.0 * rules.neighbors / (4.0 * std::numbers::pi * Shape::kNorm);
         const DensityJob<T> job{rules,
-                                lists,
-                                records,
-                                ImageRules<T>(domain),
+                                of,
+                                ImageRules<T>(of.domain),
                                 reach,
                                 static_cast<T>((1.0 - bias) * Shape::kCenter),
                                 static_cast<T>(want),
                                 results};
-        for (const uint32_t place : places)
+        for (const uint32_t place : of.places)
             sumOne<T, Shape>(job, place, block);
     });
 }
 
-void sumFloats(const DensityRules& rules, const NeighborLists<float>& lists, const GasRecord<float>* records,
-               const Domain& domain, float reach, std::span<const uint32_t> places,
+void sumFloats(const DensityRules& rules, const PairPlaces<float>& of, float reach,
                const DensityResults<float>& results)
 {
-    sumAll(rules, lists, records, domain, reach, places, results);
+    sumAll(rules, of, reach, results);
 }
-void sumDoubles(const DensityRules& rules, const NeighborLists<double>& lists,
-                const GasRecord<double>* records, const Domain& domain, double reach,
-                std::span<const uint32_t> places, const DensityResults<double>& results)
+void sumDoubles(const DensityRules& rules, const PairPlaces<double>& of, double reach,
+                const DensityResults<double>& results)
 {
-    sumAll(rules, lists, records, domain, reach, places, results);
+    sumAll(rules, of, reach, results);
 }
 
 } // namespace
@@ -194,23 +189,21 @@ HWY_EXPORT(sumDoubles);
 } // namespace pairs
 
 template <>
-void sumDensity(const DensityRules& rules, const NeighborLists<float>& lists, const GasRecord<float>* records,
-                const Domain& domain, float reach, std::span<const uint32_t> places,
+void sumDensity(const DensityRules& rules, const PairPlaces<float>& of, float reach,
                 const DensityResults<float>& results)
 {
     base::applyInstructionSetLimit();
     using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumFloats)(rules, lists, records, domain, reach, places, results);
+    HWY_DYNAMIC_DISPATCH(sumFloats)(rules, of, reach, results);
 }
 
 template <>
-void sumDensity(const DensityRules& rules, const NeighborLists<double>& lists,
-                const GasRecord<double>* records, const Domain& domain, double reach,
-                std::span<const uint32_t> places, const DensityResults<double>& results)
+void sumDensity(const DensityRules& rules, const PairPlaces<double>& of, double reach,
+                const DensityResults<double>& results)
 {
     base::applyInstructionSetLimit();
     using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumDoubles)(rules, lists, records, domain, reach, places, results);
+    HWY_DYNAMIC_DISPATCH(sumDoubles)(rules, of, reach, results);
 }
 
 } // namespace fx::sim

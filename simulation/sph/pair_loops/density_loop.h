@@ -48,11 +48,8 @@
 /// @tests     tests/simulation/pair_loops/test_density_loop.cpp
 #pragma once
 
-#include "simulation/sph/neighbors/neighbor_lists.h"
-#include "simulation/sph/pair_loops/gas_record.h"
+#include "simulation/sph/pair_loops/pair_places.h"
 #include "simulation/sph/pair_loops/sph_kernel.h"
-
-#include <span>
 
 namespace fx::sim {
 
@@ -81,14 +78,13 @@ struct DensityResults
     T* expansion = nullptr; ///< [1/s] X, rate at which the sum becomes thinner; null: not wanted
 };
 
-/// Density, support and velocity gradients of `places` (a part of the lists' owners). Reads x, y, z, velocity
-/// and mass of the records. H grows at most to (1 + reach) times its guess, as far as the lists are complete;
-/// it may shrink as far as it has to, and stays within the bounds of the rules. A lone particle takes the
-/// largest support (within reach), coincident ones the smallest. At most 20 evaluations of (1).
+/// Density, support and velocity gradients of all places. Reads x, y, z, velocity and mass of the records.
+/// H grows at most to (1 + reach) times its guess, as far as the lists are complete; it may shrink as far as
+/// it has to, and stays within the bounds of the rules. A lone particle takes the largest support (within
+/// reach), coincident ones the smallest. At most 20 evaluations of (1).
 /// Bit-equal for every instruction set; runs on the calling thread (the caller splits the work).
 template <class T>
-void sumDensity(const DensityRules& rules, const NeighborLists<T>& lists, const GasRecord<T>* records,
-                const Domain& domain, T reach, std::span<const uint32_t> places,
+void sumDensity(const DensityRules& rules, const PairPlaces<T>& of, T reach,
                 const DensityResults<T>& results);
 
 } // namespace fx::sim

@@ -12,18 +12,19 @@ namespace fx::sim::pairs::HWY_NAMESPACE {
 namespace {
 
 template <class T, class Shape>
-void sumOne(const ForceRules& rules, const NeighborLists<T>& lists, const GasRecord<T>* records,
-            const ImageRules<T>& images, uint32_t place, const ForceResults<T>& out)
+void sumOne(const ForceRules& rules, const PairPlaces<T>& of, const ImageRules<T>& images, uint32_t place,
+            const ForceResults<T>& out)
 {
-    const GasRecord<T>& own = records[place];
+    const GasRecord<T>& own = of.records[place];
     const PairOwner<T, Shape> owner(rules, own, place, images);
     LaneSums<T, kForceSums> sums;
     sums.clear();
     for (T& level : sums.lane[kSumLevel])
         level = static_cast<T>(kNoLevel);
     uint32_t pairs = 0;
-    lists.forEachPiece(place, [&](const uint32_t* entries, uint32_t count, bool)
-                                  HWY_ATTR { pairs += addPiece(owner, records, entries, count, sums); });
+    of.lists.forEachPiece(place, [&](const uint32_t* entries, uint32_t count, bool) HWY_ATTR {
+        pairs += addPiece(owner, of.records, entries, count, sums);
+    });
     T total[4], signal, level;
     combineRows<4>(sums, kSumAcceleration, total, Adding());
     combineRows<1>(sums, kSumSignal, &signal, TakingLarger());
@@ -38,25 +39,22 @@ void sumOne(const ForceRules& rules, const NeighborLists<T>& lists, const GasRec
 }
 
 template <class T>
-void sumAll(const ForceRules& rules, const NeighborLists<T>& lists, const GasRecord<T>* records,
-            const Domain& domain, std::span<const uint32_t> places, const ForceResults<T>& results)
+void sumAll(const ForceRules& rules, const PairPlaces<T>& of, const ForceResults<T>& results)
 {
-    const ImageRules<T> images(domain);
+    const ImageRules<T> images(of.domain);
     withShape(rules.kernel, [&](auto shape) HWY_ATTR {
-        for (const uint32_t place : places)
-            sumOne<T, decltype(shape)>(rules, lists, records, images, place, results);
+        for (const uint32_t place : of.places)
+            sumOne<T, decltype(shape)>(rules, of, images, place, results);
     });
 }
 
-void sumFloats(const ForceRules& rules, const NeighborLists<float>& lists, const GasRecord<float>* records,
-               const Domain& domain, std::span<const uint32_t> places, const ForceResults<float>& results)
+void sumFloats(const ForceRules& rules, const PairPlaces<float>& of, const ForceResults<float>& results)
 {
-    sumAll(rules, lists, records, domain, places, results);
+    sumAll(rules, of, results);
 }
-void sumDoubles(const ForceRules& rules, const NeighborLists<double>& lists, const GasRecord<double>* records,
-                const Domain& domain, std::span<const uint32_t> places, const ForceResults<double>& results)
+void sumDoubles(const ForceRules& rules, const PairPlaces<double>& of, const ForceResults<double>& results)
 {
-    sumAll(rules, lists, records, domain, places, results);
+    sumAll(rules, of, results);
 }
 
 } // namespace
@@ -74,21 +72,19 @@ HWY_EXPORT(sumDoubles);
 } // namespace pairs
 
 template <>
-void sumForces(const ForceRules& rules, const NeighborLists<float>& lists, const GasRecord<float>* records,
-               const Domain& domain, std::span<const uint32_t> places, const ForceResults<float>& results)
+void sumForces(const ForceRules& rules, const PairPlaces<float>& of, const ForceResults<float>& results)
 {
     base::applyInstructionSetLimit();
     using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumFloats)(rules, lists, records, domain, places, results);
+    HWY_DYNAMIC_DISPATCH(sumFloats)(rules, of, results);
 }
 
 template <>
-void sumForces(const ForceRules& rules, const NeighborLists<double>& lists, const GasRecord<double>* records,
-               const Domain& domain, std::span<const uint32_t> places, const ForceResults<double>& results)
+void sumForces(const ForceRules& rules, const PairPlaces<double>& of, const ForceResults<double>& results)
 {
     base::applyInstructionSetLimit();
     using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumDoubles)(rules, lists, records, domain, places, results);
+    HWY_DYNAMIC_DISPATCH(sumDoubles)(rules, of, results);
 }
 
 } // namespace fx::sim

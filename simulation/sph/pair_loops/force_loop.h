@@ -67,11 +67,10 @@ struct ForceResults
     uint32_t* pairs;    ///< neighbors j with r < max(H_i, H_j), mirror images included
 };
 
-/// Accelerations of `places` (a part of the lists' owners): pressure with corrections for varying support,
-/// viscosity with signal speed and limiter, conduction. Bit-equal for every instruction set; runs on the
-/// calling thread (the caller splits the work).
+/// Accelerations of all places: pressure with corrections for varying support, viscosity with signal speed
+/// and limiter, conduction. Bit-equal for every instruction set; runs on the calling thread (the caller
+/// splits the work).
 template <class T>
-void sumForces(const ForceRules& rules, const NeighborLists<T>& lists, const GasRecord<T>* records,
-               const Domain& domain, std::span<const uint32_t> places, const ForceResults<T>& results);
+void sumForces(const ForceRules& rules, const PairPlaces<T>& of, const ForceResults<T>& results);
 
 } // namespace fx::sim

@@ -139,15 +139,10 @@ uint32_t addPiece(const PairOwner<T, Shape>& i, const GasRecord<T>* records, con
                   uint32_t count, LaneSums<T, kForceSums>& sums)
 {
     uint32_t pairs = 0;
-    for (uint32_t p = 0; p < kLanes; p += Pack<T>::kWidth) {
-        Pack<T> sum[kForceSums];
-        for (uint32_t s = 0; s < kForceSums; ++s)
-            sum[s] = Pack<T>::load(sums.lane[s] + p);
-        for (uint32_t k = 0; k < count; k += kLanes)
-            pairs += addPairs(i, records, entries + k + p, sum);
-        for (uint32_t s = 0; s < kForceSums; ++s)
-            sum[s].store(sums.lane[s] + p);
-    }
+    addVectors(
+        entries, count, sums, [&](const uint32_t* at, Pack<T>* sum) HWY_ATTR __attribute__((always_inline)) {
+            pairs += addPairs(i, records, at, sum);
+        });
     return pairs;
 }
 

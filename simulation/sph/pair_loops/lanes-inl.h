@@ -12,6 +12,7 @@
 #define FX_PAIR_LANES_INL
 #endif
 
+#include "foundation/simd/pack-inl.h"
 #include "simulation/sph/neighbors/neighbor_lists.h"
 #include "simulation/sph/pair_loops/sph_kernel.h"
 
@@ -22,50 +23,9 @@ namespace fx::sim::pairs::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A vector of at most 16 numbers that formulas can be written with. Never fuses, never approximates.
 template <class T>
-struct Pack
-{
-    using Tag = hn::CappedTag<T, kLanes>;
-    using Vector = hn::Vec<Tag>;
-    using Mask = hn::Mask<Tag>;
-    static constexpr uint32_t kWidth = HWY_LANES(T) < kLanes ? uint32_t(HWY_LANES(T)) : kLanes;
+using Pack = base::HWY_NAMESPACE::Pack<T, kLanes>;
 
-    Vector v;
-
-    HWY_INLINE Pack() : v(hn::Zero(Tag())) {}
-    HWY_INLINE explicit Pack(Vector vector) : v(vector) {}
-    HWY_INLINE explicit Pack(double x) : v(hn::Set(Tag(), static_cast<T>(x))) {}
-    HWY_INLINE explicit Pack(float x) : v(hn::Set(Tag(), static_cast<T>(x))) {}
-    static HWY_INLINE Pack load(const T* from) { return Pack(hn::LoadU(Tag(), from)); }
-    HWY_INLINE void store(T* to) const { hn::StoreU(v, Tag(), to); }
-};
-
-template <class T>
-HWY_INLINE Pack<T> operator+(Pack<T> a, Pack<T> b)
-{
-    return Pack<T>(hn::Add(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Pack<T> operator-(Pack<T> a, Pack<T> b)
-{
-    return Pack<T>(hn::Sub(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Pack<T> operator*(Pack<T> a, Pack<T> b)
-{
-    return Pack<T>(hn::Mul(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Pack<T> operator/(Pack<T> a, Pack<T> b)
-{
-    return Pack<T>(hn::Div(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Pack<T>& operator+=(Pack<T>& a, Pack<T> b)
-{
-    return a = a + b;
-}
 template <class T>
 HWY_INLINE Pack<T> larger(Pack<T> a, Pack<T> b)
 {
@@ -75,11 +35,6 @@ template <class T>
 HWY_INLINE Pack<T> smaller(Pack<T> a, Pack<T> b)
 {
     return Pack<T>(hn::Min(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Pack<T> root(Pack<T> a)
-{
-    return Pack<T>(hn::Sqrt(a.v));
 }
 template <class T>
 HWY_INLINE Pack<T> magnitude(Pack<T> a)
@@ -126,6 +81,22 @@ struct alignas(64) LaneSums
                 x = T(0);
     }
 };
+
+/// Adds to sums what f(entries, sum) adds to those of one vector, for a list that is padded to a multiple of
+/// kLanes. Without always_inline f would have the sums in memory.
+template <class T, uint32_t Q, class F>
+HWY_INLINE void addVectors(const uint32_t* entries, uint32_t count, LaneSums<T, Q>& sums, F f)
+{
+    for (uint32_t p = 0; p < kLanes; p += Pack<T>::kWidth) {
+        Pack<T> sum[Q];
+        for (uint32_t s = 0; s < Q; ++s)
+            sum[s] = Pack<T>::load(sums.lane[s] + p);
+        for (uint32_t k = 0; k < count; k += kLanes)
+            f(entries + k + p, sum);
+        for (uint32_t s = 0; s < Q; ++s)
+            sum[s].store(sums.lane[s] + p);
+    }
+}
 
 struct Adding
 {

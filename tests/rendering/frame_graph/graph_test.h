@@ -4,6 +4,7 @@
 
 #include "rendering/frame_graph/frame_graph.h"
 #include "rendering/frame_graph/recording_backend.h"
+#include "tests/rendering/frame_graph/add_pass.h"
 
 #include <gtest/gtest.h>
 
@@ -12,16 +13,6 @@
 #include <vector>
 
 namespace fx::render {
-
-/// Adds a pass whose setup and execution are given apart.
-template <class Setup, class Execute>
-void addPass(FrameGraph& graph, std::string_view name, Setup&& setup, Execute execute)
-{
-    graph.addPass(name, [&](FrameGraph::Builder& builder) {
-        setup(builder);
-        return execute;
-    });
-}
 
 class GraphTest : public ::testing::Test
 {

@@ -6,6 +6,7 @@
 #include "rendering/gl/gl_messages.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/platform/gl_context.h"
+#include "tests/rendering/frame_graph/add_pass.h"
 
 #include <gtest/gtest.h>
 
@@ -16,16 +17,6 @@
 #include <vector>
 
 namespace fx::render {
-
-/// Adds a pass whose setup and execution are given apart.
-template <class Setup, class Execute>
-void addPass(FrameGraph& graph, std::string_view name, Setup&& setup, Execute execute)
-{
-    graph.addPass(name, [&](FrameGraph::Builder& builder) {
-        setup(builder);
-        return execute;
-    });
-}
 
 class GlTest : public ::testing::Test
 {

@@ -1,15 +1,19 @@
 /// @file heap_counter.h
-/// Counts what this program takes from the heap through operator new.
+/// Counts what this program takes from the heap through operator new. Needs tests/api/counting_new.cpp.
 #pragma once
+
+#include "tests/api/counting_new.h"
 
 namespace fx::render {
 
-/// Counts from construction until stop().
+/// Counts from construction until stop(), in all threads.
 class HeapCounter
 {
 public:
-    HeapCounter();
-    int stop(); ///< number of allocations
+    int stop() const { return int(test::newCalls() - before_); } ///< number of allocations
+
+private:
+    uint64_t before_ = test::newCalls();
 };
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 // What happens from frame to frame: pooling, the host's own targets, no allocations, no queries.
 #include "gl_test.h"
-#include "heap_counter.h"
+#include "tests/rendering/gl/heap_counter.h"
 
 #include <cstring>
 

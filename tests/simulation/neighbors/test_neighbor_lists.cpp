@@ -1,4 +1,4 @@
-#include "foundation/simd/instruction_set.h"
+#include "tests/foundation/every_set.h"
 #include "tests/simulation/neighbors/neighbor_stage.h"
 
 using namespace fx;
@@ -95,19 +95,13 @@ TYPED_TEST(NeighborLists, areTheSameForAnyNumberOfWorkers)
 
 TYPED_TEST(NeighborLists, areTheSameForEveryInstructionSet)
 {
-    const auto widest = base::instructionSet();
     const auto lists = allLists(searched(someCloud<TypeParam>(), mixedBox()));
     const auto open = allLists(searched(someCloud<TypeParam>(), {}, {.entriesPerParticle = 20}));
-    using enum base::InstructionSet;
-    for (const base::InstructionSet set : {Scalar, Sse4, Avx2, Avx512}) {
-        if (set > widest)
-            continue;
-        base::limitInstructionSet(set);
+    test::everySet([&](base::InstructionSet set) {
         EXPECT_EQ(base::instructionSet(), set);
         EXPECT_EQ(allLists(searched(someCloud<TypeParam>(), mixedBox())), lists);
         EXPECT_EQ(allLists(searched(someCloud<TypeParam>(), {}, {.entriesPerParticle = 20})), open);
-    }
-    base::limitInstructionSet(widest);
+    });
 }
 
 TYPED_TEST(NeighborLists, ofFewOwnersAreThoseThatAllWouldHave)

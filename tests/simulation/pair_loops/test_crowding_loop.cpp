@@ -1,4 +1,4 @@
-#include "tests/simulation/pair_loops/every_set.h"
+#include "tests/foundation/every_set.h"
 #include "tests/simulation/pair_loops/gas_stage.h"
 
 #include <glm/geometric.hpp>

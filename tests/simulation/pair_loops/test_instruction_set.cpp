@@ -1,5 +1,5 @@
 #include "foundation/simd/instruction_set.h"
-#include "tests/simulation/pair_loops/every_set.h"
+#include "tests/foundation/every_set.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "simulation/sph/pair_loops/parting.h"
-#include "tests/simulation/pair_loops/every_set.h"
+#include "tests/foundation/every_set.h"
 #include "tests/simulation/pair_loops/pair_reference.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "foundation/simd/instruction_set.h"
 #include "ray_cases.h"
 #include "rendering/reference/integral/ray_packet.h"
+#include "tests/foundation/every_set.h"
 
 #include <gtest/gtest.h>
 
@@ -11,15 +11,6 @@ namespace fx::render {
 namespace {
 
 using base::InstructionSet;
-
-constexpr InstructionSet kSets[] = {InstructionSet::Scalar, InstructionSet::Sse4, InstructionSet::Avx2,
-                                    InstructionSet::Avx512};
-
-/// Restores the choice of the process.
-struct KeepInstructionSet
-{
-    ~KeepInstructionSet() { base::limitInstructionSet(InstructionSet::Avx512); }
-};
 
 /// 16 rays that differ: some blobs are missed by some of them, windows cut some.
 template <class T>
@@ -86,9 +77,7 @@ void expectLanesEqualRays(const IntegralSettings& settings, const Bundle<T>& bun
 
 TEST(RayPacket, givesEveryRayTheBitsItHasAloneWithEveryInstructionSet)
 {
-    const KeepInstructionSet keep;
-    for (const InstructionSet set : kSets) {
-        base::limitInstructionSet(set);
+    test::everySet([](InstructionSet) {
         for (const uint32_t blobs : {0u, 1u, 5u, 16u, 70u, 300u})
             for (const double depth : {0.3, 8.0, 500.0}) {
                 expectLanesEqualRays(settingsOf("gauss-5"), Bundle<float>(blobs, depth, blobs),
@@ -96,14 +85,12 @@ TEST(RayPacket, givesEveryRayTheBitsItHasAloneWithEveryInstructionSet)
                 expectLanesEqualRays(settingsOf("gauss-5"), Bundle<double>(blobs, depth, blobs),
                                      "gauss-5 double");
             }
-    }
+    });
 }
 
 TEST(RayPacket, doesSoForEverySchemeKernelAndModel)
 {
-    const KeepInstructionSet keep;
-    for (const InstructionSet set : kSets) {
-        base::limitInstructionSet(set);
+    test::everySet([](InstructionSet) {
         for (const char* name : {"paper-1", "paper-4", "simpson-2", "gauss-3", "gauss-8", "gauss-8-cap-0.1",
                                  "positive-8", "march-0.1", "adaptive-0.001"})
             for (const uint32_t degree : {2u, 3u, 4u})
@@ -113,7 +100,7 @@ TEST(RayPacket, doesSoForEverySchemeKernelAndModel)
                 }
         expectLanesEqualRays(settingsOf("gauss-5"), Bundle<float>(7, 1e6, 5), "beyond 64 parts");
         expectLanesEqualRays(settingsOf("gauss-5"), Bundle<double>(7, 1e6, 5), "beyond 64 parts");
-    }
+    });
 }
 
 TEST(RayPacket, leavesOutSmallBlobsOnlyInLanesThatMeetThem)
@@ -161,18 +148,21 @@ Bundle<T> harshBundle(uint64_t seed)
 
 TEST(RayPacket, doesSoForHarshRaysOfEveryKind)
 {
-    const KeepInstructionSet keep;
     constexpr const char* kNames[] = {"gauss-5",        "gauss-8",        "gauss-3",    "paper-1",
                                       "paper-4",        "simpson-2",      "positive-8", "march-0.1",
                                       "adaptive-0.001", "gauss-8-cap-0.1"};
-    for (uint64_t seed = 1; seed <= 120; ++seed) {
-        base::limitInstructionSet(kSets[seed % 4]);
-        const char* name = kNames[seed % 10];
-        const SourceModel model = seed % 3 == 0 ? SourceModel::Product : SourceModel::PerBlob;
-        const IntegralSettings settings = settingsOf(name, 2 + uint32_t(seed / 10) % 3, model);
-        expectLanesEqualRays(settings, harshBundle<float>(seed), name);
-        expectLanesEqualRays(settings, harshBundle<double>(seed), name);
-    }
+    const uint64_t sets = uint64_t(base::instructionSet()) + 1; // each takes its part of the seeds
+    test::everySet([&](InstructionSet set) {
+        for (uint64_t seed = 1; seed <= 120; ++seed) {
+            if (seed % sets != uint64_t(set))
+                continue;
+            const char* name = kNames[seed % 10];
+            const SourceModel model = seed % 3 == 0 ? SourceModel::Product : SourceModel::PerBlob;
+            const IntegralSettings settings = settingsOf(name, 2 + uint32_t(seed / 10) % 3, model);
+            expectLanesEqualRays(settings, harshBundle<float>(seed), name);
+            expectLanesEqualRays(settings, harshBundle<double>(seed), name);
+        }
+    });
 }
 
 TEST(RayPacket, doesSoWhereBlobsTouch)

@@ -3,8 +3,8 @@
 
 #include "rendering/reference/render/reference_renderer.h"
 
-#include "foundation/simd/instruction_set.h"
 #include "rendering/media/blob_medium.h"
+#include "tests/foundation/every_set.h"
 #include "tests/rendering/reference/render/reference_scenes.h"
 
 #include <gtest/gtest.h>
@@ -120,12 +120,7 @@ TEST(ReferenceRenderer, threadsAndInstructionSetsDoNotMatter)
     };
     compare(2, "two threads");
     compare(5, "five threads");
-    for (const auto set :
-         {base::InstructionSet::Scalar, base::InstructionSet::Sse4, base::InstructionSet::Avx2}) {
-        base::limitInstructionSet(set);
-        compare(1, "another instruction set");
-    }
-    base::limitInstructionSet(base::InstructionSet::Avx512);
+    test::everySet([&](base::InstructionSet) { compare(1, "one thread"); });
 }
 
 TEST(ReferenceRenderer, aPixelOfManySamplesIsTheMeanOfItsRays)

@@ -2,8 +2,8 @@
 
 #include "rendering/reference/trace/ball_tree.h"
 
-#include "foundation/simd/instruction_set.h"
 #include "rendering/reference/trace/ray_query.h"
+#include "tests/foundation/every_set.h"
 #include "tests/rendering/reference/trace/ball_scenes.h"
 
 #include <gtest/gtest.h>
@@ -94,10 +94,7 @@ TEST(BallTree, everyInstructionSetFindsTheSameBits)
     const BallTree tree = treeOf(balls);
     const auto rays = raysFor(balls);
     std::vector<double> expected;
-    for (const auto set : {base::InstructionSet::Avx512, base::InstructionSet::Avx2,
-                           base::InstructionSet::Sse4, base::InstructionSet::Scalar})
-    {
-        base::limitInstructionSet(set);
+    test::everySet([&](base::InstructionSet) {
         std::vector<double> numbers;
         RayHits hits;
         for (const TraceRay& ray : rays) {
@@ -110,8 +107,7 @@ TEST(BallTree, everyInstructionSetFindsTheSameBits)
             expected = numbers;
         ASSERT_EQ(numbers.size(), expected.size());
         EXPECT_EQ(std::memcmp(numbers.data(), expected.data(), numbers.size() * sizeof(double)), 0);
-    }
-    base::limitInstructionSet(base::InstructionSet::Avx512);
+    });
 }
 
 TEST(BallTree, isTheSameForAnyNumberOfWorkers)

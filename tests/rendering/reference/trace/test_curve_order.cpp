@@ -2,7 +2,7 @@
 
 #include "rendering/reference/trace/curve_order.h"
 
-#include "foundation/simd/instruction_set.h"
+#include "tests/foundation/every_set.h"
 #include "tests/rendering/reference/trace/ball_scenes.h"
 
 #include <gtest/gtest.h>
@@ -74,10 +74,7 @@ TEST(CurveOrder, theLastCellOfTheCubeIsAtTheEndOfTheFirstAxis)
 
 TEST(CurveOrder, manyPlacesAtOnceAreThePlacesOfEachForEveryInstructionSet)
 {
-    for (const auto set : {base::InstructionSet::Scalar, base::InstructionSet::Sse4,
-                           base::InstructionSet::Avx2, base::InstructionSet::Avx512})
-    {
-        base::limitInstructionSet(set);
+    test::everySet([](base::InstructionSet) {
         test::Chance chance(1);
         CurveBatch batch;
         batch.count = 77;
@@ -90,7 +87,7 @@ TEST(CurveOrder, manyPlacesAtOnceAreThePlacesOfEachForEveryInstructionSet)
         curvePlaces(batch);
         for (size_t i = 0; i < batch.count; ++i)
             EXPECT_EQ(batch.place[i], expected[i]);
-    }
+    });
 }
 
 class SortByKey : public ::testing::TestWithParam<uint64_t>

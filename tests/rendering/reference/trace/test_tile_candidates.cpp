@@ -2,8 +2,8 @@
 
 #include "rendering/reference/trace/tile_candidates.h"
 
-#include "foundation/simd/instruction_set.h"
 #include "rendering/reference/trace/ray_query.h"
+#include "tests/foundation/every_set.h"
 #include "tests/rendering/reference/trace/ball_scenes.h"
 
 #include <gtest/gtest.h>
@@ -88,12 +88,9 @@ TEST(TileCandidates, theInstructionSetDoesNotMatter)
     const test::Balls balls = test::randomBalls(800, 0.02, 0.3, 31);
     BallTree tree;
     tree.build(balls, glm::dvec3(0.0), *base::makeSerialRunner());
-    for (const auto set :
-         {base::InstructionSet::Scalar, base::InstructionSet::Sse4, base::InstructionSet::Avx2}) {
-        base::limitInstructionSet(set);
+    test::everySet([&](base::InstructionSet) {
         EXPECT_GT(compareWithQueries(tree, perspectiveGrid(4.0), kInf, "random"), 1000u);
-    }
-    base::limitInstructionSet(base::InstructionSet::Avx512);
+    });
 }
 
 TEST(TileCandidates, listOfATileFarFromAllIsEmpty)

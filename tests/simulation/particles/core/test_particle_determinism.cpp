@@ -1,4 +1,4 @@
-#include "foundation/simd/instruction_set.h"
+#include "tests/foundation/every_set.h"
 #include "tests/simulation/particles/core/sprites.h"
 
 #include <gtest/gtest.h>
@@ -55,15 +55,6 @@ TEST(ParticleDeterminism, everyNumberOfWorkersGivesTheSameBits)
 
 TEST(ParticleDeterminism, everyInstructionSetGivesTheSameBits)
 {
-    const base::InstructionSet widest = base::instructionSet();
     const uint64_t want = history(base::makeSerialRunner(), 2000);
-    for (const base::InstructionSet set :
-         {base::InstructionSet::Scalar, base::InstructionSet::Sse4, base::InstructionSet::Avx2})
-    {
-        if (set >= widest)
-            continue;
-        base::limitInstructionSet(set);
-        EXPECT_EQ(history(base::makeSerialRunner(), 2000), want) << base::instructionSetName(set);
-    }
-    base::limitInstructionSet(widest);
+    test::everySet([&](base::InstructionSet) { EXPECT_EQ(history(base::makeSerialRunner(), 2000), want); });
 }

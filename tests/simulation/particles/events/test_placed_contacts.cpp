@@ -49,6 +49,21 @@ InstanceStart startAt(double y)
     return start;
 }
 
+/// A world whose state another one restores.
+class TwoWorlds : public testing::Test
+{
+protected:
+    TwoWorlds() { static_cast<void>(schema.add(base::kParticleKind)); }
+
+    Floor floor;
+    base::SnapshotSchema schema;
+    base::HostMemory memory;
+    std::unique_ptr<base::TaskRunner> tasks = base::makeSerialRunner();
+    std::shared_ptr<EffectDef> effect = hail(false);
+    World world{&schema, tasks.get(), &memory}, other{&schema, tasks.get(), &memory};
+    StateBuffer state{&memory};
+};
+
 } // namespace
 
 TEST(PlacedContacts, aHookIsNotAskedAboutTheTimeBeforeItWasThere)
@@ -72,15 +87,8 @@ TEST(PlacedContacts, aHookIsNotAskedAboutTheTimeBeforeItWasThere)
     }
 }
 
-TEST(PlacedContacts, aStateOfInstancesThatShareIsRestoredWhereAHookIs)
+TEST_F(TwoWorlds, aStateOfInstancesThatShareIsRestoredWhereAHookIs)
 {
-    Floor floor;
-    base::SnapshotSchema schema;
-    static_cast<void>(schema.add(base::kParticleKind));
-    base::HostMemory memory;
-    const auto tasks = base::makeSerialRunner();
-    const auto effect = hail(false);
-    World world(&schema, tasks.get(), &memory), other(&schema, tasks.get(), &memory);
     const std::array<World::Entry, 3> entries{
         {{effect, startAt(5)}, {effect, startAt(50)}, {effect, startAt(5)}}};
     std::array<Slot, 3> slots{}, restored{};
@@ -89,7 +97,6 @@ TEST(PlacedContacts, aStateOfInstancesThatShareIsRestoredWhereAHookIs)
     for (int i = 0; i < 20; ++i)
         world.step(slots, i * kStep, kStep);
     ASSERT_EQ(world.simulations(), 1u);
-    StateBuffer state(&memory);
     world.save(slots, state);
     for (World* each : {&world, &other})
         each->setContact({&floor, &Floor::meet});
@@ -106,20 +113,12 @@ TEST(PlacedContacts, aStateOfInstancesThatShareIsRestoredWhereAHookIs)
     EXPECT_NE(other.hash(std::array{restored[0]}), other.hash(std::array{restored[1]})); // 50 m: not yet down
 }
 
-TEST(PlacedContacts, statesWhoseInstancesDifferInMoreThanTheirPlacesAreRefused)
+TEST_F(TwoWorlds, statesWhoseInstancesDifferInMoreThanTheirPlacesAreRefused)
 {
-    Floor floor;
-    base::SnapshotSchema schema;
-    static_cast<void>(schema.add(base::kParticleKind));
-    base::HostMemory memory;
-    const auto tasks = base::makeSerialRunner();
-    const auto effect = hail(false);
-    World world(&schema, tasks.get(), &memory), other(&schema, tasks.get(), &memory);
     std::array<World::Entry, 2> entries{{{effect, startAt(5)}, {effect, startAt(50)}}};
     std::array<Slot, 2> slots{}, restored{};
     for (size_t i = 0; i < slots.size(); ++i)
         slots[i] = world.add(effect, entries[i].start);
-    StateBuffer state(&memory);
     world.save(slots, state);
     other.setContact({&floor, &Floor::meet});
     entries[1].start.seed = 7;

@@ -1,5 +1,5 @@
-#include "foundation/simd/instruction_set.h"
 #include "simulation/particles/collisions/collision_op.h"
+#include "tests/foundation/every_set.h"
 #include "tests/simulation/particles/modules/tile_stage.h"
 
 #include <glm/geometric.hpp>
@@ -211,13 +211,8 @@ TEST(ContactPath, givesTheSameBitsWithEveryInstructionSet)
         all.insert(all.end(), stage.tile->vy, stage.tile->vy + 256);
         return all;
     };
-    base::limitInstructionSet(base::InstructionSet::Scalar);
     const std::vector<float> want = play();
-    for (const auto set :
-         {base::InstructionSet::Sse4, base::InstructionSet::Avx2, base::InstructionSet::Avx512}) {
-        base::limitInstructionSet(set);
-        EXPECT_EQ(play(), want) << int(set);
-    }
+    test::everySet([&](base::InstructionSet) { EXPECT_EQ(play(), want); });
 }
 
 TEST(ContactPath, tellsWhetherItHeedsTheHostsGeometry)
