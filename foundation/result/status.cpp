@@ -39,6 +39,8 @@ const char* codeName(Code code)
         return "io";
     case Code::Interrupted:
         return "interrupted";
+    case Code::HostAnswer:
+        return "host-answer";
     case Code::Internal:
         return "internal";
     }

@@ -30,6 +30,7 @@ enum class Code : int
     ReEntrant = -14,      ///< a callback called back into the object that is calling it
     Io = -15,             ///< the operating system refused to read or write
     Interrupted = -16,    ///< the user stopped it
+    HostAnswer = -17,     ///< a callback of the host gave an answer that is none
     Internal = -99,       ///< a defect of this library
 };
 

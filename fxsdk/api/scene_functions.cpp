@@ -150,7 +150,7 @@ namespace {
 [[gnu::noinline]] Status contactFault(uint64_t faults) // rare, and far from what every frame passes through
 {
     return {
-        fx::base::Code::Schema,
+        fx::base::Code::HostAnswer,
         "the contact hook gave " + std::to_string(faults) +
             " answers that are none; needed are a share in 0..1 and a normal that is finite and not zero, "
             "or the return value 0 for a free way"};

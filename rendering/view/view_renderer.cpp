@@ -2,100 +2,21 @@
 
 #include "foundation/math/bits.h"
 #include "foundation/math/hash.h"
-#include "rendering/gl/gl_backend.h"
-#include "rendering/gl/gl_buffer.h"
-#include "rendering/gl/gl_device.h"
-#include "rendering/gl/gl_read_texture.h"
 #include "rendering/gl/gl_state_guard.h"
-#include "rendering/gl/gl_texture.h"
 #include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/programs.h"
 #include "rendering/passes/view_block.h"
-#include "rendering/view/fragment_estimate.h"
-#include "rendering/view/frame_builder.h"
-#include "rendering/view/frame_key.h"
-#include "rendering/view/group_merger.h"
-#include "rendering/view/layer_scale_control.h"
-#include "rendering/view/particle_buffers.h"
-#include "rendering/view/particle_frame.h"
-#include "rendering/view/view_graph.h"
+#include "rendering/view/view_parts.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <bit>
-#include <optional>
 #include <string>
 
 namespace fx::render {
 
-struct ViewRenderer::Impl
-{
-    Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory)
-        : device(d), graph(memory), backend(*d, memory), builder(memory),
-          merger(schema, memory), single{ParticleFrame(memory), ParticleBuffers(*d, memory)},
-          joined{ParticleFrame(memory), ParticleBuffers(*d, memory)}, batches(memory), runs(memory),
-          streams(memory), stamps(memory), timer(*d)
-    {}
-
-    struct Particles
-    {
-        ParticleFrame frame;
-        ParticleBuffers buffers;
-    };
-
-    base::Status ensureHistory();
-    base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
-                        const ViewSettings& settings); ///< everything that is to be drawn
-    base::Status gatherAnew(const base::SnapshotPair& snapshots, const StampPair& stamps,
-                            const FrameRequest& request, const ViewSettings& settings);
-    SnapshotRowStamps rowsOf(const base::FrameSnapshot* snapshot) const;
-    base::Status makeRoom(GlBuffer& buffer, size_t bytes, const char* label);
-    base::Status makeRoomForImpostors();
-    base::Status add(Particles& particles, const ParticleFrameInputs& inputs, const UploadStamps& of);
-    void releaseBlobs();
-    void releaseImpostors();
-    void releaseUnused();
-    FrameStatistics rest();
-    bool holdsNothing() const; ///< that rest() gives back
-    FrameStatistics count(int divisor);
-    void readBack(FrameStatistics& statistics); ///< waits for the GPU
-
-    GlDevice* device;
-    FrameGraph graph;
-    GlBackend backend;
-    FrameBuilder builder;
-    GroupMerger merger;
-    Particles single; ///< groups as they are
-    Particles joined; ///< small groups that are drawn alike
-    std::pmr::vector<ParticleBatch> batches;
-    DrawRuns runs;
-    std::pmr::vector<DrawStream> streams;
-    std::span<const MediaRun> mediaRuns;
-    SnapshotStamps stamps;
-    std::optional<FrameKey> key; ///< of the lists above and of what is on the GPU; nothing: not to be used
-    bool keptLists = false;      ///< they were not made for this frame
-    GlBuffer blobBuffer;
-    uint32_t blobsUnused = 0; ///< frames, one after the other
-    uint32_t impostorsUnused = 0;
-    GlBuffer impostorBuffer;
-    GlTexture impostorAtlas; ///< pictures of effects; nothing before the first
-    const base::AssetTable* assets = nullptr;
-    FragmentCounts fragments{}; ///< of this frame
-    LayerScaleControl layerScale;
-    GlPassTimer timer;
-    TimingClock clock = TimingClock::Off;
-    uint64_t tag = 0;
-    GlBuffer dazzleHistory;
-    uint32_t idleFrames = 0;   ///< one after the other in which there was nothing to draw
-    bool historyFresh = false; ///< nothing has been adapted to yet
-    ViewGraphOutputs outputs;
-};
-
 namespace {
-
-constexpr uint32_t kIdleFrames = 300; ///< until textures and buffers are given back
-constexpr size_t kLeastBufferBytes = 4096;
 
 /// Names what a moment between two snapshots shows.
 uint64_t contentOf(const StampPair& stamps, double interpolation)
@@ -220,141 +141,6 @@ base::Status ViewRenderer::Impl::add(Particles& particles, const ParticleFrameIn
     for (size_t i = 0; i < fragments.size(); ++i)
         fragments[i] += particles.frame.fragments()[i];
     return {};
-}
-
-/// Such a buffer belongs to the view, so that what is in it is still there in the next frame.
-base::Status ViewRenderer::Impl::makeRoom(GlBuffer& buffer, size_t bytes, const char* label)
-{
-    if (bytes == 0)
-        return {};
-    if (buffer.bytes() >= bytes) {
-        device->gl.InvalidateBufferData(buffer.name()); // the GPU may still read it: do not wait
-        return {};
-    }
-    auto created = GlBuffer::create(*device, std::bit_ceil(std::max(bytes, kLeastBufferBytes)), label);
-    if (!created)
-        return created.status();
-    buffer = std::move(*created);
-    return {};
-}
-
-base::Status ViewRenderer::Impl::makeRoomForImpostors()
-{
-    if (base::Status status = makeRoom(impostorBuffer, builder.impostors().size_bytes(), "impostors");
-        !status)
-        return status;
-    if (builder.takenTiles().empty() || impostorAtlas.name() != 0)
-        return {};
-    auto created = GlTexture::create(*device, kImpostorColumns * kImpostorTile, kImpostorRows * kImpostorTile,
-                                     glInternalFormat(Format::RGBA16F), "impostors");
-    if (!created)
-        return created.status();
-    impostorAtlas = std::move(*created);
-    return {};
-}
-
-/// A frame in which there is nothing to draw.
-FrameStatistics ViewRenderer::Impl::rest()
-{
-    outputs = {};
-    historyFresh = true; // glare that has paused begins anew
-    FrameStatistics statistics;
-    const uint64_t before = device->callCount();
-    if (++idleFrames >= kIdleFrames && backend.pooledBytes() > 0)
-        backend.releasePool();
-    if (idleFrames == kIdleFrames) {
-        releaseBlobs();
-        releaseImpostors();
-        key.reset();
-    }
-    single.buffers.idle();
-    joined.buffers.idle();
-    statistics.glCalls = device->callCount() - before;
-    statistics.textureBytes = backend.pooledBytes() + single.buffers.bytes() + joined.buffers.bytes();
-    return statistics;
-}
-
-bool ViewRenderer::Impl::holdsNothing() const
-{
-    return backend.pooledBytes() == 0 && single.buffers.bytes() == 0 && joined.buffers.bytes() == 0 &&
-           blobBuffer.name() == 0 && impostorBuffer.name() == 0 && impostorAtlas.name() == 0 && !key;
-}
-
-void ViewRenderer::Impl::releaseBlobs()
-{
-    blobBuffer = {};
-}
-
-void ViewRenderer::Impl::releaseImpostors()
-{
-    impostorBuffer = {};
-    impostorAtlas = {};
-    builder.forgetPictures();
-}
-
-/// Gives back what many frames in a row have drawn nothing from.
-void ViewRenderer::Impl::releaseUnused()
-{
-    blobsUnused = builder.blobs().empty() ? blobsUnused + 1 : 0;
-    if (blobsUnused == kIdleFrames)
-        releaseBlobs();
-    impostorsUnused = builder.impostors().empty() ? impostorsUnused + 1 : 0;
-    if (impostorsUnused == kIdleFrames)
-        releaseImpostors();
-}
-
-/// What the frame has drawn.
-FrameStatistics ViewRenderer::Impl::count(int divisor)
-{
-    FrameStatistics statistics;
-    statistics.blobs = uint32_t(builder.blobs().size());
-    statistics.blobsCulled = builder.counts().culled;
-    statistics.blobsNonFinite = builder.counts().nonFinite;
-    statistics.blobsThinned = builder.counts().thinned;
-    std::copy(builder.lodCounts().begin(), builder.lodCounts().end(), statistics.lodGroups);
-    statistics.particles = single.frame.rows() + joined.frame.rows();
-    for (const ParticleBatch& batch : batches)
-        statistics.gpuParticles += batch.isComputed ? batch.instances : 0;
-    statistics.particlesOrdered = single.frame.orderedRows() + joined.frame.orderedRows();
-    statistics.particlesThinned = single.frame.thinnedRows() + joined.frame.thinnedRows();
-    statistics.keptLists = keptLists;
-    statistics.impostors = uint32_t(builder.impostors().size());
-    statistics.impostorsTaken = keptLists ? 0 : uint32_t(builder.takenTiles().size());
-    statistics.uploadedBytes = single.buffers.uploadedBytes() + joined.buffers.uploadedBytes() +
-                               (keptLists ? 0
-                                          : builder.blobs().size_bytes() + builder.impostors().size_bytes() +
-                                                builder.takenBlobs().size_bytes());
-    statistics.keptRowBytes = single.buffers.keptBytes() + joined.buffers.keptBytes();
-    statistics.sharedRowBytes = single.buffers.sharedBytes() + joined.buffers.sharedBytes();
-    statistics.sortedElements = keptLists ? 0 : statistics.particlesOrdered + builder.blobs().size();
-    statistics.passes = outputs.anyPass ? uint32_t(graph.executedPasses().size()) : 0;
-    statistics.drawCalls = outputs.anyPass ? backend.drawCalls() : 0;
-    statistics.textureBytes = backend.pooledBytes() + single.buffers.bytes() + joined.buffers.bytes() +
-                              blobBuffer.bytes() + impostorBuffer.bytes() + impostorAtlas.bytes();
-    if (outputs.anyPass) {
-        statistics.unsharedBytes = graph.memory().unshared;
-        statistics.sharedBytes = graph.memory().shared;
-    }
-    statistics.estimatedFragments = fragments[layerDivisorIndex(divisor)];
-    statistics.layerDivisor = divisor;
-    return statistics;
-}
-
-void ViewRenderer::Impl::readBack(FrameStatistics& statistics)
-{
-    if (outputs.overdraw.valid()) {
-        for (const float count : readTexture(*device, backend.textureName(outputs.overdraw),
-                                             outputs.layerWidth, outputs.layerHeight, 1))
-        {
-            statistics.coveredPixels += count > 0.0f ? 1 : 0;
-            statistics.shadedFragments += uint64_t(count);
-        }
-    }
-    if (dazzleHistory.name() != 0 && !historyFresh) {
-        DazzleHistory history;
-        device->gl.GetNamedBufferSubData(dazzleHistory.name(), 0, sizeof history, &history);
-        std::copy_n(history.frameMean, 3, statistics.overflow);
-    }
 }
 
 ViewRenderer::ViewRenderer(GlDevice* device, const base::SnapshotSchema* schema,

@@ -129,7 +129,7 @@ TEST_F(ContactHook, answersThatAreNoneAreCountedAndReported)
         FxResult result = FX_OK;
         for (int i = 0; i < 60 && result == FX_OK; ++i)
             result = fxScene_Update(scene_, kFrame);
-        EXPECT_EQ(result, FX_ERROR_SCHEMA);
+        EXPECT_EQ(result, FX_ERROR_HOST_ANSWER);
         EXPECT_NE(std::string(fxGetLastErrorMessage()).find("answers that are none"), std::string::npos);
         const int64_t before = statistics().simulatedTick;
         floor.fault = Fault::None;

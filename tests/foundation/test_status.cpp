@@ -26,7 +26,7 @@ TEST(Status, anErrorKeepsItsCodeAndMessage)
 TEST(Status, everyCodeHasItsOwnName)
 {
     std::set<std::string> names;
-    for (int code = 0; code >= -16; --code)
+    for (int code = 0; code >= -17; --code)
         names.insert(codeName(Code(code)));
     names.insert(codeName(Code::Internal));
     EXPECT_EQ(names.size(), 18u);

@@ -75,6 +75,7 @@ typedef enum FxResult
     FX_ERROR_RE_ENTRANT = -14,      ///< a callback called back into the object that is calling it
     FX_ERROR_IO = -15,              ///< the operating system refused to read or write
     FX_ERROR_INTERRUPTED = -16,     ///< the user stopped it
+    FX_ERROR_HOST_ANSWER = -17,     ///< a callback of the host gave an answer that is none
     FX_ERROR_INTERNAL = -99,        ///< a defect of the library
     FX_RESULT_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never returned
 } FxResult;

@@ -352,9 +352,9 @@ FX_API FxResult fxScene_SetContactHook(FxScene* scene, const FxContactHook* hook
 /// @param dtSeconds [s] >= 0; 0 changes nothing; more than maxFrameTicks is shortened to it and counted
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (negative or not finite: counted, nothing advances),
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (time has advanced, and what
-///         the allocator refused is missing from the picture until it gives again), FX_ERROR_SCHEMA (time has
-///         advanced, but the contact hook gave answers that are none: a share that is not in 0..1, a normal
-///         that is zero or not finite. The message says how many; they counted as free ways)
+///         the allocator refused is missing from the picture until it gives again), FX_ERROR_HOST_ANSWER
+///         (time has advanced, but the contact hook gave answers that are none: a share that is not in 0..1,
+///         a normal that is zero or not finite. The message says how many; they counted as free ways)
 FX_API FxResult fxScene_Update(FxScene* scene, double dtSeconds);
 
 /// Reads the counters of the scene. [scene thread]
