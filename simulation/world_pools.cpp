@@ -44,6 +44,7 @@ void World::stepPools(std::span<const Slot> active, bool isPlanned, StepCounters
                 leavePool(user); // time stands still for it
         });
     left_.clear();
+    left_.reserve(pools_.members()); // before anybody leaves
     pools_.step(now_, counters, left_);
     for (const RunIndex index : left_)
         leavePool(index);
@@ -67,6 +68,7 @@ void World::joinPools()
 
 void World::planStep(std::span<const Slot> active)
 {
+    stepPlan_.revision = 0; // of no pools: the memory may run out on the way
     stepPlan_.active.assign(active.begin(), active.end());
     stepPlan_.others.clear();
     for (const Slot slot : active)
@@ -104,6 +106,7 @@ void World::makeRoster(std::span<const Slot> active) const
         found != rosterRoom_.end() ? *found : rosterRoom_.emplace_back(std::make_shared<base::GroupRoster>());
     roster_->shape = shape;
     roster_->entries.clear();
+    publishPlan_.revision = 0;
     publishPlan_.active.assign(active.begin(), active.end());
     publishPlan_.others.clear();
     for (const Slot slot : active) {

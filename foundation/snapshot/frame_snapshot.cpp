@@ -31,11 +31,11 @@ FrameSnapshot::FrameSnapshot(const SnapshotSchema* schema, std::pmr::memory_reso
     : schema_(schema), memory_(memory), groups_(memory), ends_(memory)
 {}
 
-void FrameSnapshot::begin(Ticks tick, uint64_t sequence)
+void FrameSnapshot::begin(Ticks tick, uint64_t sequence, Ticks step)
 {
     tick_ = tick;
     sequence_ = sequence;
-    secondsBack_ = 0;
+    secondsBack_ = float(toSeconds(step));
     groupCount_ = 0;
     poolCount_ = 0;
     roster_.reset();

@@ -31,7 +31,7 @@ public:
     std::pmr::memory_resource* memory() const { return memory_; }
     Ticks tick() const { return tick_; }
     uint64_t sequence() const { return sequence_; } ///< 1 for the first published, then rising by 1; 0: never
-    /// [s] since the snapshot before; what was born within them is drawn on its way. 0: there is none.
+    /// [s] of the step that ended here; what was born within it is drawn on its way. 0: there was none.
     float secondsBack() const { return secondsBack_; }
     size_t groupCount() const { return groupCount_ + (roster_ ? roster_->entries.size() : 0); }
     /// The first call on a snapshot with pools gives their rows to their groups. It allocates nothing.
@@ -44,9 +44,8 @@ public:
     uint64_t hash() const;
 
     // ---- for the writer, before publication ----
-    void begin(Ticks tick, uint64_t sequence);
-    /// To be called after begin().
-    void follows(const FrameSnapshot& before) { secondsBack_ = float(toSeconds(tick_ - before.tick_)); }
+    /// @param step [tick] length of the step that ends at `tick`; 0: none does
+    void begin(Ticks tick, uint64_t sequence, Ticks step = 0);
     /// A group with room for `capacity` elements; fill it and set its info (count, bounds). The memory of a
     /// group of an earlier snapshot is reused when one is large enough, whatever its position was.
     /// @param present columns of the kind that the group is to have

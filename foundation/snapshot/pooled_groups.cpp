@@ -39,6 +39,8 @@ RowCopier::RowCopier(const KindDesc& kind, const SnapshotGroup& pool, uint32_t e
 void PooledRows::prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present,
                          uint32_t each)
 {
+    if (owner.size() < capacity)
+        owner.resize(capacity); // the memory may run out: before anything else has changed
     const bool isSame = groupCapacity == each;
     groupCapacity = each;
     if (rows.prepareAgain(kind, capacity, present, false) && isSame)
@@ -46,7 +48,6 @@ void PooledRows::prepare(const SnapshotSchema& schema, KindId kind, size_t capac
     writer = 0;
     rows.prepare(schema, kind, capacity, present);
     copier = RowCopier(schema.kind(kind), rows, each);
-    owner.resize(capacity);
 }
 
 void SpreadGroups::prepare(const FrameSnapshot& snapshot)

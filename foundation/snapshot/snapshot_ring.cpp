@@ -13,7 +13,7 @@ SnapshotRing::SnapshotRing(const SnapshotSchema* schema, std::pmr::memory_resour
         slots_.push_back({std::make_unique<FrameSnapshot>(schema_, memory_), 0});
 }
 
-FrameSnapshot& SnapshotRing::beginWrite(Ticks tick)
+FrameSnapshot& SnapshotRing::beginWrite(Ticks tick, Ticks step)
 {
     std::lock_guard lock(mutex_);
     writing_ = nullptr;
@@ -28,9 +28,7 @@ FrameSnapshot& SnapshotRing::beginWrite(Ticks tick)
         slots_.push_back({std::make_unique<FrameSnapshot>(schema_, memory_), 0});
         writing_ = slots_.back().snapshot.get();
     }
-    writing_->begin(tick, sequence_ + (staged_ ? 2 : 1));
-    if (const FrameSnapshot* before = staged_ ? staged_ : newest_)
-        writing_->follows(*before);
+    writing_->begin(tick, sequence_ + (staged_ ? 2 : 1), step);
     return *writing_;
 }
 

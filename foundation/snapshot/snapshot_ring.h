@@ -25,8 +25,9 @@ class SnapshotRing
 public:
     SnapshotRing(const SnapshotSchema* schema, std::pmr::memory_resource* memory);
 
-    /// A snapshot nobody reads, cleared for writing. Never null: when all are held, the ring grows by one.
-    FrameSnapshot& beginWrite(Ticks tick);
+    /// @param step [tick] length of the step that ends at `tick`; 0: none does
+    /// @return a snapshot nobody reads, cleared for writing; when all are held, the ring grows by one
+    FrameSnapshot& beginWrite(Ticks tick, Ticks step = 0);
     /// Makes what was written the newest. It must not be changed after this.
     void publish();
     /// What was written becomes the predecessor of what is written next, in place of the newest one of now:

@@ -125,7 +125,8 @@ Status renderFrame(FxView& view, const FxFrameDef* frame)
     fx::render::FrameRequest request;
     if (Status status = fx::api::convertFrame(known, request); !status)
         return status;
-    if (view.sleeps && view.scene->scene.showsNothing()) { // only the camera is another
+    if (view.sleeps && !request.targets.useFramebuffer && view.scene->scene.showsNothing()) {
+        // only the camera is another; into a framebuffer the picture has to be carried over
         view.sleptFrame = known;
         Status status = fx::render::ViewRenderer::check(request);
         view.sleeps = status.ok();

@@ -51,7 +51,7 @@ const base::FrameSnapshot& BenchStage::frame()
 {
     counters_ += world_.step(slots_, now_, kFrame);
     now_ += kFrame;
-    base::FrameSnapshot& snapshot = ring_.beginWrite(now_);
+    base::FrameSnapshot& snapshot = ring_.beginWrite(now_, kFrame);
     world_.publish(slots_, snapshot);
     ring_.publish();
     return snapshot;

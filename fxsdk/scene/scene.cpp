@@ -233,7 +233,7 @@ void Scene::finish(uint32_t index)
 void Scene::publish(base::Ticks tick, double interpolation)
 {
     if (active_.size() > 0 && emptyPublications_ > 2) { // the step before is what views interpolate from
-        ring_.beginWrite(tick - clock_.stepTicks());
+        ring_.beginWrite(tick - clock_.stepTicks(), clock_.stepTicks());
         ring_.publish();
     }
     emptyPublications_ = active_.size() > 0 ? 0 : emptyPublications_ + 1;
@@ -243,7 +243,7 @@ void Scene::publish(base::Ticks tick, double interpolation)
         return show(tick, interpolation);
     }
     showsNothing_.store(false, std::memory_order_release);
-    base::FrameSnapshot& snapshot = ring_.beginWrite(tick);
+    base::FrameSnapshot& snapshot = ring_.beginWrite(tick, clock_.stepTicks());
     world_.publish(active_.slots(), snapshot);
     std::lock_guard lock(presentation_);
     ring_.publish();
@@ -254,7 +254,7 @@ void Scene::publish(base::Ticks tick, double interpolation)
 void Scene::stageReturned(base::Ticks tick)
 {
     try {
-        world_.publish(active_.slots(), ring_.beginWrite(tick));
+        world_.publish(active_.slots(), ring_.beginWrite(tick, clock_.stepTicks()));
         ring_.stageOlder();
         emptyPublications_ = 0;
     } catch (const std::bad_alloc&) {

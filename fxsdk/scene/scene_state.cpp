@@ -324,7 +324,7 @@ std::vector<sim::Slot> Scene::slotsBySerial() const
 void Scene::take(Restored& state)
 {
     const base::Ticks simulated = state.clock.steps * options_.stepTicks;
-    state.world.publish(state.active.slots(), ring_.beginWrite(simulated));
+    state.world.publish(state.active.slots(), ring_.beginWrite(simulated, options_.stepTicks));
     clock_.restore(state.clock);
     counters_ = state.counters;
     nextSerial_ = state.nextSerial;

@@ -268,10 +268,17 @@ void ParticleFrame::fillLights(const ParticleFrameInputs& in, ParticleBlock& blo
 
 ParticleFrame::Orderer& ParticleFrame::ordererOf(const base::GroupInfo& info)
 {
-    for (const auto& orderer : orderers_)
-        if (orderer->instance == info.instance && orderer->solver == info.solver &&
-            orderer->kind == info.kind && orderer->usedFrame != frame_)
-            return *orderer;
+    for (size_t i = 0; i < orderers_.size(); ++i) { // they come in the order of the frame before, mostly
+        const size_t at = (lastOrderer_ + 1 + i) % orderers_.size();
+        Orderer& orderer = *orderers_[at];
+        if (orderer.instance == info.instance && orderer.solver == info.solver && orderer.kind == info.kind &&
+            orderer.usedFrame != frame_)
+        {
+            lastOrderer_ = at;
+            return orderer;
+        }
+    }
+    lastOrderer_ = orderers_.size();
     orderers_.push_back(std::make_unique<Orderer>(memory_));
     Orderer& made = *orderers_.back();
     made.instance = info.instance;

@@ -96,6 +96,7 @@ private:
     std::pmr::vector<DrawStream> streams_;
     std::pmr::vector<GpuOrderJob> gpuOrders_;
     std::pmr::vector<std::unique_ptr<Orderer>> orderers_;
+    size_t lastOrderer_ = 0; ///< that ordererOf() found
     uint64_t frame_ = 0;
     uint64_t rows_ = 0;
     uint64_t orderedRows_ = 0;

@@ -13,6 +13,7 @@ namespace fx::render {
 namespace {
 
 constexpr uint32_t kEmpty = ~0u;
+constexpr size_t kMostTries = 16; ///< groups that a group is compared with before it counts as unlike all
 
 bool hasRows(const base::FrameSnapshot& snapshot, const base::SnapshotGroup& group)
 {
@@ -26,9 +27,10 @@ bool hasRows(const base::FrameSnapshot& snapshot, const base::SnapshotGroup& gro
 uint64_t sampleOf(const base::SnapshotGroup& group)
 {
     uint64_t hash = base::hashWord(group.info().kind, group.count());
-    const auto x = group.column(0); // the place along x, of both kinds
-    for (const size_t row : {size_t(0), x.size() / 2, x.size() - 1})
-        hash = base::hashWord(hash, std::bit_cast<uint32_t>(x[row]));
+    for (const size_t c : {0, 1, 2, 3}) // place, and age or width
+        for (const size_t row : {size_t(0), group.count() / size_t(2), group.count() - size_t(1)})
+            if (group.has(c))
+                hash = base::hashWord(hash, std::bit_cast<uint32_t>(group.column(c)[row]));
     return hash;
 }
 
@@ -67,7 +69,8 @@ void RowStamps::findAlike(const base::FrameSnapshot& snapshot, size_t g)
     const base::SnapshotGroup& group = snapshot.group(g);
     const auto columns = snapshot.schema().kind(group.info().kind).columns;
     const size_t mask = table_.size() - 1;
-    for (size_t at = sampleOf(group) & mask;; at = (at + 1) & mask) {
+    size_t at = sampleOf(group) & mask;
+    for (size_t tried = 0; tried < kMostTries; ++tried, at = (at + 1) & mask) {
         if (table_[at] == kEmpty) {
             table_[at] = uint32_t(g);
             return;

@@ -121,6 +121,8 @@ uint32_t EmitterPool::admit(const PoolEntry& entry, base::Ticks now)
     if (m >= base::PooledRows::kMostMembers)
         return kNoMember;
     now_ = now;
+    if (taken_ == 0) // time may have gone on, or back, since the last member left its rows
+        store_.clear(store_.next());
     try {
         makeRoom(m, own.rowsInUse());
     } catch (const std::bad_alloc&) {

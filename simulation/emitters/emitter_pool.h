@@ -5,7 +5,8 @@
 /// of nearly one age and no empty rows, however few particles a member has. A member costs nothing in a step
 /// in which none of its particles is born or dies. Each gets the same bits as by itself: random numbers are
 /// those of its seed, ages are differences of ticks, and a birth whose row in the member's own store would be
-/// taken is dropped.
+/// taken is dropped. Only where memory runs out as the rows grow, a birth is dropped that the emitter by
+/// itself would have had room for; it is counted like the others.
 #pragma once
 
 #include "simulation/emitters/birth_schedule.h"

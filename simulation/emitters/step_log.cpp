@@ -3,6 +3,7 @@
 #include "foundation/math/hash.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <limits>
 
@@ -28,9 +29,10 @@ uint64_t hashOf(uint64_t hash, const StepConditions& c)
 
 void StepLog::clear(uint64_t seed, uint32_t solver)
 {
+    static std::atomic<uint64_t> clears = 0; // of all logs: a restored emitter is another one
     runs_.clear();
     // Histories that begin in different places must not be taken for each other.
-    history_ = base::hashWord(base::hashWord(seed, solver), ++clears_);
+    history_ = base::hashWord(base::hashWord(seed, solver), ++clears);
 }
 
 void StepLog::add(base::Ticks begin, base::Ticks length, uint64_t next, const StepConditions& conditions)

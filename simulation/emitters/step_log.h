@@ -91,7 +91,6 @@ public:
 private:
     std::pmr::vector<Run> runs_; ///< ascending
     uint64_t history_ = 0;
-    uint32_t clears_ = 0;
 };
 
 } // namespace fx::sim

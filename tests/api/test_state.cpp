@@ -91,6 +91,20 @@ TEST_F(StateApi, restoringShowsTheSavedStepAtOnce)
     EXPECT_EQ(fxScene_ReleaseSnapshot(scene_, snapshot), FX_OK);
 }
 
+TEST_F(StateApi, restoredTrailsHashAsWhenTheyWereSaved)
+{
+    FxInstanceDef def = fxDefaultInstanceDef();
+    ASSERT_EQ(fxLoadPresetLibrary(context_, "tracer", &def.preset), FX_OK);
+    FxInstanceId id{};
+    ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK);
+    play(20);
+    const uint64_t shown = hash();
+    const std::vector<std::byte> state = savedState();
+    play(20);
+    ASSERT_EQ(restore(state), FX_OK);
+    EXPECT_EQ(hash(), shown);
+}
+
 TEST_F(StateApi, anotherSceneOfTheSamePresetsContinuesTheSame)
 {
     play(30);

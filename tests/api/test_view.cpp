@@ -1,4 +1,5 @@
 // Drawing: what a view does to the host's picture, and to nothing else.
+#include "rendering/gl/gl_read_texture.h"
 #include "tests/api/counting_new.h"
 #include "tests/api/view_fixture.h"
 #include "tests/rendering/gl/gl_host_state.h"
@@ -148,6 +149,34 @@ TEST_F(ViewApi, aFramebufferIsDrawnLikeATextureWithoutShimmerAndGlare)
     host_->gl.DeleteFramebuffers(1, &framebuffer);
     for (size_t i = 0; i < asTexture.size(); ++i)
         ASSERT_NEAR(asFramebuffer[i], asTexture[i], 1e-4f + 1e-4f * std::abs(asTexture[i])) << "value " << i;
+}
+
+TEST_F(ViewApi, aFramebufferGetsThePictureThoughTheSceneHasLongShownNothing)
+{
+    const FxSceneDef sceneDef = fxDefaultSceneDef();
+    FxScene* scene = nullptr;
+    FxView* view = nullptr;
+    ASSERT_EQ(fxCreateScene(context_, &sceneDef, &scene), FX_OK);
+    ASSERT_EQ(fxCreateView(context_, scene, nullptr, &view), FX_OK);
+    FxViewSettings settings = fxDefaultViewSettings();
+    settings.dazzle = 0; // which goes on while there is nothing to be seen
+    ASSERT_EQ(fxView_SetSettings(view, &settings), FX_OK);
+    fillPicture();
+    FxFrameDef def = frame();
+    for (int i = 0; i < 8; ++i) {
+        ASSERT_EQ(fxScene_Update(scene, kFrame), FX_OK);
+        ASSERT_EQ(fxView_Render(view, &def), FX_OK);
+    }
+    auto target = fx::render::GlTexture::create(*host_, kSize, kSize, GL_RGBA16F, "target");
+    ASSERT_TRUE(target.ok());
+    GLuint framebuffer = 0;
+    host_->gl.CreateFramebuffers(1, &framebuffer);
+    host_->gl.NamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, target->name(), 0);
+    def.target = FX_TARGET_FRAMEBUFFER;
+    def.framebuffer = framebuffer;
+    ASSERT_EQ(fxView_Render(view, &def), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(fx::render::readTexture(*host_, target->name(), kSize, kSize, 4), picture());
+    host_->gl.DeleteFramebuffers(1, &framebuffer);
 }
 
 TEST_F(ViewApi, whatIsShownLiesBetweenTheLastTwoSteps)

@@ -106,6 +106,17 @@ public:
         return snapshot_;
     }
 
+    /// All end at once, and as many others begin after some steps.
+    void replaceAll(int from, int steps)
+    {
+        for (const Entry& entry : entries_)
+            world_.remove(entry.slot);
+        entries_.clear();
+        play(from, from + steps, false);
+        for (uint32_t i = 0; i < kInstances; ++i)
+            add(1000 * kInstances + i);
+    }
+
     /// Goes on from its own saved state in a new world.
     void restart(bool pools)
     {
@@ -277,6 +288,20 @@ TEST(EmitterPool, onlyEmittersOfWhichThereAreSeveralShareOne)
         }
         stage.play(120);
         EXPECT_EQ(stage.world().pooled(), count == 1 ? 0u : count);
+    }
+}
+
+TEST(EmitterPool, whoJoinsAPoolThatAllHaveLeftMeetsNobody)
+{
+    for (const int pause : {150, 190, 220, 250, 280}) { // 3 s and more: ages of brief lives come round
+        Life pooled(true), alone(false);
+        for (Life* life : {&pooled, &alone}) {
+            life->play(0, 100, false);
+            life->replaceAll(100, pause);
+            life->play(400, 500, false);
+        }
+        EXPECT_GT(pooled.most(), kInstances / 2);
+        EXPECT_EQ(pooled.seen(), alone.seen()) << pause;
     }
 }
 

@@ -37,12 +37,7 @@ public:
     }
     const base::FrameSnapshot& look()
     {
-        snapshot_.begin(now_, 1);
-        if (before_) {
-            base::FrameSnapshot before(&schema_, &memory_);
-            before.begin(now_ - *before_, 0);
-            snapshot_.follows(before);
-        }
+        snapshot_.begin(now_, 1, before_.value_or(0));
         world_.publish(std::array{slot_}, snapshot_);
         return snapshot_;
     }
