@@ -29,7 +29,7 @@ TEST(Status, everyCodeHasItsOwnName)
     for (int code = 0; code >= -17; --code)
         names.insert(codeName(Code(code)));
     names.insert(codeName(Code::Internal));
-    EXPECT_EQ(names.size(), 18u);
+    EXPECT_EQ(names.size(), 19u);
     EXPECT_EQ(names.count("unknown"), 0u);
     EXPECT_STREQ(codeName(Code(-50)), "unknown");
 }
