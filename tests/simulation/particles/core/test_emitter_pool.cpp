@@ -106,6 +106,7 @@ public:
         return snapshot_;
     }
 
+    void look() { seen_.push_back(hashOf(publish())); }
     /// All end at once, and as many others begin after some steps.
     void replaceAll(int from, int steps)
     {
@@ -298,7 +299,10 @@ TEST(EmitterPool, whoJoinsAPoolThatAllHaveLeftMeetsNobody)
         for (Life* life : {&pooled, &alone}) {
             life->play(0, 100, false);
             life->replaceAll(100, pause);
-            life->play(400, 500, false);
+            for (int step = 400; step < 440; ++step) {
+                life->play(step, step + 1, false);
+                life->look();
+            }
         }
         EXPECT_GT(pooled.most(), kInstances / 2);
         EXPECT_EQ(pooled.seen(), alone.seen()) << pause;
