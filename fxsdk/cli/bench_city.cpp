@@ -107,6 +107,31 @@ double sum(const std::vector<double>& values)
     return total;
 }
 
+/// @param seen instances that are ever in sight  @param few the run of only those
+void print(const BenchCityOptions& options, const CityRun& all, size_t seen, const CityRun& few)
+{
+    const double updateMs = 1e3 * sum(all.update) / options.frames,
+                 renderMs = 1e3 * sum(all.render) / options.frames;
+    const double fewMs = 1e3 * (sum(few.update) + sum(few.render)) / options.frames;
+    const double ratio = (updateMs + renderMs) / fewMs;
+    if (options.json)
+        printJsonLine(withMachine({{"name", "city"},
+                                   {"variant", options.gl ? "gl" : "update"},
+                                   {"count", options.instances},
+                                   {"visible", all.visible},
+                                   {"ever_visible", seen},
+                                   {"ms_update", updateMs},
+                                   {"ms_submit", renderMs},
+                                   {"ms_only_visible", fewMs},
+                                   {"ratio", ratio}},
+                                  readMachine()));
+    else
+        std::printf(
+            "%u instances, %.1f in sight: %.4f ms update, %.4f ms render; only the %zu that are ever in "
+            "sight: %.4f ms; ratio %.3f\n",
+            options.instances, all.visible, updateMs, renderMs, seen, fewMs, ratio);
+}
+
 } // namespace
 
 std::string cityPreset(int index, const std::string& offscreen, bool ballistic)
@@ -152,26 +177,7 @@ int runBenchCity(const BenchCityOptions& options)
             std::fprintf(stderr, "fx bench city: %s\n", status.message().c_str());
             return kFailed;
         }
-    const double updateMs = 1e3 * sum(all.update) / options.frames,
-                 renderMs = 1e3 * sum(all.render) / options.frames;
-    const double fewMs = 1e3 * (sum(few.update) + sum(few.render)) / options.frames;
-    const double ratio = (updateMs + renderMs) / fewMs;
-    if (options.json)
-        printJsonLine(withMachine({{"name", "city"},
-                                   {"variant", options.gl ? "gl" : "update"},
-                                   {"count", options.instances},
-                                   {"visible", all.visible},
-                                   {"ever_visible", seen.size()},
-                                   {"ms_update", updateMs},
-                                   {"ms_submit", renderMs},
-                                   {"ms_only_visible", fewMs},
-                                   {"ratio", ratio}},
-                                  readMachine()));
-    else
-        std::printf(
-            "%u instances, %.1f in sight: %.4f ms update, %.4f ms render; only the %zu that are ever in "
-            "sight: %.4f ms; ratio %.3f\n",
-            options.instances, all.visible, updateMs, renderMs, seen.size(), fewMs, ratio);
+    print(options, all, seen.size(), few);
     return kSuccess;
 }
 

@@ -150,15 +150,7 @@ uint32_t EmitterPool::admit(const PoolEntry& entry, base::Ticks now)
     member.next = own.next();
     member.frontRow = own.rowOf(own.front());
     member.nextRow = own.rowOf(own.next());
-    for (uint64_t particle = own.front(); particle < own.next(); ++particle) {
-        const uint32_t row = own.rowOf(particle);
-        if (own.index[row] != particle || !own.isAlive(row, now + entry.offset))
-            continue;
-        const uint64_t serial = store_.next();
-        store_.copyRow(own, row, store_.rowOf(serial), {serial, own.born[row] - entry.offset});
-        put(m, particle, row, serial);
-        store_.advance(1);
-    }
+    takeRows(m, own);
     member.highWater = entry.emitter->highWater();
     member.dropped = entry.emitter->dropped();
     ++taken_;
@@ -166,6 +158,21 @@ uint32_t EmitterPool::admit(const PoolEntry& entry, base::Ticks now)
     retire(m);
     wakeLater(m);
     return m;
+}
+
+/// Copies who is alive in the store that a member has had so far.
+void EmitterPool::takeRows(uint32_t m, const ParticleStore& own)
+{
+    const base::Ticks offset = members_[m].offset;
+    for (uint64_t particle = own.front(); particle < own.next(); ++particle) {
+        const uint32_t row = own.rowOf(particle);
+        if (own.index[row] != particle || !own.isAlive(row, now_ + offset))
+            continue;
+        const uint64_t serial = store_.next();
+        store_.copyRow(own, row, store_.rowOf(serial), {serial, own.born[row] - offset});
+        put(m, particle, row, serial);
+        store_.advance(1);
+    }
 }
 
 void EmitterPool::forget(uint32_t m)

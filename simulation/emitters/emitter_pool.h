@@ -110,6 +110,7 @@ private:
     void makeRoom(uint32_t member, uint64_t rows);
     void rebuild(uint64_t rows);
     void put(uint32_t member, uint64_t particle, uint32_t row, uint64_t serial);
+    void takeRows(uint32_t member, const ParticleStore& own);
     void giveBirths(uint32_t member, base::Ticks to, StepCounters& counters);
     bool findRoom();
     void makeBirths();
