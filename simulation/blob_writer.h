@@ -38,7 +38,8 @@ public:
     void fill(size_t index, float value) { std::fill_n(column(index), count_, value); }
 
     /// Bounds from what has been written: of the balls, drawn out along their way while the shutter is open,
-    /// and of those born since the snapshot before, at any moment since.
+    /// and at any moment since the snapshot before, where those are who were not in it. Ages do not tell who
+    /// that was: they count time of the instance, which may run faster.
     void closeBounds()
     {
         namespace blob = base::blob_column;
@@ -49,7 +50,7 @@ public:
         for (uint32_t i = 0; i < count_; ++i) {
             const glm::vec3 position = vector(blob::PositionX, i);
             bounds.add(position, radius[i]);
-            const float back = age[i] <= kLater * secondsBack_ ? std::min(age[i], secondsBack_) : 0.0f;
+            const float back = std::min(age[i], kRoundedUp * secondsBack_);
             if (back + shutter > 0.0f)
                 bounds.add(position - vector(blob::VelocityX, i) * (back + shutter), radius[i]);
         }
@@ -57,7 +58,7 @@ public:
     }
 
 private:
-    static constexpr float kLater = 1.001f; ///< rounding of ages
+    static constexpr float kRoundedUp = 1.001f; ///< more than the rounding of times
 
     glm::vec3 vector(size_t first, uint32_t i)
     {

@@ -35,7 +35,7 @@ void FrameSnapshot::begin(Ticks tick, uint64_t sequence, Ticks step)
 {
     tick_ = tick;
     sequence_ = sequence;
-    secondsBack_ = float(toSeconds(step));
+    step_ = step;
     groupCount_ = 0;
     poolCount_ = 0;
     roster_.reset();

@@ -32,7 +32,8 @@ public:
     Ticks tick() const { return tick_; }
     uint64_t sequence() const { return sequence_; } ///< 1 for the first published, then rising by 1; 0: never
     /// [s] of the step that ended here; what was born within it is drawn on its way. 0: there was none.
-    float secondsBack() const { return secondsBack_; }
+    float secondsBack() const { return float(toSeconds(step_)); }
+    Ticks step() const { return step_; } ///< the same, as begin() was told
     size_t groupCount() const { return groupCount_ + (roster_ ? roster_->entries.size() : 0); }
     /// The first call on a snapshot with pools gives their rows to their groups. It allocates nothing.
     const SnapshotGroup& group(size_t index) const
@@ -89,7 +90,7 @@ private:
     std::pmr::memory_resource* memory_;
     Ticks tick_ = 0;
     uint64_t sequence_ = 0;
-    float secondsBack_ = 0;
+    Ticks step_ = 0;
     size_t groupCount_ = 0;
     std::pmr::vector<SnapshotGroup>
         groups_; ///< the first groupCount_ are valid, the rest keep memory for later

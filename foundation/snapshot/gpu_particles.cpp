@@ -87,7 +87,7 @@ bool hasGpuParticles(const FrameSnapshot& snapshot)
 std::unique_ptr<FrameSnapshot> replayOnCpu(const FrameSnapshot& snapshot, std::pmr::memory_resource* memory)
 {
     auto out = std::make_unique<FrameSnapshot>(&snapshot.schema(), memory);
-    out->begin(snapshot.tick(), snapshot.sequence());
+    out->begin(snapshot.tick(), snapshot.sequence(), snapshot.step());
     for (size_t g = 0; g < snapshot.groupCount(); ++g) {
         const SnapshotGroup& group = snapshot.group(g);
         if (group.program())

@@ -12,6 +12,7 @@
 #include "fxsdk/activation/hidden_tree.h"
 #include "fxsdk/activation/wake_queue.h"
 #include "fxsdk/scene/id_table.h"
+#include "fxsdk/scene/whereabouts.h"
 #include "simulation/world.h"
 
 #include <atomic>
@@ -253,7 +254,10 @@ private:
         bool wasResting = false;    ///< before it began to wake
         uint32_t lastParticles = 0; ///< when it was hidden
         ActivationHints hints;
-        double reach = 0; ///< [m] world
+        double reach = 0;                  ///< [m] world
+        float localReach = 0;              ///< [m] of the effect in a wind of reachWind
+        float reachWind = -1;              ///< [m/s] local; negative before it was measured
+        std::unique_ptr<Whereabouts> past; ///< where what is now does not tell everything
     };
     struct Restored; ///< a state on its way into the scene
 
@@ -271,6 +275,8 @@ private:
     double significanceOf(const Instance& instance) const;
     uint64_t particlesOf(const Instance& instance) const;
     void measure(Instance& instance) const; ///< how far it reaches
+    Circumstances circumstancesOf(const InstanceSetup& setup, const Memory& memory) const;
+    Circumstances pastOf(Instance& instance, bool stays, const Memory& memory) const;
     Reason judge(const Instance& instance, bool isSeen);
     void reconsider(const base::StepPlan& plan);
     void lookAround();

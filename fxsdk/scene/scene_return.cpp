@@ -94,6 +94,8 @@ void Scene::becomePresent(uint32_t index)
         return;
     }
     world_.show(instance.slot);
+    if (instance.past)
+        instance.past->restart(clock_.simulated());
     instance.state = InstanceState::Active;
     instance.reason = Reason::None;
     active_.insert(instance.serial, index, instance.slot);

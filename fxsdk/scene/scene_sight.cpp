@@ -1,7 +1,9 @@
 // Who is in sight: instances go out of sight and come back, and nobody visits those that are out of it.
 #include "fxsdk/scene/scene.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +15,7 @@ namespace fx::scene {
 namespace {
 
 constexpr uint64_t kBytesPerParticle = 128; ///< of a solver and its snapshots, for budgets
+constexpr double kRounding = 1e-6;          ///< [1] of a cosine, more than that of floats
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 Reason reasonOf(activation::Sight sight)
@@ -44,13 +47,75 @@ bool Scene::mayHide(const Instance& instance) const
     return !options_.lockStep || (isExact(instance.policy) && !instance.setup.destroyWhenFinished);
 }
 
+Circumstances Scene::circumstancesOf(const InstanceSetup& setup, const Memory& memory) const
+{
+    const base::Placement& to = setup.placement;
+    const base::Placement& from = setup.cameFrom ? *setup.cameFrom : to;
+    Circumstances is;
+    is.low = is.high = to.position;
+    is.smallest = is.largest = to.scale;
+    is.wind = glm::length(setup.parameters.wind);
+    is.localWind = is.wind / to.scale;
+    is.slowest = setup.clock ? setup.clock->rate : setup.rate;
+    double way = glm::length(to.position - from.position); // perhaps within one step
+    if (from.rotation != to.rotation || from.scale != to.scale) {
+        const double cosine = double(glm::dot(from.rotation, to.rotation)); // of half the angle
+        const double chord = 2.0 * std::sqrt(std::max(1.0 - cosine * cosine, 0.0) + kRounding);
+        way += double(memory.extent) * (chord * double(std::max(from.scale, to.scale)) +
+                                        std::abs(double(to.scale) - double(from.scale)));
+    }
+    if (is.slowest > 0 && way > 0.0)
+        is.speed =
+            way / (base::toSeconds(clock_.stepTicks()) * (double(is.slowest) / double(sim::kNormalRate)));
+    return is;
+}
+
+/// What has to be reckoned with besides what is so now: kept where particles stay behind, and from the first
+/// time on that the wind grows weaker.
+Circumstances Scene::pastOf(Instance& instance, bool stays, const Memory& memory) const
+{
+    const Circumstances is = circumstancesOf(instance.setup, memory);
+    const float before = instance.reachWind - glm::length(instance.setup.effect->wind);
+    const bool calms = instance.reachWind >= 0.0f && is.localWind < before;
+    if (!instance.past && (stays || calms)) {
+        instance.past.reset(new (std::nothrow) Whereabouts);
+        Circumstances was = is;
+        was.localWind = std::max(was.localWind, before);
+        if (!instance.past)
+            return was; // stays as far as it was, for ever
+        instance.past->note(clock_.simulated(), was, memory.seconds);
+    }
+    if (!instance.past)
+        return is;
+    instance.past->note(clock_.simulated(), is, memory.seconds);
+    return instance.past->all();
+}
+
+/// The ball is about where the instance is now; what is alive may have been born elsewhere and blown by
+/// another wind.
 void Scene::measure(Instance& instance) const
 {
     const InstanceSetup& setup = instance.setup;
-    const float scale = setup.placement.scale;
-    const float wind = glm::length(setup.effect->wind) + glm::length(setup.parameters.wind) / scale;
-    instance.reach =
-        double(scale) * double(setup.effect->reach(glm::length(options_.environment.gravity), wind));
+    const sim::EffectDef& effect = *setup.effect;
+    const Memory memory = memoryOf(effect);
+    const bool stays = effect.heedsPlacement() && !(effect.bound > 0);
+    const Circumstances past = pastOf(instance, stays, memory);
+    const float wind = glm::length(effect.wind) + (stays ? past.wind / past.smallest : past.localWind);
+    if (wind != instance.reachWind) {
+        instance.localReach = effect.reach(glm::length(options_.environment.gravity), wind);
+        instance.reachWind = wind;
+    }
+    if (!stays) {
+        instance.reach = double(setup.placement.scale) * double(instance.localReach);
+        return;
+    }
+    const glm::dvec3 away =
+        glm::max(past.high - setup.placement.position, setup.placement.position - past.low);
+    const double carried = double(memory.inherits) * past.speed;
+    const double flown = carried > 0.0 ? carried * double(memory.seconds + memory.drawnOut) : 0.0;
+    instance.reach = instance.past && instance.past->isKnown()
+                         ? glm::length(away) + double(past.largest) * double(instance.localReach) + flown
+                         : kUnlimited;
 }
 
 activation::Ball Scene::ballOf(const Instance& instance) const

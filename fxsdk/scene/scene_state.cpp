@@ -262,6 +262,10 @@ void Scene::restoreInstances(sim::StateReader& reader, const Effects& effects, R
             instance.setup.effect = effects[effect];
             instance.policy = instance.setup.effect->catchUp();
             measure(instance);
+            if (instance.past) {
+                instance.past->forget();
+                measure(instance);
+            }
         }
         return instance;
     });

@@ -34,6 +34,7 @@ void Scene::setRate(LocalId id, uint32_t rate)
     }
     world_.setRate(instance.slot, rate); // may throw
     instance.setup.clock = world_.clockOf(instance.slot);
+    measure(instance);
     if (instance.state == InstanceState::Resting || instance.state == InstanceState::Hidden)
         comeBack(indexOf(id));
 }

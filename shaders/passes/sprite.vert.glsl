@@ -9,9 +9,10 @@ out vec2 fragmentTexture;    // [0, 1] from the lower left of the frame
 flat out vec4 fragmentColor; // rgb exposed light of a white texel; a opacity
 flat out float fragmentFrame;
 
-// Vertical and horizontal of the square, unit.
-void standUp(Particle p, out vec3 horizontal, out vec3 vertical)
+// Vertical and horizontal of the square, unit. Returns whether the vertical lies along the velocity, before it is turned.
+bool standUp(Particle p, out vec3 horizontal, out vec3 vertical)
 {
+    bool isAlong = false;
     vec3 look0 = lookAt(p.center);
     horizontal = normalize(cross(look0, up.xyz));
     vertical = cross(horizontal, look0);
@@ -27,6 +28,7 @@ void standUp(Particle p, out vec3 horizontal, out vec3 vertical)
         if (length(across) > 1e-4 * size && size > 0.0) {
             horizontal = normalize(across);
             vertical = along / size;
+            isAlong = alignment == 1;
         }
     }
     float c = cos(p.angle);
@@ -34,6 +36,7 @@ void standUp(Particle p, out vec3 horizontal, out vec3 vertical)
     vec3 turned = c * horizontal + s * vertical;
     vertical = c * vertical - s * horizontal;
     horizontal = turned;
+    return isAlong;
 }
 
 // A rectangle of `area` times the area: its short side grows first, so that streaks become wider before they become longer.
@@ -57,9 +60,9 @@ void main()
         return;
     vec3 horizontal;
     vec3 vertical;
-    standUp(p, horizontal, vertical);
+    bool isAlong = standUp(p, horizontal, vertical); // seen from its end a streak has no length
     vec2 extent = vec2(p.radius * look.x, p.radius);
-    if (int(alignAxis.w) == 1)
+    if (isAlong)
         extent.y += 0.5 * look.y * length(p.velocity);
     vec2 levelLook = lookOfRank(rows.z + gl_InstanceID);
     extent = grown(extent, levelLook.x * levelLook.x);

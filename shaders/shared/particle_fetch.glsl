@@ -85,6 +85,8 @@ Particle fetchParticle(int row)
     if (both) {
         position = mix(olderVector(0, row), position, t);
         p.radius = mix(olderValue(4, row), p.radius, t);
+        if (newerPlace(6) >= 0 && olderPlace(6) >= 0)
+            velocity = mix(olderVector(6, row), velocity, t);
         p.color = mix(olderColor(5, row), p.color, t);
         if (olderPlace(9) >= 0)
             p.angle = mix(olderValue(9, row), p.angle, t);

@@ -146,7 +146,9 @@ void publishRows(const LookJob& job, base::KindId kind, const base::GroupInfo& b
 {
     base::SnapshotGroup& group =
         addRows(*job.program, job.store->capacity(), job.rows.count, {kind, base}, snapshot);
-    LookBounds bounds = writeAll(job, columnsOf(group), tasks);
+    LookJob timed = job;
+    timed.secondsBack = snapshot.secondsBack();
+    LookBounds bounds = writeAll(timed, columnsOf(group), tasks);
     bounds.radius *= job.program->corner;
     group.editInfo().bounds = bounds.box();
 }
@@ -175,7 +177,9 @@ bool EmitterSolver::joinPublication(const base::GroupInfo& base, base::FrameSnap
     if (rows == 0)
         return true;
     store_.fetch();
-    fill(crowd.add(group));
+    LookJob& job = crowd.add(group);
+    fill(job);
+    job.secondsBack = snapshot.secondsBack();
     return true;
 }
 

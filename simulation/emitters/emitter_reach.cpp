@@ -109,20 +109,19 @@ float EmitterDef::reachFrom(const ReachConditions& conditions, const BirthReach&
     for (const EventRule& rule : events)
         if (rule.target < ioOthers.size())
             ioOthers[rule.target].add({way, share(rule.inheritVelocity, fastest)});
-    if (inWorld) // the host may have gone anywhere meanwhile
-        return std::numeric_limits<float>::infinity();
     return way + drawnOf(*this, fastest);
 }
 
 namespace {
 
 /// Everything is in a ball around the origin.
-base::Bounds ballOf(const EmitterDef& def, const FlightBound& bound, const ReachConditions& conditions)
+base::Bounds ballOf(const EmitterDef& def, const FlightBound& bound, const ReachConditions& conditions,
+                    float secondsBack)
 {
     float reach = def.reachFrom(conditions, {}, {});
     if (def.look.alignment == base::SpriteAlignment::Velocity || def.look.stretch > 0.0f) {
         // Whoever was born since the snapshot before is drawn on the tangent of its way.
-        const float back = std::min(float(bound.seconds), kLongestStep), fastest = fastestOf(bound);
+        const float back = std::min(float(bound.seconds), secondsBack), fastest = fastestOf(bound);
         const float grown = float(bound.acceleration + bound.drag * (double(fastest) + bound.air));
         const float change = followsAir(def) ? 2.0f * fastest : 0.5f * grown * back;
         reach += std::min(change, 2.0f * fastest) * back;
@@ -141,14 +140,14 @@ base::Bounds ballOf(const EmitterDef& def, const FlightBound& bound, const Reach
 base::Bounds boundsOfStepped(const EmitterDef& def, const StepWeather& weather)
 {
     const FlightBound bound = flightOf(def, weather.strongest, {});
-    const base::Bounds ball = ballOf(def, bound, weather.strongest);
+    const base::Bounds ball = ballOf(def, bound, weather.strongest, weather.secondsBack);
     if (weather.meetsOthers || followsAir(def) || !std::isfinite(ball.max.x))
         return ball;
     const double steady = double(weather.strongest.gravity) * double(std::abs(def.forces.gravity));
     const double air = bound.air - double(weather.strongest.wind) - double(glm::length(def.forces.wind));
     const auto any = float((bound.acceleration - steady + bound.drag * air) * (1.0 + 1e-6)); // anywhere to
     const glm::vec3 low = weather.low - any, high = weather.high + any;
-    base::Bounds box = boundsOfAll(def, low, high, float(bound.seconds));
+    base::Bounds box = boundsOfAll(def, low, high, float(bound.seconds), weather.secondsBack);
     if (weather.meetsGround && weather.highGround > -1e30f) {
         const bool isSteady = high.y < 0.0f && low.y >= 1.0001f * high.y;
         const float drawn = drawnOf(def, fastestOf(bound));

@@ -66,7 +66,8 @@ float reachOfOne(const EmitterDef& def, float speed)
 
 /// A place is x0 + G v0 + the pulls so far, weighted by numbers >= 0 whose sum is R; G and R only grow with
 /// age.
-base::Bounds boundsOfAll(const EmitterDef& def, const glm::vec3& low, const glm::vec3& high, float seconds)
+base::Bounds boundsOfAll(const EmitterDef& def, const glm::vec3& low, const glm::vec3& high, float seconds,
+                         float secondsBack)
 {
     const float drag = def.forces.drag > 0.0f ? std::min(def.forces.drag, 1e6f) : 0.0f;
     const DragStep step = makeDragStep(double(drag), double(seconds));
@@ -94,7 +95,7 @@ base::Bounds boundsOfAll(const EmitterDef& def, const glm::vec3& low, const glm:
     float more = reachOfOne(def, speed) + kRounding * glm::length(box.max - box.min);
     if (def.look.alignment == base::SpriteAlignment::Velocity || def.look.stretch > 0.0f) {
         // Whoever was born since the snapshot before is drawn on the tangent of its way.
-        const float back = std::min(seconds, kLongestStep);
+        const float back = std::min(seconds, secondsBack);
         more += 0.5f * (pull + drag * speed) * back * back;
     }
     box.min -= more;

@@ -149,6 +149,12 @@ LookJob GpuEmitter::rebuild(const BirthKey& key, base::Ticks now, ParticleStore&
     return replaySteps(program_, in, store);
 }
 
+float GpuEmitter::oldestAge(base::Ticks now) const
+{
+    const base::Ticks oldest = log_.empty() ? 0 : now - log_.tickOf(log_.front());
+    return float(base::toSeconds(std::min(oldest, program_.longestLife)));
+}
+
 StepWeather GpuEmitter::weather(base::Ticks now) const
 {
     const EmitterDef& def = program_.def;
@@ -167,24 +173,26 @@ StepWeather GpuEmitter::weather(base::Ticks now) const
         out.strongest.gravity = std::max(out.strongest.gravity, glm::length(c.gravity));
         out.strongest.wind = std::max(out.strongest.wind, glm::length(c.wind));
     });
-    const base::Ticks oldest = log_.empty() ? 0 : now - log_.tickOf(log_.front());
-    out.strongest.seconds = float(base::toSeconds(std::min(oldest, program_.longestLife)));
+    out.strongest.seconds = oldestAge(now);
     out.meetsGround = meetsGround_;
     out.meetsOthers = meetsOthers_;
     return out;
 }
 
-base::Bounds GpuEmitter::bounds(base::Ticks now) const
+base::Bounds GpuEmitter::bounds(base::Ticks now, float secondsBack) const
 {
-    if (steps_)
-        return boundsOfStepped(program_.def, weather(now));
-    const float seconds = float(base::toSeconds(program_.longestLife));
+    if (steps_) {
+        StepWeather met = weather(now);
+        met.secondsBack = secondsBack;
+        return boundsOfStepped(program_.def, met);
+    }
+    const float seconds = oldestAge(now);
     glm::vec3 low = conditions_[0].pull, high = low;
     for (const MotionCondition& condition : conditions_) {
         low = glm::min(low, condition.pull);
         high = glm::max(high, condition.pull);
     }
-    return boundsOfAll(program_.def, low, high, seconds);
+    return boundsOfAll(program_.def, low, high, seconds, secondsBack);
 }
 
 void GpuEmitter::publish(const base::GroupInfo& base, base::KindId kind, const BirthKey& key, base::Ticks now,
@@ -229,7 +237,7 @@ void GpuEmitter::publish(const base::GroupInfo& base, base::KindId kind, const B
                   moment.stepRuns * sizeof(base::GpuStepRun)) /
                  8);
     if (moment.window > 0)
-        info.bounds = bounds(now);
+        info.bounds = bounds(now, snapshot.secondsBack());
 }
 
 } // namespace fx::sim

@@ -66,7 +66,8 @@ public:
                  base::FrameSnapshot& snapshot) const;
 
 private:
-    base::Bounds bounds(base::Ticks now) const;
+    float oldestAge(base::Ticks now) const; ///< [s] at most, of those who may live
+    base::Bounds bounds(base::Ticks now, float secondsBack) const;
     StepWeather weather(base::Ticks now) const;
     base::Ticks lastDeath(const BirthKey& key) const;
 

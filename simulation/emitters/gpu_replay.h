@@ -70,8 +70,10 @@ void publishRows(const LookJob& job, base::KindId kind, const base::GroupInfo& b
                  base::FrameSnapshot& snapshot);
 
 /// What is drawn within lives of at most `seconds` stays in this box, whatever is drawn at random.
-/// @param low, high [m/s2] between these are the pulls, component by component
-base::Bounds boundsOfAll(const EmitterDef& def, const glm::vec3& low, const glm::vec3& high, float seconds);
+/// @param low, high   [m/s2] between these are the pulls, component by component
+/// @param secondsBack [s] to the snapshot before, on the way from which those who were born since are drawn
+base::Bounds boundsOfAll(const EmitterDef& def, const glm::vec3& low, const glm::vec3& high, float seconds,
+                         float secondsBack);
 
 /// What has acted on particles since the oldest of them was born, besides modules.
 struct StepWeather
@@ -81,8 +83,9 @@ struct StepWeather
     glm::vec3 high{0.0f};
     float lowGround = 0.0f; ///< [m] between these was the ground plane, -infinity for none
     float highGround = 0.0f;
-    bool meetsGround = false; ///< particles do not fall below it
-    bool meetsOthers = false; ///< they may go anywhere from there
+    float secondsBack = kLongestStep; ///< [s] see boundsOfAll()
+    bool meetsGround = false;         ///< particles do not fall below it
+    bool meetsOthers = false;         ///< they may go anywhere from there
 };
 
 /// As boundsOfAll() where modules move particles; infinite when nobody knows.

@@ -33,6 +33,9 @@
 
 namespace fx::sim {
 
+constexpr float kLongestStep = 1.0f; ///< [s] between two snapshots
+constexpr float kFarAway = std::numeric_limits<float>::infinity();
+
 /// What all particles of an emitter have in common when they are looked at.
 struct LookJob
 {
@@ -40,8 +43,9 @@ struct LookJob
     const ParticleStore* store;
     RowWindow rows;
     base::Ticks now;
-    base::Ticks motionBegin; ///< motion of what is older begins there
-    glm::vec3 pull;          ///< [m/s2] a + k u; only where motion is ballistic
+    base::Ticks motionBegin;          ///< motion of what is older begins there
+    glm::vec3 pull;                   ///< [m/s2] a + k u; only where motion is ballistic
+    float secondsBack = kLongestStep; ///< [s] since the snapshot before, for bounds
 };
 
 /// Columns of a group of the kind "particle"; null where it has none.
@@ -60,9 +64,6 @@ struct LookColumns
     uint64_t* index;
     bool stream; ///< write past the caches
 };
-
-constexpr float kLongestStep = 1.0f; ///< [s] between two snapshots
-constexpr float kFarAway = std::numeric_limits<float>::infinity();
 
 /// Box around the centers, and the largest half height of what is drawn there.
 struct LookBounds

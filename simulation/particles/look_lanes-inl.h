@@ -15,6 +15,21 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::particles::HWY_NAMESPACE {
 
+constexpr float kRoundedUp = 1.001f; ///< more than the rounding of times and of what is drawn
+
+/// [s] by so much times its speed a sprite is longer to each side.
+inline float stretchOf(const EmitterLook& look)
+{
+    const bool isLonger =
+        look.alignment == base::SpriteAlignment::Velocity && look.kind == Appearance::Sprite;
+    return isLonger ? 0.5f * kRoundedUp * look.stretch : 0.0f;
+}
+
+inline bool turns(const ParticleProgram& program)
+{
+    return (program.published & base::particle_column::kAngle) != 0;
+}
+
 /// Box and radius in lanes.
 struct BoundsLanes
 {
@@ -65,9 +80,8 @@ public:
               {*job.store, stored::TintRed}, {*job.store, stored::TintGreen}, {*job.store, stored::TintBlue}},
           frames_(float(look_.tileColumns * look_.tileRows)),
           bright_(brightness_.rows || brightness_.constant != 1.0f),
-          stretch_(look_.alignment == base::SpriteAlignment::Velocity && look_.kind == Appearance::Sprite
-                       ? 0.5f * look_.stretch
-                       : 0.0f)
+          along_(turns(*job.program) ? 0.0f : stretchOf(look_)),
+          across_(turns(*job.program) ? stretchOf(look_) / job.program->corner : 0.0f)
     {}
 
     /// Goes on with another job of the same program.
@@ -201,7 +215,9 @@ private:
     Source tint_[3];
     float frames_;
     bool bright_;
-    float stretch_; ///< [s] half of it lengthens a sprite to each side
+    // [s] by so much times their speed sprites are longer to each side:
+    float along_;  ///< those that lie along their velocity
+    float across_; ///< those that are turned; over the corner that all radii are multiplied by
 };
 
 template <bool kPlain, bool kStream, bool kFull>
@@ -249,18 +265,22 @@ HWY_INLINE void Looks::write(uint32_t row, Which alive, const MotionLanes& motio
         writeMore(row, alive, motion);
 }
 
-/// Sprites are longer by their way, and what was born since the snapshot before is drawn on its way from
-/// where it was born.
+/// Sprites are longer by their way, along it unless they turn, and what was born since the snapshot before is
+/// drawn on its way since then. Ages do not tell who that was: they count time of the instance, which may run
+/// faster.
 HWY_INLINE void Looks::addMoving(Which alive, const MotionLanes& motion, Floats radius,
                                  BoundsLanes& bounds) const
 {
     const Floats* v = motion.velocity;
+    const Floats back = hn::Min(motion.age, all(kRoundedUp * job_->secondsBack)) + all(along_);
+    Floats head[3], tail[3];
+    for (int a = 0; a < 3; ++a) {
+        head[a] = motion.position[a] + v[a] * all(along_);
+        tail[a] = motion.position[a] - v[a] * back;
+    }
     const Floats speed = hn::Sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    bounds.add<false>(alive, motion.position, hn::IfThenElseZero(alive, radius + all(stretch_) * speed));
-    const Which young = hn::And(alive, hn::Le(motion.age, all(kLongestStep)));
-    const Floats start[3] = {motion.position[0] - v[0] * motion.age, motion.position[1] - v[1] * motion.age,
-                             motion.position[2] - v[2] * motion.age};
-    bounds.add<false>(young, start, hn::Zero(kFloats));
+    bounds.add<false>(alive, head, hn::IfThenElseZero(alive, radius + all(across_) * speed));
+    bounds.add<false>(alive, tail, hn::Zero(kFloats));
 }
 
 HWY_INLINE void Looks::writeMore(uint32_t row, Which alive, const MotionLanes& motion) const

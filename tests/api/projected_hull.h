@@ -3,6 +3,7 @@
 /// picture.
 #pragma once
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -41,6 +42,9 @@ public:
     }
 
     bool empty() const { return polygon_.empty(); }
+    /// [pixel] corners of the rectangle around it, which must not be empty.
+    glm::dvec2 low() const { return extreme(-1.0); }
+    glm::dvec2 high() const { return extreme(1.0); }
     /// [pixel] from a point of the picture; 0 inside, infinite when nothing is to be seen.
     double distance(glm::dvec2 point) const
     {
@@ -58,6 +62,13 @@ public:
     }
 
 private:
+    glm::dvec2 extreme(double sign) const
+    {
+        glm::dvec2 most = sign * polygon_[0];
+        for (const glm::dvec2& p : polygon_)
+            most = glm::max(most, sign * p);
+        return sign * most;
+    }
     /// Andrew's monotone chain, counterclockwise.
     void wrap(std::vector<glm::dvec2>& points)
     {

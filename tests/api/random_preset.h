@@ -24,12 +24,25 @@ private:
     uint64_t state_;
 };
 
-/// The text of a preset with an emitter or two, or with fragments. It names "spot.png", "lump.obj" and
-/// "library:debris-chunk.obj".
-/// @param gpu whether emitters may ask for the GPU
-std::string randomPreset(uint64_t seed, bool gpu);
+struct RandomPreset
+{
+    std::string text;
+    std::string kind; ///< what it is about: "medium", "sprite", "mesh", "trail", "chain", "world", "gpu",
+                      ///< "volume", "gas" or "fragments"
+};
 
-/// A mesh for emitters to give birth on.
+/// A preset with an emitter or a chain of them, with fragments or with gas. It names the assets below and
+/// "library:debris-chunk.obj".
+/// @param gpu whether emitters may ask for the GPU  @param gas whether there may be gas
+RandomPreset randomPreset(uint64_t seed, bool gpu, bool gas);
+
+/// The same of one emitter of few small solid particles that are fast in one direction, so that it can be
+/// seen where they end.
+RandomPreset sharpPreset(uint64_t seed);
+
+/// "lump.obj", "cloud.fxgrid" and "wind.fxgrid": a mesh and a density to be born in, and moving air.
 std::string lumpObj();
+std::string cloudGrid();
+std::string windGrid();
 
 } // namespace fx::test
