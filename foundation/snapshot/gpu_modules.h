@@ -37,6 +37,7 @@ enum class GpuModule : uint32_t
     Ground,
     Sphere,
     Box,
+    Depth, ///< what a view's depth texture shows, see rendering/gpu_particles/gpu_depth.h
 };
 constexpr GpuModule kFirstGpuContact = GpuModule::Bounce;
 constexpr GpuModule kFirstGpuObstacle = GpuModule::Plane;

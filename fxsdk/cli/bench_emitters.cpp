@@ -1,6 +1,7 @@
 #include "fxsdk/cli/bench_emitters.h"
 
 #include "simulation/emitters/emitter_def.h"
+#include "simulation/particles/collisions/collision_op.h"
 #include "simulation/particles/particle_program.h"
 
 #include <array>
@@ -73,7 +74,8 @@ void makeHeavy(sim::EmitterDef& def)
 
 } // namespace
 
-std::shared_ptr<const sim::EffectDef> benchEffect(std::string_view variant, uint32_t count, bool gpu)
+std::shared_ptr<const sim::EffectDef> benchEffect(std::string_view variant, uint32_t count, bool gpu,
+                                                  bool depth)
 {
     auto def = std::make_unique<sim::EmitterDef>();
     if (variant == "heavy")
@@ -89,6 +91,11 @@ std::shared_ptr<const sim::EffectDef> benchEffect(std::string_view variant, uint
         uint32_t(double(count) * double(def->lifetime.max / meanLife) * (gpu ? 1.02 : 1.001)) + 4;
     if (gpu) // with room for the births of a step, so that none can be dropped
         def->compute = sim::ComputeOn::Gpu;
+    if (depth) {
+        sim::CollisionDef seen;
+        seen.kind = sim::ObstacleKind::Depth;
+        def->modules.push_back(sim::makeCollisionOp({&seen, 1}));
+    }
     auto effect = std::make_shared<sim::EffectDef>();
     effect->solvers.push_back(std::move(def));
     return effect;

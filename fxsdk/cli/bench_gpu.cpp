@@ -2,6 +2,7 @@
 // what they are computed from; the GPU makes every row anew.
 #include "foundation/math/hash.h"
 #include "foundation/snapshot/gpu_particles.h"
+#include "fxsdk/cli/bench_depth.h"
 #include "fxsdk/cli/bench_emitters.h"
 #include "fxsdk/cli/bench_rows.h"
 #include "fxsdk/cli/interrupt.h"
@@ -38,7 +39,11 @@ public:
         auto device = render::GlDevice::create((*context)->loader(), std::pmr::get_default_resource());
         if (!device)
             return device.status();
-        return std::unique_ptr<GpuStage>(new GpuStage(std::move(*context), std::move(*device)));
+        auto depth = BenchDepth::create(**device);
+        if (!depth)
+            return depth.status();
+        return std::unique_ptr<GpuStage>(
+            new GpuStage(std::move(*context), std::move(*device), std::move(*depth)));
     }
 
     /// Times of one dispatch and of waiting for it. Of a group that is published for the GPU.
@@ -62,12 +67,14 @@ public:
                                {words_.name(), {}, 0, words_.bytes()},
                                columns_,
                                group.program()->rows};
+        job.meetsDepth = render::meetsDepth(group.program()->features);
         states_.nextFrame();
         if (base::Status status = states_.prepare(group, job); !status)
             return status;
         graph_.begin();
         batch.newer.id = graph_.importBuffer({"rows", rows_.bytes()}, rows_.name());
-        render::GpuRowsPass::addTo(graph_, {&job, 1}, {&batch, 1});
+        render::GpuRowsPass::addTo(graph_, {&job, 1}, {&batch, 1},
+                                   job.meetsDepth ? depth_.in(graph_) : render::GpuDepth{});
         graph_.compile();
         if (base::Status status = backend_.beginFrame(graph_); !status)
             return status;
@@ -82,9 +89,10 @@ public:
     size_t rowBytes() const { return rowBytes_; }
 
 private:
-    GpuStage(std::unique_ptr<render::GlContext> context, std::unique_ptr<render::GlDevice> device)
-        : context_(std::move(context)), device_(std::move(device)), graph_(std::pmr::get_default_resource()),
-          backend_(*device_, std::pmr::get_default_resource()),
+    GpuStage(std::unique_ptr<render::GlContext> context, std::unique_ptr<render::GlDevice> device,
+             BenchDepth depth)
+        : context_(std::move(context)), device_(std::move(device)), depth_(std::move(depth)),
+          graph_(std::pmr::get_default_resource()), backend_(*device_, std::pmr::get_default_resource()),
           emitters_(*device_, std::pmr::get_default_resource()),
           states_(*device_, std::pmr::get_default_resource())
     {}
@@ -110,6 +118,7 @@ private:
 
     std::unique_ptr<render::GlContext> context_;
     std::unique_ptr<render::GlDevice> device_;
+    BenchDepth depth_;
     render::FrameGraph graph_;
     render::GlBackend backend_;
     render::GpuEmitters emitters_;
@@ -147,6 +156,32 @@ base::Status playTimed(BenchStage& stage, GpuStage& gpu, uint32_t steps, Times& 
     return {};
 }
 
+/// The same emitter again, but colliding with what a depth texture shows; both by turns, step by step.
+base::Status measureDepth(const BenchSettings& settings, std::string_view variant, uint32_t steps,
+                          GpuStage& gpu, BenchRow& io)
+{
+    std::array<std::unique_ptr<BenchStage>, 2> stages;
+    std::array<Times, 2> times;
+    for (size_t i = 0; i < 2; ++i) {
+        stages[i] = std::make_unique<BenchStage>(settings.threads);
+        stages[i]->computeOnGpu();
+        stages[i]->add(benchEffect(variant, uint32_t(settings.count), true, i == 1), 1);
+        stages[i]->play(uint32_t(kSteadyAfter * 60.0));
+    }
+    uint64_t hash = 0;
+    for (uint32_t step = 0; step < steps + 3; ++step)
+        for (size_t i = 0; i < 2; ++i) {
+            if (step == 3)
+                times[i] = {};
+            if (base::Status status = playTimed(*stages[i], gpu, 1, times[i], hash); !status)
+                return status;
+        }
+    const double with = quantile(times[1].whole, 0.0), without = quantile(times[0].whole, 0.0);
+    io.more["ns_per_particle_min_with_depth"] = 1e9 * with / double(settings.count);
+    io.more["with_depth_over_without"] = with / without;
+    return {};
+}
+
 } // namespace
 
 base::Result<BenchRow> measureOnGpu(const BenchSettings& settings, std::string_view variant)
@@ -159,6 +194,7 @@ base::Result<BenchRow> measureOnGpu(const BenchSettings& settings, std::string_v
     BenchRow row;
     const auto held = stage.last();
     const bool onGpu = held.newer->group(0).program() != nullptr;
+    const bool hasSteps = onGpu && held.newer->group(0).program()->features.steps;
     stage.release(held);
     const uint32_t steps = settings.steps > 0 ? settings.steps : 60;
     if (!onGpu) {
@@ -188,6 +224,9 @@ base::Result<BenchRow> measureOnGpu(const BenchSettings& settings, std::string_v
                 {"ms_dispatch", milliseconds(times.dispatch)},
                 {"ms_finish", milliseconds(times.finish)},
                 {"renderer", (*gpu)->renderer()}};
+    if (hasSteps)
+        if (base::Status status = measureDepth(settings, variant, steps, **gpu, row); !status)
+            return status;
     return row;
 }
 

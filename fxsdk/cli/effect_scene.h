@@ -60,6 +60,9 @@ public:
     FxContext* context() const { return context_; }
     FxScene* scene() const { return scene_; }
 
+    /// Length of a step.
+    base::Ticks step() const { return step_; }
+
 private:
     EffectScene();
     base::Status start(const scene_file::SceneFile& file, const EffectSceneOptions& options);

@@ -111,6 +111,7 @@ Json emittersOf(const scene_file::SceneFile& file)
             list.push_back({{"preset", preset.name},
                             {"emitter", emitter->name},
                             {"path", why.empty() ? "gpu" : "cpu"},
+                            {"meets_depth", emitter->meetsDepth && why.empty()},
                             {"why", std::string(why)}});
         }
     return list;

@@ -1,6 +1,7 @@
 #include "fxsdk/cli/frame_renderer.h"
 
 #include "fxsdk/cli/api_status.h"
+#include "fxsdk/cli/depth_contacts.h"
 #include "fxsdk/cli/view_settings.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/lights/effect_lights.h"
@@ -54,6 +55,7 @@ FrameRenderer::~FrameRenderer()
 base::Status FrameRenderer::start(const FrameRendererOptions& options)
 {
     options_ = options;
+    showsDepthContacts_ = showsDepthContacts(file_);
     auto glContext = render::createEglContext({});
     if (!glContext.ok())
         return glContext.status();
@@ -96,6 +98,15 @@ base::Status FrameRenderer::lookThrough(const render::CameraView& camera)
 
 base::Status FrameRenderer::render(base::Ticks tick)
 {
+    const base::Ticks before = tick - effects_->step();
+    if (showsDepthContacts_ && lastTick_ < 0 && before >= 0)
+        if (base::Status status = drawMoment(before); !status) // from then on the GPU computes
+            return status;
+    return drawMoment(tick);
+}
+
+base::Status FrameRenderer::drawMoment(base::Ticks tick)
+{
     Clock::time_point start = Clock::now();
     const float aspect = float(options_.width) / float(options_.height);
     const render::CameraView camera = cameraAt(file_.camera, base::toSeconds(tick), aspect);
@@ -120,11 +131,14 @@ base::Status FrameRenderer::render(base::Ticks tick)
 
 base::Status FrameRenderer::drawStage(const render::CameraView& camera)
 {
-    const auto snapshot = effects_->snapshot();
-    if (!snapshot.ok())
-        return snapshot.status();
     std::array<render::EffectLight, kMaxLights> lights;
-    const size_t count = render::effectLights(**snapshot, lights);
+    size_t count = 0;
+    if (!showsDepthContacts_) {
+        const auto snapshot = effects_->snapshot();
+        if (!snapshot.ok())
+            return snapshot.status();
+        count = render::effectLights(**snapshot, lights);
+    }
     return stage_->render(camera, options_.settings.lighting, std::span(lights).first(count),
                           options_.settings.exposureEv100, options_.width, options_.height);
 }

@@ -2,6 +2,7 @@
 #include "simulation/particles/collisions/collision_op.h"
 #include "simulation/particles/forces/force_ops.h"
 
+#include <algorithm>
 #include <array>
 
 namespace fx::preset {
@@ -18,14 +19,15 @@ constexpr Names<sim::Falloff, 4> kFalloffs{{{"spring", sim::Falloff::Spring},
                                             {"inverse-square", sim::Falloff::InverseSquare}}};
 constexpr Names<sim::SurfaceKind, 3> kSurfaces{
     {{"sphere", sim::SurfaceKind::Sphere}, {"box", sim::SurfaceKind::Box}, {"mesh", sim::SurfaceKind::Mesh}}};
-constexpr Names<sim::ObstacleKind, 8> kObstacles{{{"plane", sim::ObstacleKind::Plane},
+constexpr Names<sim::ObstacleKind, 9> kObstacles{{{"plane", sim::ObstacleKind::Plane},
                                                   {"sphere", sim::ObstacleKind::Sphere},
                                                   {"box", sim::ObstacleKind::Box},
                                                   {"mesh", sim::ObstacleKind::Mesh},
                                                   {"heights", sim::ObstacleKind::HeightField},
                                                   {"ground", sim::ObstacleKind::Ground},
                                                   {"scene", sim::ObstacleKind::Scene},
-                                                  {"hook", sim::ObstacleKind::Hook}}};
+                                                  {"hook", sim::ObstacleKind::Hook},
+                                                  {"depth", sim::ObstacleKind::Depth}}};
 constexpr Names<sim::ContactResponse, 3> kResponses{{{"bounce", sim::ContactResponse::Bounce},
                                                      {"kill", sim::ContactResponse::Kill},
                                                      {"stick", sim::ContactResponse::Stick}}};
@@ -161,6 +163,7 @@ void readObstacles(const PresetValue& element, std::vector<sim::CollisionDef>& o
         value.read("size", def.size);
         value.read("hollow", def.isHollow);
         value.read("margin", def.margin);
+        value.read("thickness", def.thickness);
         readName(value, "response", kResponses, def.response);
         value.read("bounce", def.restitution);
         value.read("friction", def.friction);
@@ -207,6 +210,9 @@ void readEmitterForces(const PresetValue& element, sim::EmitterDef& emitter)
     readFields(forces, emitter.modules);
     readSurfaces(forces, emitter.modules);
     readObstacles(element, obstacles);
+    emitter.meetsDepth = std::any_of(obstacles.begin(), obstacles.end(), [](const sim::CollisionDef& def) {
+        return def.kind == sim::ObstacleKind::Depth;
+    });
     joinBounce(out, obstacles);
     if (!obstacles.empty())
         emitter.modules.push_back(sim::makeCollisionOp(obstacles));

@@ -1,6 +1,7 @@
 #include "rendering/gpu_particles/gpu_emitters.h"
 
 #include "foundation/random/philox.h"
+#include "rendering/gpu_particles/gpu_depth.h"
 #include "rendering/gpu_particles/gpu_order_pass.h"
 
 #include <algorithm>
@@ -36,7 +37,8 @@ uint64_t bytesOf(const base::GpuParticleProgram& emitter)
 }
 
 using base::GpuModule;
-static_assert(uint32_t(GpuModule::Plane) == 16 && uint32_t(GpuModule::Box) == 19,
+static_assert(uint32_t(GpuModule::Plane) == 16 && uint32_t(GpuModule::Box) == 19 &&
+                  uint32_t(GpuModule::Depth) == 20,
               "shared/gpu_particle_contacts.glsl has these numbers");
 
 /// What calls the modules before those that are met: functions of shared/gpu_particle_forces.glsl.
@@ -63,6 +65,11 @@ void addModules(const base::GpuParticleFeatures& features, uint32_t stepWords, s
                     use.word);
             continue;
         }
+        if (use.module == GpuModule::Depth) { // it tells of ways, not of places
+            near.append("askNearDepth(").append(std::to_string(use.numbers)).append(");");
+            meet.append("meetDepth(").append(std::to_string(use.numbers)).append(");");
+            continue;
+        }
         addCall(near, "askNear", module, use.numbers);
         addCall(meet, "meet", module, use.numbers);
         addCall(push, "push", module, use.numbers);
@@ -73,6 +80,7 @@ void addModules(const base::GpuParticleFeatures& features, uint32_t stepWords, s
         io.append(" FX_NEAR=").append(near).append(" FX_MEET=").append(meet);
         io.append(" FX_PUSH=").append(push).append(" FX_INSIDE=").append(inside);
     }
+    io.append(meetsDepth(features) ? " FX_DEPTH=1" : " FX_DEPTH=0");
     io.append(" FX_STEPS=1 FX_STEP_WORDS=").append(std::to_string(stepWords));
     io.append(" FX_FORCES=").append(forces).append(" FX_CONTACTS=").append(contacts);
 }
@@ -90,7 +98,7 @@ const ProgramDesc& rowsProgram(GlDevice& device, const base::GpuParticleFeatures
         has(f.columns, column::VelocityX), has(f.columns, column::Angle), has(f.columns, column::Frame),
         has(f.columns, column::OrientationX), f.wide, f.lifeTable, f.speedTable);
     if (!f.steps)
-        return device.generated(kRows, std::string(defines) + " FX_STEPS=0");
+        return device.generated(kRows, std::string(defines) + " FX_STEPS=0 FX_DEPTH=0");
     std::string all(defines);
     addModules(f, f.stepWords, all);
     return device.generated(kRows, all);

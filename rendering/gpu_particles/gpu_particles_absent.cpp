@@ -38,7 +38,13 @@ uint64_t GpuStates::bytes() const
     return 0;
 }
 
-void GpuRowsPass::addTo(FrameGraph&, std::span<const GpuRowsJob>, std::span<ParticleBatch>) {}
+bool meetsDepth(const base::GpuParticleFeatures&)
+{
+    return false;
+}
+
+void GpuRowsPass::addTo(FrameGraph&, std::span<const GpuRowsJob>, std::span<ParticleBatch>, const GpuDepth&)
+{}
 
 void GpuOrderPass::addTo(FrameGraph&, std::span<const GpuOrderJob>, std::span<ParticleBatch>, uint32_t) {}
 

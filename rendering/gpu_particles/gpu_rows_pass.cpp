@@ -14,6 +14,7 @@ struct OutputBlock
 {
     std::array<int32_t, 16> columns;
     std::array<uint32_t, 4> chain;
+    GpuDepthBlock depth;
 };
 
 /// A job whose buffers the graph knows.
@@ -22,6 +23,8 @@ struct RowsDispatch
     GpuRowsJob job;
     ResourceId numbers, words, rows, reached, steps;
     BufferPart out;
+    ResourceId distance; ///< of what the frame shows; invalid: none, or of no interest
+    GpuDepthBlock depth;
 
     void run(Backend& backend) const
     {
@@ -41,10 +44,12 @@ private:
                                          {2, rows, out.offset, out.bytes},
                                          {3, reached, job.reached.offset, job.reached.bytes},
                                          {4, steps, job.steps.offset, job.steps.bytes}};
-        const OutputBlock block{job.columns, {first, end, end == job.stepCount ? 1u : 0u, 0u}};
+        const OutputBlock block{job.columns, {first, end, end == job.stepCount ? 1u : 0u, 0u}, depth};
+        const TextureBinding textures[] = {{0, distance}};
         DispatchCall call;
         call.program = job.program;
         call.buffers = std::span(buffers).first(job.reached.bytes > 0 ? 5 : 3);
+        call.textures = std::span(textures).first(distance.valid() ? 1 : 0);
         call.uniforms = asUniforms(block);
         call.groups[0] = (job.rows + kGroupRows - 1) / kGroupRows;
         backend.dispatch(call);
@@ -58,14 +63,19 @@ ResourceId import(FrameGraph& graph, const BufferPart& part)
 
 } // namespace
 
-void GpuRowsPass::addTo(FrameGraph& graph, std::span<const GpuRowsJob> jobs, std::span<ParticleBatch> batches)
+void GpuRowsPass::addTo(FrameGraph& graph, std::span<const GpuRowsJob> jobs, std::span<ParticleBatch> batches,
+                        const GpuDepth& depth)
 {
     for (const GpuRowsJob& job : jobs) {
         ParticleBatch& batch = batches[job.batch];
         BufferPart& rows = job.isNewer ? batch.newer : batch.older;
         const ResourceId numbers = import(graph, job.numbers);
         const ResourceId words = import(graph, job.words);
-        RowsDispatch dispatch{job, numbers, words, {}, {}, {}, {}};
+        RowsDispatch dispatch{job, numbers, words, {}, {}, {}, {}, {}, {}};
+        if (job.meetsDepth) {
+            dispatch.distance = depth.distance;
+            dispatch.depth = makeGpuDepthBlock(depth, job.place);
+        }
         const bool isStepped = job.reached.bytes > 0;
         if (isStepped) {
             dispatch.reached = import(graph, job.reached);
@@ -74,6 +84,8 @@ void GpuRowsPass::addTo(FrameGraph& graph, std::span<const GpuRowsJob> jobs, std
         graph.addPass("gpu particles", [&](FrameGraph::Builder& builder) {
             builder.read(numbers);
             builder.read(words);
+            if (dispatch.distance.valid())
+                builder.read(dispatch.distance);
             if (isStepped) {
                 builder.read(dispatch.steps);
                 dispatch.reached = builder.write(dispatch.reached);

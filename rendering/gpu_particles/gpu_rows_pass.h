@@ -1,7 +1,9 @@
 /// @file gpu_rows_pass.h
 #pragma once
 
+#include "foundation/math/geometry.h"
 #include "rendering/frame_graph/frame_graph.h"
+#include "rendering/gpu_particles/gpu_depth.h"
 #include "rendering/passes/particle_batch.h"
 
 #include <array>
@@ -24,18 +26,23 @@ struct GpuRowsJob
     BufferPart reached = {}; ///< where their particles have come to
     BufferPart steps = {};   ///< that they take now
     uint32_t stepCount = 0;
+    bool meetsDepth = false;
+    base::Placement place = {}; ///< where they stand, for what meets depth
 };
 
 /// Computes particles from what their emitters have published. Program: gpu_particles, one permutation for
 /// each way of computing.
 ///
+/// reads   distance  [m] along each pixel's ray to what the frame shows, where an emitter collides with it
 /// writes  the rows of batches, in the layout in which the CPU's are uploaded
 /// Absent when there is no job.
 class GpuRowsPass
 {
 public:
     /// @param batches imported already; the written parts get new versions
-    static void addTo(FrameGraph& graph, std::span<const GpuRowsJob> jobs, std::span<ParticleBatch> batches);
+    /// @param depth what all steps of the jobs collide with; its camera must stay until the call returns
+    static void addTo(FrameGraph& graph, std::span<const GpuRowsJob> jobs, std::span<ParticleBatch> batches,
+                      const GpuDepth& depth = {});
 };
 
 } // namespace fx::render

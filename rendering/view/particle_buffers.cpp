@@ -269,6 +269,8 @@ base::Status ParticleBuffers::takeRows(Place& place, const base::SnapshotGroup& 
                      {place.buffer.name(), {}, at.wordsOffset, at.wordsBytes},
                      at.columns,
                      rowCount(group)});
+    jobs_.back().meetsDepth = meetsDepth(group.program()->features);
+    jobs_.back().place = group.info().placement;
     at.isThere = true;
     const base::Status status = states_.prepare(group, jobs_.back());
     refusesGpu_ = refusesGpu_ || !status;

@@ -188,7 +188,9 @@ private:
             batch.textureId = graph_.importTexture({"particle frames", 1, 1, Format::RGBA8}, batch.texture);
             batch.motionId = graph_.importTexture({"particle motion", 1, 1, Format::RGBA8}, batch.motion);
         }
-        GpuRowsPass::addTo(graph_, in_.gpuRows, in_.batches);
+        const bool hasDepth = request_.targets.depth != 0;
+        GpuRowsPass::addTo(graph_, in_.gpuRows, in_.batches,
+                           hasDepth ? GpuDepth{distance_, &request_.camera, width_, height_} : GpuDepth{});
         GpuOrderPass::addTo(graph_, in_.gpuOrders, in_.batches);
     }
 

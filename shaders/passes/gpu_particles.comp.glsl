@@ -2,7 +2,7 @@
 //
 // FX_FRAMES GpuFrames; FX_BRIEF 1: ages fit into 32 bits of ticks; FX_LIFE_VARIES 1: each has its own lifetime; FX_DRAGS 1: with drag;
 // FX_BY_SPEED 1: curves over speed; FX_VELOCITY, FX_ANGLE, FX_FRAME, FX_ORIENTATION 1: these columns are written; FX_STEPS 1: motion
-// is stepped, see shared/gpu_particle_steps.glsl.
+// is stepped, see shared/gpu_particle_steps.glsl; FX_DEPTH 1: it meets what the depth texture shows.
 layout(local_size_x = 256) in;
 
 #include "shared/gpu_particle_random.glsl"
@@ -14,6 +14,14 @@ layout(std140, binding = 0) uniform Output
 {
     ivec4 columnAt[4]; // places of the columns in words of 4 bytes; -1: not there
     uvec4 chain;       // steps [x, y) are taken; z 1: they are the last
+#if FX_DEPTH
+    vec4 depthRight; // local place and 1 to the axes of the camera that has seen the depth texture [m]
+    vec4 depthUp;
+    vec4 depthForward;
+    vec4 depthWindow; // xy: pixels per slope, or per metre; zw: pixel of the view axis
+    vec4 depthError;  // e = x + y z + z z^2 [m] at the distance z along the axis
+    vec4 depthSize;   // xy: [pixel], 0 where there is none; z: 1 parallel; w: [m] per local length
+#endif
 };
 
 // RandomPurpose

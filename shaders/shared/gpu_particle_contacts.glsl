@@ -5,6 +5,7 @@ const int kPlane = 16;
 const int kGround = 17;
 const int kSphere = 18;
 const int kBox = 19;
+const int kDepth = 20;
 
 vec3 fromX = vec3(0.0); // where the part of the step began
 vec3 fromV = vec3(0.0);
@@ -59,6 +60,9 @@ precise vec3 pushed = vec3(0.0);
 bool isOut = false;
 
 #include "shared/gpu_particle_obstacles.glsl"
+#if FX_DEPTH
+#include "shared/gpu_particle_depth.glsl"
+#endif
 
 // ---- contact-path ----
 

@@ -27,7 +27,7 @@ float liftAt(vec3 p)
 }
 
 bool isThere(int kind) { return kind != kGround || stepGround() > -1e30; }
-int responseAt(int kind, int n) { return n + (kind == kSphere ? 5 : (kind == kBox ? 11 : 7)); }
+int responseAt(int kind, int n) { return n + (kind == kSphere ? 5 : (kind == kBox ? 11 : (kind == kDepth ? 2 : 7))); }
 
 // Planes: normal, offset in three parts, margin
 double offsetOf(int kind, int n)

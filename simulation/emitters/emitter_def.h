@@ -123,6 +123,7 @@ struct EmitterDef final : SolverDef
     /// Run after the forces above, in order within their phase. None: with gravity, drag and wind alone
     /// motion has a closed form.
     std::vector<std::shared_ptr<const TileOp>> modules;
+    bool meetsDepth = false; ///< one of them is ObstacleKind::Depth: what a view shows, on the GPU alone
 
     // Over life, t in [0, 1]; multiply the values drawn at birth.
     base::ScalarCurve sizeOverLife{std::array{1.0f}};

@@ -4,6 +4,7 @@
 #include "fxsdk/presets/preset_loader.h"
 #include "fxsdk/techniques.h"
 #include "rendering/gpu_particles/gpu_rows_pass.h"
+#include "rendering/passes/scene_distance_pass.h"
 
 #include <glm/gtc/packing.hpp>
 #include <nlohmann/json.hpp>
@@ -37,13 +38,14 @@ std::vector<std::string> libraryNames()
 }
 
 OneEffect::OneEffect(const base::SnapshotSchema& schema, std::shared_ptr<const sim::EffectDef> effect,
-                     bool onGpu, uint64_t seed)
+                     bool onGpu, uint64_t seed, const base::Placement& place)
     : schema_(schema), world_(&schema, tasks_.get(), std::pmr::get_default_resource())
 {
     world_.setGpuParticles(onGpu);
     sim::InstanceStart start;
     start.instance = 1;
     start.seed = seed;
+    start.placement = place;
     slot_ = world_.add(std::move(effect), start);
 }
 
@@ -99,6 +101,10 @@ base::Status GpuParticleTest::drawInto(const base::FrameSnapshot& newer, const b
 {
     render::FrameRequest request;
     request.camera = render::perspectiveView({{1.0, 2.5, 11.0}, {0.0, 2.0, 0.0}}, 0.9f, 1.0f, 0.1f);
+    if (depthCamera_) {
+        request.camera = *depthCamera_;
+        request.targets.depth = depth_->name();
+    }
     request.targets.color = color_->name();
     request.targets.width = color_->width();
     request.targets.height = color_->height();
@@ -130,6 +136,18 @@ std::shared_ptr<const sim::EffectDef> GpuParticleTest::load(const std::string& t
     return preset->effect;
 }
 
+render::GpuDepth GpuParticleTest::seenDepth()
+{
+    if (!depthCamera_)
+        return {};
+    const int width = depth_->width(), height = depth_->height();
+    const render::ResourceId depth =
+        graph_->importTexture({"host depth", width, height, render::Format::R32F}, depth_->name());
+    const render::ViewBlock view = render::makeViewBlock(*depthCamera_, width, height);
+    return {render::SceneDistancePass::addTo(*graph_, {depth, width, height, view}).distance, &*depthCamera_,
+            width, height};
+}
+
 Rows GpuParticleTest::computed(const base::SnapshotGroup& group, render::GpuStates& states)
 {
     const auto& features = group.program()->features;
@@ -156,13 +174,15 @@ Rows GpuParticleTest::computed(const base::SnapshotGroup& group, render::GpuStat
                            {in->name(), {}, 0, in->bytes()},
                            at,
                            count};
+    job.meetsDepth = render::meetsDepth(group.program()->features);
+    job.place = group.info().placement;
     states.nextFrame();
     const base::Status prepared = states.prepare(group, job);
     EXPECT_TRUE(prepared.ok()) << prepared.message();
     steps_ = job.stepCount;
     graph_->begin();
     batch.newer.id = graph_->importBuffer({"rows", out->bytes()}, out->name());
-    render::GpuRowsPass::addTo(*graph_, {&job, 1}, {&batch, 1});
+    render::GpuRowsPass::addTo(*graph_, {&job, 1}, {&batch, 1}, seenDepth());
     graph_->compile();
     EXPECT_TRUE(backend_->beginFrame(*graph_).ok());
     graph_->execute(*backend_);

@@ -28,7 +28,7 @@ class OneEffect
 public:
     /// @param onGpu whether emitters may be published for the GPU
     OneEffect(const base::SnapshotSchema& schema, std::shared_ptr<const sim::EffectDef> effect, bool onGpu,
-              uint64_t seed = 7);
+              uint64_t seed = 7, const base::Placement& place = {});
 
     void playTo(double seconds, double step = 1.0 / 60.0);
     void seekTo(double seconds);
@@ -80,6 +80,9 @@ protected:
     Picture draw(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
     base::Status drawInto(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
 
+    /// What has been seen, in the graph that is being made.
+    render::GpuDepth seenDepth();
+
     base::AssetTable assets_{std::pmr::get_default_resource()};
 
     std::unique_ptr<render::FrameGraph> graph_;
@@ -87,6 +90,8 @@ protected:
     std::unique_ptr<render::GpuEmitters> emitters_;
     std::unique_ptr<render::GpuStates> states_;
     uint32_t steps_ = 0; ///< that the last computed() has taken
+    /// Of the camera that has seen what setDepth() was given, for computed() and draw(); none: no depth.
+    std::optional<render::CameraView> depthCamera_;
 };
 
 } // namespace fx::test

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "simulation/emitters/emitter_def.h"
+#include "simulation/particles/gpu_module_source.h"
 #include "tests/presets/member_probe.h"
 #include "tests/simulation/particles/modules/tile_stage.h"
 
@@ -54,6 +55,11 @@ inline void addModules(Fields& fields, const std::vector<std::shared_ptr<const s
          {t.x, t.y, t.z, t.vx, t.vy, t.vz, t.ax, t.ay, t.az, t.ux, t.uy, t.uz, t.quadratic})
         fields.insert(fields.end(), column, column + kRows);
     fields.insert(fields.end(), t.flags, t.flags + kRows);
+    base::GpuModules described; // some of what only the GPU does
+    for (const auto& op : modules)
+        if (const sim::GpuModuleSource* const source = sim::gpuSourceOf(*op))
+            source->describe(described);
+    fields.insert(fields.end(), described.numbers.begin(), described.numbers.end());
     fields.push_back(double(modules.size()));
 }
 

@@ -1,4 +1,5 @@
 #include "simulation/emitters/emitter_def.h"
+#include "simulation/emitters/gpu_program.h"
 #include "tests/presets/module_probe.h"
 
 #include <cmath>
@@ -46,7 +47,7 @@ Fields fieldsOf(const fx::sim::SolverDef& solver)
                   e.detailAmount,      e.detailScale,
                   e.anisotropy,        e.shutter,
                   double(e.inWorld),   e.inheritVelocity,
-                  double(e.compute)};
+                  double(e.compute),   double(e.meetsDepth)};
     for (const glm::vec3& v : {e.position, e.size})
         add(fields, v);
     for (const fx::base::Range& range : {e.lifetime, e.speed, e.radius, e.crossSection, e.temperature})
@@ -174,12 +175,16 @@ TEST(EmitterMembers, eachForceIsReadAndHasTheDefaultThatItsSchemaDocuments)
 TEST(EmitterMembers, eachMemberOfObstaclesAndOfTheAppearanceIsRead)
 {
     const Json members = emitterSchema()["properties"];
-    probeArray(members, "/collisions", {{"shape", "plane"}}, {"shape", "size", "hollow", "cellSize"});
-    probeArray(members, "/collisions", {{"shape", "box"}, {"size", 2.5}}, {"shape", "size", "cellSize"});
-    probeArray(
-        members, "/collisions", {{"shape", "box"}, {"position", {0, -1, 0}}},
-        {"shape", "position", "axis", "hollow", "margin", "cellSize", "response", "bounce", "friction"});
-    for (const char* shape : {"plane", "sphere", "box", "ground", "scene", "hook"})
+    probeArray(members, "/collisions", {{"shape", "plane"}},
+               {"shape", "size", "hollow", "cellSize", "thickness"});
+    probeArray(members, "/collisions", {{"shape", "box"}, {"size", 2.5}},
+               {"shape", "size", "cellSize", "thickness"});
+    probeArray(members, "/collisions", {{"shape", "box"}, {"position", {0, -1, 0}}},
+               {"shape", "position", "axis", "hollow", "margin", "cellSize", "thickness", "response",
+                "bounce", "friction"});
+    probeArray(members, "/collisions", {{"shape", "depth"}},
+               {"shape", "position", "axis", "size", "hollow", "cellSize"});
+    for (const char* shape : {"plane", "sphere", "box", "ground", "scene", "hook", "depth"})
         EXPECT_EQ(emitterWith({{"collisions", {{{"shape", shape}}}}}).modules.size(), 1u) << shape;
     probeMembers("emitters", members["appearance"], kLeast, "/appearance", fieldsOf);
 }
@@ -191,6 +196,37 @@ TEST(EmitterMembers, bounceJoinsTheOtherObstacles)
     EXPECT_TRUE(e.modules[0]->collides());
     EXPECT_LT(e.forces.bounce, 0.0f);
     EXPECT_TRUE(emitterWith({{"forces", {{"bounce", 0.5}}}}).modules.empty());
+}
+
+TEST(EmitterMembers, whatOnlyTheGpuMeetsIsAWarningWhereTheCpuComputes)
+{
+    std::string obstacle;
+    const auto warningsOf = [&obstacle](const Json& members) {
+        Json element = with(kLeast, members);
+        element["collisions"] = {{{"shape", "plane"}}, {{"shape", "depth"}}};
+        const Json document{{"version", 1}, {"emitters", Json::array({element})}};
+        std::vector<fx::preset::Diagnostic> found;
+        const auto loaded = fx::preset::loadPresetText(document.dump(), "t", &found);
+        EXPECT_TRUE(loaded.ok());
+        obstacle = fx::sim::gpuObstacle(dynamic_cast<const EmitterDef&>(*loaded->effect->solvers.at(0)));
+        return found;
+    };
+    const Json sprite{{"appearance", {{"kind", "sprite"}}}};
+    const Json cases[] = {sprite,
+                          {{"compute", "gpu"}},
+                          with(sprite, {{"compute", "auto"}}),
+                          with(sprite, {{"compute", "gpu"}, {"trail", {{"lifetime", 1}}}}),
+                          with(sprite, {{"compute", "gpu"}})};
+    for (const Json& members : cases) {
+        const auto found = warningsOf(members);
+        ASSERT_EQ(found.size(), obstacle.empty() ? 0u : 1u) << members;
+        if (found.empty())
+            continue;
+        EXPECT_EQ(found[0].pointer, "/emitters/0/collisions/1/shape");
+        EXPECT_TRUE(found[0].warning);
+        EXPECT_NE(found[0].message.find(obstacle), std::string::npos) << found[0].message;
+        EXPECT_NE(found[0].message.find("move freely"), std::string::npos);
+    }
 }
 
 TEST(EmitterMembers, whatASchemaCannotForbidIsAnErrorWithItsPlace)

@@ -157,7 +157,8 @@ typedef struct FxFrameDef
     uint32_t target;          ///< FX_TARGET_...; default FX_TARGET_TEXTURE
     uint32_t colorTexture; ///< GL name of a 2-D texture holding the opaque picture [cd/m2 times exposure]; 0
                            ///< only with FX_TARGET_FRAMEBUFFER
-    uint32_t depthTexture; ///< GL name of a 2-D depth texture of it; 0 (default): nothing occludes
+    uint32_t depthTexture; ///< GL name of a 2-D depth texture of it; 0 (default): nothing occludes. Particles
+                           ///< on the GPU collide with it where their preset says so (shape "depth")
     uint32_t framebuffer;  ///< GL name, with FX_TARGET_FRAMEBUFFER; default 0
     int32_t width;         ///< [pixel] of the target, 1..16384
     int32_t height;        ///< [pixel] of the target, 1..16384

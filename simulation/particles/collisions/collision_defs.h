@@ -23,6 +23,7 @@ enum class ObstacleKind : uint8_t
     Ground,      ///< the instance's ground plane, where it has one
     Scene,       ///< the host's geometry, where it gave one
     Hook,        ///< StepContext::contactHook, where the host set one
+    Depth,       ///< what the depth texture of a view shows: on the GPU alone, elsewhere nothing is met
 };
 
 enum class ContactResponse : uint8_t
@@ -35,11 +36,12 @@ enum class ContactResponse : uint8_t
 struct CollisionDef
 {
     ObstacleKind kind = ObstacleKind::Plane;
-    glm::vec3 position{0.0f};                   ///< [m] center, or of the mesh's or grid's own origin
-    glm::vec3 axis{0.0f, 1.0f, 0.0f};           ///< of any length > 0
-    glm::vec3 size{1.0f};                       ///< [m]
-    bool isHollow = false;                      ///< sphere and box: particles are kept inside
-    float margin = 0.0f;                        ///< [m] kept from planes, spheres, boxes and heights
+    glm::vec3 position{0.0f};         ///< [m] center, or of the mesh's or grid's own origin
+    glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< of any length > 0
+    glm::vec3 size{1.0f};             ///< [m]
+    bool isHollow = false;            ///< sphere and box: particles are kept inside
+    float margin = 0.0f;              ///< [m] kept from planes, spheres, boxes, heights and what is seen
+    float thickness = 0.5f;           ///< [m] Depth: that what is seen is taken to have, along the ray
     std::shared_ptr<const DistanceField> field; ///< of the mesh
     std::shared_ptr<const FieldGrid> heights;   ///< [m] one channel, one node along y
 

@@ -77,7 +77,8 @@ public:
             entries_.push_back({makeObstacle(def), def.response, std::clamp(def.restitution, 0.0f, 1.0f),
                                 std::clamp(def.friction, 0.0f, 1.0f)});
             heedsScene_ = heedsScene_ || def.kind == ObstacleKind::Scene || def.kind == ObstacleKind::Hook;
-            holds_ = holds_ || def.response == ContactResponse::Stick;
+            const bool isMet = def.kind != ObstacleKind::Depth; // on the CPU
+            holds_ = holds_ || (isMet && def.response == ContactResponse::Stick);
         }
     }
 
@@ -95,6 +96,8 @@ public:
                 continue; // it is not there
             out.numbers.insert(out.numbers.end(),
                                {float(uint8_t(entry.response)), entry.restitution, entry.friction});
+            if (out.uses.back().module == base::GpuModule::Depth)
+                continue; // what a view shows ends no instance
             out.kills = out.kills || entry.response == ContactResponse::Kill;
             out.sticks = out.sticks || entry.response == ContactResponse::Stick;
         }

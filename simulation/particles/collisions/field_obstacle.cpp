@@ -104,6 +104,8 @@ std::unique_ptr<Obstacle> makeObstacle(const CollisionDef& def)
     case ObstacleKind::Scene:
     case ObstacleKind::Hook:
         return makeFieldObstacle(def);
+    case ObstacleKind::Depth:
+        return makeDepthObstacle(def);
     case ObstacleKind::Plane:
     case ObstacleKind::Ground:
         break;

@@ -76,5 +76,6 @@ std::unique_ptr<Obstacle> makeSphereObstacle(const CollisionDef& def);
 std::unique_ptr<Obstacle> makeBoxObstacle(const CollisionDef& def);
 std::unique_ptr<Obstacle> makeFieldObstacle(const CollisionDef& def); ///< Mesh, Scene, Hook
 std::unique_ptr<Obstacle> makeHeightObstacle(const CollisionDef& def);
+std::unique_ptr<Obstacle> makeDepthObstacle(const CollisionDef& def);
 
 } // namespace fx::sim

@@ -1,0 +1,39 @@
+#include "fxsdk/presets/emitter_depth_preset.h"
+
+#include "simulation/emitters/emitter_def.h"
+#include "simulation/emitters/gpu_program.h"
+
+#include <algorithm>
+
+namespace fx::preset {
+
+namespace {
+
+bool isDepth(const PresetValue& collision)
+{
+    std::string shape;
+    collision.read("shape", shape);
+    return shape == "depth";
+}
+
+} // namespace
+
+void warnOfDepthOnCpu(const PresetValue& root, const sim::EffectDef& effect)
+{
+    for (size_t i = 0; i < std::min(root.size("emitters"), effect.solvers.size()); ++i) {
+        const auto* const emitter = dynamic_cast<const sim::EmitterDef*>(effect.solvers[i].get());
+        if (!emitter || !emitter->meetsDepth)
+            continue;
+        const std::string why(sim::gpuObstacle(*emitter));
+        if (why.empty())
+            continue;
+        const PresetValue element = root.element("emitters", i);
+        for (size_t k = 0; k < element.size("collisions"); ++k)
+            if (const PresetValue collision = element.element("collisions", k); isDepth(collision))
+                collision.warning("shape", "only the GPU meets what a view shows, and the CPU computes this "
+                                           "emitter because " +
+                                               why + ": its particles move freely");
+    }
+}
+
+} // namespace fx::preset

@@ -1,0 +1,151 @@
+/// @file depth_fixture.h
+/// Particles of steppedText() under a camera that sees planes, and how exact their contacts can be.
+#pragma once
+
+#include "gpu_fixture.h"
+#include "module_cases.h"
+#include "seen_planes.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace fx::test {
+
+namespace column = base::particle_column;
+
+inline constexpr int kWidth = 160, kHeight = 120;
+inline constexpr float kAspect = float(kWidth) / float(kHeight);
+inline constexpr double kFastest = 9.0; ///< [m/s] of particles of steppedText() when they land
+
+/// A camera above the emitter of steppedText(), from which all that it throws is seen.
+inline const render::CameraPose kAbove{{1.5, 8.0, 9.0}, {0.3, 0.0, 0.6}};
+
+struct CameraCase
+{
+    const char* name;
+    render::CameraView camera;
+};
+
+inline std::vector<CameraCase> cameras()
+{
+    render::CameraView zeroToOne = render::perspectiveView(kAbove, 1.3f, kAspect, 1.0f);
+    zeroToOne.projection[3][2] = -1.0f; // clip depth = 1 - near / distance
+    zeroToOne.zeroToOne = true;
+    render::CameraView flipped = render::perspectiveView(kAbove, 1.3f, kAspect, 1.0f);
+    flipped.upperLeftOrigin = true;
+    render::CameraView shifted =
+        render::perspectiveView(kAbove, 1.3f, kAspect, 0.5f, render::DepthConvention::Reversed);
+    shifted.projection[2][0] = 0.1f; // the axis is not in the middle
+    shifted.projection[2][1] = -0.07f;
+    return {
+        {"perspective", render::perspectiveView(kAbove, 1.3f, kAspect, 1.0f)},
+        {"reversed", render::perspectiveView(kAbove, 1.3f, kAspect, 0.1f, render::DepthConvention::Reversed)},
+        {"zero to one", zeroToOne},
+        {"upper left", flipped},
+        {"shifted", shifted},
+        {"parallel", render::orthographicView(kAbove, 16.0f, kAspect, 0.5f, 40.0f)}};
+}
+
+struct PlaneCase
+{
+    const char* name;
+    glm::dvec3 normal;
+    double offset;
+};
+inline const PlaneCase kPlanes[] = {{"level", {0, 1, 0}, 0.0},
+                                    {"tilted", glm::normalize(glm::dvec3(0.3, 1, 0.2)), 0.1},
+                                    {"steep", glm::normalize(glm::dvec3(-0.5, 1, 0.4)), 0.2}};
+
+inline std::string planeMember(const PlaneCase& plane, const std::string& answer)
+{
+    const glm::dvec3 place = plane.normal * plane.offset;
+    const auto vectorOf = [](const glm::dvec3& v) {
+        char text[120];
+        std::snprintf(text, sizeof text, "[%.9g, %.9g, %.9g]", v.x, v.y, v.z);
+        return std::string(text);
+    };
+    return R"("collisions": [{"shape": "plane", "axis": )" + vectorOf(plane.normal) + R"(, "position": )" +
+           vectorOf(place) + ", " + answer + "}]";
+}
+
+inline std::string depthMember(const std::string& answer)
+{
+    return R"("collisions": [{"shape": "depth", )" + answer + "}]";
+}
+
+inline glm::dvec3 placeOf(const Rows& rows, size_t i)
+{
+    return {rows.columns[column::PositionX][i], rows.columns[column::PositionY][i],
+            rows.columns[column::PositionZ][i]};
+}
+
+/// [m] What depth-contact says of the place of a particle `seconds` after the first of contacts that halve
+/// its speed at least: a shift of 3 e, which a bounce doubles at most, and twice the turn of the normal; all
+/// bounces together come to less than four times the first.
+inline double boundOf(const render::CameraView& camera, double distance, double seconds)
+{
+    const DepthResolution at = resolutionAt(camera, kHeight, distance);
+    const double shift = 3.0 * at.error, turn = 2.0 * at.texture / at.pixel;
+    return 4.0 * (2.0 * shift + 2.0 * turn * kFastest * seconds);
+}
+
+class GpuDepthContacts : public GpuParticleTest
+{
+protected:
+    void see(const render::CameraView& camera, const std::vector<SeenPlane>& planes)
+    {
+        makeTargets(kWidth, kHeight);
+        setDepth(depthOf(camera, kWidth, kHeight, planes));
+        depthCamera_ = camera;
+        states_ = makeStates();
+    }
+    /// [m] Largest difference of places; rows that live on one side only are counted.
+    double worstOf(const Rows& cpu, const Rows& gpu, size_t& outLiving, size_t& outLonely)
+    {
+        double worst = 0.0;
+        outLiving = outLonely = 0;
+        for (size_t i = 0; i < gpu.count(); ++i) {
+            const bool isAlive = i < cpu.count() && cpu.isAlive(i);
+            outLonely += gpu.isAlive(i) != isAlive ? 1 : 0;
+            if (!isAlive || !gpu.isAlive(i))
+                continue;
+            ++outLiving;
+            const double difference = glm::length(placeOf(cpu, i) - placeOf(gpu, i));
+            worst = std::max(worst, std::isfinite(difference) ? difference : 1e9);
+        }
+        return worst;
+    }
+    /// Equal bit for bit; with llvmpipe, as others round their own way.
+    void expectSame(const Rows& cpu, const Rows& gpu)
+    {
+        size_t living = 0, lonely = 0;
+        const double worst = worstOf(cpu, gpu, living, lonely);
+        const bool isSoftware = device_->limits().renderer.find("llvmpipe") != std::string::npos;
+        EXPECT_LE(worst, isSoftware ? 0.0 : 1e-4);
+        EXPECT_EQ(lonely, 0u);
+        EXPECT_GT(living, 30u);
+    }
+    Rows playedOnCpu(const std::string& members, double seconds)
+    {
+        OneEffect cpu(schema_, load(steppedText(members, "cpu")), false);
+        cpu.playTo(seconds);
+        return rowsOf(cpu.publish().group(0));
+    }
+    Rows playedOnGpu(const std::string& members, double seconds)
+    {
+        OneEffect gpu(schema_, load(steppedText(members, "gpu")), true);
+        gpu.playTo(seconds);
+        return computed(gpu.publish().group(0));
+    }
+    static constexpr const char* kFewThatLast =
+        R"("lifetime": 4, "maxParticles": 500, "emission": {"rate": 100, "duration": 0.5})";
+    /// No obstacle at all, but steps.
+    static constexpr const char* kFree = R"("collisions": [{"shape": "hook"}])";
+};
+
+} // namespace fx::test
