@@ -18,8 +18,13 @@ struct AllocatorHooks
     void (*release)(void* user, void* memory, size_t size, size_t alignment) = nullptr;
 };
 
-/// Everything that lives longer than a call comes from here. Throws std::bad_alloc, which fxsdk/api turns
-/// into FX_ERROR_OUT_OF_MEMORY. Thread-safe when the hooks are.
+/// [byte] of what a processor translates with one entry, where the system gives such pages.
+constexpr size_t kLargePage = size_t(2) << 20;
+
+/// Everything that lives longer than a call comes from here. Without hooks, blocks of kLargePage and more
+/// begin at a multiple of it, and Linux is asked for such pages: many columns that are read side by side else
+/// wait for the translation of addresses. Hosts with hooks decide for themselves. Throws std::bad_alloc,
+/// which fxsdk/api turns into FX_ERROR_OUT_OF_MEMORY. Thread-safe when the hooks are.
 class HostMemory final : public std::pmr::memory_resource
 {
 public:

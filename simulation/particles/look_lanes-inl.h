@@ -114,11 +114,16 @@ public:
     HWY_INLINE void runWith(const Reader& reader, uint32_t begin, uint32_t end, LookBounds& outBounds) const
     {
         const bool moving = !kPlain && (out_.velocity[0] || job_->program->bySpeed);
+        const bool stream = kPlain ? kStream : out_.stream;
         BoundsLanes bounds;
         Pieces pieces;
         for (uint32_t row = begin; row < end;) {
             const uint32_t inside = std::min(insideFrom(row), end);
             for (; row < inside; row += kWidth) {
+                if (stream) { // all comes from memory
+                    reader.fetch(row + kAhead);
+                    fetch<kPlain>(row + kAhead);
+                }
                 const MotionLanes motion =
                     moving ? reader.template read<true, true>(row) : reader.template read<false, true>(row);
                 const Which alive = hn::Lt(motion.life, all(1.0f)); // false for NaN
@@ -150,6 +155,8 @@ public:
     }
 
 private:
+    static constexpr uint32_t kAhead = 256; ///< rows: more than memory keeps waiting, less than fills a cache
+
     /// Pieces of the curves that the last particles were in.
     struct Pieces
     {
@@ -194,6 +201,22 @@ private:
         if (rows.gapBegin < rows.gapEnd && row < rows.gapEnd)
             return std::max(row, std::min(rows.gapBegin, rows.count) / kWidth * kWidth);
         return std::max(row, rows.count / kWidth * kWidth);
+    }
+
+    /// Asks memory for what write() is going to want.
+    template <bool kPlain>
+    HWY_INLINE void fetch(uint32_t row) const
+    {
+        radius_.fetch(row);
+        amount_.fetch(row);
+        if constexpr (kPlain)
+            return;
+        for (const Source* source : {&brightness_, &angle_, &spin_, &frame_})
+            source->fetch(row);
+        for (size_t a = 0; a < 3; ++a) {
+            axis_[a].fetch(row);
+            tint_[a].fetch(row);
+        }
     }
 
     void writeNobody(uint32_t row) const;

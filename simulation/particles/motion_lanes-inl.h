@@ -10,6 +10,8 @@
 #include "simulation/particles/lanes-inl.h"
 #include "simulation/particles/look_kernel.h"
 
+#include <hwy/cache_control.h>
+
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::particles::HWY_NAMESPACE {
 
@@ -24,6 +26,11 @@ struct Source
     {}
     HWY_INLINE void turnTo(const ParticleStore& store, size_t column) { rows = store.values[column].data(); }
     HWY_INLINE Floats at(uint32_t row) const { return rows ? hn::Load(kFloats, rows + row) : all(constant); }
+    HWY_INLINE void fetch(uint32_t row) const
+    {
+        if (rows)
+            hwy::Prefetch(rows + row);
+    }
 };
 
 struct MotionLanes
@@ -92,6 +99,22 @@ public:
             }
         }
         return m;
+    }
+
+    /// Asks memory for what read() is going to want.
+    HWY_INLINE void fetch(uint32_t row) const
+    {
+        if constexpr (kBrief) {
+            hwy::Prefetch(bornShort_ + row);
+        } else {
+            hwy::Prefetch(born_ + row);
+            hwy::Prefetch(born_ + row + kTilePadding / 2); // a row takes twice as much
+        }
+        perLife_.fetch(row);
+        for (int a = 0; a < 3; ++a) {
+            x_[a].fetch(row);
+            hwy::Prefetch(v_[a] + row);
+        }
     }
 
 private:

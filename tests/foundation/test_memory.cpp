@@ -5,8 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <new>
+#include <string>
 
 using namespace fx::base;
 
@@ -67,6 +70,64 @@ TEST(HostMemory, withoutHooksItUsesTheRuntime)
     EXPECT_EQ(reinterpret_cast<uintptr_t>(block) % 64, 0u);
     memory.deallocate(block, 3, 64);
 }
+
+TEST(HostMemory, largeBlocksBeginWhereALargePageCan)
+{
+    HostMemory memory;
+    for (const size_t size : {kLargePage, kLargePage + 1, 5 * kLargePage - 7}) {
+        auto* block = static_cast<char*>(memory.allocate(size, 64));
+        EXPECT_EQ(reinterpret_cast<uintptr_t>(block) % kLargePage, 0u);
+        block[0] = block[size - 1] = 1;
+        EXPECT_EQ(memory.bytesInUse(), size);
+        memory.deallocate(block, size, 64);
+    }
+    EXPECT_EQ(memory.bytesInUse(), 0u);
+}
+
+TEST(HostMemory, aHostIsAskedForWhatIsWantedHoweverLarge)
+{
+    struct Asked
+    {
+        size_t size = 0, alignment = 0;
+        alignas(64) char block[64];
+    } asked;
+    HostMemory memory({&asked,
+                       [](void* user, size_t size, size_t alignment) -> void* {
+                           Asked& host = *static_cast<Asked*>(user);
+                           host.size = size;
+                           host.alignment = alignment;
+                           return host.block;
+                       },
+                       [](void*, void*, size_t, size_t) {}});
+    void* block = memory.allocate(3 * kLargePage, 64);
+    EXPECT_EQ(asked.size, 3 * kLargePage);
+    EXPECT_EQ(asked.alignment, 64u);
+    memory.deallocate(block, 3 * kLargePage, 64);
+}
+
+#ifdef __linux__
+TEST(HostMemory, linuxIsAskedForLargePagesUnderLargeBlocks)
+{
+    if (!std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"))
+        GTEST_SKIP() << "this kernel has none";
+    HostMemory memory;
+    const size_t size = 9 * kLargePage;
+    void* block = memory.allocate(size, 64);
+    const auto address = reinterpret_cast<uintptr_t>(block);
+    std::ifstream maps("/proc/self/smaps");
+    bool isInside = false;
+    std::string flags;
+    for (std::string line; flags.empty() && std::getline(maps, line);) {
+        unsigned long begin = 0, end = 0;
+        if (std::sscanf(line.c_str(), "%lx-%lx ", &begin, &end) == 2)
+            isInside = address >= begin && address < end;
+        else if (isInside && line.starts_with("VmFlags:"))
+            flags = line + " ";
+    }
+    EXPECT_NE(flags.find(" hg "), std::string::npos) << flags;
+    memory.deallocate(block, size, 64);
+}
+#endif
 
 TEST(Arena, allocationsAreAlignedAndDoNotOverlap)
 {
