@@ -161,6 +161,8 @@ public:
     /// True when nothing is alive and nothing will ever be born again from local time `tick` on.
     virtual bool finished(base::Ticks tick) const = 0;
     virtual uint32_t elementCount() const = 0;
+    /// Whether there are any; often without counting them.
+    virtual bool hasElements() const { return elementCount() > 0; }
 
     /// Writes everything that later steps and publications depend on, and nothing else: equal states write
     /// equal bytes.

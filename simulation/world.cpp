@@ -136,7 +136,7 @@ bool World::isFinished(const Run& run, base::Ticks sceneTick) const
         return false;
     if (run.effect->duration > 0 && local >= run.effect->duration)
         return true;
-    const auto isEmpty = [](const std::unique_ptr<Solver>& solver) { return solver->elementCount() == 0; };
+    const auto isEmpty = [](const std::unique_ptr<Solver>& solver) { return !solver->hasElements(); };
     if (run.released)
         return false; // nobody knows before it is simulated
     if (!run.conditions.parameters.emitting && std::all_of(run.solvers.begin(), run.solvers.end(), isEmpty))
@@ -152,6 +152,13 @@ uint32_t World::elementCount(Slot slot) const
         for (const std::unique_ptr<Solver>& solver : runs_.at(run).solvers)
             count += solver->elementCount();
     return count;
+}
+
+bool World::hasElements(Slot slot) const
+{
+    const auto has = [](const std::unique_ptr<Solver>& solver) { return solver->hasElements(); };
+    const RunIndex run = instances_[slot].run;
+    return run != kNoRun && std::any_of(runs_.at(run).solvers.begin(), runs_.at(run).solvers.end(), has);
 }
 
 const EffectDef& World::effect(Slot slot) const

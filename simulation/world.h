@@ -152,6 +152,7 @@ public:
     /// longer emits is empty.
     bool finished(Slot slot, base::Ticks sceneTick) const;
     uint32_t elementCount(Slot slot) const;
+    bool hasElements(Slot slot) const; ///< whether that is not 0
     const EffectDef& effect(Slot slot) const;
     uint32_t simulations() const { return runs_.count(); } ///< at most one an instance
 
@@ -274,7 +275,6 @@ private:
     mutable Plan publishPlan_;
     mutable uint64_t placed_ = 0; ///< of publishPlan_: see moves_
     uint64_t moves_ = 1;          ///< goes up when an instance whose run is in a pool has been moved
-    mutable uint64_t rosters_ = 0;
     mutable std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_; ///< snapshots hold some of them
     mutable std::shared_ptr<base::GroupRoster> roster_;                  ///< of the last publication
     mutable std::vector<uint32_t> ends_;                                 ///< see FrameSnapshot::setRoster()

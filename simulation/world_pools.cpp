@@ -3,9 +3,21 @@
 #include "simulation/world.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace fx::sim {
+
+namespace {
+
+/// Snapshots may outlive the world that wrote them and be written by the next.
+uint64_t nextShape()
+{
+    static std::atomic<uint64_t> last{0};
+    return ++last;
+}
+
+} // namespace
 
 /// Whether the run, which has just been stepped, is one that a pool may compute: nothing is going to happen
 /// but what its emitter does by itself.
@@ -83,7 +95,7 @@ void World::publishPools(std::span<const Slot> active, base::FrameSnapshot& snap
     if (!isPlanned || placed_ != moves_)
         makeRoster(active);
     if (!isPlanned)
-        roster_->shape = ++rosters_;
+        roster_->shape = nextShape();
     ends_.clear();
     for (size_t k = 0; k < publishPlan_.others.size(); ++k) {
         fetchAhead(publishPlan_.others, k);

@@ -28,7 +28,7 @@ uint64_t hashGroup(uint64_t h, const SnapshotGroup& group, std::span<const Colum
 } // namespace
 
 FrameSnapshot::FrameSnapshot(const SnapshotSchema* schema, std::pmr::memory_resource* memory)
-    : schema_(schema), memory_(memory), groups_(memory), ends_(memory)
+    : schema_(schema), memory_(memory), groups_(memory), ends_(memory), places_(memory)
 {}
 
 void FrameSnapshot::begin(Ticks tick, uint64_t sequence, Ticks step)
@@ -54,9 +54,32 @@ void FrameSnapshot::setRoster(std::shared_ptr<const GroupRoster> roster, std::sp
 {
     if (!spread_)
         spread_ = std::make_unique<SpreadGroups>(memory_);
+    const size_t count = groupCount_ + roster->entries.size();
+    const bool isListed =
+        listed_ == roster->shape && places_.size() == count && std::ranges::equal(ends_, ends);
+    listed_ = 0; // the memory may run out on the way
     ends_.assign(ends.begin(), ends.end());
+    places_.resize(count);
     roster_ = std::move(roster);
+    if (!isListed)
+        listPlaces();
     spread_->prepare(*this);
+    listed_ = roster_->shape;
+}
+
+/// Each entry of the roster stands behind the stretches of added groups that it counts.
+void FrameSnapshot::listPlaces()
+{
+    uint32_t added = 0;
+    size_t at = 0;
+    for (uint32_t i = 0; i < roster_->entries.size(); ++i) {
+        const uint32_t stretch = roster_->entries[i].stretch;
+        for (const uint32_t end = stretch == 0 ? 0 : ends_[stretch - 1]; added < end; ++added)
+            places_[at++] = added;
+        places_[at++] = i | kPooled;
+    }
+    for (; added < groupCount_; ++added)
+        places_[at++] = added;
 }
 
 SnapshotGroup& FrameSnapshot::findGroup(KindId kind, size_t capacity, ColumnSet present)

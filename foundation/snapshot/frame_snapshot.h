@@ -21,6 +21,21 @@
 
 namespace fx::base {
 
+/// Whose a group is: the same in each snapshot of a scene.
+struct GroupName
+{
+    uint64_t instance = 0;
+    uint32_t solver = 0;
+    KindId kind = 0;
+
+    bool operator==(const GroupName&) const = default;
+};
+
+inline GroupName nameOf(const GroupInfo& info)
+{
+    return {info.instance, info.solver, info.kind};
+}
+
 /// All groups after the step that ended at `tick`.
 class FrameSnapshot
 {
@@ -35,10 +50,25 @@ public:
     float secondsBack() const { return float(toSeconds(step_)); }
     Ticks step() const { return step_; } ///< the same, as begin() was told
     size_t groupCount() const { return groupCount_ + (roster_ ? roster_->entries.size() : 0); }
-    /// The first call on a snapshot with pools gives their rows to their groups. It allocates nothing.
+    /// The first call for a group of a pool gives all rows of pools to their groups. It allocates nothing.
     const SnapshotGroup& group(size_t index) const
     {
-        return roster_ ? spread_->group(*this, index) : groups_[index];
+        const uint32_t place = placeOf(index);
+        return (place & kPooled) != 0 ? spread_->group(*this, place & ~kPooled) : groups_[place];
+    }
+    /// Where the rows of a group lie in a pool, for who reads them there; null: they lie in the group.
+    const GroupRoster::Entry* pooled(size_t index) const
+    {
+        const uint32_t place = placeOf(index);
+        return (place & kPooled) != 0 ? &roster_->entries[place & ~kPooled] : nullptr;
+    }
+    /// Whether somebody has asked for a group of a pool.
+    bool hasGivenRows() const { return roster_ && spread_->isDone(); }
+    GroupName name(size_t index) const ///< of a group, whose rows stay where they are
+    {
+        const GroupRoster::Entry* const entry = pooled(index);
+        return entry ? GroupName{entry->instance, entry->solver, pool(entry->pool).rows.info().kind}
+                     : nameOf(groups_[placeOf(index)].info());
     }
 
     /// Hash of every id, column, constant and placement, computed anew at each call.
@@ -79,11 +109,10 @@ public:
 
 private:
     friend class SpreadGroups;
-    /// Of the groups that were added, so many stand before an entry of the roster.
-    size_t addedBefore(const GroupRoster::Entry& entry) const
-    {
-        return entry.stretch == 0 ? 0 : ends_[entry.stretch - 1];
-    }
+    static constexpr uint32_t kPooled = 1u << 31;
+    /// Among the groups that were added, or with kPooled in the roster.
+    uint32_t placeOf(size_t index) const { return roster_ ? places_[index] : uint32_t(index); }
+    void listPlaces();
     SnapshotGroup& findGroup(KindId kind, size_t capacity, ColumnSet present);
 
     const SnapshotSchema* schema_;
@@ -98,6 +127,8 @@ private:
     std::vector<std::unique_ptr<PooledRows>> pools_; ///< the first poolCount_ are valid, likewise
     std::shared_ptr<const GroupRoster> roster_;      ///< null: there are no pools
     std::pmr::vector<uint32_t> ends_;                ///< see setRoster()
+    std::pmr::vector<uint32_t> places_;              ///< by group, see placeOf(); where pools are
+    uint64_t listed_ = 0;                            ///< shape of the roster that they and ends_ are of
     std::unique_ptr<SpreadGroups> spread_;           ///< where pools are
 };
 

@@ -3,25 +3,10 @@
 #include "foundation/snapshot/frame_snapshot.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <utility>
 
 namespace fx::base {
-
-namespace {
-
-/// Calls f(row) for all rows that show something.
-template <class F>
-void forEachRow(const PooledRows& pool, F&& f)
-{
-    const float* const radius = pool.rows.start(pool.radiusColumn);
-    for (const PooledRows::Range& range : pool.used)
-        for (uint32_t row = range.begin; row < range.end; ++row)
-            if (radius[row] > 0.0f)
-                f(row);
-}
-
-} // namespace
 
 RowCopier::RowCopier(const KindDesc& kind, const SnapshotGroup& pool, uint32_t each)
 {
@@ -50,6 +35,18 @@ void PooledRows::prepare(const SnapshotSchema& schema, KindId kind, size_t capac
     copier = RowCopier(schema.kind(kind), rows, each);
 }
 
+float PooledRows::measureMoving(uint32_t row, const glm::vec3& at, float radius, RowExtent& io) const
+{
+    const glm::vec3 v(rows.start(velocityColumn)[row], rows.start(velocityColumn + 1)[row],
+                      rows.start(velocityColumn + 2)[row]);
+    if (const float age = rows.start(ageColumn)[row]; age <= young) {
+        const glm::vec3 begin = at - v * age;
+        io.low = glm::min(io.low, begin);
+        io.high = glm::max(io.high, begin);
+    }
+    return radius + stretch * std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
 void SpreadGroups::prepare(const FrameSnapshot& snapshot)
 {
     done_.store(false, std::memory_order_relaxed); // publication orders it
@@ -63,7 +60,6 @@ void SpreadGroups::prepare(const FrameSnapshot& snapshot)
     }
     ends_.resize(members);
     rows_.resize(rows);
-    order_.reserve(snapshot.groupCount());
     if (shape_ == roster.shape)
         return;
     while (scratch_.size() < snapshot.poolCount())
@@ -77,7 +73,7 @@ void SpreadGroups::prepare(const FrameSnapshot& snapshot)
     shape_ = roster.shape;
 }
 
-const SnapshotGroup& SpreadGroups::group(const FrameSnapshot& snapshot, size_t index)
+const SnapshotGroup& SpreadGroups::group(const FrameSnapshot& snapshot, size_t entry)
 {
     if (!done_.load(std::memory_order_acquire)) {
         const std::lock_guard lock(mutex_);
@@ -85,44 +81,29 @@ const SnapshotGroup& SpreadGroups::group(const FrameSnapshot& snapshot, size_t i
             spread(snapshot);
         done_.store(true, std::memory_order_release);
     }
-    return *order_[index];
+    return groups_[entry];
 }
 
 void SpreadGroups::spread(const FrameSnapshot& snapshot)
 {
     sortRows(snapshot);
-    order_.clear();
-    size_t added = 0;
     const GroupRoster& roster = *snapshot.roster_;
-    for (size_t i = 0; i < roster.entries.size(); ++i) {
-        const GroupRoster::Entry& entry = roster.entries[i];
-        for (const size_t end = snapshot.addedBefore(entry); added < end; ++added)
-            order_.push_back(&snapshot.groups_[added]);
-        fill(snapshot, entry, groups_[i]);
-        order_.push_back(&groups_[i]);
-    }
-    for (; added < snapshot.groupCount_; ++added)
-        order_.push_back(&snapshot.groups_[added]);
+    for (size_t i = 0; i < roster.entries.size(); ++i)
+        fill(snapshot, roster.entries[i], groups_[i]);
 }
 
 void SpreadGroups::visit(const FrameSnapshot& snapshot, Visitor visitor, void* user)
 {
     const std::lock_guard lock(mutex_);
-    if (done_.load(std::memory_order_relaxed)) {
-        for (const SnapshotGroup* const group : order_)
-            visitor(user, *group);
-        return;
+    const bool isSpread = done_.load(std::memory_order_relaxed);
+    if (!isSpread)
+        sortRows(snapshot);
+    for (size_t g = 0; g < snapshot.groupCount(); ++g) {
+        const GroupRoster::Entry* const entry = snapshot.pooled(g);
+        if (entry && !isSpread)
+            fill(snapshot, *entry, scratch_[entry->pool]);
+        visitor(user, entry && !isSpread ? scratch_[entry->pool] : snapshot.group(g));
     }
-    sortRows(snapshot);
-    size_t added = 0;
-    for (const GroupRoster::Entry& entry : snapshot.roster_->entries) {
-        for (const size_t end = snapshot.addedBefore(entry); added < end; ++added)
-            visitor(user, snapshot.groups_[added]);
-        fill(snapshot, entry, scratch_[entry.pool]);
-        visitor(user, scratch_[entry.pool]);
-    }
-    for (; added < snapshot.groupCount_; ++added)
-        visitor(user, snapshot.groups_[added]);
 }
 
 /// The rows of each member one after another.
@@ -131,14 +112,14 @@ void SpreadGroups::sortRows(const FrameSnapshot& snapshot)
     std::fill(ends_.begin(), ends_.end(), 0u);
     for (size_t p = 0; p < snapshot.poolCount(); ++p) {
         const PooledRows& pool = snapshot.pool(p);
-        forEachRow(pool, [&](uint32_t row) { ++ends_[first_[p] + pool.memberOf(row)]; });
+        pool.forEachRow([&](uint32_t row) { ++ends_[first_[p] + pool.memberOf(row)]; });
     }
     uint32_t sum = 0;
     for (uint32_t& end : ends_) // begins yet
         sum += std::exchange(end, sum);
     for (size_t p = 0; p < snapshot.poolCount(); ++p) {
         const PooledRows& pool = snapshot.pool(p);
-        forEachRow(pool, [&](uint32_t row) { rows_[ends_[first_[p] + pool.memberOf(row)]++] = row; });
+        pool.forEachRow([&](uint32_t row) { rows_[ends_[first_[p] + pool.memberOf(row)]++] = row; });
     }
 }
 
@@ -166,23 +147,15 @@ void SpreadGroups::fill(const FrameSnapshot& snapshot, const GroupRoster::Entry&
                         SnapshotGroup& group) const
 {
     open(snapshot, entry, group);
-    constexpr float kFar = std::numeric_limits<float>::infinity();
     const PooledRows& pool = snapshot.pool(entry.pool);
-    const float* const radii = pool.rows.start(pool.radiusColumn);
     const size_t member = first_[entry.pool] + entry.member;
-    glm::vec3 low(kFar), high(-kFar);
-    float radius = 0;
+    RowExtent extent;
     for (uint32_t i = member == 0 ? 0 : ends_[member - 1]; i < ends_[member]; ++i) {
         const uint32_t row = rows_[i];
         pool.copier.copy(row, group.editStorage(), pool.placeOf(row));
-        low = glm::min(low, pool.copier.center(row));
-        high = glm::max(high, pool.copier.center(row));
-        radius = std::max(radius, radii[row]);
+        pool.measure(row, extent);
     }
-    if (!(low.x <= high.x))
-        return;
-    group.editInfo().bounds.add(low, radius * pool.corner);
-    group.editInfo().bounds.add(high, radius * pool.corner);
+    group.editInfo().bounds = pool.bounds(extent);
 }
 
 } // namespace fx::base

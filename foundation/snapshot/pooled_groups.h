@@ -2,17 +2,21 @@
 /// Many small groups of one kind that are published as one pool of rows, in whatever order suits the writer.
 ///
 /// Readers ask FrameSnapshot::group() as for any other group: the first question gives each row of each pool
-/// to its group. A snapshot that nobody reads, or whose pools are read as they are, never pays for that.
+/// to its group. A snapshot that nobody reads, or whose pools are read as they are, as views do, never pays
+/// for that.
 #pragma once
 
 #include "foundation/snapshot/snapshot_group.h"
 
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <memory_resource>
 #include <mutex>
 #include <type_traits>
@@ -57,6 +61,14 @@ private:
     size_t floatsInAll_ = 0;
 };
 
+/// What rows of a group lie within.
+struct RowExtent
+{
+    glm::vec3 low{std::numeric_limits<float>::infinity()};
+    glm::vec3 high{-std::numeric_limits<float>::infinity()};
+    float reach = 0; ///< [m] of each around its place, its corner apart
+};
+
 /// The rows of many groups that have the same columns, constants and capacity; the first three columns are
 /// where elements are. Members are the writer's numbers of the groups.
 struct PooledRows
@@ -73,6 +85,37 @@ struct PooledRows
     static constexpr uint32_t nameOf(uint32_t member, uint32_t place) { return member << 8 | place; }
     uint32_t memberOf(uint32_t row) const { return owner[row] >> 8; }
     uint32_t placeOf(uint32_t row) const { return owner[row] & 0xFF; }
+    /// Calls f(row) for all rows that show something.
+    template <class F>
+    void forEachRow(F&& f) const
+    {
+        const float* const radius = rows.start(radiusColumn);
+        for (const Range& range : used)
+            for (uint32_t row = range.begin; row < range.end; ++row)
+                if (radius[row] > 0.0f)
+                    f(row);
+    }
+    /// Box of the rows of a group.
+    Bounds bounds(const RowExtent& extent) const
+    {
+        Bounds box;
+        if (!(extent.low.x <= extent.high.x))
+            return box;
+        box.add(extent.low, extent.reach * corner);
+        box.add(extent.high, extent.reach * corner);
+        return box;
+    }
+    /// A row that shows something.
+    void measure(uint32_t row, RowExtent& io) const
+    {
+        const glm::vec3 at = copier.center(row);
+        float reach = rows.start(radiusColumn)[row];
+        if (velocityColumn != 0)
+            reach = measureMoving(row, at, reach, io);
+        io.low = glm::min(io.low, at);
+        io.high = glm::max(io.high, at);
+        io.reach = std::max(io.reach, reach);
+    }
     /// Room for `capacity` rows; memory, constants and owners stay where they fit.
     /// @param each capacity of each group, at most kMostPerGroup
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present,
@@ -84,11 +127,19 @@ struct PooledRows
     std::pmr::vector<uint32_t> counts; ///< by member: count of its group
     uint32_t groupCapacity = 0;        ///< of each group
     RowCopier copier;
-    size_t radiusColumn = 0;  ///< a row with 0 there is empty
-    uint64_t number = 0;      ///< of the constants, see SnapshotGroup::keepsConstants()
-    float corner = 1;         ///< [1] farthest corner of what is drawn, over the radius
-    uint64_t writer = 0;      ///< who wrote owners and places, 0: nobody
-    uint64_t writtenUpTo = 0; ///< how far, in the writer's own count
+    size_t radiusColumn = 0;   ///< a row with 0 there is empty
+    uint64_t number = 0;       ///< of the constants, see SnapshotGroup::keepsConstants()
+    float corner = 1;          ///< [1] farthest corner of what is drawn, over the radius
+    size_t ageColumn = 0;      ///< where rows move
+    size_t velocityColumn = 0; ///< the first of three; 0: rows have none
+    float stretch = 0;         ///< [s] of the way of each row that it is longer to each side
+    float young = 0;           ///< [s] those no older are also drawn where they were born
+    uint64_t writer = 0;       ///< who wrote owners and places, 0: nobody
+    uint64_t writtenUpTo = 0;  ///< how far, in the writer's own count
+
+private:
+    /// @return [m] how far a row reaches that is `radius` large
+    float measureMoving(uint32_t row, const glm::vec3& at, float radius, RowExtent& io) const;
 };
 
 /// Groups whose rows are in pools, in the order of the snapshot. Immutable while a snapshot has it.
@@ -113,14 +164,14 @@ class SpreadGroups
 {
 public:
     explicit SpreadGroups(std::pmr::memory_resource* memory)
-        : memory_(memory), groups_(memory), order_(memory), scratch_(memory), first_(memory), ends_(memory),
-          rows_(memory)
+        : memory_(memory), groups_(memory), scratch_(memory), first_(memory), ends_(memory), rows_(memory)
     {}
 
     /// A new publication: nothing is spread any more, and there is memory for all. Writer.
     void prepare(const FrameSnapshot& snapshot);
-    /// Group `index` of the snapshot, whether it was added or is one of a pool. Any thread.
-    const SnapshotGroup& group(const FrameSnapshot& snapshot, size_t index);
+    /// The group of an entry of the snapshot's roster. Any thread.
+    const SnapshotGroup& group(const FrameSnapshot& snapshot, size_t entry);
+    bool isDone() const { return done_.load(std::memory_order_acquire); } ///< group() has been called
     /// Calls f(group) for all groups in order; those of pools last for the call alone and take no memory of
     /// their own. Any thread, one at a time.
     template <class F>
@@ -144,12 +195,11 @@ private:
     std::atomic<bool> done_{false}; ///< it has been, and is constant until the next publication
     uint64_t shape_ = 0;            ///< that there is memory for
     std::pmr::memory_resource* memory_;
-    std::pmr::vector<SnapshotGroup> groups_;       ///< by entry of the roster
-    std::pmr::vector<const SnapshotGroup*> order_; ///< all groups of the snapshot
-    std::pmr::vector<SnapshotGroup> scratch_;      ///< of visit(), by pool
-    std::pmr::vector<size_t> first_;               ///< by pool: of its members in ends_
-    std::pmr::vector<uint32_t> ends_;              ///< by member, pool after pool: behind its last in rows_
-    std::pmr::vector<uint32_t> rows_;              ///< of the pools, by member
+    std::pmr::vector<SnapshotGroup> groups_;  ///< by entry of the roster
+    std::pmr::vector<SnapshotGroup> scratch_; ///< of visit(), by pool
+    std::pmr::vector<size_t> first_;          ///< by pool: of its members in ends_
+    std::pmr::vector<uint32_t> ends_;         ///< by member, pool after pool: behind its last in rows_
+    std::pmr::vector<uint32_t> rows_;         ///< of the pools, by member
 };
 
 } // namespace fx::base

@@ -22,6 +22,7 @@ struct BenchSettings
     uint32_t steps = 0;   ///< that are timed, 0: as many as take about a second
     std::string variant;  ///< empty: all of the entry
     bool gpu = false;     ///< particles are computed on the GPU where it can
+    bool gl = false;      ///< a view draws each frame as well
 };
 
 /// One measurement.
@@ -44,6 +45,7 @@ struct BenchEntry
     std::string_view summary;
     std::span<const std::string_view> variants;
     bool hasGpu; ///< heeds BenchSettings::gpu
+    bool hasGl;  ///< heeds BenchSettings::gl
     uint64_t usualCount;
     uint64_t mostCount;
     std::string_view elements; ///< what is counted, as errors say it

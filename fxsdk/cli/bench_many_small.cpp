@@ -14,6 +14,8 @@ constexpr uint32_t kWarmSteps = uint32_t(kSteadyAfter * 60.0);
 
 base::Result<BenchRow> benchManySmall(const BenchSettings& settings, std::string_view variant)
 {
+    if (settings.gl)
+        return benchManyDrawn(settings, variant);
     const uint32_t each = variant == "many" ? kPerSmall : kPerLarge;
     const std::shared_ptr<const sim::EffectDef> effect = benchEffect("lean", each);
     BenchStage stage(settings.threads);

@@ -118,6 +118,9 @@ void addBenchMeasurements(CLI::App& bench, int& outExitCode)
         if (entry.hasGpu)
             command->add_flag("--gpu", settings.gpu,
                               "Particles are computed on the GPU where it can: path says so");
+        if (entry.hasGl)
+            command->add_flag("--gl", settings.gl,
+                              "A view draws each frame as well; the hash is the picture's");
         command->add_flag("--json", arguments->json, "One object a variant with every number");
         command->callback([arguments, &outExitCode] { outExitCode = runBench(*arguments); });
     }

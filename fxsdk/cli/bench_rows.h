@@ -17,6 +17,8 @@ base::Result<BenchRow> measureOnGpu(const BenchSettings& settings, std::string_v
 
 base::Result<BenchRow> benchParticles(const BenchSettings& settings, std::string_view variant);
 base::Result<BenchRow> benchManySmall(const BenchSettings& settings, std::string_view variant);
+/// The same with a view that draws.
+base::Result<BenchRow> benchManyDrawn(const BenchSettings& settings, std::string_view variant);
 base::Result<BenchRow> benchSort(const BenchSettings& settings, std::string_view variant);
 base::Result<BenchRow> benchEmit(const BenchSettings& settings, std::string_view variant);
 base::Result<BenchRow> benchFrame(const BenchSettings& settings, std::string_view variant);

@@ -130,7 +130,7 @@ void Scene::restOrNot(base::Ticks now)
     if (!options_.culling)
         return;
     active_.removeIf([&](uint32_t index, sim::Slot slot) {
-        if (world_.elementCount(slot) > 0)
+        if (world_.hasElements(slot))
             return false;
         const base::Ticks until = world_.restsUntil(slot);
         if (until < now + kShortestRest * clock_.stepTicks())

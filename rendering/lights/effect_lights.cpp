@@ -109,8 +109,7 @@ Glow sumLights(const base::SnapshotGroup& g)
 bool isShownAsMedium(const base::FrameSnapshot& snapshot, base::KindId blobs, const base::GroupInfo& info)
 {
     for (size_t g = 0; g < snapshot.groupCount(); ++g) {
-        const base::GroupInfo& other = snapshot.group(g).info();
-        if (other.kind == blobs && other.instance == info.instance && other.solver == info.solver)
+        if (snapshot.name(g) == base::GroupName{info.instance, info.solver, blobs})
             return true;
     }
     return false;
@@ -141,11 +140,11 @@ size_t effectLights(const base::FrameSnapshot& snapshot, std::span<EffectLight> 
     const base::KindId blobs = snapshot.schema().find(base::kBlobKind.name);
     const base::KindId lights = snapshot.schema().find(base::kLightKind.name);
     for (size_t g = 0; g < snapshot.groupCount() && !out.empty(); ++g) {
-        const base::SnapshotGroup& group = snapshot.group(g);
-        const base::KindId kind = group.info().kind;
+        const base::KindId kind = snapshot.name(g).kind;
         const bool isLights = kind == lights && lights != base::kNoKind;
-        if ((kind != blobs && !isLights) || group.count() == 0)
+        if ((kind != blobs && !isLights) || snapshot.group(g).count() == 0)
             continue;
+        const base::SnapshotGroup& group = snapshot.group(g);
         const Glow glow = isLights ? sumLights(group) : sumGroup(group);
         if (!(glow.weight > double(kDarkest)) || (isLights && isShownAsMedium(snapshot, blobs, group.info())))
             continue;

@@ -208,14 +208,15 @@ ImpostorPlan planImpostor(const base::SnapshotPair& snapshots, size_t first, flo
     base::Bounds around;
     uint32_t count = 0;
     for (size_t g = first; g < newer.groupCount(); ++g) {
-        const base::SnapshotGroup& group = newer.group(g);
-        if (group.info().instance != info.instance)
+        const base::GroupName name = newer.name(g);
+        if (name.instance != info.instance)
             break;
-        if (group.info().kind != info.kind || group.count() == 0)
+        if (name.kind != info.kind || newer.group(g).count() == 0)
             continue;
+        const base::SnapshotGroup& group = newer.group(g);
         if (group.info().bounds.empty())
             return {};
-        const size_t same = findSameGroup(snapshots.older, group.info(), g);
+        const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
         const auto* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
         const base::Placement place = placementAt(group, older, t, camera.eye);
         const base::Bounds& bounds = group.info().bounds;
@@ -253,9 +254,9 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         snapshots.older ? float(base::toSeconds(newer.tick() - snapshots.older->tick())) : 0.0f;
     GroupGather gather(camera, height, share, lod, outVisible, outMedium, counts);
     for (size_t g = 0; g < newer.groupCount(); ++g) {
-        const base::SnapshotGroup& group = newer.group(g);
-        if (group.info().kind != kind)
+        if (newer.name(g).kind != kind)
             continue;
+        const base::SnapshotGroup& group = newer.group(g);
         if (outInstances.empty() || outInstances.back().instance != group.info().instance) {
             const ImpostorPlan plan =
                 impostors ? planImpostor(snapshots, g, t, camera, height, *impostors) : ImpostorPlan();
@@ -266,7 +267,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         const ImpostorPlan& plan = outInstances.back().plan;
         if (plan.blobShare <= 0.0f && !plan.isTaken)
             continue;
-        const size_t same = findSameGroup(snapshots.older, group.info(), g);
+        const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
         gather.run(group, same == kNoGroup ? nullptr : &snapshots.older->group(same), t, stepSeconds);
         outInstances.back().visibleEnd = outVisible.size();
         outInstances.back().mediumEnd = outMedium.size();

@@ -5,6 +5,7 @@
 
 #include "foundation/snapshot/particle_kind.h"
 #include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/view/merged_rows.h"
 #include "rendering/view/row_thinning.h"
 #include "rendering/view/snapshot_stamps.h"
 
@@ -16,7 +17,9 @@
 namespace fx::render {
 
 /// Owns the merged rows of one view; memory is kept from frame to frame, and nothing is done again while the
-/// snapshots hold the same.
+/// snapshots hold the same. What was the newer of two snapshots serves as the older one of the next frame,
+/// where the same groups stand in the same places. Rows of pools are read where they lie, and what has its
+/// rows there has room for all that it may ever have, so that others stay in their places.
 ///
 /// Groups of the kinds "particle" and "ribbon" are merged when no order of theirs is lost (they are sorted by
 /// distance, or add, or hide), when they have the same columns and constants, at
@@ -37,7 +40,7 @@ public:
                const SnapshotRowStamps& newerRows = {}, const SnapshotRowStamps& olderRows = {});
     /// What build() has merged; without groups when there was nothing to merge.
     base::SnapshotPair merged() const { return {&newer_, hasOlder_ ? &older_ : nullptr}; }
-    StampPair stamps() const { return {2 * sequence_, hasOlder_ ? 2 * sequence_ - 1 : 0}; } ///< of merged()
+    StampPair stamps() const { return stamps_; } ///< of merged()
     /// Stamps of the rows of merged(), one part a member. They follow from stamps of what was merged by a
     /// hash of 64 bits.
     SnapshotRowStamps newerRows() const { return {newerStamps_, partsBegin_, {}}; }
@@ -53,9 +56,9 @@ public:
 private:
     struct Member
     {
-        const base::SnapshotGroup* newer;
-        const base::SnapshotGroup* older; ///< null: there is none, or a ribbon
-        size_t newerIndex, olderIndex;    ///< in their snapshots
+        MergeSource newer;
+        MergeSource older;             ///< without rows: there is none, or a ribbon
+        size_t newerIndex, olderIndex; ///< in their snapshots
         uint32_t firstRow;
         uint32_t rows;
         uint32_t next; ///< of the same set; kNone ends it
@@ -67,23 +70,50 @@ private:
         uint32_t rows;
         size_t group; ///< of the newer snapshot, the first member's
     };
+    /// Where the rows of a merged group came from.
+    struct Layout
+    {
+        base::GroupName name;
+        uint32_t firstRow, rows;
+
+        bool operator==(const Layout&) const = default;
+    };
     static constexpr uint32_t kNone = ~0u;
 
     void collect(const base::SnapshotPair& snapshots);
-    bool joins(const Set& set, const base::SnapshotGroup& group) const;
-    void write(const base::SnapshotPair& snapshots, const Set& set, bool isOlder);
+    bool joins(const Set& set, const MergeSource& group) const;
+    void listLayout();
+    void mergeSets(const base::SnapshotPair& snapshots, bool isOlder);
     RowStamp stampOf(const Set& set, uint32_t member, bool isOlder, bool isRibbon,
                      const SnapshotRowStamps& rows) const;
-    void listParts(const base::SnapshotPair& snapshots, const Set& set, const SnapshotRowStamps& newerRows,
-                   const SnapshotRowStamps& olderRows);
+    void listStamps(const base::SnapshotPair& snapshots, bool isOlder, const SnapshotRowStamps& rows);
+    void listParts();
+    /// Calls f(set) for each that becomes a group.
+    template <class F>
+    void forEachSet(F&& f)
+    {
+        for (const Set& set : sets_)
+            if (set.count > 1)
+                f(set);
+    }
+    template <class F>
+    void forEachMember(const Set& set, F&& f)
+    {
+        for (uint32_t m = set.first; m != kNone; m = members_[m].next)
+            f(m);
+    }
 
     StampPair built_; ///< what merged() was made of
+    StampPair stamps_;
     std::pmr::vector<Member> members_;
     std::pmr::vector<Set> sets_;
     std::pmr::vector<uint8_t> taken_;
     std::pmr::vector<RowPart> parts_;
     std::pmr::vector<size_t> partsBegin_;                  ///< by group of newer_, and the end
     std::pmr::vector<RowStamp> newerStamps_, olderStamps_; ///< of parts_
+    std::pmr::vector<Layout> layout_, layoutBefore_;       ///< of newer_ and olderStamps_ now and until now
+    std::pmr::vector<base::Placement> anchors_, anchorsBefore_; ///< of first members, likewise
+    MergedRows rows_;
     base::FrameSnapshot newer_, older_;
     bool hasOlder_ = false;
     uint64_t sequence_ = 0;

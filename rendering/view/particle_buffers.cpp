@@ -28,10 +28,19 @@ base::ColumnSet drawnColumns(bool isRibbon)
 
 bool isDrawn(const base::FrameSnapshot& snapshot, size_t group, bool withComputed, bool& outRibbon)
 {
-    const base::KindId kind = snapshot.group(group).info().kind;
+    const base::KindId kind = snapshot.name(group).kind;
     outRibbon = kind == snapshot.schema().find(base::kRibbonKind.name);
-    return outRibbon || (withComputed && snapshot.group(group).program()) ||
-           kind == snapshot.schema().find(base::kParticleKind.name);
+    return outRibbon || kind == snapshot.schema().find(base::kParticleKind.name) ||
+           (withComputed && snapshot.group(group).program());
+}
+
+/// Whether a group of a pool is drawn as it is.
+bool drawsPools(const base::FrameSnapshot& snapshot, bool isOlder, std::span<const ParticleGroup> groups)
+{
+    return snapshot.poolCount() > 0 && std::ranges::any_of(groups, [&](const ParticleGroup& group) {
+               return isOlder ? group.older && snapshot.pooled(group.olderIndex)
+                              : snapshot.pooled(group.newerIndex) != nullptr;
+           });
 }
 
 /// Rows of a group: some more than it has, so that others stay where they are when it grows.
@@ -95,7 +104,7 @@ uint64_t ParticleBuffers::bytes() const
 }
 
 ParticleBuffers::Sizes ParticleBuffers::layOut(const base::FrameSnapshot& snapshot,
-                                               const SnapshotRowStamps& rows,
+                                               const SnapshotRowStamps& rows, bool withPools,
                                                std::pmr::vector<GroupPlace>& out) const
 {
     const auto alignment = uint64_t(std::max(device_.limits().storageAlignment, 64));
@@ -103,7 +112,7 @@ ParticleBuffers::Sizes ParticleBuffers::layOut(const base::FrameSnapshot& snapsh
     out.assign(snapshot.groupCount(), GroupPlace{});
     for (size_t g = 0; g < snapshot.groupCount(); ++g) {
         bool isRibbon = false;
-        if (!isDrawn(snapshot, g, !refusesGpu_, isRibbon))
+        if ((snapshot.pooled(g) && !withPools) || !isDrawn(snapshot, g, !refusesGpu_, isRibbon))
             continue;
         const base::SnapshotGroup& group = snapshot.group(g);
         const base::GpuParticleProgram* program = group.program().get();
@@ -144,6 +153,8 @@ void ParticleBuffers::write(const base::FrameSnapshot& snapshot, const SnapshotR
     const auto isOfRows = [](const GroupPlace& at) { return at.bytes > 0 && !at.isComputed && !at.isShared; };
     for (size_t g = 0; g < place.groups.size(); ++g) {
         GroupPlace& at = place.groups[g];
+        if (at.bytes == 0 && !at.isComputed)
+            continue;
         const base::SnapshotGroup& group = snapshot.group(g);
         if (at.isComputed) {
             std::memcpy(place.buffer.data() + at.wordsOffset, group.column64(0).data(), at.wordsBytes);
@@ -199,21 +210,23 @@ void ParticleBuffers::writeRows(const base::SnapshotGroup& group, std::span<cons
 }
 
 base::Status ParticleBuffers::makeResident(const base::FrameSnapshot& snapshot, uint64_t stamp,
-                                           const SnapshotRowStamps& rows, Place*& out)
+                                           const SnapshotRowStamps& rows, bool withPools, Place*& out)
 {
-    for (Place& place : places_)
-        if (place.stamp == stamp) {
-            place.usedFrame = frame_;
-            out = &place;
-            return {};
-        }
-    out = &*std::min_element(places_.begin(), places_.end(),
-                             [](const Place& a, const Place& b) { return a.usedFrame < b.usedFrame; });
+    const auto found =
+        std::ranges::find_if(places_, [stamp](const Place& place) { return place.stamp == stamp; });
+    if (found != places_.end() && (found->hasPools || !withPools)) {
+        found->usedFrame = frame_;
+        out = &*found;
+        return {};
+    }
+    const auto isUsedEarlier = [](const Place& a, const Place& b) { return a.usedFrame < b.usedFrame; };
+    out = found != places_.end() ? &*found : &*std::ranges::min_element(places_, isUsedEarlier);
     out->stamp = 0;
+    out->hasPools = withPools;
     out->groupsBefore.swap(out->groups);
     out->rowsBefore.swap(out->rows);
     out->rows.clear();
-    const Sizes sizes = layOut(snapshot, rows, out->groups);
+    const Sizes sizes = layOut(snapshot, rows, withPools, out->groups);
     if (base::Status status = makeRoom(sizes, *out); !status) {
         out->groups.clear(); // nothing of it was written
         return status;
@@ -360,11 +373,12 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
     Place* older = nullptr;
     Place* newer = nullptr;
     if (snapshots.older)
-        if (base::Status status =
-                makeResident(*snapshots.older, stamps.snapshots.older, stamps.olderRows, older);
+        if (base::Status status = makeResident(*snapshots.older, stamps.snapshots.older, stamps.olderRows,
+                                               drawsPools(*snapshots.older, true, frame.groups()), older);
             !status)
             return status;
-    if (base::Status status = makeResident(*snapshots.newer, stamps.snapshots.newer, stamps.newerRows, newer);
+    if (base::Status status = makeResident(*snapshots.newer, stamps.snapshots.newer, stamps.newerRows,
+                                           drawsPools(*snapshots.newer, false, frame.groups()), newer);
         !status)
         return status;
     if (base::Status status = writeOrders(frame); !status)

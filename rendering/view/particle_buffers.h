@@ -5,6 +5,8 @@
 /// A place that is written again keeps the rows that lie there already, part by part: what stands still is
 /// written three times and then no more, whatever moves beside it. Groups with the same rows share them.
 ///
+/// Groups whose rows are in pools are written only where one of them is drawn by itself.
+///
 /// 28 bytes a row: position, age, radius, color; more only for columns that a group has. Three places take
 /// turns: the two that frames read, and the one being written. Threads: [GL thread].
 #pragma once
@@ -82,6 +84,7 @@ private:
         GlBuffer computed;  ///< rows that the GPU writes
         uint64_t stamp = 0; ///< of what is there; 0: nothing
         uint64_t usedFrame = 0;
+        bool hasPools = false; ///< groups of pools are there, too
         std::pmr::vector<GroupPlace> groups;
         std::pmr::vector<RowStamp> rows;           ///< of all groups
         std::pmr::vector<GroupPlace> groupsBefore; ///< what lay there until now
@@ -97,10 +100,11 @@ private:
         uint64_t mapped = 0, computed = 0; ///< [byte]
     };
 
+    /// @param withPools also groups whose rows are in pools
     base::Status makeResident(const base::FrameSnapshot& snapshot, uint64_t stamp,
-                              const SnapshotRowStamps& rows, Place*& out);
+                              const SnapshotRowStamps& rows, bool withPools, Place*& out);
     base::Status makeRoom(const Sizes& sizes, Place& place);
-    Sizes layOut(const base::FrameSnapshot& snapshot, const SnapshotRowStamps& rows,
+    Sizes layOut(const base::FrameSnapshot& snapshot, const SnapshotRowStamps& rows, bool withPools,
                  std::pmr::vector<GroupPlace>& out) const;
     base::Status ensureComputed(GlBuffer& buffer, uint64_t bytes);
     /// The rows of a batch; those that are not there become a job.

@@ -23,6 +23,18 @@ bool hasRows(const base::FrameSnapshot& snapshot, const base::SnapshotGroup& gro
             kind == snapshot.schema().find(base::kRibbonKind.name));
 }
 
+template <class T>
+bool sameRange(const T* a, const T* b, const base::PooledRows::Range& range)
+{
+    const size_t count = range.end - range.begin;
+    return base::sameBytes(std::span(a + range.begin, count), std::span(b + range.begin, count));
+}
+
+bool sameRange(const base::PooledRows::Range& a, const base::PooledRows::Range& b)
+{
+    return a.begin == b.begin && a.end == b.end;
+}
+
 /// Of a few rows: different for nearly all groups that differ.
 uint64_t sampleOf(const base::SnapshotGroup& group)
 {
@@ -52,18 +64,54 @@ bool haveSameRows(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
     return true;
 }
 
+bool haveSameRows(const base::PooledRows& a, const base::PooledRows& b,
+                  std::span<const base::ColumnDesc> columns)
+{
+    if (a.writer == 0 || a.writer != b.writer || a.writtenUpTo != b.writtenUpTo ||
+        a.rows.present() != b.rows.present() || !sameRange(a.used[0], b.used[0]) ||
+        !sameRange(a.used[1], b.used[1]) || !base::sameBytes(std::span(a.counts), std::span(b.counts)))
+        return false;
+    for (const base::PooledRows::Range& range : a.used)
+        for (size_t c = 0; c < columns.size(); ++c) {
+            const float* const left = a.rows.start(c);
+            const float* const right = b.rows.start(c);
+            if (a.rows.has(c) && !(columns[c].type == base::ColumnType::U64
+                                       ? sameRange(reinterpret_cast<const uint64_t*>(left),
+                                                   reinterpret_cast<const uint64_t*>(right), range)
+                                       : sameRange(left, right, range)))
+                return false;
+        }
+    return true;
+}
+
+void SamePools::build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older)
+{
+    same_.assign(newer.poolCount(), kNone);
+    for (size_t p = 0; older && p < newer.poolCount(); ++p) {
+        const base::PooledRows& pool = newer.pool(p);
+        const auto columns = newer.schema().kind(pool.rows.info().kind).columns;
+        for (size_t q = 0; q < older->poolCount() && same_[p] == kNone; ++q)
+            if (haveSameRows(pool, older->pool(q), columns))
+                same_[p] = uint32_t(q);
+    }
+}
+
 uint64_t RowStamps::stampOf(const base::FrameSnapshot& newer, size_t g, const base::FrameSnapshot* older,
                             uint64_t& ioLast) const
 {
-    const base::SnapshotGroup& group = newer.group(g);
-    const size_t same = before_.empty() ? kNoGroup : findSameGroup(older, group.info(), g);
-    if (same == kNoGroup || before_[same].stamp == 0 ||
-        !haveSameRows(group, older->group(same), newer.schema().kind(group.info().kind).columns))
+    const base::GroupName name = newer.name(g);
+    const size_t same = before_.empty() ? kNoGroup : findSameGroup(older, name, g);
+    if (same == kNoGroup || before_[same].stamp == 0)
         return ++ioLast;
-    return before_[same].stamp;
+    const base::GroupRoster::Entry* const entry = newer.pooled(g);
+    const base::GroupRoster::Entry* const before = older->pooled(same);
+    const bool isSame = entry || before ? entry && before && pools_.holdSame(*entry, *before)
+                                        : haveSameRows(newer.group(g), older->group(same),
+                                                       newer.schema().kind(name.kind).columns);
+    return isSame ? before_[same].stamp : ++ioLast;
 }
 
-/// The first group with the same rows gives its stamp to the others.
+/// The first group with the same rows gives its stamp to the others. Those of pools are not compared.
 void RowStamps::findAlike(const base::FrameSnapshot& snapshot, size_t g)
 {
     const base::SnapshotGroup& group = snapshot.group(g);
@@ -92,10 +140,16 @@ void RowStamps::build(const base::FrameSnapshot& newer, const base::FrameSnapsho
     parts_.resize(count);
     alike_.resize(count);
     table_.assign(std::bit_ceil(2 * count + 1), kEmpty);
+    pools_.build(newer, before_.empty() ? nullptr : older);
     for (size_t g = 0; g < count; ++g) {
+        alike_[g] = uint32_t(g);
+        if (const base::GroupRoster::Entry* const entry = newer.pooled(g)) {
+            const uint32_t rows = newer.pool(entry->pool).counts[entry->member];
+            parts_[g] = {0, rows, rows > 0 ? stampOf(newer, g, older, ioLast) : 0};
+            continue;
+        }
         const base::SnapshotGroup& group = newer.group(g);
         parts_[g] = {0, group.count(), 0};
-        alike_[g] = uint32_t(g);
         if (!hasRows(newer, group))
             continue;
         parts_[g].stamp = stampOf(newer, g, older, ioLast);

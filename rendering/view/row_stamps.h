@@ -43,12 +43,34 @@ struct SnapshotRowStamps
 bool haveSameRows(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
                   std::span<const base::ColumnDesc> columns);
 
+/// Whether two pools that were written one after the other hold the same in all rows, those of the dead among
+/// them; false also where it is not easily told.
+bool haveSameRows(const base::PooledRows& a, const base::PooledRows& b,
+                  std::span<const base::ColumnDesc> columns);
+
+/// Whether the rows of two groups, which are in pools, are those of pools with the same rows.
+class SamePools
+{
+public:
+    explicit SamePools(std::pmr::memory_resource* memory) : same_(memory) {}
+    /// @param older may be null
+    void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
+    bool holdSame(const base::GroupRoster::Entry& newer, const base::GroupRoster::Entry& older) const
+    {
+        return newer.member == older.member && same_[newer.pool] == older.pool;
+    }
+
+private:
+    static constexpr uint32_t kNone = ~0u;
+    std::pmr::vector<uint32_t> same_; ///< by pool of the newer snapshot: of the older one
+};
+
 /// Stamps the groups of the kinds "particle" and "ribbon" of snapshots that follow each other.
 class RowStamps
 {
 public:
     explicit RowStamps(std::pmr::memory_resource* memory)
-        : parts_(memory), before_(memory), alike_(memory), table_(memory)
+        : parts_(memory), before_(memory), alike_(memory), table_(memory), pools_(memory)
     {}
 
     /// @param older  null, or a snapshot of the same scene; what it shares with `newer` has the same stamps
@@ -66,6 +88,7 @@ private:
     std::pmr::vector<RowStamp> before_;
     std::pmr::vector<uint32_t> alike_;
     std::pmr::vector<uint32_t> table_; ///< groups by a sample of their rows; open addressing
+    SamePools pools_;
 };
 
 } // namespace fx::render

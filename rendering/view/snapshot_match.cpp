@@ -4,18 +4,14 @@
 
 namespace fx::render {
 
-size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupInfo& info, size_t hint)
+size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& name, size_t hint)
 {
     if (!older)
         return kNoGroup;
-    const auto same = [&](size_t g) {
-        const base::GroupInfo& other = older->group(g).info();
-        return other.instance == info.instance && other.solver == info.solver && other.kind == info.kind;
-    };
-    if (hint < older->groupCount() && same(hint))
+    if (hint < older->groupCount() && older->name(hint) == name)
         return hint;
     for (size_t g = 0; g < older->groupCount(); ++g)
-        if (same(g))
+        if (older->name(g) == name)
             return g;
     return kNoGroup;
 }

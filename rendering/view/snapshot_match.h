@@ -14,7 +14,7 @@ constexpr size_t kNoGroup = ~size_t(0);
 
 /// Index of the group of the same instance, solver and kind; kNoGroup when there is none.
 /// @param older may be null  @param hint where it most likely is
-size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupInfo& info, size_t hint);
+size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& name, size_t hint);
 
 /// Where a group stands at share `t` of the way to the newer snapshot, relative to `eye`.
 /// @param older may be null

@@ -6,34 +6,60 @@ namespace fx::render {
 
 namespace {
 
-bool samePlace(const base::GroupInfo& a, const base::GroupInfo& b)
+bool samePlace(const base::Placement& a, const base::Placement& b)
 {
-    return a.placement.position == b.placement.position && a.placement.rotation == b.placement.rotation &&
-           a.placement.scale == b.placement.scale && a.bounds.min == b.bounds.min &&
-           a.bounds.max == b.bounds.max;
+    return a.position == b.position && a.rotation == b.rotation && a.scale == b.scale;
+}
+
+bool sameInfo(const base::GroupInfo& a, const base::GroupInfo& b)
+{
+    return base::nameOf(a) == base::nameOf(b) && a.count == b.count && samePlace(a.placement, b.placement) &&
+           a.bounds.min == b.bounds.min && a.bounds.max == b.bounds.max;
 }
 
 bool sameGroup(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
                std::span<const base::ColumnDesc> columns)
 {
-    const base::GroupInfo& info = a.info();
-    const base::GroupInfo& other = b.info();
-    if (info.kind != other.kind || info.instance != other.instance || info.solver != other.solver ||
-        info.count != other.count || a.program() != b.program() || !samePlace(info, other))
+    if (a.program() != b.program() || !sameInfo(a.info(), b.info()))
         return false;
     return haveSameRows(a, b, columns) && base::sameBytes(a.ids(), b.ids()) &&
            base::sameBytes(a.constants(), b.constants());
+}
+
+bool samePool(const base::PooledRows& a, const base::PooledRows& b, const base::SnapshotSchema& schema)
+{
+    const base::KindId kind = a.rows.info().kind;
+    return kind == b.rows.info().kind && a.corner == b.corner &&
+           base::sameBytes(a.rows.constants(), b.rows.constants()) &&
+           haveSameRows(a, b, schema.kind(kind).columns);
+}
+
+/// Of pools that are the same.
+bool sameEntry(const base::GroupRoster::Entry& a, const base::GroupRoster::Entry& b)
+{
+    return a.instance == b.instance && a.solver == b.solver && a.pool == b.pool && a.member == b.member &&
+           samePlace(a.placement, b.placement);
 }
 
 } // namespace
 
 bool holdSame(const base::FrameSnapshot& a, const base::FrameSnapshot& b)
 {
-    if (&a.schema() != &b.schema() || a.groupCount() != b.groupCount())
+    if (&a.schema() != &b.schema() || a.groupCount() != b.groupCount() || a.poolCount() != b.poolCount())
         return false;
-    for (size_t g = 0; g < a.groupCount(); ++g)
-        if (!sameGroup(a.group(g), b.group(g), a.schema().kind(a.group(g).info().kind).columns))
+    for (size_t p = 0; p < a.poolCount(); ++p)
+        if (!samePool(a.pool(p), b.pool(p), a.schema()))
             return false;
+    for (size_t g = 0; g < a.groupCount(); ++g) {
+        const base::GroupRoster::Entry* const entry = a.pooled(g);
+        const base::GroupRoster::Entry* const other = b.pooled(g);
+        if (entry || other) {
+            if (!entry || !other || !sameEntry(*entry, *other))
+                return false;
+        } else if (!sameGroup(a.group(g), b.group(g), a.schema().kind(a.name(g).kind).columns)) {
+            return false;
+        }
+    }
     return true;
 }
 

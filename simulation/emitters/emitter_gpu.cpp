@@ -70,6 +70,13 @@ uint32_t EmitterSolver::elementCount() const
     return mayBeEmpty && gpu_->isEmpty(key_, now_) ? 0 : gpu_->count();
 }
 
+bool EmitterSolver::hasElements() const
+{
+    if (pool_)
+        return pool_->isAnyAlive(member_);
+    return gpu_ && gpu_->isOn() ? elementCount() > 0 : store_.isAnyAlive(now_);
+}
+
 /// The bytes that the CPU would have written, had it been there all along.
 void EmitterSolver::saveFromGpu(StateWriter& writer) const
 {

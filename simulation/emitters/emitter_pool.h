@@ -82,6 +82,10 @@ public:
                 f(*members_[m].emitter, members_[m].user);
     }
     uint32_t countAlive(uint32_t member) const;
+    bool isAnyAlive(uint32_t member) const
+    {
+        return now_ < members_[member].frontUntil || countAlive(member) > 0;
+    }
     const ParticleProgram& program() const { return *program_; }
 
 private:

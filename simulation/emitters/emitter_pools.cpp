@@ -83,8 +83,7 @@ bool EmitterSolver::isPoolable() const
     const base::Range& life = def_.lifetime;
     const bool isEven = life.min > 0.0f && std::max(life.min, life.max) <= kMostUneven * life.min;
     const float smallest = std::min(def_.radius.min, def_.radius.max);
-    const bool isMoving = (program_.published & base::particle_column::kVelocity) != 0;
-    return bornWithMany_ && publishesWithMany_ && isEven && smallest >= kSmallestRadius && !isMoving &&
+    return bornWithMany_ && publishesWithMany_ && isEven && smallest >= kSmallestRadius &&
            store_.capacity() <= kMostRows && def_.emission.bursts.empty();
 }
 

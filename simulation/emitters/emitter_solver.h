@@ -65,6 +65,7 @@ public:
     bool finished(base::Ticks tick) const override;
     /// Exact but while the GPU computes the particles; then an upper bound.
     uint32_t elementCount() const override;
+    bool hasElements() const override;
     /// Where motion has a closed form; backwards while the host has changed nothing since local time 0. While
     /// nobody lives and nobody is born, any emitter can.
     bool canSeek(const StepContext& context, base::Ticks tick) const override;

@@ -98,6 +98,10 @@ public:
             retireFront(now);
     }
     uint32_t countAlive(base::Ticks now) const;
+    bool isAnyAlive(base::Ticks now) const
+    {
+        return !empty() && (isAlive(rowOf(front_), now) || countAlive(now) > 0);
+    }
     /// Empties all rows; the next birth has index `next`.
     void clear(uint64_t next);
     /// The same where the indices [front, next) have been given out: `front` and maybe more of them are going

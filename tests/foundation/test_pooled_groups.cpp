@@ -212,3 +212,40 @@ TEST_F(PooledGroups, readingThemAgainAndAgainAllocatesNothing)
     }
     EXPECT_EQ(memory_.allocationCount(), before);
 }
+
+TEST_F(PooledGroups, areNamedAndFoundInTheirPoolsWithoutBeingGivenTheirRows)
+{
+    plain_.begin(5, 1);
+    addOneByOne(plain_);
+    pooled_.begin(5, 1);
+    addPooled(pooled_);
+    ASSERT_EQ(pooled_.groupCount(), plain_.groupCount());
+    for (size_t g = 0; g < plain_.groupCount(); ++g) {
+        EXPECT_EQ(pooled_.name(g), plain_.name(g)) << g;
+        EXPECT_EQ(plain_.pooled(g), nullptr);
+        const GroupRoster::Entry* const entry = pooled_.pooled(g);
+        ASSERT_EQ(entry != nullptr, g != 3 && g != kMembers + 1) << g;
+        if (!entry) {
+            EXPECT_EQ(pooled_.group(g).count(), 1u); // one that was added is read by itself
+            continue;
+        }
+        EXPECT_EQ(entry->member, g < 3 ? g : g - 1);
+    }
+    EXPECT_FALSE(pooled_.hasGivenRows());
+    EXPECT_EQ(pooled_.group(0).info().instance, 100u);
+    EXPECT_TRUE(pooled_.hasGivenRows());
+}
+
+TEST_F(PooledGroups, standElsewhereWhereOthersHaveComeBetween)
+{
+    for (const uint32_t others : {1u, 2u, 1u}) {
+        roster_->entries.clear();
+        pooled_.begin(5, 1);
+        addPooled(pooled_); // with two others
+        const std::array ends{others, 2u};
+        pooled_.setRoster(roster_, ends);
+        EXPECT_EQ(pooled_.pooled(3), nullptr);
+        EXPECT_EQ(pooled_.pooled(4) == nullptr, others == 2) << others;
+        EXPECT_EQ(pooled_.name(pooled_.groupCount() - 1).instance, others == 2 ? 108u : 2u);
+    }
+}

@@ -21,11 +21,11 @@ std::shared_ptr<const sim::EffectDef> effectOf(std::unique_ptr<sim::EmitterDef> 
 }
 
 /// One life for all; lives that differ, flip-books and too few rows; longer lives and an end; one that no
-/// pool takes.
+/// pool takes; streaks.
 std::vector<std::shared_ptr<const sim::EffectDef>> effects()
 {
     std::vector<std::unique_ptr<sim::EmitterDef>> defs;
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 5; ++i)
         defs.push_back(spriteEmitter(7.0f, {0.8f, 2.4f}));
     defs[0]->shape = sim::EmitterShape::Point;
     defs[0]->lifetime = {1.5f, 1.5f};
@@ -39,6 +39,9 @@ std::vector<std::shared_ptr<const sim::EffectDef>> effects()
     defs[2]->emission.duration = 3.0f;
     defs[3]->look.kind = sim::Appearance::Medium;
     defs[3]->maxParticles = 20;
+    defs[4]->maxParticles = 25;
+    defs[4]->look.alignment = base::SpriteAlignment::Velocity;
+    defs[4]->look.stretch = 0.15f;
     std::vector<std::shared_ptr<const sim::EffectDef>> all;
     for (auto& def : defs)
         all.push_back(effectOf(std::move(def)));

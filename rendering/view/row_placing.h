@@ -1,0 +1,37 @@
+/// @file row_placing.h
+/// Rows of many groups are carried into one space: loops over whole vectors, compiled for each instruction
+/// set. All give the same bits.
+#pragma once
+
+#include "foundation/snapshot/pooled_groups.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace fx::render {
+
+/// The rows of one group, which may stay where they are. What is behind them is read, up to kRowsBehind.
+struct PlacedRows
+{
+    const float* from[3]; ///< columns of a vector
+    const float* radius;  ///< [m]; above 0 where a row shows something
+    float* to[3];
+    float* toRadius;
+    uint32_t count;
+    glm::quat rotation;
+    float scale;
+    glm::vec3 offset;       ///< [m]
+    base::RowExtent extent; ///< of rows that show something, with their radii
+};
+
+constexpr uint32_t kRowsBehind = 16;
+
+/// Places and radii: offset + rotation * (scale * place), scale * radius. Measures the rows as they were.
+void placeRows(std::span<PlacedRows> groups);
+
+/// Directions: rotation * (scale * direction). Radii are not touched.
+void turnRows(std::span<const PlacedRows> groups);
+
+} // namespace fx::render
