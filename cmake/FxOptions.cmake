@@ -39,8 +39,10 @@ target_compile_options(fx_flags INTERFACE
     $<$<COMPILE_LANGUAGE:CXX>:-Woverloaded-virtual>
     -ffp-contract=off # the same bits with and without FMA hardware; see docs/conventions.md
     $<$<BOOL:${FXSDK_WERROR}>:-Werror>)
+target_compile_definitions(fx_flags INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>) # indices are checked
 if(FXSDK_SANITIZE)
     target_compile_options(fx_flags INTERFACE -fsanitize=${FXSDK_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
         $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # false in std::regex and std::function once instrumented
+    target_compile_definitions(fx_flags INTERFACE _GLIBCXX_ASSERTIONS)
     target_link_options(fx_flags INTERFACE -fsanitize=${FXSDK_SANITIZE})
 endif()

@@ -23,7 +23,7 @@ void HostAllocator::release(void* user, void* memory, size_t size, size_t alignm
     auto& self = *static_cast<HostAllocator*>(user);
     --self.blocks_;
     self.bytes_ -= int64_t(size);
-    ::operator delete(memory, size, std::align_val_t(alignment));
+    ::operator delete(memory, std::align_val_t(alignment)); // with a size clang has none
 }
 
 std::string fountainPreset()

@@ -4,6 +4,7 @@
 #include "foundation/simd/instruction_set.h"
 #include "fxsdk/presets/preset_loader.h"
 #include "tests/api/api_fixture.h"
+#include "tests/foundation/real_threads.h"
 
 #include <fstream>
 #include <iomanip>
@@ -95,6 +96,7 @@ protected:
 
 TEST_F(LibraryDeterminism, workersFramesAndVectorsChangeNoBitOfAnyPreset)
 {
+    const fx::test::RealThreads threadsOfAnyMachine(16);
     for (const std::string& name : libraryNames()) {
         const std::vector<uint64_t> want = play(name, kReference);
         for (const Way& way : otherWays())

@@ -1,5 +1,6 @@
 #include "tests/api/api_fixture.h"
 
+#include <atomic>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -42,6 +43,45 @@ template <class F>
 void onAnotherThread(F&& body)
 {
     std::thread(std::forward<F>(body)).join();
+}
+
+/// Every row that is shown lies within the bounds of its group.
+void checkRows(FxScene* scene, FxSnapshotId snapshot, FxSnapshotStep step, uint32_t index)
+{
+    FxSnapshotGroup group{};
+    group.structSize = sizeof group;
+    ASSERT_EQ(fxScene_GetSnapshotGroup(scene, snapshot, step, index, &group), FX_OK);
+    const float* columns[4] = {};
+    constexpr const char* kNames[4] = {"x", "y", "z", "radius"};
+    for (int c = 0; c < 4; ++c) {
+        FxSnapshotColumn column{};
+        column.structSize = sizeof column;
+        ASSERT_EQ(fxScene_FindSnapshotColumn(scene, snapshot, step, index, kNames[c], &column), FX_OK);
+        ASSERT_EQ(column.count, group.count);
+        columns[c] = column.values;
+    }
+    for (uint32_t i = 0; i < group.count; ++i)
+        for (int axis = 0; axis < 3 && columns[3][i] > 0.0f; ++axis) {
+            ASSERT_GE(columns[axis][i], group.boundsMin[axis]);
+            ASSERT_LE(columns[axis][i], group.boundsMax[axis]);
+        }
+}
+
+/// Looks at both steps of one snapshot after another until `isOver`, and counts them.
+void readSnapshots(FxScene* scene, const std::atomic<bool>& isOver, std::atomic<int>& seen)
+{
+    for (; !isOver; ++seen) {
+        FxSnapshotId id{};
+        ASSERT_EQ(fxScene_AcquireSnapshot(scene, &id), FX_OK);
+        FxSnapshotInfo info{};
+        info.structSize = sizeof info;
+        ASSERT_EQ(fxScene_GetSnapshotInfo(scene, id, &info), FX_OK);
+        for (uint32_t g = 0; g < info.groupsNewer; ++g)
+            ASSERT_NO_FATAL_FAILURE(checkRows(scene, id, FX_SNAPSHOT_NEWER, g));
+        for (uint32_t g = 0; g < info.groupsOlder; ++g)
+            ASSERT_NO_FATAL_FAILURE(checkRows(scene, id, FX_SNAPSHOT_OLDER, g));
+        ASSERT_EQ(fxScene_ReleaseSnapshot(scene, id), FX_OK);
+    }
 }
 
 } // namespace
@@ -110,6 +150,39 @@ TEST_F(ThreadApi, presetsLoadOnManyThreadsAtOnceWhileTheSceneRuns)
         EXPECT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
     for (std::thread& loader : loaders)
         loader.join();
+}
+
+TEST_F(ThreadApi, manySmallEmittersAreReadOnOtherThreadsWhileTheyComeAndGo)
+{
+    FxInstanceDef def = instanceDef();
+    def.preset = loadText(context_, R"({"version": 1, "name": "sparks", "ground": false, "emitters": [{
+        "maxParticles": 16, "shape": "sphere", "size": 0.5, "emission": {"rate": 10}, "lifetime": 1,
+        "speed": 2, "radius": 0.25, "appearance": {"kind": "sprite"}}]})");
+    std::vector<FxInstanceId> ids(24); // so many of one preset share their rows
+    const auto begin = [&](FxInstanceId& id) {
+        ++def.seed; // or they would be the same effect, and share all
+        ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK) << fxGetLastErrorMessage();
+    };
+    for (FxInstanceId& id : ids)
+        begin(id);
+    for (int frame = 0; frame < 90; ++frame)
+        ASSERT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
+    std::atomic<bool> isOver{false};
+    std::atomic<int> seen{0};
+    std::vector<std::thread> readers;
+    for (int t = 0; t < 3; ++t)
+        readers.emplace_back([&] { readSnapshots(scene_, isOver, seen); });
+    for (uint64_t frame = 0; (frame < 200 || seen < 100) && !HasFailure(); ++frame) {
+        if (frame % 4 == 0) {
+            FxInstanceId& id = ids[frame / 4 % ids.size()];
+            EXPECT_EQ(fxScene_DestroyInstance(scene_, id), FX_OK);
+            begin(id);
+        }
+        EXPECT_EQ(fxScene_Update(scene_, kFrame), FX_OK);
+    }
+    isOver = true;
+    for (std::thread& reader : readers)
+        reader.join();
 }
 
 TEST(ReEntrancy, aLoopOfTheHostMustNotEnterTheSceneThatIsStepping)

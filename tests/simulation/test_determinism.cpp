@@ -1,3 +1,4 @@
+#include "tests/foundation/real_threads.h"
 #include "tests/simulation/busy_effect.h"
 
 #include <gtest/gtest.h>
@@ -37,6 +38,7 @@ void unevenly(void*, uint32_t count, uint32_t minBatch, base::LoopBody body, voi
 
 TEST(Determinism, everyThreadCountGivesTheSameBits)
 {
+    const RealThreads threadsOfAnyMachine(8);
     const std::vector<uint64_t> want = history(base::makeSerialRunner());
     for (const uint32_t threads : {1u, 2u, 3u, 8u})
         EXPECT_EQ(history(base::makeTbbRunner(threads)), want) << threads;

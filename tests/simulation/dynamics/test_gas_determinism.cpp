@@ -1,3 +1,4 @@
+#include "tests/foundation/real_threads.h"
 #include "tests/simulation/dynamics/gas_stage.h"
 
 #include <gtest/gtest.h>
@@ -36,6 +37,7 @@ uint64_t hashAfter(std::unique_ptr<base::TaskRunner> tasks, StepScheme steps)
 
 TEST(GasDeterminism, anyNumberOfWorkersGivesTheSameBits)
 {
+    const RealThreads threadsOfAnyMachine(7);
     for (const StepScheme steps : {StepScheme::Global, StepScheme::Block}) {
         const uint64_t want = hashAfter<float>(base::makeSerialRunner(), steps);
         for (const uint32_t threads : {1u, 2u, 3u, 7u})

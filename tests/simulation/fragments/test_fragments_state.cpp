@@ -1,5 +1,6 @@
 #include "foundation/time/step_clock.h"
 #include "simulation/fragments/fragments_solver.h"
+#include "tests/foundation/real_threads.h"
 #include "tests/simulation/fragments/fragment_burst.h"
 
 #include <gtest/gtest.h>
@@ -85,6 +86,7 @@ private:
 
 TEST(FragmentsState, everyThreadCountGivesTheSameBits)
 {
+    const RealThreads threadsOfAnyMachine(7);
     const std::vector<uint64_t> want = history(base::makeSerialRunner());
     for (const uint32_t threads : {1u, 2u, 3u, 7u})
         EXPECT_EQ(history(base::makeTbbRunner(threads)), want) << threads;

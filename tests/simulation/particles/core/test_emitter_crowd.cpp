@@ -1,4 +1,5 @@
 #include "simulation/particles/birth_kernel.h"
+#include "tests/foundation/real_threads.h"
 #include "tests/simulation/particles/core/sprites.h"
 
 #include <gtest/gtest.h>
@@ -197,6 +198,7 @@ TEST(EmitterCrowd, stepsThatAreNotTakenLeaveNoTrace)
 
 TEST(EmitterCrowd, everyNumberOfWorkersGivesTheSameBits)
 {
+    const RealThreads threadsOfAnyMachine(7);
     const Seen want = play(true, true);
     for (const uint32_t threads : {2u, 7u})
         EXPECT_EQ(play(true, true, base::makeTbbRunner(threads)), want) << threads;

@@ -1,4 +1,5 @@
 #include "foundation/math/hash.h"
+#include "tests/foundation/real_threads.h"
 #include "tests/simulation/particles/core/sprites.h"
 
 #include <gtest/gtest.h>
@@ -259,6 +260,7 @@ TEST(EmitterPool, whateverHappensEachComesOutAsByItself)
 
 TEST(EmitterPool, everyNumberOfWorkersGivesTheSameBits)
 {
+    const RealThreads threadsOfAnyMachine(16);
     Life one(true);
     one.play(0, 150);
     for (const uint32_t threads : {2u, 16u}) {

@@ -6,6 +6,7 @@
 #include "foundation/random/philox.h"
 #include "simulation/emitters/birth_schedule.h"
 #include "simulation/emitters/birth_shape.h"
+#include "tests/foundation/real_threads.h"
 #include "tests/simulation/particles/core/sprites.h"
 #include "tests/simulation/particles/modules/chi_square.h"
 
@@ -132,6 +133,7 @@ TEST(EmitterCases, EM05_aThousandJumpsAreEqualToPlaying)
 
 TEST(EmitterCases, EM06_threadsOneToThirtyTwoGiveTheSameBits)
 {
+    const RealThreads threadsOfAnyMachine(32);
     const auto cut = [](int) { return kStep; };
     const uint64_t want = hashOfTwoSeconds(cut);
     for (uint32_t threads = 1; threads <= 32; ++threads)

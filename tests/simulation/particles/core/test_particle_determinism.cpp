@@ -1,4 +1,5 @@
 #include "tests/foundation/every_set.h"
+#include "tests/foundation/real_threads.h"
 #include "tests/simulation/particles/core/sprites.h"
 
 #include <gtest/gtest.h>
@@ -48,6 +49,7 @@ uint64_t history(std::unique_ptr<base::TaskRunner> tasks, int steps)
 
 TEST(ParticleDeterminism, everyNumberOfWorkersGivesTheSameBits)
 {
+    const RealThreads threadsOfAnyMachine(16);
     const uint64_t want = history(base::makeSerialRunner(), 300);
     for (const uint32_t threads : {1u, 2u, 3u, 7u, 16u})
         EXPECT_EQ(history(base::makeTbbRunner(threads), 300), want) << threads;

@@ -1,3 +1,4 @@
+#include "tests/foundation/real_threads.h"
 #include "tests/simulation/particles/events/linked.h"
 
 #include <gtest/gtest.h>
@@ -73,6 +74,7 @@ TEST(EventChains, doNotDependOnHowTimeIsCut)
 
 TEST(EventChains, everyNumberOfWorkersGivesTheSameBits)
 {
+    const RealThreads threadsOfAnyMachine(7);
     for (const bool integrated : {false, true}) {
         const auto effect = fireworks(integrated);
         const uint64_t want = history(effect, base::makeSerialRunner());
