@@ -3,6 +3,7 @@
 #include "embedded/preset_library.h"
 #include "foundation/math/hash.h"
 #include "fxsdk/assets/read_file.h"
+#include "fxsdk/presets/emitter_advice.h"
 #include "fxsdk/presets/emitter_events_preset.h"
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
@@ -71,6 +72,8 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
             technique.build(root.element(member.c_str(), i), *effect);
     }
     linkEmitterEvents(root, *effect);
+    if (!findings.hasErrors())
+        adviseEmitters(root, *effect);
     if (findings.assets()->contentHash() != 0)
         effect->fingerprint = base::hashWord(effect->fingerprint, findings.assets()->contentHash());
     if (effect->solvers.empty() && !findings.hasErrors())
