@@ -24,6 +24,8 @@ struct Technique
     std::string_view schemaFile;
     /// Reads one validated element and adds its solver to `effect`. Null without a preset member.
     void (*build)(const PresetValue& element, sim::EffectDef& effect);
+    /// Whether an effect makes use of it. Null: of whatever has its preset member.
+    bool (*isUsedBy)(const sim::EffectDef& effect);
     /// Kind of snapshot data that its solvers publish; null when it publishes none.
     const base::KindDesc* kind;
     /// Passes of the frame graph that exist because of it.

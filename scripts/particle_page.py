@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""particle_page.py [--write]: the tables of docs/howto/particles.md from the schema of emitters.
+"""particle_page.py [--write]: the tables of docs/howto/particles.md from the schemas of emitters and effects.
 
 Between `<!-- members: NAME -->` and `<!-- end -->` stands the table of the members of one object of the schema: NAME is
-its path in the element of "emitters", such as forces.vortices, or `emitter` for the element itself. Without --write the
+its path in the element of "emitters", such as forces.vortices, `emitter` for the element itself, or `effect` for the
+preset around it. Without --write the
 tables are compared. Exit code 0, or 1 with one line per fault: a table that differs, an object that has none.
 """
 import json
@@ -12,6 +13,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SCHEMA = ROOT / "fxsdk/presets/schema/emitters.schema.json"
+EFFECT = ROOT / "fxsdk/presets/schema/effect.schema.json"
 PAGE = ROOT / "docs/howto/particles.md"
 TABLE = re.compile(r"<!-- members: (\S+) -->\n(.*?)<!-- end -->", re.S)
 
@@ -59,6 +61,7 @@ def table(members):
 
 def main(arguments):
     tables = {path: table(members) for path, members in objects(json.loads(SCHEMA.read_text()))}
+    tables["effect"] = table(json.loads(EFFECT.read_text())["properties"])
     page = PAGE.read_text()
     faults = [f"{PAGE.name}: no table of {path}" for path in tables if f"<!-- members: {path} -->" not in page]
 

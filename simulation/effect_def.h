@@ -71,6 +71,15 @@ struct EffectDef
         return most;
     }
 
+    /// [byte] that emitters take in each instance that is simulated by itself, snapshots left out.
+    uint64_t bytes() const
+    {
+        uint64_t sum = 0;
+        for (const auto& def : solvers)
+            sum += def->bytes();
+        return sum;
+    }
+
     /// Most elements alive at once, at medium quality.
     uint64_t capacity() const
     {

@@ -214,6 +214,8 @@ public:
                                            std::pmr::memory_resource* memory) const = 0;
     /// Upper bound on elements alive at once, at medium quality.
     virtual uint32_t capacity() const = 0;
+    /// [byte] of memory that a solver takes from its start on; 0 where that is not told.
+    virtual uint64_t bytes() const { return 0; }
     /// True when its solvers heed StepContext::collider.
     virtual bool collides() const { return false; }
     /// True when its solvers heed StepContext::placement.

@@ -3,6 +3,7 @@
 /// the thread.
 #pragma once
 
+#include "foundation/memory/out_of_memory.h"
 #include "foundation/result/status.h"
 #include "fxsdk/fx_context.h"
 
@@ -37,6 +38,9 @@ FxResult guarded(const char* function, const FxLog* log, F&& body) noexcept
             return FX_OK;
         result = toResult(status.code());
         rememberError(function, status.message());
+    } catch (const base::OutOfMemory& exception) {
+        result = FX_ERROR_OUT_OF_MEMORY;
+        rememberError(function, exception.what());
     } catch (const std::bad_alloc&) {
         result = FX_ERROR_OUT_OF_MEMORY;
         rememberError(function, "the allocator returned null");

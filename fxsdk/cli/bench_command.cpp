@@ -120,8 +120,9 @@ void addBenchCommand(CLI::App& app, int& outExitCode)
     auto threads = std::make_shared<uint32_t>(1);
     CLI::Option* drawn =
         bench->add_option("--plot", *plot, "Draw the time of a step against the number of particles (SVG)");
-    bench->add_option("--threads", *threads, "With --plot; 0 for all of the machine")
-        ->check(CLI::Range(0u, 1024u));
+    CLI::Option* onThreads = bench->add_option("--threads", *threads, "With --plot; 0 for all of the machine")
+                                 ->check(CLI::Range(0u, 1024u))
+                                 ->needs(drawn);
     bench->require_subcommand(0, 1);
     bench->callback([bench, drawn, plot, threads, &outExitCode] {
         if (!bench->get_subcommands().empty())
@@ -136,6 +137,10 @@ void addBenchCommand(CLI::App& app, int& outExitCode)
     addLod(*bench, outExitCode);
     addSoak(*bench, outExitCode);
     addBudget(*bench, outExitCode);
+    for (CLI::App* command : bench->get_subcommands({})) {
+        command->excludes(drawn);
+        command->excludes(onThreads);
+    }
 }
 
 } // namespace fx::cli

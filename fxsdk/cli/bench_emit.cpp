@@ -3,6 +3,7 @@
 #include "fxsdk/cli/bench_rows.h"
 #include "fxsdk/cli/bench_stage.h"
 #include "fxsdk/cli/interrupt.h"
+#include "simulation/particles/particle_program.h"
 
 #include <algorithm>
 #include <limits>
@@ -35,12 +36,23 @@ std::shared_ptr<const sim::EffectDef> emitter(std::string_view variant, uint64_t
     return effect;
 }
 
+/// [byte] that have to be written of each birth, and read and written to publish it.
+double bytesOfBirth(const sim::EffectDef& effect)
+{
+    const sim::ParticleProgram program(static_cast<const sim::EmitterDef&>(*effect.solvers.front()));
+    size_t stored = sizeof(base::Ticks) + sizeof(uint64_t) + (program.brief ? sizeof(uint32_t) : 0);
+    for (const bool isStored : program.stores)
+        stored += isStored ? sizeof(float) : 0;
+    return double(stored + sim::bytesMoved(program));
+}
+
 } // namespace
 
 base::Result<BenchRow> benchEmit(const BenchSettings& settings, std::string_view variant)
 {
+    const std::shared_ptr<const sim::EffectDef> effect = emitter(variant, settings.count);
     BenchStage stage(settings.threads);
-    stage.add(emitter(variant, settings.count), 1);
+    stage.add(effect, 1);
     stage.play(4);
     const uint64_t before = stage.counters().born;
     const uint32_t steps = settings.steps > 0
@@ -56,6 +68,9 @@ base::Result<BenchRow> benchEmit(const BenchSettings& settings, std::string_view
     row.medianNanoseconds = 1e9 * quantile(stage.times(), 0.5) / born;
     row.p95Nanoseconds = 1e9 * quantile(stage.times(), 0.95) / born;
     row.hash = stage.hash();
+    row.bytesPerParticle = bytesOfBirth(*effect);
+    row.bandwidthFraction = row.bytesPerParticle / row.medianNanoseconds /
+                            copyGigabytes(stage.tasks(), row.bytesPerParticle * born);
     row.more = {{"ns_per_particle_min", 1e9 * quantile(stage.times(), 0.0) / born},
                 {"born_per_step", born},
                 {"steps", steps},

@@ -33,10 +33,11 @@ struct BenchRow
     uint64_t count = 0;
     double medianNanoseconds = 0; ///< [ns] a particle and step
     double p95Nanoseconds = 0;    ///< [ns] 19 of 20 steps are not slower
-    double bytesPerParticle = 0;  ///< [byte] that have to be moved between memory and processor
-    double bandwidthFraction = 0; ///< [1] of what a copy reaches in the same run with as many threads
-    uint64_t hash = 0;            ///< of everything that was published
-    nlohmann::json more;          ///< other members of the line
+    double bytesPerParticle = 0;  ///< [byte] that have to be moved; of the entry frame, uploaded
+    double bandwidthFraction =
+        0;               ///< [1] of what a copy of as many bytes reaches with as many threads; 0: none
+    uint64_t hash = 0;   ///< of everything that was published or ordered; of frame, of the simulation
+    nlohmann::json more; ///< other members of the line
 };
 
 struct BenchEntry
@@ -44,8 +45,9 @@ struct BenchEntry
     std::string_view name;
     std::string_view summary;
     std::span<const std::string_view> variants;
-    bool hasGpu; ///< heeds BenchSettings::gpu
-    bool hasGl;  ///< heeds BenchSettings::gl
+    bool hasThreads; ///< heeds BenchSettings::threads
+    bool hasGpu;     ///< heeds BenchSettings::gpu
+    bool hasGl;      ///< heeds BenchSettings::gl
     uint64_t usualCount;
     uint64_t mostCount;
     std::string_view elements; ///< what is counted, as errors say it

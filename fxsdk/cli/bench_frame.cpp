@@ -40,6 +40,7 @@ std::string presetText(std::string_view variant, uint64_t count, bool gpu)
 struct Times
 {
     std::vector<double> update, upload, submit, finish, whole; ///< [s]
+    std::vector<double> bytes;                                 ///< uploaded
 };
 
 base::Status playFrame(BenchScene& scene, Times& times)
@@ -54,6 +55,7 @@ base::Status playFrame(BenchScene& scene, Times& times)
     scene.finish();
     times.finish.push_back(since(drawn) - first);
     times.whole.push_back(since(begin));
+    times.bytes.push_back(double(scene.viewStatistics().uploadedBytes));
     const Clock::time_point again = Clock::now();
     if (status.ok())
         status = scene.draw();
@@ -97,6 +99,9 @@ base::Result<BenchRow> benchFrame(const BenchSettings& settings, std::string_vie
     BenchRow row;
     row.medianNanoseconds = 1e9 * quantile(times.whole, 0.5) / double(settings.count);
     row.p95Nanoseconds = 1e9 * quantile(times.whole, 0.95) / double(settings.count);
+    row.bytesPerParticle = quantile(times.bytes, 0.5) / double(settings.count);
+    if (fxScene_GetSimulationHash((*scene)->scene(), &row.hash) != FX_OK)
+        return base::Status{base::Code::Internal, fxGetLastErrorMessage()};
     row.more = {{"ms_update", milliseconds(times.update)},
                 {"ms_upload", milliseconds(times.upload)},
                 {"ms_submit", milliseconds(times.submit)},

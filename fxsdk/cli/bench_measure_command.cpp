@@ -108,8 +108,10 @@ void addBenchMeasurements(CLI::App& bench, int& outExitCode)
         BenchSettings& settings = arguments->settings;
         command->add_option("--count", settings.count, "Elements (default: what is usual)")
             ->check(CLI::Range(uint64_t(1), uint64_t(1) << 32));
-        command->add_option("--threads", settings.threads, "Threads, 0 for all of the machine (default 1)")
-            ->check(CLI::Range(0u, 1024u));
+        if (entry.hasThreads)
+            command
+                ->add_option("--threads", settings.threads, "Threads, 0 for all of the machine (default 1)")
+                ->check(CLI::Range(0u, 1024u));
         command->add_option("--steps", settings.steps, "Timed steps (default: about a second's worth)")
             ->check(CLI::Range(1u, 1'000'000u));
         command->add_option("--variant", settings.variant, "One variant alone (default: all)");

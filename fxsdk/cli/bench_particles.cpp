@@ -27,10 +27,10 @@ base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& 
         stage.playTimed();
     }
     const double alive = double(std::max<uint64_t>(stage.particles(), 1));
-    const double bandwidth = copyGigabytes(stage.tasks());
     row.medianNanoseconds = 1e9 * quantile(stage.times(), 0.5) / alive;
     row.p95Nanoseconds = 1e9 * quantile(stage.times(), 0.95) / alive;
     row.bytesPerParticle = bytesPerParticle(effect);
+    const double bandwidth = copyGigabytes(stage.tasks(), row.bytesPerParticle * alive);
     row.bandwidthFraction = row.bytesPerParticle / row.medianNanoseconds / bandwidth;
     row.hash = stage.hash();
     row.more = {{"ns_per_particle_min", 1e9 * quantile(stage.times(), 0.0) / alive},

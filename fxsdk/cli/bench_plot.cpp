@@ -169,6 +169,11 @@ int runBenchPlot(const std::string& file, uint32_t threads)
         std::fprintf(stderr, "fx bench: %s\n", status.message().c_str());
         return exitCodeOf(status);
     };
+    if (!file.ends_with(".svg")) {
+        std::fprintf(stderr, "fx bench: --plot: '%s' does not end in .svg, which is what is drawn\n",
+                     file.c_str());
+        return kUsage;
+    }
     if (base::Status status = checkTarget(file); !status)
         return failed(status);
     const auto lines = measureLines(threads);

@@ -13,6 +13,7 @@
 #include <ctime>
 #include <memory_resource>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace fx::cli {
@@ -56,14 +57,19 @@ void change(std::string_view variant, std::vector<float>& distances, uint32_t k)
             distance -= 0.002f;
 }
 
-double timeStandard(const std::vector<float>& distances)
+/// @param outOrder receives the indices
+double timeStandard(const std::vector<float>& distances, std::vector<uint32_t>& outOrder)
 {
     std::vector<std::pair<float, uint32_t>> pairs(distances.size());
     const double begin = threadSeconds();
     for (size_t i = 0; i < pairs.size(); ++i)
         pairs[i] = {-distances[i], uint32_t(i)};
     std::sort(pairs.begin(), pairs.end());
-    return threadSeconds() - begin;
+    const double seconds = threadSeconds() - begin;
+    outOrder.clear();
+    for (const auto& [distance, index] : pairs)
+        outOrder.push_back(index);
+    return seconds;
 }
 
 /// Which numbers a row is made of.
@@ -81,11 +87,13 @@ Sorting sortAgain(std::string_view variant, uint64_t count, uint32_t steps)
     for (size_t i = 0; i < distances.size(); ++i)
         distances[i] = distanceOf(1, i);
     static_cast<void>(sort.farthestFirst(distances));
+    std::vector<uint32_t> standard;
     Sorting result;
     for (uint32_t k = 0; k < steps && !interruptRequested(); ++k) {
         change(variant, distances, k);
         if (variant == "standard") {
-            result.seconds.push_back(timeStandard(distances));
+            result.seconds.push_back(timeStandard(distances, standard));
+            result.hash = base::hashBytes(result.hash, standard.data(), standard.size() * sizeof(uint32_t));
             continue;
         }
         if (variant == "random")
@@ -95,9 +103,11 @@ Sorting sortAgain(std::string_view variant, uint64_t count, uint32_t steps)
         result.seconds.push_back(threadSeconds() - begin);
         result.hash = base::hashBytes(result.hash, order.data(), order.size_bytes());
     }
-    const auto order = sort.farthestFirst(distances);
+    const auto order =
+        variant == "standard" ? std::span<const uint32_t>(standard) : sort.farthestFirst(distances);
     const auto wanted = expected(distances);
-    result.isRight = std::equal(order.begin(), order.end(), wanted.begin(), wanted.end());
+    result.isRight =
+        interruptRequested() || std::equal(order.begin(), order.end(), wanted.begin(), wanted.end());
     return result;
 }
 
@@ -116,6 +126,10 @@ base::Result<BenchRow> benchSort(const BenchSettings& settings, std::string_view
     row.medianNanoseconds = perElement * quantile(sorting.seconds, 0.5);
     row.p95Nanoseconds = perElement * quantile(sorting.seconds, 0.95);
     row.hash = sorting.hash;
+    row.bytesPerParticle = sizeof(float) + sizeof(uint32_t); // a distance is read, an index written
+    row.bandwidthFraction =
+        row.bytesPerParticle / row.medianNanoseconds /
+        copyGigabytes(*base::makeSerialRunner(), row.bytesPerParticle * double(settings.count));
     row.more = {{"ns_per_particle_min", perElement * quantile(sorting.seconds, 0.0)}};
     return row;
 }

@@ -16,6 +16,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr base::Ticks kFrame = base::kTicksPerSecond / 60;
 constexpr size_t kCopyBytes = size_t(128) << 20;
+constexpr size_t kLeastCopy = 4096;
+constexpr size_t kLeastPart = size_t(64) << 10;
 constexpr uint32_t kCopyParts = 64;
 
 base::SnapshotSchema allKinds()
@@ -81,21 +83,26 @@ uint64_t BenchStage::particles() const
     return count;
 }
 
-double copyGigabytes(base::TaskRunner& tasks)
+double copyGigabytes(base::TaskRunner& tasks, double bytes)
 {
-    std::vector<char> from(kCopyBytes, 1);
-    std::vector<char> to(kCopyBytes, 2);
-    constexpr size_t kPart = kCopyBytes / kCopyParts;
+    const size_t half = size_t(std::clamp(0.5 * bytes, double(kLeastCopy), double(kCopyBytes)));
+    const uint32_t parts = uint32_t(std::clamp<size_t>(half / kLeastPart, 1, kCopyParts));
+    const size_t part = half / parts;
+    const size_t repeats = std::max<size_t>(kCopyBytes / 4 / half, 1);
+    std::vector<char> from(half, 1);
+    std::vector<char> to(half, 2);
     double best = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 5; ++i) {
         const Clock::time_point start = Clock::now();
-        tasks.parallelFor(kCopyParts, 1, [&](uint32_t begin, uint32_t end) {
-            std::memcpy(to.data() + begin * kPart, from.data() + begin * kPart, (end - begin) * kPart);
-        });
+        for (size_t k = 0; k < repeats; ++k) {
+            tasks.parallelFor(parts, 1, [&](uint32_t begin, uint32_t end) {
+                std::memcpy(to.data() + begin * part, from.data() + begin * part, (end - begin) * part);
+            });
+            from[k % half] = to[half - 1]; // nobody may leave a copy out
+        }
         best = std::min(best, secondsSince(start));
-        from[size_t(i)] = to[kCopyBytes - 1];
     }
-    return 2e-9 * double(kCopyBytes) / best;
+    return 2e-9 * double(part * parts) * double(repeats) / best;
 }
 
 double quantile(std::vector<double> times, double part)

@@ -54,8 +54,9 @@ private:
     uint64_t hash_ = 0;
 };
 
-/// [GB/s] read and written by a copy far beyond the caches, with the threads of `tasks`.
-double copyGigabytes(base::TaskRunner& tasks);
+/// [GB/s] read and written by copies of one half of so many bytes to the other, with the threads of `tasks`,
+/// again and again: a set that fits into a cache is copied there. 256 MiB stand for all that is larger.
+double copyGigabytes(base::TaskRunner& tasks, double bytes);
 
 /// The value below which the share `part` of `times` lies.
 double quantile(std::vector<double> times, double part);

@@ -17,6 +17,7 @@ void addAccuracyCommand(CLI::App& app, int& outExitCode);
 void addStabilityCommand(CLI::App& app, int& outExitCode);
 void addDazzleCommand(CLI::App& app, int& outExitCode);
 void addBenchCommand(CLI::App& app, int& outExitCode);
+void addGridCommand(CLI::App& app, int& outExitCode);
 void addExplainCommand(CLI::App& app, int& outExitCode);
 void addCalibrateCommand(CLI::App& app, int& outExitCode);
 

@@ -80,7 +80,7 @@ Json instancesOf(const scene_file::SceneFile& file, FxScene* scene)
     return list;
 }
 
-/// Presets of active instances that use a technique; of drawing techniques, all of those.
+/// Presets of active instances that use a technique.
 Json callersOf(const preset::Technique& technique, const scene_file::SceneFile& file, const Json& instances)
 {
     std::vector<std::string> names;
@@ -89,8 +89,8 @@ Json callersOf(const preset::Technique& technique, const scene_file::SceneFile& 
             continue;
         const auto& used = file.presets[file.instances[entry["instance"].get<size_t>()].preset];
         const Json text = Json::parse(used.text, nullptr, false);
-        const bool calls =
-            technique.presetMember.empty() || text.contains(std::string(technique.presetMember));
+        const bool calls = technique.isUsedBy ? technique.isUsedBy(*used.effect)
+                                              : text.contains(std::string(technique.presetMember));
         if (calls && std::find(names.begin(), names.end(), used.name) == names.end())
             names.push_back(used.name);
     }
@@ -112,6 +112,7 @@ Json emittersOf(const scene_file::SceneFile& file)
                             {"emitter", emitter->name},
                             {"path", why.empty() ? "gpu" : "cpu"},
                             {"meets_depth", emitter->meetsDepth && why.empty()},
+                            {"bytes", emitter->bytes()},
                             {"why", std::string(why)}});
         }
     return list;
@@ -127,10 +128,10 @@ Json techniquesOf(const scene_file::SceneFile& file, const Json& instances,
             if (std::find(passes.begin(), passes.end(), pass) != passes.end())
                 executed.push_back(std::string(pass));
         const Json callers = callersOf(technique, file, instances);
-        const bool exists = technique.passes.empty() ? !callers.empty() : !executed.empty();
+        const bool exists = !callers.empty() && (technique.passes.empty() || !executed.empty());
         list.push_back({{"technique", std::string(technique.name)},
                         {"exists", exists},
-                        {"passes", executed},
+                        {"passes", exists ? executed : Json::array()},
                         {"called_by", exists ? callers : Json::array()}});
     }
     return list;
@@ -152,9 +153,9 @@ void print(const Json& report)
                     entry["reason"].get<std::string>().c_str(), entry["particles"].get<unsigned>(),
                     entry["ms_estimated"].get<double>());
     for (const Json& entry : report["emitters"])
-        std::printf("%-24s %-20s %s  %s\n", entry["preset"].get<std::string>().c_str(),
+        std::printf("%-24s %-20s %s %9.1f KiB  %s\n", entry["preset"].get<std::string>().c_str(),
                     entry["emitter"].get<std::string>().c_str(), entry["path"].get<std::string>().c_str(),
-                    entry["why"].get<std::string>().c_str());
+                    entry["bytes"].get<double>() / 1024.0, entry["why"].get<std::string>().c_str());
     for (const Json& entry : report["techniques"])
         std::printf("%-22s %s  passes %s  called by %s\n", entry["technique"].get<std::string>().c_str(),
                     entry["exists"].get<bool>() ? "exists" : "absent", entry["passes"].dump().c_str(),

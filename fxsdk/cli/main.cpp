@@ -34,6 +34,7 @@ int run(int argumentCount, char** arguments)
     fx::cli::addBenchCommand(app, exitCode);
     fx::cli::addExplainCommand(app, exitCode);
     fx::cli::addCalibrateCommand(app, exitCode);
+    fx::cli::addGridCommand(app, exitCode);
     try {
         app.parse(argumentCount, arguments);
     } catch (const CLI::ParseError& error) {

@@ -32,14 +32,17 @@ nlohmann::json toJson(const preset::Diagnostic& diagnostic)
             {"severity", diagnostic.warning ? "warning" : "error"}};
 }
 
-void printJson(const std::string& file, const std::vector<preset::Diagnostic>& diagnostics,
+void printJson(const std::string& file, const std::vector<preset::Diagnostic>& diagnostics, uint64_t bytes,
                const Machine& machine)
 {
     nlohmann::json findings = nlohmann::json::array();
     for (const preset::Diagnostic& diagnostic : diagnostics)
         findings.push_back(toJson(diagnostic));
     const bool valid = !preset::hasErrors(diagnostics);
-    printJsonLine(withMachine({{"file", file}, {"valid", valid}, {"diagnostics", findings}}, machine));
+    nlohmann::json report = {{"file", file}, {"valid", valid}, {"diagnostics", findings}};
+    if (bytes > 0)
+        report["bytes_instance"] = bytes;
+    printJsonLine(withMachine(report, machine));
 }
 
 int runValidate(const ValidateOptions& options)
@@ -49,15 +52,18 @@ int runValidate(const ValidateOptions& options)
     for (const std::string& file : options.files) {
         if (interruptRequested())
             return kInterrupted;
-        const std::vector<preset::Diagnostic> diagnostics = preset::validateFile(file);
+        uint64_t bytes = 0;
+        const std::vector<preset::Diagnostic> diagnostics = preset::validateFile(file, &bytes);
         invalid += preset::hasErrors(diagnostics) ? 1 : 0;
         if (options.json) {
-            printJson(file, diagnostics, machine);
+            printJson(file, diagnostics, bytes, machine);
             continue;
         }
         for (const preset::Diagnostic& diagnostic : diagnostics)
             std::printf("%s%s\n", diagnostic.warning ? "warning: " : "",
                         preset::toString(diagnostic).c_str());
+        if (bytes > 0 && options.files.size() == 1)
+            std::printf("about %.1f MiB of memory for each instance\n", double(bytes) / (1 << 20));
     }
     if (!options.json && invalid == 0)
         std::printf("%zu %s valid\n", options.files.size(),

@@ -37,13 +37,13 @@ public:
             for (size_t k = 0; k < element.size("events"); ++k)
                 readRule(element.element("events", k), i);
         }
-        for (uint32_t i = 0; i < emitters_.size(); ++i)
+        state_.resize(emitters_.size());
+        for (uint32_t i = 0; hasRules_ && i < emitters_.size(); ++i)
+            visit(i);
+        for (uint32_t i = 0; !isBroken_ && i < emitters_.size(); ++i) // what a broken rule meant is unknown
             demandBirths(i);
         if (!hasRules_)
             return;
-        state_.resize(emitters_.size());
-        for (uint32_t i = 0; i < emitters_.size(); ++i)
-            visit(i);
         std::reverse(effect_.order.begin(), effect_.order.end());
         for (uint32_t i = uint32_t(emitters_.size()); i < effect_.solvers.size(); ++i)
             effect_.order.push_back(i);
@@ -72,6 +72,7 @@ private:
     std::vector<Visit> state_;
     std::vector<uint32_t> path_; ///< emitters that are open
     bool hasRules_ = false;
+    bool isBroken_ = false; ///< the emitter of a rule was not found, or there is a circle
 };
 
 bool EventLinks::findTarget(const PresetValue& value, uint32_t& out) const
@@ -140,8 +141,10 @@ void EventLinks::readRule(const PresetValue& value, uint32_t emitter)
     value.read("inheritVelocity", rule.inheritVelocity);
     value.read("inheritColor", rule.inheritColor);
     hasRules_ = true;
-    if (!findTarget(value, rule.target))
+    if (!findTarget(value, rule.target)) {
+        isBroken_ = true;
         return;
+    }
     sim::EmitterDef& target = emitters_[rule.target];
     if (target.inWorld != emitters_[emitter].inWorld)
         value.error("emit",
@@ -176,6 +179,7 @@ void EventLinks::visit(uint32_t emitter)
         std::string chain;
         for (auto at = std::find(path_.begin(), path_.end(), emitter); at != path_.end(); ++at)
             chain += names_[*at] + " -> ";
+        isBroken_ = true;
         root_.element("emitters", emitter)
             .error("events", "found a circle of events, " + chain + names_[emitter] +
                                  ": births would never end; take one event of it out");

@@ -14,8 +14,8 @@ namespace fx::preset {
 
 /// shape, position, size, ...: EmitterDef::shape and its fellows, or EmitterDef::births for what those lack.
 void readEmitterShape(const PresetValue& element, sim::EmitterDef& emitter);
-/// rate, bursts, ... @return births that can be alive at once
-double readEmitterEmission(const PresetValue& emission, float longestLife, sim::Emission& out);
+/// rate, bursts, ...
+void readEmitterEmission(const PresetValue& emission, sim::Emission& out);
 /// forces and collisions; modules in the order gusts, drag, vortices, attractors, fields, surfaces,
 /// obstacles.
 void readEmitterForces(const PresetValue& element, sim::EmitterDef& emitter);

@@ -2,9 +2,7 @@
 
 #include "fxsdk/presets/emitter_parts_preset.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 namespace fx::preset {
@@ -23,22 +21,15 @@ constexpr std::array<std::pair<std::string_view, sim::ComputeOn>, 3> kComputers{
     {"auto", sim::ComputeOn::Auto},
 }};
 
-/// Reads one burst. @return births of it that can be alive at once
-double readBurst(const PresetValue& element, float longestLife, sim::Burst& out)
+void readBurst(const PresetValue& element, sim::Burst& out)
 {
     element.read("time", out.time);
     element.read("count", out.count);
     element.read("cycles", out.cycles);
     element.read("interval", out.interval);
     element.read("probability", out.probability);
-    if (out.cycles == 1)
-        return out.count;
-    if (out.interval <= 0.0f) {
+    if (out.cycles != 1 && out.interval <= 0.0f)
         element.error("interval", "found no interval; a burst of several cycles needs one");
-        return out.count;
-    }
-    const double within = std::floor(double(longestLife) / double(out.interval)) + 1.0;
-    return double(out.count) * (out.cycles == 0 ? within : std::min(within, double(out.cycles)));
 }
 
 void readMedium(const PresetValue& element, sim::EmitterDef& emitter)
@@ -77,18 +68,9 @@ void readSpace(const PresetValue& element, sim::EmitterDef& emitter)
                       "anyway; add \"space\": \"world\"");
 }
 
-/// The largest value of a curve.
-float peakOf(const base::ScalarCurve& curve)
-{
-    float peak = 0.0f;
-    for (size_t i = 0; i <= base::kCurveSamples; ++i)
-        peak = std::max(peak, curve.at(float(i) / float(base::kCurveSamples))[0]);
-    return peak;
-}
-
 } // namespace
 
-double readEmitterEmission(const PresetValue& emission, float longestLife, sim::Emission& out)
+void readEmitterEmission(const PresetValue& emission, sim::Emission& out)
 {
     out.duration = std::numeric_limits<float>::infinity();
     emission.read("rate", out.rate);
@@ -98,13 +80,10 @@ double readEmitterEmission(const PresetValue& emission, float longestLife, sim::
     if (emission.child("rateOverTime").has("keys") && !emission.has("duration"))
         emission.error("rateOverTime",
                        "found a rate that changes over a duration that is not given; add a duration");
-    double alive =
-        double(out.rate) * double(peakOf(out.rateOverTime)) * double(std::min(longestLife, out.duration));
     for (size_t i = 0; i < emission.size("bursts"); ++i) {
         out.bursts.emplace_back();
-        alive += readBurst(emission.element("bursts", i), longestLife, out.bursts.back());
+        readBurst(emission.element("bursts", i), out.bursts.back());
     }
-    return alive;
 }
 
 void buildEmitter(const PresetValue& element, sim::EffectDef& effect)
@@ -127,13 +106,7 @@ void buildEmitter(const PresetValue& element, sim::EffectDef& effect)
     readEmitterLook(element.child("appearance"), emitter->look);
     readEmitterTrail(element.child("trail"), emitter->trail);
     readEmitterLight(element, emitter->light);
-    const double alive =
-        readEmitterEmission(element.child("emission"), emitter->lifetime.max, emitter->emission);
-    if (alive > double(emitter->maxParticles))
-        element.warning("maxParticles", "up to " + std::to_string(uint64_t(alive)) +
-                                            " particles can be alive, but " +
-                                            std::to_string(emitter->maxParticles) +
-                                            " is the capacity: births beyond it are dropped");
+    readEmitterEmission(element.child("emission"), emitter->emission);
     effect.solvers.push_back(std::move(emitter));
 }
 

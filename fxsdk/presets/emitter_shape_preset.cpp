@@ -31,20 +31,42 @@ constexpr std::array<std::pair<std::string_view, ShapeKind>, 10> kShapes{{
     {"volume", ShapeKind::Volume},
 }};
 
+/// A finding about the asset that the member names.
+void blame(const PresetValue& value, const char* member, const base::Status& status)
+{
+    std::string name;
+    value.read(member, name);
+    value.error(member, "asset \"" + name + "\": " + status.message());
+}
+
+/// The bytes of the asset that the member names, or nothing after a finding.
+/// @param wanted says what kind of file is needed, and gives an example
+std::optional<std::string> readBytes(const PresetValue& value, const char* member, uint64_t maxBytes,
+                                     const std::string& wanted)
+{
+    if (!value.has(member)) {
+        value.error(member, "found no file; this needs " + wanted);
+        return std::nullopt;
+    }
+    base::Result<std::string> bytes = value.readAsset(member, maxBytes);
+    if (bytes)
+        return std::move(*bytes);
+    value.error(member, bytes.status().message());
+    return std::nullopt;
+}
+
 /// The mesh of an asset, or nothing after a finding.
 std::optional<MeshText> readMesh(const PresetValue& value, const char* member)
 {
-    const base::Result<std::string> text = value.readAsset(member, kMostMeshText);
-    if (!text) {
-        value.error(member, text.status().message());
+    const std::optional<std::string> text =
+        readBytes(value, member, kMostMeshText, "triangles (*.obj), such as \"file\": \"stone.obj\"");
+    if (!text)
         return std::nullopt;
-    }
     base::Result<MeshText> mesh = readMeshText(*text);
-    if (!mesh) {
-        value.error(member, mesh.status().message());
-        return std::nullopt;
-    }
-    return std::move(*mesh);
+    if (mesh)
+        return std::move(*mesh);
+    blame(value, member, mesh.status());
+    return std::nullopt;
 }
 
 /// Takes what was made of an asset, or adds a finding.
@@ -53,7 +75,7 @@ T takeOr(const PresetValue& value, const char* member, base::Result<T> made)
 {
     if (made)
         return std::move(*made);
-    value.error(member, made.status().message());
+    blame(value, member, made.status());
     return {};
 }
 
@@ -101,15 +123,17 @@ bool isPlain(const sim::ShapeDef& shape)
 std::shared_ptr<const sim::FieldGrid> readGrid(const PresetValue& value, const char* member,
                                                uint32_t channels)
 {
-    const base::Result<std::string> bytes = value.readAsset(member, sim::kMostGridBytes);
-    if (!bytes) {
-        value.error(member, bytes.status().message());
+    const std::optional<std::string> bytes = readBytes(
+        value, member, sim::kMostGridBytes,
+        "a grid (*.fxgrid) of " + std::to_string(channels) + (channels == 1 ? " channel" : " channels") +
+            ", such as \"file\": \"swirl.fxgrid\"; docs/howto/grids.md tells how to make one");
+    if (!bytes)
         return nullptr;
-    }
     auto grid = takeOr(value, member, sim::parseFieldGrid(*bytes));
     if (grid && grid->channels != channels) {
-        value.error(member, "found a grid of " + std::to_string(grid->channels) + " channels; needed are " +
-                                std::to_string(channels));
+        blame(value, member,
+              {base::Code::Schema, "found a grid of " + std::to_string(grid->channels) +
+                                       " channels; needed are " + std::to_string(channels)});
         return nullptr;
     }
     return grid;

@@ -114,6 +114,19 @@ bool violatesScalar(const Json& schema, const Json& value)
     return length < schema.value("minLength", size_t(0)) || length > schema.value("maxLength", size_t(4096));
 }
 
+/// "; did you mean ...?" where `value` looks like one of the names that are allowed.
+std::string guessText(const Json& schema, const Json& value)
+{
+    if (!schema.contains("enum") || !value.is_string())
+        return {};
+    std::vector<std::string> known;
+    for (const Json& allowed : schema["enum"])
+        if (allowed.is_string())
+            known.push_back(allowed.get<std::string>());
+    const std::optional<std::string> nearest = nearestName(value.get_ref<const std::string&>(), known);
+    return nearest ? "; did you mean \"" + *nearest + "\"?" : "";
+}
+
 std::string unknownMemberText(const std::string& name, const std::vector<std::string>& known)
 {
     for (const MissingTechnique& missing : missingTechniques())
@@ -230,8 +243,8 @@ size_t explain(const nlohmann::json& schema, const nlohmann::json& value, const 
         return 0;
     // Inside a chosen branch the branch says more than the choice: [1, 2] where a color is wanted.
     const bool branchFits = &here != &schema && hasType(value, type);
-    findings.error(pointer,
-                   "found " + foundText(value) + "; allowed is " + allowedText(branchFits ? here : schema));
+    findings.error(pointer, "found " + foundText(value) + "; allowed is " +
+                                allowedText(branchFits ? here : schema) + guessText(here, value));
     return 1;
 }
 

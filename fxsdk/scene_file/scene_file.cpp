@@ -36,6 +36,23 @@ void reportAsset(const PresetValue& value, const char* member, const base::Statu
     findings.error(value.pointer() + "/" + member, status.message(), status.code());
 }
 
+/// Says so where an emitter asks for the scene's geometry and the scene has none. The preset is valid.
+void adviseGeometry(Reader& reader, const PresetValue& instance, const std::string& name,
+                    const std::string& text)
+{
+    const bool hasGeometry = !reader.scene.mesh.positions.empty() && reader.scene.meshCollides;
+    const Json preset = Json::parse(text, nullptr, false);
+    if (hasGeometry || !preset.is_object())
+        return;
+    for (const Json& emitter : preset.value("emitters", Json::array()))
+        for (const Json& obstacle : emitter.value("collisions", Json::array()))
+            if (obstacle.value("shape", std::string()) == "scene")
+                return instance.warning(
+                    "preset", name + ": an emitter collides with the shape \"scene\", but no mesh of "
+                                     "this scene stands in the way; add \"mesh\": {\"file\": "
+                                     "\"NAME.obj\", \"collide\": true} to the scene");
+}
+
 /// Index of the preset called `name`, loaded when it is met for the first time; nothing after a failure.
 std::optional<size_t> findPreset(Reader& reader, const std::string& name, const PresetValue& instance)
 {
@@ -59,6 +76,7 @@ std::optional<size_t> findPreset(Reader& reader, const std::string& name, const 
     }
     for (const preset::Diagnostic& warning : loaded->warnings)
         instance.warning("preset", preset::toString(warning));
+    adviseGeometry(reader, instance, name, *text);
     const size_t index = reader.scene.presets.size();
     const bool isFile = !isInLibrary && !reader.resolver.folder().empty();
     reader.scene.presets.push_back({name, std::move(*text),

@@ -1,5 +1,6 @@
 #include "simulation/emitters/emitter_solver.h"
 
+#include "foundation/memory/out_of_memory.h"
 #include "foundation/random/philox.h"
 #include "simulation/emitters/emitter_crowd.h"
 #include "simulation/parallel.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -26,6 +28,19 @@ glm::vec3 pullOf(const EmitterDef& def, const StepContext& context)
     return def.forces.gravity * context.gravity + drag * (context.wind + def.forces.wind);
 }
 
+/// Names what there was no memory for, without any.
+base::OutOfMemory outOfMemory(const EmitterDef& def)
+{
+    std::array<char, 512> text;
+    std::snprintf(text.data(), text.size(),
+                  "the allocator returned null for the emitter \"%.128s\", whose maxParticles %u take %llu "
+                  "bytes an instance; lower maxParticles%s",
+                  def.name.empty() ? "(unnamed)" : def.name.c_str(), def.maxParticles,
+                  static_cast<unsigned long long>(def.bytes()),
+                  def.trail.lifetime > 0.0f ? " or maxPoints of its trail" : "");
+    return base::OutOfMemory(text.data());
+}
+
 } // namespace
 
 bool EmitterDef::collides() const
@@ -40,7 +55,29 @@ std::unique_ptr<Solver> EmitterDef::create(const base::SnapshotSchema& schema, c
     const EmitterKinds kinds{schema.find(base::kBlobKind.name), schema.find(base::kParticleKind.name),
                              schema.find(base::kRibbonKind.name), schema.find(base::kLightKind.name),
                              schema.find(base::kGpuParticleKind.name)};
-    return std::make_unique<EmitterSolver>(*this, kinds, memory);
+    try {
+        return std::make_unique<EmitterSolver>(*this, kinds, memory);
+    } catch (const std::bad_alloc&) {
+        throw outOfMemory(*this);
+    }
+}
+
+uint64_t EmitterDef::bytes() const
+{
+    return EmitterSolver::bytesOf(*this, *program.of(*this));
+}
+
+uint64_t EmitterSolver::bytesOf(const EmitterDef& def, const ParticleProgram& program)
+{
+    const uint64_t rows = def.maxParticles;
+    uint64_t bytes = ParticleStore::bytesOf(program, def.maxParticles);
+    if (def.trail.lifetime > 0.0f)
+        bytes += RibbonStore::bytesOf(def.trail, def.maxParticles);
+    if (def.light.given)
+        bytes += rows * sizeof(Light);
+    if (def.look.kind == Appearance::Medium)
+        bytes += rows * sizeof(uint32_t);
+    return bytes;
 }
 
 EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,

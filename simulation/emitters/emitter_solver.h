@@ -108,6 +108,9 @@ public:
         highWater_ = std::max(highWater_, rows);
     }
 
+    /// [byte] that a solver takes from its start on.
+    static uint64_t bytesOf(const EmitterDef& def, const ParticleProgram& program);
+
 private:
     EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                   std::shared_ptr<const ParticleProgram> program, std::pmr::memory_resource* memory);

@@ -49,6 +49,12 @@ class RibbonStore
 public:
     RibbonStore(const RibbonDef& def, uint32_t rows, std::pmr::memory_resource* memory);
 
+    /// [byte] that a store of so many rows takes.
+    static size_t bytesOf(const RibbonDef& def, uint32_t rows)
+    {
+        return size_t(rows) * (sizeof(Trail) + size_t(def.maxPoints) * sizeof(Point));
+    }
+
     /// Takes the points of a step, after which the particles are as `job` says.
     void follow(const LookJob& job, base::Ticks begin, base::Ticks end);
     bool empty() const { return count_ == 0; }

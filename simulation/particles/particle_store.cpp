@@ -22,7 +22,18 @@ bool isPlace(size_t column)
     return column >= stored::X && column <= stored::Z;
 }
 
-/// Cuts memory into columns of `rows` rows; only measures as long as there is none.
+/// Kernels work on whole vectors: every column can be read and written up to the next multiple.
+size_t paddedRows(uint32_t capacity)
+{
+    return (size_t(capacity) + kTilePadding - 1) / kTilePadding * kTilePadding;
+}
+
+size_t columnBytes(size_t rows, size_t size)
+{
+    return rows * size + (rows > kFewRows ? kSkew : 0);
+}
+
+/// Cuts memory into columns of `rows` rows.
 class Columns
 {
 public:
@@ -31,22 +42,32 @@ public:
     template <class T>
     void place(StoredColumn<T>& column, std::optional<std::type_identity_t<T>> first)
     {
-        if (memory_) {
-            column = StoredColumn<T>(reinterpret_cast<T*>(memory_ + bytes_));
-            if (first)
-                std::fill_n(column.data(), rows_, *first);
-        }
-        bytes_ += rows_ * sizeof(T) + (rows_ > kFewRows ? kSkew : 0);
+        column = StoredColumn<T>(reinterpret_cast<T*>(memory_));
+        if (first)
+            std::fill_n(column.data(), rows_, *first);
+        memory_ += columnBytes(rows_, sizeof(T));
     }
-    size_t bytes() const { return bytes_; }
 
 private:
     std::byte* memory_;
     size_t rows_;
-    size_t bytes_ = 0;
 };
 
 } // namespace
+
+size_t ParticleStore::bytesOf(const ParticleProgram& program, uint32_t capacity)
+{
+    const size_t rows = paddedRows(capacity);
+    size_t bytes = columnBytes(rows, sizeof(uint64_t)) + columnBytes(rows, sizeof(base::Ticks));
+    if (program.brief)
+        bytes += columnBytes(rows, sizeof(uint32_t));
+    if (program.keepsFlags)
+        bytes += columnBytes(rows, sizeof(uint32_t));
+    for (size_t c = 0; c < stored::Count; ++c)
+        if (program.stores[c] || isPlace(c)) // places have room even where they are not used yet
+            bytes += columnBytes(rows, sizeof(float));
+    return bytes;
+}
 
 ParticleStore::ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory,
                              uint32_t capacity)
@@ -54,25 +75,20 @@ ParticleStore::ParticleStore(const ParticleProgram& program, std::pmr::memory_re
       mortal_(program.mortal), alwaysPlaced_(program.stores[stored::X]), placed(program.stores[stored::X]),
       constant(program.constant)
 {
-    // Kernels work on whole vectors: every column can be read and written up to the next multiple.
-    const size_t rows = (size_t(capacity_) + kTilePadding - 1) / kTilePadding * kTilePadding;
-    for (const bool isSized : {false, true}) { // how much, then where
-        Columns columns(memory_.data(), rows);
-        if (brief_)
-            columns.place(bornShort, 0u);
-        for (size_t c = 0; c < stored::Count; ++c)
-            if (program.stores[c])
-                columns.place(values[c], c == stored::PerLife ? kNoLife : 0.0f);
-        columns.place(index, kNobody);
-        columns.place(born, base::Ticks(0));
-        if (program.keepsFlags)
-            columns.place(flags, 0u);
-        for (size_t c = stored::X; c <= stored::Z; ++c)
-            if (!program.stores[c])
-                columns.place(values[c], std::nullopt); // not touched before it is needed
-        if (!isSized)
-            memory_ = base::Column<std::byte>(memory, columns.bytes());
-    }
+    memory_ = base::Column<std::byte>(memory, bytesOf(program, capacity_));
+    Columns columns(memory_.data(), paddedRows(capacity_));
+    if (brief_)
+        columns.place(bornShort, 0u);
+    for (size_t c = 0; c < stored::Count; ++c)
+        if (program.stores[c])
+            columns.place(values[c], c == stored::PerLife ? kNoLife : 0.0f);
+    columns.place(index, kNobody);
+    columns.place(born, base::Ticks(0));
+    if (program.keepsFlags)
+        columns.place(flags, 0u);
+    for (size_t c = stored::X; c <= stored::Z; ++c)
+        if (!program.stores[c])
+            columns.place(values[c], std::nullopt); // not touched before it is needed
 }
 
 float ParticleStore::ageOf(uint32_t row, base::Ticks now) const

@@ -52,6 +52,9 @@ public:
     /// @param capacity rows, 0: as many as the definition says
     ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory, uint32_t capacity = 0);
 
+    /// [byte] that a store of so many rows takes.
+    static size_t bytesOf(const ParticleProgram& program, uint32_t capacity);
+
     uint32_t capacity() const { return capacity_; }
     uint32_t rowOf(uint64_t particle) const { return uint32_t(particle % capacity_); }
     RowWindow window() const

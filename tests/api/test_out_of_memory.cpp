@@ -247,3 +247,24 @@ TEST_F(OutOfMemory, aContactHookIsSetOrTheSceneIsAsItWasAtEveryAllocation)
             ASSERT_EQ(fxScene_Update(each, kFrame), FX_OK) << fxGetLastErrorMessage();
     EXPECT_EQ(hashOf(scene), hashOf(other));
 }
+
+TEST_F(OutOfMemory, theEmitterThatDoesNotFitIsNamedWithItsBytesAndTheRemedy)
+{
+    createContext();
+    createScene();
+    FxInstanceDef def = fxDefaultInstanceDef();
+    def.preset = loadText(context_, R"({"version":1,"emitters":[{"name":"embers","maxParticles":100000,
+        "emission":{"rate":1},"trail":{"lifetime":1}}]})");
+    memory_.failFrom(1);
+    FxInstanceId instance{};
+    EXPECT_EQ(fxScene_CreateInstance(scene_, &def, &instance), FX_ERROR_OUT_OF_MEMORY);
+    uint64_t tries = 1; // tables may come first
+    while (std::string(fxGetLastErrorMessage()).find("embers") == std::string::npos && ++tries < 100) {
+        memory_.failFrom(tries);
+        ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &instance), FX_ERROR_OUT_OF_MEMORY);
+    }
+    memory_.failFrom(0);
+    const std::string message = fxGetLastErrorMessage();
+    EXPECT_NE(message.find("\"embers\", whose maxParticles 100000 take"), std::string::npos) << message;
+    EXPECT_NE(message.find("lower maxParticles or maxPoints of its trail"), std::string::npos) << message;
+}

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kVersion0 = R"({
   "version": 0,
   "emitters": [
-    {"shape": "sphere", "extent": 3, "size": {"min": 0.25, "max": 0.5}, "angle": 90, "emission": {"rate": 1}}
+    {"shape": "cone", "extent": 3, "size": {"min": 0.25, "max": 0.5}, "angle": 90, "emission": {"rate": 1}}
   ]
 })";
 

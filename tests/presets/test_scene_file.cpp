@@ -49,6 +49,24 @@ SceneFile load(const std::string& text)
 
 } // namespace
 
+TEST(SceneFile, warnsWhereAnEmitterWantsGeometryThatTheSceneLacks)
+{
+    const TempFolder folder;
+    folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("p.fx.json",
+                 R"({"version":1,"emitters":[{"emission":{"rate":1},"collisions":[{"shape":"scene"}]}]})");
+    const auto warnings = [&](const std::string& mesh) {
+        const auto scene = loadSceneFile(
+            folder.write("s.scene.json", R"({"version":1,"camera":{"position":[0,0,9],"target":[0,0,0]},)" +
+                                             mesh + R"("instances":[{"preset":"p.fx.json"}]})"));
+        EXPECT_TRUE(scene.ok()) << scene.status().message();
+        return scene.ok() ? scene->warnings.size() : 99;
+    };
+    EXPECT_EQ(warnings(""), 1u);
+    EXPECT_EQ(warnings(R"("mesh":{"file":"m.obj"},)"), 1u);
+    EXPECT_EQ(warnings(R"("mesh":{"file":"m.obj","collide":true},)"), 0u);
+}
+
 TEST(SceneFile, readsCameraAndView)
 {
     const SceneFile scene = load(kScene);

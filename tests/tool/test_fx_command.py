@@ -10,7 +10,7 @@ class FxCommand(FxTest):
     def test_help_describes_every_subcommand_and_succeeds(self):
         listed = fx("--help")
         self.assertEqual(listed.code, 0)
-        for name in ("render", "validate", "doctor", "parameters"):
+        for name in ("render", "validate", "doctor", "parameters", "grid"):
             self.assertIn(name, listed.out)
             self.assertEqual(fx(name, "--help").code, 0)
         for option in ("--size", "--time", "--frames", "--fps", "--quality", "--seed", "--stats", "--renderer", "--json"):
@@ -62,6 +62,30 @@ class FxCommand(FxTest):
         self.assertEqual(outcome.code, 0)
         for word in ("unit", "default", "K", "radius"):
             self.assertIn(word, outcome.out)
+
+    def test_parts_of_the_reference_and_the_schema_are_printed_alone(self):
+        forces = fx("parameters", "emitters[]/forces/vortices")
+        self.assertEqual(forces.code, 0)
+        self.assertIn("`hold`", forces.out)
+        self.assertNotIn("maxParticles", forces.out)
+        self.assertEqual(fx("parameters", "emiters").code, 1)
+        for kind, member in (("preset", "emitters"), ("scene", "camera")):
+            self.assertIn(member, json.loads(fx("parameters", "--json-schema", kind).out)["properties"])
+        self.assertEqual(fx("parameters", "--json-schema", "picture").code, 2)
+
+    def test_explain_names_the_techniques_whose_members_are_in_use(self):
+        emitter = {"maxParticles": 50, "emission": {"rate": 20}, "appearance": {"kind": "sprite"}}
+        for more, wanted in (({}, {"sprites and meshes"}),
+                             ({"appearance": {"kind": "medium"}}, {"spherical billboards"}),
+                             ({"speed": 1, "trail": {"lifetime": 1}, "light": {"intensity": 1}},
+                              {"sprites and meshes", "ribbons", "particle lights"})):
+            path = self.write("a.fx.json", json.dumps({"version": 1, "emitters": [emitter | more]}))
+            outcome = fx("explain", path, "--json", "--size", 64)
+            self.assertEqual(outcome.code, 0, outcome.err)
+            report = json.loads(outcome.out)
+            found = {entry["technique"] for entry in report["techniques"] if entry["exists"]}
+            self.assertEqual(found - {"emitters", "dazzle"}, wanted)
+            self.assertGreater(report["emitters"][0]["bytes"], 50 * 16)
 
     def test_a_full_disk_behind_standard_output_is_a_failure(self):
         for arguments in (["doctor"], ["parameters"], ["validate", LIBRARY / "sparks.fx.json"]):

@@ -3,6 +3,7 @@
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -11,6 +12,10 @@ from fx_program import ROOT, FxTest, fx
 
 PAGE = ROOT / "docs/howto/particles.md"
 SNIPPET = re.compile(r"^```json\n(.*?)^```$", re.S | re.M)
+CODE = re.compile(r"^```c\n(.*?)^```$", re.S | re.M)
+HEAD = """#include "fxsdk/fxsdk.h"
+#include <stdio.h>
+"""
 
 
 class ParticlesPage(FxTest):
@@ -31,6 +36,25 @@ class ParticlesPage(FxTest):
                 outcome = fx("validate", path)
                 self.assertEqual(outcome.code, 0, text + outcome.out + outcome.err)
                 self.assertNotIn("warning", outcome.out + outcome.err, text)
+
+    @unittest.skipUnless(shutil.which("cc"), "needs a C compiler")
+    def test_every_snippet_of_c_compiles(self):
+        snippets = CODE.findall(PAGE.read_text())
+        self.assertGreaterEqual(len(snippets), 3)
+        text = HEAD + "".join(f"void snippet{i}(FxScene* scene, FxInstanceId instance)\n{{\n{code}}}\n"
+                              for i, code in enumerate(snippets))
+        outcome = subprocess.run(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-I",
+                                  ROOT / "fxsdk/include", self.write("snippets.c", text)], capture_output=True, text=True)
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+
+    def test_the_messages_of_the_page_are_those_of_the_tool(self):
+        told = re.findall(r"^(?:warning: )?sparks\.fx\.json:.*$", PAGE.read_text(), re.M)
+        self.assertEqual(len(told), 2)
+        lines = ["{", '  "version": 1,', '  "emitters": [{', '  "name": "a",', '  "speed": 1,', '  "radius": 0.1,', "{member}",
+                 '  "emission": {"rate": 1},', '  "forces": {"wind": [1, 0, 0]}', "  }]", "}", ""]
+        for member, message in (('  "lifetme": 1,', told[0]), ('  "lifetime": 1,', told[1])):
+            self.write("sparks.fx.json", "\n".join(lines).replace("{member}", member))
+            self.assertIn(message, fx("validate", "sparks.fx.json", cwd=self.folder).out)
 
 
 if __name__ == "__main__":

@@ -32,8 +32,8 @@ public:
         const std::string_view found = take(end);
         if (found != wanted)
             fail(Code::Parse, "expected '" + std::string(wanted) +
-                                  "'; the header of a grid is described in "
-                                  "field_grid.h");
+                                  "'; docs/howto/grids.md describes the header, and \"fx grid\" writes "
+                                  "such files from other ones");
     }
     template <class T>
     void number(T& out, char end)
@@ -41,7 +41,7 @@ public:
         const std::string_view text = take(end);
         const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), out);
         if (error != std::errc() || last != text.data() + text.size() || text.empty())
-            fail(Code::Parse, "expected a number");
+            fail(Code::Parse, "expected a number; docs/howto/grids.md describes the header");
     }
     template <class V>
     void triple(std::string_view name, V& out)

@@ -1,0 +1,28 @@
+/// @file out_of_memory.h
+/// A failed allocation that says what it was for. Made and thrown without memory of its own.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <new>
+#include <string_view>
+
+namespace fx::base {
+
+class OutOfMemory final : public std::bad_alloc
+{
+public:
+    /// @param message cut to 511 bytes
+    explicit OutOfMemory(std::string_view message) noexcept
+    {
+        const size_t size = std::min(message.size(), message_.size() - 1);
+        std::copy_n(message.data(), size, message_.data());
+    }
+    const char* what() const noexcept override { return message_.data(); }
+
+private:
+    std::array<char, 512> message_{};
+};
+
+} // namespace fx::base
