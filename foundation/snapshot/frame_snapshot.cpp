@@ -104,9 +104,9 @@ SnapshotGroup& FrameSnapshot::findGroup(KindId kind, size_t capacity, ColumnSet 
     return group;
 }
 
-uint64_t FrameSnapshot::hash() const
+uint64_t FrameSnapshot::hashAt(Ticks tick) const
 {
-    uint64_t h = hashWord(0, uint64_t(tick_));
+    uint64_t h = hashWord(0, uint64_t(tick));
     const auto add = [&h, this](const SnapshotGroup& group) {
         if (group.count() > 0 && !group.info().isCosmetic) // what shows nothing is as if it were not there
             h = hashGroup(h, group, schema_->kind(group.info().kind).columns);

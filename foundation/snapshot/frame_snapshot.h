@@ -71,8 +71,11 @@ public:
                      : nameOf(groups_[placeOf(index)].info());
     }
 
-    /// Hash of every id, column, constant and placement, computed anew at each call.
-    uint64_t hash() const;
+    /// Hash of the tick and of every id, column, constant and placement, computed anew at each call.
+    uint64_t hash() const { return hashAt(tick_); }
+    /// The same as if the step had ended at `tick`: where nothing is to be seen, a snapshot stands for later
+    /// ones too.
+    uint64_t hashAt(Ticks tick) const;
 
     // ---- for the writer, before publication ----
     /// @param step [tick] length of the step that ends at `tick`; 0: none does

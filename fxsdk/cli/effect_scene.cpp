@@ -160,6 +160,7 @@ base::Status EffectScene::addCollisionMesh(const scene_file::SceneFile& file)
         mesh.origin[i] = file.mesh.origin[i];
     mesh.positions = positions.empty() ? nullptr : &positions[0].x;
     mesh.vertexCount = uint32_t(positions.size());
+    mesh.cellSize = file.meshCellSize;
     return toStatus(fxScene_SetCollisionMesh(scene_, &mesh));
 }
 

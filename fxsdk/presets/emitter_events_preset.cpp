@@ -121,6 +121,12 @@ void EventLinks::readRule(const PresetValue& value, uint32_t emitter)
     if (every > 0 && double(emitters_[emitter].lifetime.max) > every * double(sim::kMostAges))
         value.error("every", "found more than " + std::to_string(sim::kMostAges) +
                                  " repetitions in the longest life; a longer time between them is needed");
+    if (value.has("minSpeed")) {
+        value.read("minSpeed", rule.minSpeed);
+        rule.minLastSpeed = rule.minSpeed;
+        if (rule.on != sim::EventKind::Collision)
+            value.error("minSpeed", "found a least speed; only the event collision has one");
+    }
     if ((rule.on == sim::EventKind::Age) != value.has("age"))
         value.error("age", value.has("age") ? "found an age; only the event age has one"
                                             : "found no age; the event age needs one");

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <optional>
 
@@ -139,6 +141,30 @@ std::shared_ptr<const sim::FieldGrid> readGrid(const PresetValue& value, const c
     return grid;
 }
 
+namespace {
+constexpr float kFarOff = 0.1f; ///< [m] that particles should not meet a mesh away from its triangles
+
+/// [m] the most by which the field leaves out, or thickens, what is in the middle of a triangle.
+float errorOf(const sim::DistanceField& field, const MeshText& mesh)
+{
+    float worst = 0.0f;
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const glm::vec3 middle = (mesh.positions[mesh.indices[i]] + mesh.positions[mesh.indices[i + 1]] +
+                                  mesh.positions[mesh.indices[i + 2]]) /
+                                 3.0f;
+        worst = std::max(worst, std::abs(field.distance(middle - glm::vec3(field.origin()))));
+    }
+    return worst;
+}
+
+std::string textOf(float length)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g m", double(length));
+    return text;
+}
+} // namespace
+
 std::shared_ptr<const sim::DistanceField> readMeshField(const PresetValue& value)
 {
     const std::optional<MeshText> mesh = readMesh(value, "file");
@@ -150,12 +176,20 @@ std::shared_ptr<const sim::DistanceField> readMeshField(const PresetValue& value
     for (const glm::vec3& p : mesh->positions)
         bounds.add(p, 0.0f);
     const glm::vec3 size = bounds.empty() ? glm::vec3(0.0f) : bounds.max - bounds.min;
-    if (cell <= 0.0f)
+    const bool isAutomatic = cell <= 0.0f;
+    if (isAutomatic)
         cell = std::max({size.x, size.y, size.z}) / 48.0f;
     const auto tasks = base::makeSerialRunner();
-    return takeOr(value, "file",
-                  sim::DistanceField::build({glm::dvec3(0.0), mesh->positions, mesh->indices}, cell, *tasks,
-                                            std::pmr::new_delete_resource()));
+    auto field = takeOr(value, "file",
+                        sim::DistanceField::build({glm::dvec3(0.0), mesh->positions, mesh->indices}, cell,
+                                                  *tasks, std::pmr::new_delete_resource()));
+    if (const float error = field && isAutomatic ? errorOf(*field, *mesh) : 0.0f; error > kFarOff)
+        value.warning("file", "the mesh is met up to " + textOf(error) +
+                                  " away from its triangles: its field of distances has cells of " +
+                                  textOf(cell) +
+                                  ", a 48th of its size, and walls are at least half a cell thick; give a "
+                                  "smaller \"cellSize\", or collide with several smaller meshes");
+    return field;
 }
 
 void readEmitterShape(const PresetValue& element, sim::EmitterDef& emitter)

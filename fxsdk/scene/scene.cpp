@@ -106,6 +106,8 @@ bool Scene::update(double dt)
     memoryFailed_ = false; // must not stop the steps that follow: the clock has already counted them
     if (plan.steps > 0)
         reconsider(plan);
+    if (sought_)
+        heedSought(plan);
     for (uint32_t k = 0; k < plan.steps; ++k) {
         const base::Ticks from = plan.firstStep + base::Ticks(k) * clock_.stepTicks();
         try {
@@ -293,8 +295,10 @@ uint32_t Scene::particles() const
 
 uint64_t Scene::stateHash()
 {
+    if (sought_)
+        showSought();
     const Presentation shown = acquire();
-    const uint64_t hash = shown.snapshots.newer->hash();
+    const uint64_t hash = shown.snapshots.newer->hashAt(clock_.simulated()); // may be published for earlier
     release(shown.snapshots);
     return hash;
 }

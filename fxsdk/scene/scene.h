@@ -159,7 +159,8 @@ public:
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
     /// @param rate see sim::RunClock
     void setRate(LocalId id, uint32_t rate);
-    /// Takes an instance to a local time. @return InvalidArgument before its start and after its end
+    /// Takes an instance to a local time; the next update() shows it, also one without a step.
+    /// @return InvalidArgument before its start and after its end
     base::Status seek(LocalId id, base::Ticks local);
     /// Tells an instance that what its preset calls `name` happened `count` times.
     /// @return NotFound when its preset knows no such event, InvalidArgument before its start
@@ -207,7 +208,8 @@ public:
     const UpdateCounters& lastUpdate() const { return update_; }
     double nanosecondsPerParticle() const; ///< [ns] of a step, given or measured
     const base::StepClock& clock() const { return clock_; }
-    uint64_t stateHash(); ///< of what is to be seen of the last step
+    /// Of what is to be seen at the last step and of its time, however the updates were cut.
+    uint64_t stateHash();
 
     /// Hash of everything that decides what later steps give; apart from the part of a step that has not been
     /// taken yet, so that it does not depend on the frame rate.
@@ -302,6 +304,8 @@ private:
 
     void publish(base::Ticks tick, double interpolation);
     void stageReturned(base::Ticks tick);
+    void showSought();
+    void heedSought(const base::StepPlan& plan);
     /// With presentation_ held, unless there is nothing to see.
     void show(base::Ticks newest, double interpolation);
     static sim::InstanceStart startOf(const IdTable<Instance>& instances, uint32_t index);
@@ -337,6 +341,7 @@ private:
     std::pmr::vector<LocalId> moved_; ///< instances with InstanceSetup::cameFrom, and perhaps others
     bool lookAgain_ = false;          ///< something moved, or somebody looks elsewhere
     bool memoryFailed_ = false;
+    bool sought_ = false; ///< seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;
     uint32_t emptyPublications_ = 0; ///< one after the other
     uint32_t hidden_ = 0;

@@ -202,6 +202,7 @@ void Scene::forgetSight()
     coarse_.removeIf(all);
     hidden_ = resting_ = 0;
     emptyPublications_ = 0;
+    sought_ = false;
     lookAgain_ = true;
 }
 

@@ -2,6 +2,7 @@
 #include "fxsdk/scene/scene.h"
 
 #include <algorithm>
+#include <new>
 
 namespace fx::scene {
 
@@ -49,9 +50,43 @@ base::Status Scene::seek(LocalId id, base::Ticks local)
     world_.seekTo(instance.slot, local, clock_.stepTicks(), counters_.work);
     instance.setup.clock = world_.clockOf(instance.slot);
     instance.setup.cameFrom.reset(); // it has been where it is now from its first step on
+    sought_ = true;
     if (instance.state == InstanceState::Resting || instance.state == InstanceState::Hidden)
         comeBack(indexOf(id));
     return {};
+}
+
+/// Publishes the last step again, with those who have been taken to another time since. Between that and what
+/// was published before no time has passed, so that all is shown as it is at this step.
+void Scene::showSought()
+{
+    if (waking_.size() > 0)
+        catchUpWaking(); // who rested
+    if (active_.size() > 0 || emptyPublications_ <= 2) {
+        const base::Ticks now = clock_.simulated();
+        world_.publish(active_.slots(), ring_.beginWrite(now, clock_.stepTicks()));
+        emptyPublications_ = 0;
+        showsNothing_.store(false, std::memory_order_release);
+        std::lock_guard lock(presentation_);
+        ring_.publish();
+        ring_.forgetOlder();
+        show(now, clock_.interpolation());
+    }
+    sought_ = false;
+}
+
+/// After reconsider(). What was sought is what the first step of the update begins with.
+void Scene::heedSought(const base::StepPlan& plan)
+{
+    try {
+        if (plan.steps == 0)
+            showSought();
+        else if (plan.steps == 1 && update_.returned == 0)
+            stageReturned(plan.firstStep);
+        sought_ = false;
+    } catch (const std::bad_alloc&) {
+        memoryFailed_ = true; // with no step taken, it is tried again
+    }
 }
 
 } // namespace fx::scene

@@ -117,6 +117,10 @@ void readSceneMesh(Reader& reader, const PresetValue& value)
     value.read("position", position);
     value.read("scale", scale);
     value.read("collide", reader.scene.meshCollides);
+    value.read("cellSize", reader.scene.meshCellSize);
+    if (value.has("cellSize") && !reader.scene.meshCollides)
+        value.warning("cellSize", "found a size of cells, but effects do not collide with the mesh; add "
+                                  "\"collide\": true");
     for (glm::vec3& vertex : mesh->positions)
         vertex = position + scale * vertex;
     reader.scene.mesh = std::move(*mesh);

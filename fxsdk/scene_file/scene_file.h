@@ -50,6 +50,7 @@ struct SceneFile
     render::StageBackground background;
     render::StageMesh mesh;    ///< empty when the scene has none
     bool meshCollides = false; ///< effects collide with it
+    float meshCellSize = 0.0f; ///< [m] of the grid that stands for it then; 0: as fine as four million allow
     std::vector<ScenePreset> presets;
     std::vector<SceneInstance> instances;
     std::vector<preset::Diagnostic> warnings;

@@ -53,7 +53,7 @@ float clearanceOf(int kind, int n, vec3 p, out vec3 normal)
         normal = side * unitOrUp(away);
         return distance;
     }
-    // Boxes: center, axis, half extents, 1: hollow, half diagonal
+    // Boxes: center, axis, half extents, 1: hollow, radius of the outline
     precise vec3 shifted = p - numbersAt(n);
     vec3 m = turnToY(numbersAt(n + 3), shifted);
     precise vec3 q = abs(m) - numbersAt(n + 6);

@@ -246,7 +246,7 @@ void EmitterSolver::move(const StepContext& context, uint64_t firstIndex, EventR
     TileStep step(program_, context);
     std::optional<EventWatch> watch;
     if (room)
-        step.watchBy(&watch.emplace(def_, interest_, *room));
+        step.watchBy(&watch.emplace(def_, interest_, store_, *room));
     step.onlyFrom(firstIndex);
     const RowWindow rows = store_.window();
     const uint32_t tiles = (rows.count + kTileRows - 1) / kTileRows;

@@ -9,16 +9,21 @@
 namespace fx::sim {
 
 constexpr uint32_t kMostAges = 256; ///< of one emitter, repetitions included
+/// [m/s] against the surface: below it, who bounces is taken to rest. What falls from 13 mm is as fast.
+constexpr float kUsualContactSpeed = 0.5f;
 
 /// Something that happens to particles of one emitter gives birth to particles of another one.
 struct EventRule
 {
     EventKind on = EventKind::Death;
-    base::Ticks age = 0;    ///< with EventKind::Age: how old a particle is then, > 0
-    base::Ticks every = 0;  ///< > 0: and again whenever it has become so much older
-    uint32_t hostEvent = 0; ///< with EventKind::Host: number in EffectDef::hostEvents
-    uint32_t target = 0;    ///< solver index of the emitter that gives birth
-    uint32_t fewest = 1;    ///< births of one event, drawn from [fewest, most]
+    base::Ticks age = 0;   ///< with EventKind::Age: how old a particle is then, > 0
+    base::Ticks every = 0; ///< > 0: and again whenever it has become so much older
+    /// With EventKind::Collision: [m/s] least speed against the surface, along its normal; see event-ticks.
+    float minSpeed = kUsualContactSpeed;
+    float minLastSpeed = 0.0f; ///< [m/s] the same for a contact that kills or holds, of which there is one
+    uint32_t hostEvent = 0;    ///< with EventKind::Host: number in EffectDef::hostEvents
+    uint32_t target = 0;       ///< solver index of the emitter that gives birth
+    uint32_t fewest = 1;       ///< births of one event, drawn from [fewest, most]
     uint32_t most = 1;
     float probability = 1.0f;     ///< [1] 0..1 that anything is born
     float inheritVelocity = 0.0f; ///< [1] 0..1 of the particle's velocity that those who are born have too

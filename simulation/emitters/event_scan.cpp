@@ -54,6 +54,10 @@ EventInterest::EventInterest(std::span<const EventRule> rules, base::Ticks longe
     for (const EventRule& rule : rules) {
         kinds_[size_t(rule.on)] = true;
         colors_ = colors_ || rule.inheritColor != 0.0f;
+        if (rule.on == EventKind::Collision) {
+            leastSpeed_ = std::min(leastSpeed_, rule.minSpeed);
+            leastLastSpeed_ = std::min(leastLastSpeed_, rule.minLastSpeed);
+        }
         if (rule.on != EventKind::Age)
             continue;
         ages_.push_back(rule.age);
@@ -73,6 +77,8 @@ bool EventInterest::answers(const EventRule& rule, const ParticleEvent& event) c
         const base::Ticks beyond = ages_[event.number] - rule.age;
         return beyond == 0 || (rule.every > 0 && beyond > 0 && beyond % rule.every == 0);
     }
+    if (rule.on == EventKind::Collision)
+        return event.speed >= (event.isLast ? rule.minLastSpeed : rule.minSpeed);
     return rule.on != EventKind::Host || rule.hostEvent == event.number;
 }
 
@@ -144,6 +150,19 @@ void EventScan::scanBirth(uint64_t index, bool fed, bool birthOnly, EventList& o
         scanAges(row, born, out);
 }
 
+void EventWatch::touch(const TileContext& context, const Tile& tile, uint32_t i, const TileContact& contact)
+{
+    if (!interest_.counts(contact))
+        return;
+    ParticleEvent event = collisionOf(context, tile, i, contact);
+    const uint32_t row = tile.firstRow + i;
+    if (!store_.isAlive(row, event.tick))
+        return;
+    if (interest_.inColor())
+        event.color = colorAt(def_, store_, row, event.tick);
+    room_.of(tile.firstRow).add(event);
+}
+
 void EventWatch::see(const TileContext& context, const Tile& tile, const ParticleStore& store)
 {
     EventList& out = room_.of(tile.firstRow);
@@ -156,10 +175,9 @@ void EventWatch::see(const TileContext& context, const Tile& tile, const Particl
         const base::Ticks from = std::max(born, context.step.tick);
         const bool dies = from < context.end && !store.isAlive(row, context.end);
         const base::Ticks death = dies ? deathTick(store, row, from, context.end) : kForever;
-        const bool touches = (flags & (tile_flag::Hit | tile_flag::Killed)) != 0;
-        ParticleEvent contact = touches ? contactOf(context, tile, i) : ParticleEvent{};
-        const bool killed = (flags & tile_flag::Killed) != 0 && contact.tick < death;
-        const base::Ticks last = killed ? contact.tick : death;
+        ParticleEvent kill = (flags & tile_flag::Killed) != 0 ? killOf(context, tile, i) : ParticleEvent{};
+        const bool killed = (flags & tile_flag::Killed) != 0 && kill.tick < death;
+        const base::Ticks last = killed ? kill.tick : death;
         const auto add = [&](base::Ticks tick, EventKind kind, uint32_t number) {
             ParticleEvent event = eventOf(tick, store.index[row], context.step.solverIndex, kind);
             const float share = float(double(tick - from) / double(context.end - from)); // (4)
@@ -177,14 +195,10 @@ void EventWatch::see(const TileContext& context, const Tile& tile, const Particl
                 break;
             add(tick, EventKind::Age, k);
         }
-        if (touches && interest_.inColor())
-            contact.color = colorAt(def_, store, row, contact.tick);
-        contact.kind = EventKind::Collision;
-        if ((flags & tile_flag::Hit) != 0 && contact.tick < death && interest_.in(EventKind::Collision))
-            out.add(contact);
-        contact.kind = EventKind::Death;
+        if (killed && interest_.inColor())
+            kill.color = colorAt(def_, store, row, kill.tick);
         if (killed && interest_.in(EventKind::Death))
-            out.add(contact);
+            out.add(kill);
         else if (dies && !killed && interest_.in(EventKind::Death))
             add(death, EventKind::Death, 0);
     }

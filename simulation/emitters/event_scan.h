@@ -33,6 +33,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -65,10 +66,17 @@ public:
     uint32_t mostOfOne() const { return 3 + uint32_t(ages_.size()); }
     /// True when an event is what `rule` is about.
     bool answers(const EventRule& rule, const ParticleEvent& event) const;
+    /// True when some rule may be about a contact.
+    bool counts(const TileContact& contact) const
+    {
+        return contact.speed >= (contact.isLast ? leastLastSpeed_ : leastSpeed_);
+    }
 
 private:
     std::array<bool, 5> kinds_{};
     bool colors_ = false;
+    float leastSpeed_ = std::numeric_limits<float>::infinity(); ///< [m/s] of rules about contacts
+    float leastLastSpeed_ = leastSpeed_;
     std::vector<base::Ticks> ages_;
 };
 
@@ -110,14 +118,17 @@ private:
 class EventWatch final : public TileWatch
 {
 public:
-    EventWatch(const EmitterDef& def, const EventInterest& interest, EventRoom& room)
-        : def_(def), interest_(interest), room_(room)
+    EventWatch(const EmitterDef& def, const EventInterest& interest, const ParticleStore& store,
+               EventRoom& room)
+        : def_(def), interest_(interest), store_(store), room_(room)
     {}
+    void touch(const TileContext& context, const Tile& tile, uint32_t i, const TileContact& contact) override;
     void see(const TileContext& context, const Tile& tile, const ParticleStore& store) override;
 
 private:
     const EmitterDef& def_;
     const EventInterest& interest_;
+    const ParticleStore& store_;
     EventRoom& room_;
 };
 

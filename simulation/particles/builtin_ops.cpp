@@ -5,6 +5,8 @@
 #include "simulation/motion/ground_lanes.h"
 #include "simulation/particles/gpu_module_source.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <bit>
 #include <new>
@@ -129,6 +131,10 @@ public:
     void run(const TileContext& context, const void*, Tile& tile) const override
     {
         const GroundContact ground{context.step.groundHeight, restitution_, friction_};
+        if (context.listener)
+            for (uint32_t i = 0; i < tile.count; ++i)
+                if ((tile.flags[i] & (tile_flag::Empty | tile_flag::Stuck)) == 0)
+                    report(context, ground, tile, i);
         if (!context.step.collider) {
             bounceTile(ground, tile);
             return;
@@ -140,6 +146,34 @@ public:
     }
 
 private:
+    /// Tells of the first contact of a row that has flown freely.
+    void report(const TileContext& context, const GroundContact& ground, const Tile& tile, uint32_t i) const
+    {
+        const glm::vec3 from(tile.fromX[i], tile.fromY[i], tile.fromZ[i]);
+        const glm::vec3 to(tile.x[i], tile.y[i], tile.z[i]);
+        float share = 2.0f;
+        glm::vec3 normal(0.0f, 1.0f, 0.0f);
+        if (to.y < ground.height)
+            share = from.y > to.y ? std::clamp((from.y - ground.height) / (from.y - to.y), 0.0f, 1.0f) : 0.0f;
+        if (const Collider* const collider = context.step.collider) {
+            const Collider::Hit hit = collider->sweep(from, to);
+            if (hit.found && hit.share < share) {
+                share = hit.share;
+                normal = hit.normal;
+            }
+        }
+        if (share > 1.0f)
+            return;
+        const glm::vec3 begin(tile.fromVX[i], tile.fromVY[i], tile.fromVZ[i]);
+        const glm::vec3 velocity =
+            begin + share * (glm::vec3(tile.vx[i], tile.vy[i], tile.vz[i]) - begin); // (2) of ground-bounce
+        const float speed = std::max(-glm::dot(velocity, normal), 0.0f);
+        const glm::vec3 along = velocity + speed * normal;
+        context.listener->touch(context, tile, i,
+                                {share, speed, from + share * (to - from),
+                                 (1.0f - friction_) * along + restitution_ * speed * normal, false, 0});
+    }
+
     void bounceRow(const TileContext& context, const GroundContact& ground, Tile& tile, uint32_t i) const
     {
         const bool below = tile.y[i] < ground.height;

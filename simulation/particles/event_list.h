@@ -8,19 +8,28 @@
 ///   b        tick   local time at which the particle's part of the step begins
 ///   n        tick   length of that part
 ///   c        1      contact: share of that part, 0..1
-///   x0, x1   m      place at its begin and at its end; v1 velocity at its end
+///   v, a     m/s, m/s2  velocity just before a contact, and what the particle is accelerated by
+///   n        1      normal of the surface, towards the particle
+///   l        m      lift, as in contact-path
+///   u        m/s    least speed of a rule
 /// @derivation
 ///   A contact happens at the tick b + floor(c n), at most b + n - 1, so that it belongs to the step that saw
 ///   it                                                                                      (1)
-///   at the place x0 + c (x1 - x0), unless the particle ends there                           (2)
+///   Contacts begin, they do not last: one is an event where -v.n >= u. Who bounces meets a plane at
+///   w, e w, e^2 w ... for a first speed w, and does so floor(ln(u / w) / ln e) + 1 times, however time is
+///   cut. Who rests or slides falls by the lift at most, -v.n = sqrt(2 l |a.n|), in every step: a contact of
+///   one that was within 2 l of the surface when the step began and has gained more than half of its -v.n
+///   since is none, nor are slower ones of that step                                                  (2)
 ///   Events are answered in the order of (tick, cause, emitter, index of the particle, kind, number), which
 ///   no partition of the work and of time changes: what an earlier event of the same tick caused comes
 ///   before what the clock or the host did                                                   (3)
 /// @source    elementary
-/// @deviation (2) takes the way as straight
-/// @valid     0 <= c <= 1, n >= 1
+/// @deviation who slides along a curved surface of radius R at a speed w meets it at about w^2 t / R in each
+///            step t; one that is pressed against it at less than u raises no events
+/// @valid     0 <= c <= 1, n >= 1; (2) where a step t has few bounces at u: 12 e u / |a| > t
 /// @accuracy  one tick, 1.4 ns
-/// @tests     tests/simulation/particles/modules/test_event_list.cpp
+/// @tests     tests/simulation/particles/modules/test_event_list.cpp,
+///            tests/simulation/particles/events/test_contact_events.cpp
 #pragma once
 
 #include "foundation/time/ticks.h"
@@ -55,7 +64,9 @@ struct ParticleEvent
     glm::vec3 velocity;     ///< [m/s]
     glm::vec3 color{1.0f};  ///< [1] linear Rec. 709, where a rule asks for it
     bool scheduled = false; ///< the clock or the host is its cause, not what a particle went through
-    uint32_t number = 0;    ///< which of the emitter's ages, with EventKind::Age
+    uint32_t number = 0; ///< which of the emitter's ages, with EventKind::Age; as TileContact with Collision
+    float speed = 0.0f;  ///< [m/s] with Collision: see TileContact
+    bool isLast = false; ///< likewise
 };
 
 /// (3)

@@ -1,5 +1,5 @@
 /// @file event_record.h
-/// Finds the events of a tile that has been stepped.
+/// Events of a row of a tile that is being stepped.
 #pragma once
 
 #include "simulation/particles/event_list.h"
@@ -7,39 +7,39 @@
 
 namespace fx::sim {
 
-/// The contact of row `i`, which is Hit or Killed; without its kind.
-inline ParticleEvent contactOf(const TileContext& context, const Tile& tile, uint32_t i)
+/// What happens to row `i` at a share of its part of the step; without its place and its velocity.
+inline ParticleEvent eventAt(const TileContext& context, const Tile& tile, uint32_t i, float share,
+                             EventKind kind)
 {
     const base::Ticks ticks =
         std::clamp(base::toTicks(double(tile.seconds[i])), base::Ticks(1), context.step.stepTicks);
-    ParticleEvent event;
-    event.tick = contactTick(context.end - ticks, ticks, tile.contact[i]);
+    ParticleEvent event{};
+    event.tick = contactTick(context.end - ticks, ticks, share);
     event.index = uint64_t(tile.indexHigh[i]) << 32 | tile.indexLow[i];
     event.emitter = context.step.solverIndex;
-    const glm::vec3 from(tile.fromX[i], tile.fromY[i], tile.fromZ[i]);
-    const glm::vec3 to(tile.x[i], tile.y[i], tile.z[i]);
-    const bool endsThere = (tile.flags[i] & (tile_flag::Killed | tile_flag::Stuck)) != 0;
-    event.position = endsThere ? to : from + tile.contact[i] * (to - from);
-    event.velocity = {tile.vx[i], tile.vy[i], tile.vz[i]};
+    event.kind = kind;
     return event;
 }
 
-/// Adds the contacts and the deaths by modules of a tile: rows that are Hit and rows that are Killed, after
-/// the phase Contact and before the tile is stored.
-inline void recordContacts(const TileContext& context, const Tile& tile, EventList& out)
+inline ParticleEvent collisionOf(const TileContext& context, const Tile& tile, uint32_t i,
+                                 const TileContact& contact)
 {
-    for (uint32_t i = 0; i < tile.count; ++i) {
-        const uint32_t flags = tile.flags[i];
-        if ((flags & (tile_flag::Hit | tile_flag::Killed)) == 0 || (flags & tile_flag::Empty) != 0)
-            continue;
-        ParticleEvent event = contactOf(context, tile, i);
-        for (const auto& [bit, kind] : {std::pair(uint32_t(tile_flag::Hit), EventKind::Collision),
-                                        std::pair(uint32_t(tile_flag::Killed), EventKind::Death)})
-            if ((flags & bit) != 0) {
-                event.kind = kind;
-                out.add(event);
-            }
-    }
+    ParticleEvent event = eventAt(context, tile, i, contact.share, EventKind::Collision);
+    event.position = contact.position;
+    event.velocity = contact.velocity;
+    event.speed = contact.speed;
+    event.isLast = contact.isLast;
+    event.number = contact.number;
+    return event;
+}
+
+/// The death of row `i`, which is Killed.
+inline ParticleEvent killOf(const TileContext& context, const Tile& tile, uint32_t i)
+{
+    ParticleEvent event = eventAt(context, tile, i, tile.contact[i], EventKind::Death);
+    event.position = {tile.x[i], tile.y[i], tile.z[i]};
+    event.velocity = {tile.vx[i], tile.vy[i], tile.vz[i]};
+    return event;
 }
 
 } // namespace fx::sim

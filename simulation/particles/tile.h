@@ -72,14 +72,37 @@ struct alignas(64) Tile
     uint32_t firstRow;         ///< of the store
 };
 
+/// One contact of a row in its part of the step.
+struct TileContact
+{
+    float share;        ///< [1] 0..1 of the row's part of the step
+    float speed;        ///< [m/s] >= 0 against the surface, along its normal, just before
+    glm::vec3 position; ///< [m]
+    glm::vec3 velocity; ///< [m/s] just after; of who is killed, just before
+    bool isLast;        ///< the row is killed or sticks
+    uint32_t number;    ///< contacts of the row in this step before this one, at least
+};
+
+struct TileContext;
+
+/// Hears of every contact that begins. Called by several threads at once, for different tiles.
+class ContactListener
+{
+public:
+    virtual ~ContactListener() = default;
+    virtual void touch(const TileContext& context, const Tile& tile, uint32_t row,
+                       const TileContact& contact) = 0;
+};
+
 /// What all tiles of a step have in common.
 struct TileContext
 {
     const StepContext& step;
-    base::Ticks end; ///< local time at which the step ends
-    glm::vec3 wind;  ///< [m/s] effect's, host's and emitter's
-    double begin;    ///< [s] local time at which the step begins
-    float seconds;   ///< [s] its length
+    base::Ticks end;                     ///< local time at which the step ends
+    glm::vec3 wind;                      ///< [m/s] effect's, host's and emitter's
+    double begin;                        ///< [s] local time at which the step begins
+    float seconds;                       ///< [s] its length
+    ContactListener* listener = nullptr; ///< null: nobody asks about contacts
 };
 
 /// When a module runs within the step of a tile.

@@ -16,11 +16,11 @@ struct PreparedOp
     const void* scratch;
 };
 
-/// Sees each tile after its modules have run and before it is stored. Called by several threads at once.
-class TileWatch
+/// Sees each tile after its modules have run and before it is stored, and contacts while they run. Called by
+/// several threads at once.
+class TileWatch : public ContactListener
 {
 public:
-    virtual ~TileWatch() = default;
     virtual void see(const TileContext& context, const Tile& tile, const ParticleStore& store) = 0;
 };
 
@@ -36,7 +36,11 @@ public:
 
     /// Steps only particles whose index is at least `first`.
     void onlyFrom(uint64_t first) { first_ = first; }
-    void watchBy(TileWatch* watch) { watch_ = watch; }
+    void watchBy(TileWatch* watch)
+    {
+        watch_ = watch;
+        context_.listener = watch;
+    }
 
 private:
     void load(const ParticleStore& store, uint32_t row, Tile& tile) const;

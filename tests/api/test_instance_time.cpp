@@ -1,5 +1,6 @@
 #include "tests/api/api_fixture.h"
 
+#include <algorithm>
 #include <limits>
 
 using namespace fx::test;
@@ -24,6 +25,40 @@ protected:
         return particles;
     }
 };
+
+/// What views get to see: living particles of the newest step, their greatest age, and groups of the step
+/// before.
+struct Shown
+{
+    uint32_t particles = 0;
+    float oldest = 0; ///< [s]
+    uint32_t groupsBefore = 0;
+};
+
+Shown shownOf(FxScene* scene)
+{
+    Shown shown;
+    FxSnapshotId snapshot{};
+    EXPECT_EQ(fxScene_AcquireSnapshot(scene, &snapshot), FX_OK);
+    FxSnapshotInfo info{};
+    info.structSize = sizeof info;
+    EXPECT_EQ(fxScene_GetSnapshotInfo(scene, snapshot, &info), FX_OK);
+    shown.groupsBefore = info.groupsOlder;
+    for (uint32_t g = 0; g < info.groupsNewer; ++g) {
+        FxSnapshotColumn age{}, radius{};
+        age.structSize = radius.structSize = sizeof age;
+        EXPECT_EQ(fxScene_FindSnapshotColumn(scene, snapshot, FX_SNAPSHOT_NEWER, g, "age", &age), FX_OK);
+        EXPECT_EQ(fxScene_FindSnapshotColumn(scene, snapshot, FX_SNAPSHOT_NEWER, g, "radius", &radius),
+                  FX_OK);
+        for (uint32_t i = 0; i < age.count; ++i)
+            if (radius.values[i] > 0) {
+                ++shown.particles;
+                shown.oldest = std::max(shown.oldest, age.values[i]);
+            }
+    }
+    fxScene_ReleaseSnapshot(scene, snapshot);
+    return shown;
+}
 
 const std::string kBell = R"({"version":1,"emitters":[
     {"name":"bell","emission":{},"position":[0,1,0],"events":[{"on":"host","name":"ring","emit":"waves","count":5}]},
@@ -96,6 +131,56 @@ TEST_F(InstanceTimeApi, aJumpInTimeIsTheEndOfAMove)
     for (uint32_t i = 0; i < y.count; ++i) // particles keep to where it began: at the end of the way
         EXPECT_EQ(y.values[i], 0.0f);
     fxScene_ReleaseSnapshot(scene_, snapshot);
+}
+
+TEST_F(InstanceTimeApi, aSceneThatStandsStillShowsTheTimeThatWasSought)
+{
+    const FxInstanceId id = addFountain();
+    play(60);
+    for (const double seconds : {0.75, 0.25, 0.5}) { // as an editor does
+        const uint64_t before = hash();
+        ASSERT_EQ(fxScene_SeekInstance(scene_, id, seconds), FX_OK);
+        ASSERT_EQ(fxScene_Update(scene_, 0.0), FX_OK);
+        const Shown shown = shownOf(scene_);
+        EXPECT_EQ(shown.particles, uint32_t(60.0 * seconds)) << seconds;
+        EXPECT_NEAR(double(shown.oldest), seconds, 1.0 / 60.0) << seconds;
+        EXPECT_LE(double(shown.oldest), seconds + 1e-5) << seconds;
+        EXPECT_EQ(shown.groupsBefore, 0u) << "nothing to mix it with";
+        EXPECT_NE(hash(), before);
+    }
+    play(1); // from there on
+    const Shown next = shownOf(scene_);
+    EXPECT_EQ(next.particles, 31u);
+    EXPECT_EQ(next.groupsBefore, 1u);
+}
+
+TEST_F(InstanceTimeApi, theHashHeedsASeekAtOnce)
+{
+    const FxInstanceId id = addFountain();
+    play(30);
+    const uint64_t want = hash();
+    ASSERT_EQ(fxScene_SeekInstance(scene_, id, 0.25), FX_OK);
+    EXPECT_NE(hash(), want);
+    ASSERT_EQ(fxScene_SeekInstance(scene_, id, 0.5), FX_OK);
+    EXPECT_EQ(hash(), want);
+}
+
+TEST_F(InstanceTimeApi, whoRestsIsShownWhereItIsSought)
+{
+    const FxInstanceId id =
+        add(R"({"version": 1, "emitters": [{"emission": {"bursts": [{"time": 0, "count": 7},
+        {"time": 20, "count": 3}]}, "lifetime": 0.5, "appearance": {"kind": "sprite"}}]})");
+    play(120);
+    FxInstanceState state{};
+    ASSERT_EQ(fxScene_GetInstanceState(scene_, id, &state, nullptr), FX_OK);
+    ASSERT_EQ(state, FX_INSTANCE_RESTING);
+    EXPECT_EQ(shownOf(scene_).particles, 0u);
+    ASSERT_EQ(fxScene_SeekInstance(scene_, id, 0.25), FX_OK);
+    ASSERT_EQ(fxScene_Update(scene_, 0.0), FX_OK);
+    EXPECT_EQ(shownOf(scene_).particles, 7u);
+    ASSERT_EQ(fxScene_SeekInstance(scene_, id, 10.0), FX_OK);
+    ASSERT_EQ(fxScene_Update(scene_, 0.0), FX_OK);
+    EXPECT_EQ(shownOf(scene_).particles, 0u);
 }
 
 TEST_F(InstanceTimeApi, speedScalesTime)

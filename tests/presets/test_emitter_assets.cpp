@@ -67,6 +67,28 @@ TEST(EmitterAssets, shapesFieldsAndObstaclesComeFromFilesBesideThePreset)
     }
 }
 
+TEST(EmitterAssets, aThinSlabThatIsMetFarFromItsSurfaceIsWarnedOf)
+{
+    const std::string slab = "v 0 0 0\nv 120 0 0\nv 120 0 120\nv 0 0 120\n"
+                             "v 0 0.1 0\nv 120 0.1 0\nv 120 0.1 120\nv 0 0.1 120\n"
+                             "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+    const auto warningsOf = [&](const std::string& mesh, float cellSize) {
+        const Json members{{"collisions", {{{"shape", "mesh"}, {"file", "m.obj"}, {"cellSize", cellSize}}}}};
+        const auto loaded = loadWith(members, {{"m.obj", mesh}});
+        std::string text;
+        if (!loaded.ok())
+            return loaded.status().message();
+        for (const preset::Diagnostic& warning : loaded->warnings)
+            text += preset::toString(warning);
+        return text;
+    };
+    const std::string text = warningsOf(slab, 0.0f);
+    EXPECT_NE(text.find("cells of 2.5 m"), std::string::npos) << text;
+    EXPECT_NE(text.find("cellSize"), std::string::npos) << text;
+    EXPECT_EQ(warningsOf(slab, 5.0f), "") << "as its author wants it";
+    EXPECT_EQ(warningsOf(kTriangle, 0.0f), "");
+}
+
 TEST(EmitterAssets, filesThatDoNotFitAreErrors)
 {
     const auto messageOf = [](const Json& members) {

@@ -56,6 +56,22 @@ TEST(EmitterEventsPreset, aCircleIsNamed)
     EXPECT_NE(text.find("b -> c -> b"), std::string::npos) << text;
 }
 
+TEST(EmitterEventsPreset, aContactHasALeastSpeed)
+{
+    const auto loaded = load(kSparks + R"(,{"name":"drop","emission":{"rate":1},"events":[
+        {"on":"collision","emit":"sparks"}, {"on":"collision","emit":"sparks","minSpeed":2}]})");
+    ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+    const auto& drop = dynamic_cast<const sim::EmitterDef&>(*loaded->effect->solvers[1]);
+    EXPECT_EQ(drop.events[0].minSpeed, 0.5f);
+    EXPECT_EQ(drop.events[0].minLastSpeed, 0.0f);
+    EXPECT_EQ(drop.events[1].minSpeed, 2.0f);
+    EXPECT_EQ(drop.events[1].minLastSpeed, 2.0f);
+    const std::string text = messageOf(
+        kSparks +
+        R"(,{"name":"a","emission":{"rate":1},"events":[{"on":"death","minSpeed":1,"emit":"sparks"}]})");
+    EXPECT_NE(text.find("only the event collision has one"), std::string::npos) << text;
+}
+
 TEST(EmitterEventsPreset, mistakesAreExplained)
 {
     const auto expect = [](const std::string& event, const std::string& message) {

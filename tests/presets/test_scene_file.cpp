@@ -21,7 +21,7 @@ constexpr const char* kScene = R"({
   "exposureEv100": 9,
   "lighting": {"sunDirection": [0, 3, 4], "sunIlluminance": [1, 2, 3], "skyLuminance": 7, "groundAlbedo": 0.5},
   "background": {"color": [1, 2, 3]},
-  "mesh": {"file": "m.obj", "position": [10, 0, 0], "scale": 2, "collide": true},
+  "mesh": {"file": "m.obj", "position": [10, 0, 0], "scale": 2, "collide": true, "cellSize": 0.25},
   "instances": [
     {"preset": "sparks.fx.json", "position": [100000.25, 1, 2], "rotationDegrees": [0, 90, 0], "scale": 2,
      "seed": 9007199254740991, "start": 1.5, "intensity": 3, "wind": [4, 5, 6]},
@@ -103,6 +103,7 @@ TEST(SceneFile, placesTheMesh)
     const SceneFile scene = load(kScene);
     ASSERT_EQ(scene.mesh.positions.size(), 3u);
     EXPECT_TRUE(scene.meshCollides);
+    EXPECT_EQ(scene.meshCellSize, 0.25f);
     EXPECT_FALSE(
         load(R"({"version": 1, "camera": {"position": [0, 0, 9]}, "mesh": {"file": "m.obj"}})").meshCollides);
     EXPECT_EQ(scene.mesh.positions[1], glm::vec3(12, 0, 0));

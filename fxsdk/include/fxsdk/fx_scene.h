@@ -294,7 +294,8 @@ FX_API FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance,
 
 /// Plays an instance at another speed from now on: its time is integer ticks, a 65536th of the scene's at a
 /// time, so that equal calls give equal bits. A speed that is a whole number takes the same steps as speed 1,
-/// several of them with each step of the scene; 0 lets the instance stand still. [scene thread]
+/// several of them with each step of the scene; 0 lets the instance stand still. No speed is negative: to
+/// play backwards, use speed 0 and fxScene_SeekInstance() before each frame. [scene thread]
 /// @param speed [1] 0..16, rounded to a multiple of 1/65536. Nothing happens to an instance that has ended
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (not finite or out of range), FX_ERROR_STALE_ID,
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (as fxScene_SetTransform)
@@ -303,8 +304,11 @@ FX_API FxResult fxScene_SetInstanceSpeed(FxScene* scene, FxInstanceId instance, 
 /// Takes an instance to a time of its own, forwards or backwards, as if it had been played to there from its
 /// beginning under the wind, intensity and place that it has now: bit for bit, when the time is a whole
 /// number of the scene's steps. Emitters whose motion has a closed form jump there; everything else takes
-/// the steps again, in this call. What fxScene_TriggerEvent told it is left out. Views see it with the next
-/// step. [scene thread]
+/// the steps again, in this call. What fxScene_TriggerEvent told it is left out. Views and snapshots see it
+/// after the next fxScene_Update(), also after one of 0 s: an editor that stands still seeks, updates by 0
+/// and renders. Until time goes on, the whole scene is then shown as it is at its last step. To play
+/// backwards, seek to an earlier time before each frame: where motion has no closed form, each seek takes all
+/// steps from the beginning. [scene thread]
 /// @param seconds [s] 0..86400 since its beginning, rounded to a tick
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (not finite, out of range, or the instance has not started or has
 ///         ended), FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
@@ -349,7 +353,8 @@ FX_API FxResult fxScene_SetContactHook(FxScene* scene, const FxContactHook* hook
 
 /// Adds time and takes the steps that are due, then publishes the last two of them for views and hosts.
 /// Allocates nothing once the scene is warm, except when an instance wakes. [scene thread]
-/// @param dtSeconds [s] >= 0; 0 changes nothing; more than maxFrameTicks is shortened to it and counted
+/// @param dtSeconds [s] >= 0; 0 takes no step, and shows what fxScene_SeekInstance() has changed; more than
+/// maxFrameTicks is shortened to it and counted
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (negative or not finite: counted, nothing advances),
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (time has advanced, and what
 ///         the allocator refused is missing from the picture until it gives again), FX_ERROR_HOST_ANSWER
@@ -363,12 +368,14 @@ FX_API FxResult fxScene_Update(FxScene* scene, double dtSeconds);
 /// FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_GetStatistics(FxScene* scene, FxSceneStatistics* ioStatistics);
 
-/// Hashes every particle of the last step, bit for bit: equal states give equal hashes on any machine and any
-/// number of threads. Reads all particles: for tests and replays, not for every frame. [scene thread]
-/// Particles of emitters whose preset asks for the GPU ("compute") are cosmetic and left out, wherever they
-/// are computed.
+/// Hashes every particle of the last step and the time at which it ended, bit for bit: equal states at equal
+/// times give equal hashes on any machine, any number of threads, and however the updates were cut, also when
+/// no particle is left. What fxScene_SeekInstance() has changed since is heeded. Reads all particles: for
+/// tests and replays, not for every frame. [scene thread] Particles of emitters whose preset asks for the GPU
+/// ("compute") are cosmetic and left out, wherever they are computed.
 /// @param outHash receives the hash; untouched on failure
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
+/// FX_ERROR_OUT_OF_MEMORY (after a seek)
 FX_API FxResult fxScene_GetStateHash(FxScene* scene, uint64_t* outHash);
 
 /// Hashes everything that decides what later steps give: instances with their parameters, and the whole state

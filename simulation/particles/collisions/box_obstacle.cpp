@@ -61,17 +61,23 @@ public:
     }
     Outline outline(const StepContext&) const override
     {
-        return {Outline::Ball, center_, glm::length(half_), isHollow_};
+        return {Outline::Ball, center_, outlineRadius(), isHollow_};
     }
 
     bool describe(base::GpuModules& out) const override
     {
         out.add(base::GpuModule::Box, {center_.x, center_.y, center_.z, axis_.x, axis_.y, axis_.z, half_.x,
-                                       half_.y, half_.z, isHollow_ ? 1.0f : 0.0f, glm::length(half_)});
+                                       half_.y, half_.z, isHollow_ ? 1.0f : 0.0f, outlineRadius()});
         return true;
     }
 
 private:
+    /// [m] of the ball around the box; of a hollow one, of the ball in it, in which nothing is near a wall.
+    float outlineRadius() const
+    {
+        return isHollow_ ? std::min(half_.x, std::min(half_.y, half_.z)) : glm::length(half_);
+    }
+
     static int largest(const glm::vec3& v)
     {
         return v.x >= v.y ? (v.x >= v.z ? 0 : 2) : (v.y >= v.z ? 1 : 2);

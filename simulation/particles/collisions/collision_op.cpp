@@ -125,7 +125,9 @@ private:
         free.position = {tile.x[i], tile.y[i], tile.z[i]};
         free.velocity = {tile.vx[i], tile.vy[i], tile.vz[i]};
         const glm::vec3 from(tile.fromX[i], tile.fromY[i], tile.fromZ[i]);
-        const ContactState end = followPath(entries_, context.step, from, free, tile.seconds[i]);
+        ContactList contacts;
+        const ContactState end = followPath(entries_, context.step, from, free, tile.seconds[i],
+                                            context.listener ? &contacts : nullptr);
         tile.x[i] = end.position.x;
         tile.y[i] = end.position.y;
         tile.z[i] = end.position.z;
@@ -134,7 +136,9 @@ private:
         tile.vz[i] = end.velocity.z;
         if (!end.isHit)
             return;
-        if ((tile.flags[i] & tile_flag::Hit) == 0)
+        for (uint32_t k = 0; k < contacts.count; ++k)
+            context.listener->touch(context, tile, i, contacts.contacts[k]);
+        if ((tile.flags[i] & tile_flag::Hit) == 0 || end.isKilled)
             tile.contact[i] = end.contact;
         tile.flags[i] |= tile_flag::Hit | tile_flag::Collided;
         if (end.isKilled)

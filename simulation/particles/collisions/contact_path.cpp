@@ -29,8 +29,8 @@ class Follower
 {
 public:
     Follower(std::span<const ObstacleEntry> obstacles, const StepContext& step, const glm::vec3& from,
-             const ContactState& state, float seconds)
-        : obstacles_(obstacles), step_(step), state_(state), total_(seconds)
+             const ContactState& state, float seconds, ContactList* list)
+        : obstacles_(obstacles), step_(step), state_(state), total_(seconds), list_(list)
     {
         const glm::vec3 mean = (state.position - from) / seconds;
         leg_ = {from, state.position, 2.0f * mean - state.velocity, {}, seconds};
@@ -45,7 +45,7 @@ public:
             const LegContact contact = firstContact(met);
             if (!met)
                 return finish();
-            touch(contact);
+            state_.isHit = true;
             if (answer(*met, contact, contacts))
                 return state_;
         }
@@ -68,12 +68,26 @@ private:
         return first;
     }
 
-    void touch(const LegContact& contact)
+    /// [1] of the step
+    float shareAt(const LegContact& contact) const
     {
         const float spent = total_ - leg_.seconds + contact.share * leg_.seconds;
-        if (!state_.isHit)
-            state_.contact = std::clamp(spent / total_, 0.0f, 1.0f);
-        state_.isHit = true;
+        return std::clamp(spent / total_, 0.0f, 1.0f);
+    }
+
+    /// Whether a particle that meets a surface with `speed` has rested on it or slid along it until now.
+    bool hasRested(const LegContact& contact, float speed) const
+    {
+        const float lift = liftAt(contact.place);
+        const float before = std::abs(glm::dot(leg_.velocity, contact.normal));
+        return glm::dot(leg_.from - contact.place, contact.normal) <= 2.0f * lift &&
+               before < 0.5f * (speed + lift / total_); // of which places are rounded by a quarter at most
+    }
+
+    void report(const TileContact& contact)
+    {
+        if (list_ && contact.speed > restSpeed_ && list_->count < list_->contacts.size())
+            list_->contacts[list_->count++] = contact;
     }
 
     /// @return true when the way ends here
@@ -82,18 +96,32 @@ private:
         const float spent = contact.share * leg_.seconds;
         glm::vec3 velocity = leg_.velocity + spent * leg_.acceleration;
         const glm::vec3 place = contact.place + liftAt(contact.place) * contact.normal;
+        const float approach = glm::dot(velocity, contact.normal);
+        const float speed = std::max(-approach, 0.0f);
+        TileContact event{shareAt(contact), speed, place, velocity, false, uint32_t(contacts) + 1};
+        if (contacts == 0)
+            state_.contact = event.share;
         if (met.response != ContactResponse::Bounce) {
             state_.isKilled = met.response == ContactResponse::Kill;
             state_.isStuck = met.response == ContactResponse::Stick;
             stop(contact.place);
-            if (state_.isKilled)
+            if (state_.isKilled) {
                 state_.velocity = velocity;
+                state_.contact = event.share;
+            }
+            event.position = contact.place;
+            event.velocity = state_.velocity;
+            event.isLast = true;
+            report(event);
             return true;
         }
-        const float approach = glm::dot(velocity, contact.normal);
+        if (contacts == 0 && hasRested(contact, speed))
+            restSpeed_ = speed;
         if (approach < 0.0f)
             velocity = (1.0f - met.friction) * (velocity - approach * contact.normal) -
                        met.restitution * approach * contact.normal; // (2)
+        event.velocity = velocity;
+        report(event);
         leg_.seconds -= spent;
         const float sinking = -glm::dot(leg_.acceleration, contact.normal) * leg_.seconds;
         const float leaving = glm::dot(velocity, contact.normal);
@@ -156,14 +184,16 @@ private:
     ContactState state_;
     ContactLeg leg_{};
     float total_;
+    ContactList* list_;
+    float restSpeed_ = -1.0f; ///< [m/s] contacts that are not faster do not begin
 };
 
 } // namespace
 
 ContactState followPath(std::span<const ObstacleEntry> obstacles, const StepContext& step,
-                        const glm::vec3& from, const ContactState& state, float seconds)
+                        const glm::vec3& from, const ContactState& state, float seconds, ContactList* list)
 {
-    return Follower(obstacles, step, from, state, seconds).follow();
+    return Follower(obstacles, step, from, state, seconds, list).follow();
 }
 
 } // namespace fx::sim

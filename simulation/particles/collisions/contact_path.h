@@ -29,7 +29,9 @@
 #pragma once
 
 #include "simulation/particles/collisions/obstacles.h"
+#include "simulation/particles/tile.h"
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -53,15 +55,24 @@ struct ContactState
     bool isHit = false;
     bool isKilled = false;
     bool isStuck = false;
-    float contact = 1.0f; ///< [1] of the step, of the first contact
+    float contact = 1.0f; ///< [1] of the step, of the first contact, or of the one that kills
 };
 
 constexpr int kMostContacts = 8;      ///< of one particle in one step
 constexpr size_t kMostObstacles = 16; ///< of one emitter
 
+/// Contacts of a step that begin; (2) of event-ticks says which do.
+struct ContactList
+{
+    std::array<TileContact, kMostContacts + 1> contacts;
+    uint32_t count = 0;
+};
+
 /// @param state free end of the step
 /// @param seconds length of the step, > 0
+/// @param list receives the contacts; null: nobody asks
 ContactState followPath(std::span<const ObstacleEntry> obstacles, const StepContext& step,
-                        const glm::vec3& from, const ContactState& state, float seconds);
+                        const glm::vec3& from, const ContactState& state, float seconds,
+                        ContactList* list = nullptr);
 
 } // namespace fx::sim

@@ -19,6 +19,20 @@ ParticleEvent eventOf(base::Ticks tick, uint32_t emitter, uint64_t index, EventK
     return {tick, index, emitter, kind, glm::vec3(0.0f), glm::vec3(0.0f)};
 }
 
+/// Makes events of all contacts.
+class Listener final : public ContactListener
+{
+public:
+    explicit Listener(EventList& out) : out_(out) {}
+    void touch(const TileContext& context, const Tile& tile, uint32_t i, const TileContact& contact) override
+    {
+        out_.add(collisionOf(context, tile, i, contact));
+    }
+
+private:
+    EventList& out_;
+};
+
 /// Ticks of the contacts of drops from different heights, when time is cut into steps of `step`.
 std::vector<base::Ticks> contacts(base::Ticks step)
 {
@@ -35,11 +49,12 @@ std::vector<base::Ticks> contacts(base::Ticks step)
     for (base::Ticks now = 0; now < kTicksPerSecond * 8 / 10; now += step) {
         std::array<ParticleEvent, 64> room;
         EventList list(room);
+        Listener listener(list);
+        stage.context.listener = &listener;
         stage.context.end = now + step;
         stage.begin(float(base::toSeconds(step)));
         stage.fly({0, -9.81f, 0});
         stage.run(*op);
-        recordContacts(stage.context, *stage.tile, list);
         list.sort();
         for (const ParticleEvent& event : list.events()) {
             EXPECT_GE(event.tick, now);
@@ -115,11 +130,16 @@ TEST(EventList, whatIsKilledHasACollisionAndADeathAtTheSurface)
     stage.context.end = 3 * kTicksPerSecond;
     stage.begin(1.0f);
     stage.fly();
-    stage.run(*makeCollisionOp(std::span(&ball, 1)));
     std::array<ParticleEvent, 4> room;
     EventList list(room);
-    recordContacts(stage.context, *stage.tile, list);
+    Listener listener(list);
+    stage.context.listener = &listener;
+    stage.run(*makeCollisionOp(std::span(&ball, 1)));
+    ASSERT_NE(stage.tile->flags[0] & tile_flag::Killed, 0u);
+    list.add(killOf(stage.context, *stage.tile, 0));
     ASSERT_EQ(list.events().size(), 2u);
+    EXPECT_TRUE(list.events()[0].isLast);
+    EXPECT_NEAR(list.events()[0].speed, 10.0f, 1e-4f);
     for (const ParticleEvent& event : list.events()) {
         EXPECT_NEAR(base::toSeconds(event.tick), 2.4, 1e-6);
         EXPECT_NEAR(event.position.x, -1.0f, 1e-5f);
