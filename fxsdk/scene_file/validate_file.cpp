@@ -1,9 +1,29 @@
 #include "fxsdk/scene_file/validate_file.h"
 
+#include "fxsdk/assets/read_file.h"
 #include "fxsdk/presets/preset_loader.h"
+#include "fxsdk/scene_file/preview.h"
 #include "fxsdk/scene_file/scene_file.h"
 
 namespace fx::preset {
+
+namespace {
+
+void validatePreset(const std::string& path, std::vector<Diagnostic>& diagnostics)
+{
+    if (!loadPresetFile(path, &diagnostics))
+        return;
+    const base::Result<std::string> text = asset::readFile(path, kPresetBytes);
+    if (!text)
+        return; // it was there a moment ago
+    const std::string folder = folderOf(path);
+    const asset::AssetResolver resolver(folder.empty() ? "." : folder, libraryFiles());
+    scene_file::SceneFile scene;
+    scene.instances.emplace_back();
+    static_cast<void>(scene_file::readPreview(*text, path, resolver, scene, &diagnostics));
+}
+
+} // namespace
 
 std::vector<Diagnostic> validateFile(const std::string& path)
 {
@@ -11,7 +31,7 @@ std::vector<Diagnostic> validateFile(const std::string& path)
     if (path.ends_with(".scene.json"))
         static_cast<void>(scene_file::loadSceneFile(path, &diagnostics));
     else if (path.ends_with(".fx.json"))
-        static_cast<void>(loadPresetFile(path, &diagnostics));
+        validatePreset(path, diagnostics);
     else
         diagnostics.push_back(
             {path, 0, 0, "", "not a name that is known here: presets end in .fx.json, scenes in .scene.json",
