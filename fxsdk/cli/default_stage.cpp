@@ -116,7 +116,7 @@ void lookAt(scene_file::CameraPath& camera, const Extent& extent)
 
 } // namespace
 
-base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input)
+base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input, scene_file::Preview* outPreview)
 {
     const bool fromLibrary = input.rfind("library:", 0) == 0;
     auto text = fromLibrary
@@ -130,11 +130,19 @@ base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input)
     scene_file::SceneFile scene;
     scene.name = input;
     scene.warnings = loaded->warnings;
-    scene.presets.push_back({input, std::move(*text), fromLibrary ? std::string() : input, loaded->effect});
+    scene.presets.push_back({input, *text, fromLibrary ? std::string() : input, loaded->effect});
     scene.instances.emplace_back();
     if (!scene.presets[0].effect->hasGround)
         scene.instances[0].position.y = kAboveGround;
     addDefaultStage(scene);
+    const std::string folder = fromLibrary ? std::string() : preset::folderOf(input);
+    const asset::AssetResolver resolver(folder.empty() && !fromLibrary ? "." : folder,
+                                        preset::libraryFiles());
+    const auto preview = scene_file::readPreview(*text, input, resolver, scene, &scene.warnings);
+    if (!preview.ok())
+        return preview.status();
+    if (outPreview)
+        *outPreview = *preview;
     return scene;
 }
 

@@ -186,6 +186,22 @@ base::Status EffectScene::addInstances(const scene_file::SceneFile& file, const 
         FxInstanceId id = {};
         if (base::Status status = toStatus(fxScene_CreateInstance(scene_, &def, &id)); !status)
             return status;
+        if (!instance.keys.empty())
+            moving_.push_back({id, instance});
+    }
+    return {};
+}
+
+base::Status EffectScene::moveTo(base::Ticks tick)
+{
+    for (const auto& [id, instance] : moving_) {
+        const glm::dvec3 place = instance.positionAt(base::toSeconds(tick));
+        const double position[3] = {place.x, place.y, place.z};
+        const glm::quat& turn = instance.rotation;
+        const float rotation[4] = {turn.x, turn.y, turn.z, turn.w};
+        const FxResult result = fxScene_SetTransform(scene_, id, position, rotation, instance.scale);
+        if (result != FX_OK && result != FX_ERROR_STALE_ID) // it may have ended
+            return toStatus(result);
     }
     return {};
 }
@@ -197,6 +213,8 @@ base::Status EffectScene::showMoment(base::Ticks tick)
         if (interruptRequested())
             return interruptedStatus();
         const base::Ticks part = std::min(step_, end - now_);
+        if (base::Status status = moveTo(now_ + part); !status)
+            return status;
         if (base::Status status = toStatus(fxScene_Update(scene_, base::toSeconds(part))); !status)
             return status;
         now_ += part;

@@ -14,6 +14,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace fx::cli {
@@ -67,12 +68,15 @@ private:
     EffectScene();
     base::Status start(const scene_file::SceneFile& file, const EffectSceneOptions& options);
     base::Status addCollisionMesh(const scene_file::SceneFile& file);
+    /// Puts the instances that have a way where they are at `tick`.
+    base::Status moveTo(base::Ticks tick);
     base::Status addInstances(const scene_file::SceneFile& file, const EffectSceneOptions& options);
 
     FxContext* context_ = nullptr;
     FxScene* scene_ = nullptr;
     base::Ticks step_ = 0;
     base::Ticks now_ = 0;
+    std::vector<std::pair<FxInstanceId, scene_file::SceneInstance>> moving_;
     base::SnapshotSchema schema_;
     std::unique_ptr<base::FrameSnapshot> copy_;  ///< of the last step
     std::unique_ptr<base::FrameSnapshot> older_; ///< of the step before

@@ -27,21 +27,27 @@ bool endsWith(const std::string& text, const std::string& end)
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, const RenderPlan& plan)
+/// @param io a still of a preset without --time gets the time of the preset's preview
+base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, RenderPlan& io)
 {
     if (endsWith(arguments.input, ".scene.json"))
         return scene_file::loadSceneFile(arguments.input);
     if (!endsWith(arguments.input, ".fx.json") && arguments.input.rfind("library:", 0) != 0)
         return base::Status(base::Code::InvalidArgument,
                             arguments.input + ": expected *.scene.json, *.fx.json or library:NAME");
-    auto scene = sceneOfPreset(arguments.input);
+    scene_file::Preview preview;
+    auto scene = sceneOfPreset(arguments.input, &preview);
     if (!scene.ok())
+        return scene;
+    if (io.output.isStill() && !arguments.time && preview.time)
+        io.frames[0].tick = base::toTicks(*preview.time);
+    if (preview.hasCamera)
         return scene;
     EffectSceneOptions options;
     options.seed = arguments.seed;
-    options.stepsPerSecond = plan.stepsPerSecond;
-    options.quality = plan.simulationQuality;
-    if (base::Status status = frameEffect(*scene, plan.frames.back().tick, options); !status)
+    options.stepsPerSecond = io.stepsPerSecond;
+    options.quality = io.simulationQuality;
+    if (base::Status status = frameEffect(*scene, io.frames.back().tick, options); !status)
         return status;
     return scene;
 }
@@ -130,7 +136,7 @@ int failed(const base::Status& status)
 
 int runRender(const RenderArguments& arguments)
 {
-    const auto plan = planRender(arguments);
+    auto plan = planRender(arguments);
     if (!plan.ok()) {
         failed(plan.status());
         return kUsage;

@@ -9,8 +9,9 @@
 namespace fx::cli {
 namespace {
 
-constexpr int kMaxSize = 16384;     // [pixel]
-constexpr double kMaxTime = 3600.0; // [s]
+constexpr int kMaxSize = 16384;      // [pixel]
+constexpr double kMaxTime = 3600.0;  // [s]
+constexpr double kDefaultTime = 0.5; // [s]
 constexpr int64_t kMaxFrames = 1'000'000;
 
 base::Status usage(const std::string& message)
@@ -38,7 +39,7 @@ base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
     if (plan.output.isStill()) {
         if (!arguments.frames.empty())
             return usage("--frames needs a sequence (-o name.%04d.png) or a video (-o name.mp4)");
-        plan.frames.push_back({0, base::toTicks(arguments.time)});
+        plan.frames.push_back({0, base::toTicks(arguments.time.value_or(kDefaultTime))});
         return {};
     }
     std::pair<long, long> range{0, std::lround(2.0 * arguments.framesPerSecond) - 1};
@@ -72,9 +73,10 @@ void addOutputOptions(CLI::App& command, RenderArguments& arguments)
         ->required();
     command.add_option("--size", arguments.size, "Picture size in pixels, WIDTHxHEIGHT")
         ->capture_default_str();
-    command.add_option("--time", arguments.time, "Scene time of a still [s]")
-        ->check(CLI::Range(0.0, kMaxTime))
-        ->capture_default_str();
+    command
+        .add_option("--time", arguments.time,
+                    "Scene time of a still [s] (default: of the preset's preview, or 0.5)")
+        ->check(CLI::Range(0.0, kMaxTime));
     command.add_option("--frames", arguments.frames,
                        "Frames of a sequence or video, FIRST:LAST, both included "
                        "(default: 2 seconds)");
@@ -171,7 +173,7 @@ base::Result<RenderPlan> planRender(const RenderArguments& arguments)
     plan.width = int(size->first);
     plan.height = int(size->second);
     // CLI11's ranges let NaN through.
-    if (!std::isfinite(arguments.time) || !std::isfinite(arguments.framesPerSecond) ||
+    if (!std::isfinite(arguments.time.value_or(kDefaultTime)) || !std::isfinite(arguments.framesPerSecond) ||
         !std::isfinite(arguments.exposureEv100.value_or(0.0f)))
         return usage("--time, --fps and --exposure must be numbers");
     plan.framesPerSecond = arguments.framesPerSecond;

@@ -31,8 +31,8 @@ struct RenderArguments
     std::string form; ///< empty: what quality says
     std::string renderer = "gl";
     std::string statistics; ///< file, empty for none
-    double time = 0.5;      ///< [s]
     double framesPerSecond = 30.0;
+    std::optional<double> time; ///< [s] none: the preset's preview's, or half a second
     std::optional<uint64_t> seed;
     std::optional<float> exposureEv100;
     std::string layerScale = "1";

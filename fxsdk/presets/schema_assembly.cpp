@@ -85,11 +85,26 @@ void expand(Schema& schema)
     schema["x-number"] = number;
 }
 
+/// A preview has the parts of a scene that show one effect; the effect itself is known.
+void addPreview(Schema& preset)
+{
+    const Schema scene = textNamed("scene.schema.json");
+    Schema& preview = preset["properties"]["preview"]["properties"];
+    for (const char* part : {"camera", "exposureEv100", "lighting", "background", "mesh"})
+        preview[part] = scene["properties"][part];
+    Schema instance = scene["properties"]["instances"]["items"];
+    instance["description"] = "Where the effect is, and when it begins.";
+    instance.erase("required");
+    instance["properties"].erase("preset");
+    preview["instance"] = std::move(instance);
+}
+
 } // namespace
 
 nlohmann::ordered_json presetSchema()
 {
     Schema schema = textNamed("effect.schema.json");
+    addPreview(schema);
     for (const Technique& technique : techniques()) {
         if (technique.presetMember.empty())
             continue;

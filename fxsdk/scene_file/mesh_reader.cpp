@@ -164,7 +164,8 @@ base::Result<render::StageMesh> readMesh(const std::string& name, const asset::A
     if (base::Status status = checkFaces(name, *text); !status)
         return status;
     ParsedObject object;
-    ResolvedMaterials materials(resolver, name.substr(0, name.rfind('/') + 1));
+    ResolvedMaterials materials(resolver, name.starts_with("library:") ? "library:"
+                                                                       : name.substr(0, name.rfind('/') + 1));
     std::istringstream stream(*text);
     std::string error;
     if (!tinyobj::LoadObj(&object.attributes, &object.shapes, &object.materials, &outWarning, &error, &stream,

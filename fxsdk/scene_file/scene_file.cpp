@@ -5,9 +5,8 @@
 #include "fxsdk/presets/migration.h"
 #include "fxsdk/presets/schema_assembly.h"
 #include "fxsdk/presets/schema_validator.h"
-#include "fxsdk/scene_file/mesh_reader.h"
 #include "fxsdk/scene_file/scene_settings.h"
-#include "rendering/image/image.h"
+#include "fxsdk/scene_file/scene_stage.h"
 
 #include <array>
 #include <filesystem>
@@ -30,11 +29,6 @@ struct Reader
     std::map<std::string, size_t> presetIndices; ///< by name
     std::map<std::string, std::string> failures; ///< presets that cannot be used, with the reason
 };
-
-void reportAsset(const PresetValue& value, const char* member, const base::Status& status, Findings& findings)
-{
-    findings.error(value.pointer() + "/" + member, status.message(), status.code());
-}
 
 /// Says so where an emitter asks for the scene's geometry and the scene has none. The preset is valid.
 void adviseGeometry(Reader& reader, const PresetValue& instance, const std::string& name,
@@ -100,67 +94,6 @@ void readInstances(Reader& reader, const PresetValue& root)
     }
 }
 
-void readSceneMesh(Reader& reader, const PresetValue& value)
-{
-    std::string name;
-    value.read("file", name);
-    if (name.empty())
-        return;
-    std::string warning;
-    base::Result<render::StageMesh> mesh = readMesh(name, reader.resolver, warning);
-    if (!warning.empty())
-        value.warning("file", warning);
-    if (!mesh)
-        return reportAsset(value, "file", mesh.status(), reader.findings);
-    glm::vec3 position(0.0f);
-    float scale = 1.0f;
-    value.read("position", position);
-    value.read("scale", scale);
-    value.read("collide", reader.scene.meshCollides);
-    value.read("cellSize", reader.scene.meshCellSize);
-    if (value.has("cellSize") && !reader.scene.meshCollides)
-        value.warning("cellSize", "found a size of cells, but effects do not collide with the mesh; add "
-                                  "\"collide\": true");
-    for (glm::vec3& vertex : mesh->positions)
-        vertex = position + scale * vertex;
-    reader.scene.mesh = std::move(*mesh);
-}
-
-base::Result<image::Image> decodeImage(const std::string& name, const std::string& bytes)
-{
-    const auto data = std::as_bytes(std::span<const char>(bytes.data(), bytes.size()));
-    return name.ends_with(".hdr") ? image::readHdr(data) : image::readPng(data);
-}
-
-void readBackground(Reader& reader, const PresetValue& value)
-{
-    render::StageBackground& background = reader.scene.background;
-    value.read("color", background.luminance);
-    background.horizon = background.luminance;
-    value.read("horizon", background.horizon);
-    value.read("panorama", background.panorama);
-    float luminance = 1000.0f;
-    value.read("luminance", luminance);
-    std::string name;
-    value.read("image", name);
-    if (name.empty())
-        return;
-    const base::Result<std::string> bytes = reader.resolver.read(name, kImageBytes);
-    if (!bytes)
-        return reportAsset(value, "image", bytes.status(), reader.findings);
-    const base::Result<image::Image> picture = decodeImage(name, *bytes);
-    if (!picture)
-        return reportAsset(value, "image", picture.status(), reader.findings);
-    background.width = picture->width;
-    background.height = picture->height;
-    background.image.reserve(size_t(picture->width) * size_t(picture->height));
-    for (int y = 0; y < picture->height; ++y)
-        for (int x = 0; x < picture->width; ++x) {
-            const float* rgb = picture->at(x, y);
-            background.image.push_back(luminance * glm::vec3(rgb[0], rgb[1], rgb[2]));
-        }
-}
-
 /// Fills `scene`; false when `findings` has errors.
 bool readScene(std::string_view text, const asset::AssetResolver& resolver, Findings& findings,
                SceneFile& scene)
@@ -179,8 +112,8 @@ bool readScene(std::string_view text, const asset::AssetResolver& resolver, Find
     root.read("name", scene.name);
     scene.camera = readCamera(root.child("camera"));
     scene.view = readView(root);
-    readBackground(reader, root.child("background"));
-    readSceneMesh(reader, root.child("mesh"));
+    readBackground(root.child("background"), resolver, findings, scene);
+    readSceneMesh(root.child("mesh"), resolver, findings, scene);
     readInstances(reader, root);
     return !findings.hasErrors();
 }

@@ -21,6 +21,12 @@
 
 namespace fx::scene_file {
 
+struct InstanceKey
+{
+    double time = 0;          ///< [s] scene time
+    glm::dvec3 position{0.0}; ///< [m] world
+};
+
 /// One effect in the scene.
 struct SceneInstance
 {
@@ -31,6 +37,10 @@ struct SceneInstance
     double start = 0.0;                         ///< [s] scene time, >= 0
     uint64_t seed = 1;
     sim::InstanceParameters parameters;
+    std::vector<InstanceKey> keys; ///< its way, in rising times; empty: it stays at the position
+
+    /// [m] where it is at scene time `time` [s]; smooth through the keys as a camera's way.
+    glm::dvec3 positionAt(double time) const;
 };
 
 /// A preset that instances use. Tools that go through the C API load it again by its text.

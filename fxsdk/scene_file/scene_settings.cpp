@@ -143,7 +143,27 @@ SceneInstance readInstance(const PresetValue& value)
     value.read("start", instance.start);
     value.read("intensity", instance.parameters.intensity);
     value.read("wind", instance.parameters.wind);
+    for (size_t i = 0; i < value.size("keys"); ++i) {
+        const PresetValue element = value.element("keys", i);
+        InstanceKey key;
+        element.read("time", key.time);
+        element.read("position", key.position);
+        if (i > 0 && key.time <= instance.keys.back().time)
+            element.error("time", "found a time that is not later than that of the key before");
+        instance.keys.push_back(key);
+    }
+    instance.position = instance.positionAt(0.0);
     return instance;
+}
+
+glm::dvec3 SceneInstance::positionAt(double time) const
+{
+    if (keys.empty())
+        return position;
+    CameraPath way;
+    for (const InstanceKey& key : keys)
+        way.keys.push_back({key.time, key.position, key.position});
+    return way.at(time).position;
 }
 
 } // namespace fx::scene_file

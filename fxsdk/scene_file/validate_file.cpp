@@ -1,9 +1,33 @@
 #include "fxsdk/scene_file/validate_file.h"
 
+#include "fxsdk/assets/read_file.h"
 #include "fxsdk/presets/preset_loader.h"
+#include "fxsdk/scene_file/preview.h"
 #include "fxsdk/scene_file/scene_file.h"
 
 namespace fx::preset {
+
+namespace {
+
+/// Bytes of an instance, 0 of a preset that cannot be loaded.
+uint64_t validatePreset(const std::string& path, std::vector<Diagnostic>& diagnostics)
+{
+    const auto loaded = loadPresetFile(path, &diagnostics);
+    if (!loaded)
+        return 0;
+    const uint64_t bytes = loaded->effect->bytes();
+    const base::Result<std::string> text = asset::readFile(path, kPresetBytes);
+    if (!text)
+        return bytes; // it was there a moment ago
+    const std::string folder = folderOf(path);
+    const asset::AssetResolver resolver(folder.empty() ? "." : folder, libraryFiles());
+    scene_file::SceneFile scene;
+    scene.instances.emplace_back();
+    static_cast<void>(scene_file::readPreview(*text, path, resolver, scene, &diagnostics));
+    return bytes;
+}
+
+} // namespace
 
 std::vector<Diagnostic> validateFile(const std::string& path, uint64_t* outBytes)
 {
@@ -11,10 +35,9 @@ std::vector<Diagnostic> validateFile(const std::string& path, uint64_t* outBytes
     uint64_t bytes = 0;
     if (path.ends_with(".scene.json"))
         static_cast<void>(scene_file::loadSceneFile(path, &diagnostics));
-    else if (path.ends_with(".fx.json")) {
-        if (const auto loaded = loadPresetFile(path, &diagnostics))
-            bytes = loaded->effect->bytes();
-    } else
+    else if (path.ends_with(".fx.json"))
+        bytes = validatePreset(path, diagnostics);
+    else
         diagnostics.push_back(
             {path, 0, 0, "", "not a name that is known here: presets end in .fx.json, scenes in .scene.json",
              false});

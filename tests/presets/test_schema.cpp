@@ -96,6 +96,8 @@ TEST_P(EachSchema, acceptsItsOwnDefaults)
     Json document{{"version", 1}};
     if (GetParam())
         document.update({{"camera", Json::object()}, {"mesh", {{"file", "m.obj"}}}});
+    else
+        document["preview"] = {{"mesh", {{"file", "m.obj"}}}};
     forEachMember(schema(), "", [&](const std::string& path, const Json& member) {
         if (member.contains("default") && path.find("/0") == std::string::npos)
             document[Json::json_pointer(path)] = member["default"];

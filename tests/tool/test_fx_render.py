@@ -67,6 +67,24 @@ class FxRender(FxTest):
             pictures.append((self.folder / "p.png").read_bytes())
         self.assertNotEqual(pictures[0], pictures[1])
 
+    def test_a_preset_is_shown_at_the_time_from_the_place_and_in_the_light_of_its_preview(self):
+        text = """{"version": 1, "emitters": [{"radius": 0.5, "forces": {"gravity": 0}, "lifetime": 0.4,
+            "emission": {"bursts": [{"time": 0.9, "count": 1}]}, "appearance": {"kind": "sprite", "lit": 0, "luminance": 5000}}]%s}"""
+        preset = self.folder / "p.fx.json"
+
+        def picture(preview, *arguments):
+            preset.write_text(text % preview)
+            self.assertEqual(fx("validate", preset).code, 0)
+            self.render("p.png", *arguments, scene=preset)
+            return (self.folder / "p.png").read_bytes()
+
+        camera = '"camera": {"position": [0, 1, 5], "target": [0, 1, 0]}'
+        at_one = picture(', "preview": {"time": 1, %s}' % camera)
+        self.assertEqual(at_one, picture(', "preview": {%s}' % camera, "--time", "1"))
+        self.assertNotEqual(at_one, picture(', "preview": {"time": 1, %s}' % camera, "--time", "0.5"))
+        self.assertNotEqual(at_one, picture(', "preview": {"time": 1, "exposureEv100": 10, %s}' % camera))
+        self.assertNotEqual(at_one, picture(', "preview": {"time": 1, "instance": {"position": [1, 1, 0]}, %s}' % camera))
+
     def test_a_still_is_one_png_of_the_size_asked_for(self):
         self.render("a.png")
         self.assertEqual(self.names(), ["a.png"])

@@ -1,0 +1,63 @@
+#include "fxsdk/scene_file/preview.h"
+
+#include "fxsdk/presets/json_parser.h"
+#include "fxsdk/presets/migration.h"
+#include "fxsdk/scene_file/scene_settings.h"
+#include "fxsdk/scene_file/scene_stage.h"
+
+namespace fx::scene_file {
+
+namespace {
+
+using preset::Findings;
+using preset::PresetValue;
+
+Preview readParts(const PresetValue& value, const asset::AssetResolver& resolver, Findings& findings,
+                  SceneFile& scene)
+{
+    Preview preview;
+    if (value.has("time"))
+        value.read("time", preview.time.emplace());
+    preview.hasCamera = value.has("camera");
+    if (preview.hasCamera)
+        scene.camera = readCamera(value.child("camera"));
+    const render::ViewSettings view = readView(value);
+    if (value.has("exposureEv100"))
+        scene.view.exposureEv100 = view.exposureEv100;
+    if (value.has("lighting"))
+        scene.view.lighting = view.lighting;
+    if (value.has("background"))
+        readBackground(value.child("background"), resolver, findings, scene);
+    readSceneMesh(value.child("mesh"), resolver, findings, scene);
+    if (value.has("instance")) {
+        const size_t index = scene.instances[0].preset;
+        scene.instances[0] = readInstance(value.child("instance"));
+        scene.instances[0].preset = index;
+    }
+    return preview;
+}
+
+} // namespace
+
+base::Result<Preview> readPreview(std::string_view text, const std::string& displayName,
+                                  const asset::AssetResolver& resolver, SceneFile& io,
+                                  std::vector<preset::Diagnostic>* outDiagnostics)
+{
+    Findings findings;
+    Preview preview;
+    std::optional<nlohmann::json> document = preset::parseJson(text, preset::kPresetLimits, findings);
+    if (document && preset::migrate(*document, preset::kPresetVersion, preset::presetMigrations(), findings))
+    {
+        const PresetValue root(&*document, "", findings);
+        if (root.has("preview"))
+            preview = readParts(root.child("preview"), resolver, findings, io);
+    }
+    const std::vector<preset::Diagnostic> found = findings.locate(text, displayName);
+    if (outDiagnostics)
+        outDiagnostics->insert(outDiagnostics->end(), found.begin(), found.end());
+    if (findings.hasErrors())
+        return base::Status(findings.firstCode(), preset::summary(found));
+    return preview;
+}
+
+} // namespace fx::scene_file
