@@ -39,12 +39,11 @@ float PooledRows::measureMoving(uint32_t row, const glm::vec3& at, float radius,
 {
     const glm::vec3 v(rows.start(velocityColumn)[row], rows.start(velocityColumn + 1)[row],
                       rows.start(velocityColumn + 2)[row]);
-    if (const float age = rows.start(ageColumn)[row]; age <= young) {
-        const glm::vec3 begin = at - v * age;
-        io.low = glm::min(io.low, begin);
-        io.high = glm::max(io.high, begin);
-    }
-    return radius + stretch * std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    const float back = std::min(rows.start(ageColumn)[row], secondsBack) + along;
+    const glm::vec3 head = at + v * along, tail = at - v * back;
+    io.low = glm::min(io.low, glm::min(head, tail));
+    io.high = glm::max(io.high, glm::max(head, tail));
+    return radius + across * std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
 }
 
 void SpreadGroups::prepare(const FrameSnapshot& snapshot)

@@ -132,8 +132,9 @@ struct PooledRows
     float corner = 1;          ///< [1] farthest corner of what is drawn, over the radius
     size_t ageColumn = 0;      ///< where rows move
     size_t velocityColumn = 0; ///< the first of three; 0: rows have none
-    float stretch = 0;         ///< [s] of the way of each row that it is longer to each side
-    float young = 0;           ///< [s] those no older are also drawn where they were born
+    float along = 0;           ///< [s] of its way by which a row is longer to each side, along the way
+    float across = 0;          ///< [s] the same of rows that lie anyhow, over `corner`
+    float secondsBack = 0;     ///< [s] rows are also drawn on their way since then
     uint64_t writer = 0;       ///< who wrote owners and places, 0: nobody
     uint64_t writtenUpTo = 0;  ///< how far, in the writer's own count
 

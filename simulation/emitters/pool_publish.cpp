@@ -15,14 +15,6 @@ constexpr uint32_t kChunk = 1024;               // rows that are handed to a thr
 constexpr uint32_t kMinChunks = 8;              // fewer cost less than another thread
 constexpr base::Ticks kEver = int64_t(1) << 60; // members have been moving for longer than anybody lives
 
-/// [s] of its way that a sprite is longer to each side, as in Looks.
-float halfStretch(const EmitterLook& look)
-{
-    return look.alignment == base::SpriteAlignment::Velocity && look.kind == Appearance::Sprite
-               ? 0.5f * look.stretch
-               : 0.0f;
-}
-
 uint32_t wholeLines(uint32_t rows)
 {
     return (rows + kTilePadding - 1) / kTilePadding * kTilePadding;
@@ -59,8 +51,9 @@ void EmitterPool::publish(base::KindId kind, base::TaskRunner& tasks, base::Fram
     out.ageColumn = base::particle_column::Age;
     const bool isMoving = (program_->published & base::particle_column::kVelocity) != 0;
     out.velocityColumn = isMoving ? size_t(base::particle_column::VelocityX) : 0;
-    out.stretch = halfStretch(program_->def.look);
-    out.young = kLongestStep;
+    out.along = program_->along;
+    out.across = program_->across;
+    out.secondsBack = kRoundedUp * snapshot.secondsBack();
     out.counts.assign(counts_.begin(), counts_.end());
     nameOwners(out);
     LookJob job{program_.get(), &store_, store_.window(), now_, now_ - kEver, pull_};

@@ -15,21 +15,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::particles::HWY_NAMESPACE {
 
-constexpr float kRoundedUp = 1.001f; ///< more than the rounding of times and of what is drawn
-
-/// [s] by so much times its speed a sprite is longer to each side.
-inline float stretchOf(const EmitterLook& look)
-{
-    const bool isLonger =
-        look.alignment == base::SpriteAlignment::Velocity && look.kind == Appearance::Sprite;
-    return isLonger ? 0.5f * kRoundedUp * look.stretch : 0.0f;
-}
-
-inline bool turns(const ParticleProgram& program)
-{
-    return (program.published & base::particle_column::kAngle) != 0;
-}
-
 /// Box and radius in lanes.
 struct BoundsLanes
 {
@@ -79,9 +64,7 @@ public:
           tint_{
               {*job.store, stored::TintRed}, {*job.store, stored::TintGreen}, {*job.store, stored::TintBlue}},
           frames_(float(look_.tileColumns * look_.tileRows)),
-          bright_(brightness_.rows || brightness_.constant != 1.0f),
-          along_(turns(*job.program) ? 0.0f : stretchOf(look_)),
-          across_(turns(*job.program) ? stretchOf(look_) / job.program->corner : 0.0f)
+          bright_(brightness_.rows || brightness_.constant != 1.0f)
     {}
 
     /// Goes on with another job of the same program.
@@ -238,9 +221,6 @@ private:
     Source tint_[3];
     float frames_;
     bool bright_;
-    // [s] by so much times their speed sprites are longer to each side:
-    float along_;  ///< those that lie along their velocity
-    float across_; ///< those that are turned; over the corner that all radii are multiplied by
 };
 
 template <bool kPlain, bool kStream, bool kFull>
@@ -295,14 +275,15 @@ HWY_INLINE void Looks::addMoving(Which alive, const MotionLanes& motion, Floats 
                                  BoundsLanes& bounds) const
 {
     const Floats* v = motion.velocity;
-    const Floats back = hn::Min(motion.age, all(kRoundedUp * job_->secondsBack)) + all(along_);
+    const Floats along = all(job_->program->along);
+    const Floats back = hn::Min(motion.age, all(kRoundedUp * job_->secondsBack)) + along;
     Floats head[3], tail[3];
     for (int a = 0; a < 3; ++a) {
-        head[a] = motion.position[a] + v[a] * all(along_);
+        head[a] = motion.position[a] + v[a] * along;
         tail[a] = motion.position[a] - v[a] * back;
     }
     const Floats speed = hn::Sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    bounds.add<false>(alive, head, hn::IfThenElseZero(alive, radius + all(across_) * speed));
+    bounds.add<false>(alive, head, hn::IfThenElseZero(alive, radius + all(job_->program->across) * speed));
     bounds.add<false>(alive, tail, hn::Zero(kFloats));
 }
 

@@ -78,6 +78,14 @@ bool isPlain(const ParticleProgram& program)
     return plain;
 }
 
+/// [s] by so much times its speed a sprite is longer to each side.
+float stretchOf(const EmitterLook& look)
+{
+    const bool isLonger =
+        look.alignment == base::SpriteAlignment::Velocity && look.kind == Appearance::Sprite;
+    return isLonger ? 0.5f * kRoundedUp * look.stretch : 0.0f;
+}
+
 /// Decides attribute by attribute whether it is the same for all.
 void chooseColumns(ParticleProgram& program)
 {
@@ -161,6 +169,8 @@ ParticleProgram::ParticleProgram(const EmitterDef& definition)
     for (const std::shared_ptr<const TileOp>& op : ops)
         keepsFlags = keepsFlags || op->keepsFlags();
     chooseColumns(*this);
+    const bool turns = (published & base::particle_column::kAngle) != 0;
+    (turns ? across : along) = stretchOf(def.look) / (turns ? corner : 1.0f);
     if (gpuObstacle(def).empty())
         gpu = makeGpuProgram(def);
 }

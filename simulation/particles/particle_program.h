@@ -59,6 +59,8 @@ enum : uint32_t
 };
 }
 
+constexpr float kRoundedUp = 1.001f; ///< more than the rounding of times and of what is drawn
+
 struct ParticleProgram
 {
     explicit ParticleProgram(const EmitterDef& definition);
@@ -78,6 +80,9 @@ struct ParticleProgram
     base::ColumnSet published = 0;       ///< columns of the kind "particle"
     RampCurves looks;                    ///< over life
     std::unique_ptr<RampCurves> bySpeed; ///< over speed, null when not used
+    // [s] by so much times their speed sprites are longer to each side, for bounds:
+    float along = 0;  ///< those that lie along their velocity
+    float across = 0; ///< those that are turned; over `corner`, which multiplies radii
     float
         corner; ///< [1] how far the farthest corner of what is drawn is from its center, over the half height
     bool plain; ///< no optional columns, looks over life alone, colors need no bounds to be binary16
