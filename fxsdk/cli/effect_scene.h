@@ -7,6 +7,8 @@
 #include "foundation/result/status.h"
 #include "foundation/snapshot/snapshot_ring.h"
 #include "foundation/time/ticks.h"
+#include "fxsdk/cli/compute_override.h"
+#include "fxsdk/cli/instance_director.h"
 #include "fxsdk/fxsdk.h"
 #include "fxsdk/scene_file/scene_file.h"
 
@@ -14,6 +16,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace fx::cli {
@@ -24,6 +27,7 @@ struct EffectSceneOptions
     int stepsPerSecond = 60;
     uint32_t quality = FX_QUALITY_DEFAULT; ///< FxQuality of what is simulated
     std::optional<uint64_t> seed;          ///< instance k gets seed + k instead of the file's
+    std::string compute = {}; ///< "cpu", "gpu" or "auto" instead of what emitters say; empty: as they say
 };
 
 /// What a view shows: a moment between two steps.
@@ -66,8 +70,10 @@ private:
     base::Status addCollisionMesh(const scene_file::SceneFile& file);
     base::Status addInstances(const scene_file::SceneFile& file, const EffectSceneOptions& options);
 
+    ComputeOverride compute_{""};
     FxContext* context_ = nullptr;
     FxScene* scene_ = nullptr;
+    InstanceDirector director_;
     base::Ticks step_ = 0;
     base::Ticks now_ = 0;
     base::SnapshotSchema schema_;

@@ -72,6 +72,8 @@ base::Status FrameRenderer::start(const FrameRendererOptions& options)
     if (base::Status status = toStatus(fxContext_WarmUp(effects_->context())); !status)
         return status;
 
+    const bool isAsked = options_.scene.compute == "gpu" || options_.scene.compute == "auto";
+    staysOnGpu_ = isAsked && gpuObstacleOf(file_).empty();
     stage_ = std::make_unique<render::StageRenderer>(device_.get());
     if (base::Status status = stage_->setMesh(file_.mesh); !status)
         return status;
@@ -79,6 +81,26 @@ base::Status FrameRenderer::start(const FrameRendererOptions& options)
         return status;
     const FxViewSettings settings = toApi(options_.settings);
     return toStatus(fxCreateView(effects_->context(), effects_->scene(), &settings, &view_));
+}
+
+/// Particles go to the GPU with the first picture, and come back when there was none for 240 steps: where
+/// pictures are further apart, others are drawn between them.
+base::Status FrameRenderer::keepOnGpu(base::Ticks tick)
+{
+    if (!staysOnGpu_)
+        return {};
+    const base::Ticks apart = 100 * (base::kTicksPerSecond / options_.scene.stepsPerSecond);
+    for (base::Ticks between = lastTick_ < 0 ? 0 : lastTick_ + apart; between < tick; between += apart) {
+        const render::CameraView camera = cameraAt(file_.camera, base::toSeconds(between), 1.0f);
+        base::Status status = effects_->showMoment(between);
+        if (status.ok())
+            status = drawStage(camera);
+        if (status.ok())
+            status = drawEffects(camera, between);
+        if (!status)
+            return status;
+    }
+    return {};
 }
 
 /// With the overlay, what the camera does not see is hidden.
@@ -101,6 +123,8 @@ base::Status FrameRenderer::render(base::Ticks tick)
     const render::CameraView camera = cameraAt(file_.camera, base::toSeconds(tick), aspect);
     if (base::Status status = lookThrough(camera); !status)
         return status;
+    if (base::Status status = keepOnGpu(tick); !status)
+        return status;
     if (base::Status status = effects_->showMoment(tick); !status)
         return status;
     counters_.millisecondsSimulate = millisecondsSince(start);
@@ -120,11 +144,14 @@ base::Status FrameRenderer::render(base::Ticks tick)
 
 base::Status FrameRenderer::drawStage(const render::CameraView& camera)
 {
-    const auto snapshot = effects_->snapshot();
-    if (!snapshot.ok())
-        return snapshot.status();
     std::array<render::EffectLight, kMaxLights> lights;
-    const size_t count = render::effectLights(**snapshot, lights);
+    size_t count = 0;
+    if (!staysOnGpu_) { // what the GPU computes sheds no light, and a snapshot would end that
+        const auto snapshot = effects_->snapshot();
+        if (!snapshot.ok())
+            return snapshot.status();
+        count = render::effectLights(**snapshot, lights);
+    }
     return stage_->render(camera, options_.settings.lighting, std::span(lights).first(count),
                           options_.settings.exposureEv100, options_.width, options_.height);
 }

@@ -32,6 +32,8 @@ struct RenderArguments
     std::string renderer = "gl";
     std::string statistics; ///< file, empty for none
     double time = 0.5;      ///< [s]
+    std::string times;      ///< "A,B,..." [s] instead of frames; empty: none
+    std::string compute;    ///< empty: what emitters say
     double framesPerSecond = 30.0;
     std::optional<uint64_t> seed;
     std::optional<float> exposureEv100;
@@ -60,9 +62,13 @@ struct RenderPlan
     int width = 0;  ///< [pixel]
     int height = 0; ///< [pixel]
     std::vector<Frame> frames;
+    bool isSheet = false; ///< the frames are the pictures of one file, row by row
     double framesPerSecond = 30.0;
     int stepsPerSecond = 60; ///< of the simulation
     uint32_t simulationQuality = FX_QUALITY_DEFAULT;
+
+    int sheetColumns() const; ///< as near to a square as they come
+    int sheetRows() const { return (int(frames.size()) + sheetColumns() - 1) / sheetColumns(); }
 };
 
 void addRenderOptions(CLI::App& command, RenderArguments& arguments);

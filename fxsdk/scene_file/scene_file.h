@@ -8,6 +8,7 @@
 #include "foundation/result/status.h"
 #include "fxsdk/presets/preset_loader.h"
 #include "fxsdk/scene_file/camera_path.h"
+#include "fxsdk/scene_file/instance_play.h"
 #include "rendering/stage/stage_renderer.h"
 #include "rendering/view/view_types.h"
 #include "simulation/solver.h"
@@ -31,6 +32,10 @@ struct SceneInstance
     double start = 0.0;                         ///< [s] scene time, >= 0
     uint64_t seed = 1;
     sim::InstanceParameters parameters;
+    InstancePlay play; ///< what happens to it
+
+    /// Where it is at a scene time [s].
+    base::Placement placementAt(double time) const;
 };
 
 /// A preset that instances use. Tools that go through the C API load it again by its text.

@@ -1,5 +1,7 @@
 #include "fxsdk/scene_file/scene_settings.h"
 
+#include "fxsdk/scene_file/instance_play_reader.h"
+
 #include <glm/geometric.hpp>
 
 #include <array>
@@ -77,11 +79,9 @@ glm::quat readRotation(const PresetValue& value)
             return glm::normalize(rotation);
         value.error("quaternion", "found length 0; allowed is any other");
     }
-    glm::vec3 degrees(0.0f);
+    glm::dvec3 degrees(0.0);
     value.read("rotationDegrees", degrees);
-    const glm::vec3 angles = glm::radians(degrees);
-    return glm::angleAxis(angles.z, glm::vec3(0, 0, 1)) * glm::angleAxis(angles.y, glm::vec3(0, 1, 0)) *
-           glm::angleAxis(angles.x, glm::vec3(1, 0, 0));
+    return rotationOf(degrees);
 }
 
 } // namespace
@@ -143,6 +143,7 @@ SceneInstance readInstance(const PresetValue& value)
     value.read("start", instance.start);
     value.read("intensity", instance.parameters.intensity);
     value.read("wind", instance.parameters.wind);
+    instance.play = readPlay(value, instance.start);
     return instance;
 }
 
