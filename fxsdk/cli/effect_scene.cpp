@@ -15,20 +15,21 @@ namespace {
 FxInstanceDef definitionOf(const scene_file::SceneInstance& instance, FxPresetId preset)
 {
     FxInstanceDef def = fxDefaultInstanceDef();
+    const base::Placement place = instance.placementAt(instance.start);
     def.preset = preset;
     def.scale = instance.scale;
     for (int i = 0; i < 3; ++i) {
-        def.position[i] = instance.position[i];
+        def.position[i] = place.position[i];
         def.wind[i] = instance.parameters.wind[i];
     }
-    def.rotation[0] = instance.rotation.x;
-    def.rotation[1] = instance.rotation.y;
-    def.rotation[2] = instance.rotation.z;
-    def.rotation[3] = instance.rotation.w;
+    def.rotation[0] = place.rotation.x;
+    def.rotation[1] = place.rotation.y;
+    def.rotation[2] = place.rotation.z;
+    def.rotation[3] = place.rotation.w;
     def.startTick = base::toTicks(instance.start);
     def.seed = instance.seed;
     def.intensity = instance.parameters.intensity;
-    def.emitting = instance.parameters.emitting ? 1 : 0;
+    def.emitting = scene_file::valueAt(instance.play.emitting, instance.start, 1.0) > 0.0 ? 1 : 0;
     return def;
 }
 
@@ -138,6 +139,8 @@ base::Status EffectScene::start(const scene_file::SceneFile& file, const EffectS
 {
     FxContextDef contextDef = fxDefaultContextDef();
     contextDef.gl = options.gl;
+    compute_ = ComputeOverride(options.compute);
+    contextDef.assets = compute_.hook();
     if (base::Status status = toStatus(fxCreateContext(&contextDef, &context_)); !status)
         return status;
     FxSceneDef sceneDef = fxDefaultSceneDef();
@@ -168,14 +171,10 @@ base::Status EffectScene::addInstances(const scene_file::SceneFile& file, const 
 {
     std::vector<FxPresetId> presets;
     for (const scene_file::ScenePreset& preset : file.presets) {
-        FxPresetId id = {};
-        const FxResult result =
-            preset.file.empty()
-                ? fxLoadPresetText(context_, preset.text.data(), preset.text.size(), preset.name.c_str(), &id)
-                : fxLoadPresetFile(context_, preset.file.c_str(), &id);
-        if (result != FX_OK)
-            return toStatus(result);
-        presets.push_back(id);
+        const auto id = compute_.load(context_, preset);
+        if (!id.ok())
+            return id.status();
+        presets.push_back(*id);
     }
     uint64_t index = 0;
     for (const scene_file::SceneInstance& instance : file.instances) {
@@ -186,22 +185,7 @@ base::Status EffectScene::addInstances(const scene_file::SceneFile& file, const 
         FxInstanceId id = {};
         if (base::Status status = toStatus(fxScene_CreateInstance(scene_, &def, &id)); !status)
             return status;
-        if (!instance.keys.empty())
-            moving_.push_back({id, instance});
-    }
-    return {};
-}
-
-base::Status EffectScene::moveTo(base::Ticks tick)
-{
-    for (const auto& [id, instance] : moving_) {
-        const glm::dvec3 place = instance.positionAt(base::toSeconds(tick));
-        const double position[3] = {place.x, place.y, place.z};
-        const glm::quat& turn = instance.rotation;
-        const float rotation[4] = {turn.x, turn.y, turn.z, turn.w};
-        const FxResult result = fxScene_SetTransform(scene_, id, position, rotation, instance.scale);
-        if (result != FX_OK && result != FX_ERROR_STALE_ID) // it may have ended
-            return toStatus(result);
+        director_.add(instance, id);
     }
     return {};
 }
@@ -212,9 +196,11 @@ base::Status EffectScene::showMoment(base::Ticks tick)
     while (now_ < end) {
         if (interruptRequested())
             return interruptedStatus();
-        const base::Ticks part = std::min(step_, end - now_);
-        if (base::Status status = moveTo(now_ + part); !status)
-            return status;
+        const base::Ticks from = now_ / step_ * step_;
+        const base::Ticks part = std::min(from + step_, end) - now_;
+        if (now_ + part == from + step_) // this takes the step
+            if (base::Status status = director_.beforeStep(scene_, from, from + step_); !status)
+                return status;
         if (base::Status status = toStatus(fxScene_Update(scene_, base::toSeconds(part))); !status)
             return status;
         now_ += part;

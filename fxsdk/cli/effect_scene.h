@@ -7,6 +7,8 @@
 #include "foundation/result/status.h"
 #include "foundation/snapshot/snapshot_ring.h"
 #include "foundation/time/ticks.h"
+#include "fxsdk/cli/compute_override.h"
+#include "fxsdk/cli/instance_director.h"
 #include "fxsdk/fxsdk.h"
 #include "fxsdk/scene_file/scene_file.h"
 
@@ -14,7 +16,7 @@
 
 #include <memory>
 #include <optional>
-#include <utility>
+#include <string>
 #include <vector>
 
 namespace fx::cli {
@@ -25,6 +27,7 @@ struct EffectSceneOptions
     int stepsPerSecond = 60;
     uint32_t quality = FX_QUALITY_DEFAULT; ///< FxQuality of what is simulated
     std::optional<uint64_t> seed;          ///< instance k gets seed + k instead of the file's
+    std::string compute = {}; ///< "cpu", "gpu" or "auto" instead of what emitters say; empty: as they say
 };
 
 /// What a view shows: a moment between two steps.
@@ -68,15 +71,14 @@ private:
     EffectScene();
     base::Status start(const scene_file::SceneFile& file, const EffectSceneOptions& options);
     base::Status addCollisionMesh(const scene_file::SceneFile& file);
-    /// Puts the instances that have a way where they are at `tick`.
-    base::Status moveTo(base::Ticks tick);
     base::Status addInstances(const scene_file::SceneFile& file, const EffectSceneOptions& options);
 
+    ComputeOverride compute_{""};
     FxContext* context_ = nullptr;
     FxScene* scene_ = nullptr;
+    InstanceDirector director_;
     base::Ticks step_ = 0;
     base::Ticks now_ = 0;
-    std::vector<std::pair<FxInstanceId, scene_file::SceneInstance>> moving_;
     base::SnapshotSchema schema_;
     std::unique_ptr<base::FrameSnapshot> copy_;  ///< of the last step
     std::unique_ptr<base::FrameSnapshot> older_; ///< of the step before

@@ -55,7 +55,7 @@ base::Status lookThroughCamera(const scene_file::SceneFile& file, const ExplainO
     return toStatus(fxScene_SetFocus(scene, &focus, 1));
 }
 
-Json instancesOf(const scene_file::SceneFile& file, FxScene* scene)
+Json instancesOf(const scene_file::SceneFile& file, FxScene* scene, double time)
 {
     std::vector<FxInstanceId> ids(file.instances.size());
     uint32_t count = 0;
@@ -67,7 +67,12 @@ Json instancesOf(const scene_file::SceneFile& file, FxScene* scene)
         activity.structSize = sizeof activity;
         if (fxScene_GetInstanceActivity(scene, ids[i], &activity) != FX_OK)
             continue;
+        const scene_file::SceneInstance& instance = file.instances[i];
+        const glm::dvec3 place = instance.placementAt(time).position;
         list.push_back({{"instance", i},
+                        {"position", {place.x, place.y, place.z}},
+                        {"speed", scene_file::valueAt(instance.play.speed, time, 1.0)},
+                        {"emitting", scene_file::valueAt(instance.play.emitting, time, 1.0) > 0.0},
                         {"preset", file.presets[file.instances[i].preset].name},
                         {"state", kStates.at(activity.state)},
                         {"reason", kReasons.at(activity.reason)},
@@ -193,7 +198,7 @@ base::Status explain(const ExplainOptions& options)
     if (base::Status status = toStatus(fxScene_GetFrameStats(scene, &stats)); !status)
         return status;
     const FrameCounters& counters = (*renderer)->counters();
-    const Json instances = instancesOf(*file, scene);
+    const Json instances = instancesOf(*file, scene, options.time);
     const Json report = {{"file", options.input},
                          {"time", options.time},
                          {"instances", instances},

@@ -42,6 +42,45 @@ private:
     OutputTarget target_;
 };
 
+/// All frames in one picture, row by row; it is written when the last has come.
+class SheetOutput final : public FrameOutput
+{
+public:
+    explicit SheetOutput(const RenderPlan& plan)
+        : target_(plan.output), columns_(plan.sheetColumns()), sheet_{plan.width * plan.sheetColumns(),
+                                                                      plan.height * plan.sheetRows(),
+                                                                      3,
+                                                                      {}}
+    {
+        sheet_.pixels.resize(size_t(sheet_.width) * size_t(sheet_.height) * 3);
+    }
+
+    base::Status write(int64_t number, const FrameLayers& layers) override
+    {
+        const image::Image picture = withoutAlpha(layers.color);
+        const size_t row = size_t(picture.width) * 3;
+        const size_t left = size_t(number % columns_) * row;
+        const size_t top = size_t(number / columns_) * size_t(picture.height);
+        for (size_t y = 0; y < size_t(picture.height); ++y)
+            std::copy_n(&picture.pixels[y * row], row,
+                        &sheet_.pixels[(top + y) * size_t(sheet_.width) * 3 + left]);
+        return {};
+    }
+
+    base::Status finish() override
+    {
+        const auto bytes = image::writePng(sheet_);
+        return bytes.ok() ? writeFileAtomically(target_.path,
+                                                {reinterpret_cast<const char*>(bytes->data()), bytes->size()})
+                          : bytes.status();
+    }
+
+private:
+    OutputTarget target_;
+    int64_t columns_;
+    image::Image sheet_;
+};
+
 class ExrOutput final : public FrameOutput
 {
 public:
@@ -109,7 +148,8 @@ base::Result<std::unique_ptr<FrameOutput>> FrameOutput::create(const RenderPlan&
         return status;
     switch (plan.output.kind) {
     case OutputKind::Png:
-        return std::unique_ptr<FrameOutput>(new PngOutput(plan.output));
+        return plan.isSheet ? std::unique_ptr<FrameOutput>(new SheetOutput(plan))
+                            : std::unique_ptr<FrameOutput>(new PngOutput(plan.output));
     case OutputKind::Exr:
         return std::unique_ptr<FrameOutput>(new ExrOutput(plan.output, exposureEv100));
     case OutputKind::Mp4:

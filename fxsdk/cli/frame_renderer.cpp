@@ -55,7 +55,6 @@ FrameRenderer::~FrameRenderer()
 base::Status FrameRenderer::start(const FrameRendererOptions& options)
 {
     options_ = options;
-    showsDepthContacts_ = showsDepthContacts(file_);
     auto glContext = render::createEglContext({});
     if (!glContext.ok())
         return glContext.status();
@@ -74,6 +73,8 @@ base::Status FrameRenderer::start(const FrameRendererOptions& options)
     if (base::Status status = toStatus(fxContext_WarmUp(effects_->context())); !status)
         return status;
 
+    const bool isAsked = options_.scene.compute == "gpu" || options_.scene.compute == "auto";
+    staysOnGpu_ = (isAsked && gpuObstacleOf(file_).empty()) || showsDepthContacts(file_);
     stage_ = std::make_unique<render::StageRenderer>(device_.get());
     if (base::Status status = stage_->setMesh(file_.mesh); !status)
         return status;
@@ -81,6 +82,27 @@ base::Status FrameRenderer::start(const FrameRendererOptions& options)
         return status;
     const FxViewSettings settings = toApi(options_.settings);
     return toStatus(fxCreateView(effects_->context(), effects_->scene(), &settings, &view_));
+}
+
+/// Particles go to the GPU with the first picture, and come back when there was none for 240 steps: where
+/// pictures are further apart, others are drawn between them.
+base::Status FrameRenderer::keepOnGpu(base::Ticks tick)
+{
+    if (!staysOnGpu_)
+        return {};
+    const base::Ticks apart = 100 * (base::kTicksPerSecond / options_.scene.stepsPerSecond);
+    const float aspect = float(options_.width) / float(options_.height);
+    for (base::Ticks between = lastTick_ < 0 ? 0 : lastTick_ + apart; between < tick; between += apart) {
+        const render::CameraView camera = cameraAt(file_.camera, base::toSeconds(between), aspect);
+        base::Status status = effects_->showMoment(between);
+        if (status.ok())
+            status = drawStage(camera);
+        if (status.ok())
+            status = drawEffects(camera, between);
+        if (!status)
+            return status;
+    }
+    return {};
 }
 
 /// With the overlay, what the camera does not see is hidden.
@@ -98,19 +120,12 @@ base::Status FrameRenderer::lookThrough(const render::CameraView& camera)
 
 base::Status FrameRenderer::render(base::Ticks tick)
 {
-    const base::Ticks before = tick - effects_->step();
-    if (showsDepthContacts_ && lastTick_ < 0 && before >= 0)
-        if (base::Status status = drawMoment(before); !status) // from then on the GPU computes
-            return status;
-    return drawMoment(tick);
-}
-
-base::Status FrameRenderer::drawMoment(base::Ticks tick)
-{
     Clock::time_point start = Clock::now();
     const float aspect = float(options_.width) / float(options_.height);
     const render::CameraView camera = cameraAt(file_.camera, base::toSeconds(tick), aspect);
     if (base::Status status = lookThrough(camera); !status)
+        return status;
+    if (base::Status status = keepOnGpu(tick); !status)
         return status;
     if (base::Status status = effects_->showMoment(tick); !status)
         return status;
@@ -133,7 +148,7 @@ base::Status FrameRenderer::drawStage(const render::CameraView& camera)
 {
     std::array<render::EffectLight, kMaxLights> lights;
     size_t count = 0;
-    if (!showsDepthContacts_) {
+    if (!staysOnGpu_) { // what the GPU computes sheds no light, and a snapshot would end that
         const auto snapshot = effects_->snapshot();
         if (!snapshot.ok())
             return snapshot.status();

@@ -69,7 +69,7 @@ public:
 private:
     explicit FrameRenderer(const scene_file::SceneFile& file) : file_(file) {}
     base::Status start(const FrameRendererOptions& options);
-    base::Status drawMoment(base::Ticks tick);
+    base::Status keepOnGpu(base::Ticks tick);
     base::Status lookThrough(const render::CameraView& camera);
     base::Status drawStage(const render::CameraView& camera);
     base::Status drawEffects(const render::CameraView& camera, base::Ticks tick);
@@ -83,7 +83,7 @@ private:
     std::unique_ptr<render::StageRenderer> stage_;
     std::unique_ptr<EffectScene> effects_;
     FxView* view_ = nullptr;
-    bool showsDepthContacts_ = false;
+    bool staysOnGpu_ = false;   ///< all particles are computed on the GPU as long as nobody asks for rows
     base::Ticks lastTick_ = -1; ///< of the frame before; -1: there was none
     Picture background_;
     FrameCounters counters_;

@@ -67,6 +67,7 @@ public:
         options.scene.stepsPerSecond = plan_.stepsPerSecond;
         options.scene.quality = plan_.simulationQuality;
         options.scene.seed = arguments_.seed;
+        options.scene.compute = arguments_.compute;
 
         auto output = FrameOutput::create(plan_, options.settings.exposureEv100);
         if (!output.ok())
@@ -154,6 +155,11 @@ int runRender(const RenderArguments& arguments)
     for (const preset::Diagnostic& warning : scene->warnings)
         std::fprintf(stderr, "warning: %s\n", preset::toString(warning).c_str());
 
+    if (const std::string why = gpuObstacleOf(*scene); arguments.compute == "gpu" && !why.empty())
+        std::fprintf(stderr,
+                     "warning: --compute gpu: the CPU computes all particles here, as the stage takes light "
+                     "from them: %s\n",
+                     why.c_str());
     RenderJob job(arguments, *plan, *scene);
     if (base::Status status = job.run(); !status)
         return failed(status);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <sstream>
 
 namespace fx::cli {
 namespace {
@@ -13,6 +14,7 @@ constexpr int kMaxSize = 16384;      // [pixel]
 constexpr double kMaxTime = 3600.0;  // [s]
 constexpr double kDefaultTime = 0.5; // [s]
 constexpr int64_t kMaxFrames = 1'000'000;
+constexpr size_t kMaxTimes = 256;
 
 base::Status usage(const std::string& message)
 {
@@ -34,8 +36,40 @@ std::optional<std::pair<long, long>> parsePair(const std::string& text, char sep
     return std::make_pair(first, second);
 }
 
+/// Frame k shows the k-th of the times. With one file it is a sheet of all of them.
+base::Status planTimes(const RenderArguments& arguments, RenderPlan& plan)
+{
+    if (!arguments.frames.empty())
+        return usage("found both --frames and --times; give one of them");
+    if (plan.output.kind == OutputKind::Mp4 || (plan.output.kind == OutputKind::Exr && plan.output.isStill()))
+        return usage(
+            "--times needs a sequence (-o name.%d.png, -o name.%d.exr), or one PNG (-o name.png) that "
+            "shows all times side by side");
+    std::istringstream list(arguments.times + ",");
+    for (std::string text; std::getline(list, text, ',');) {
+        char* end = nullptr;
+        const double time = std::strtod(text.c_str(), &end);
+        if (text.empty() || *end != '\0' || !(time >= 0.0 && time <= kMaxTime))
+            return usage("--times " + arguments.times +
+                         ": expected numbers from 0 to 3600 with commas between");
+        const base::Ticks tick = base::toTicks(time);
+        if (!plan.frames.empty() && tick <= plan.frames.back().tick)
+            return usage("--times " + arguments.times + ": expected rising times");
+        plan.frames.push_back({int64_t(plan.frames.size()), tick});
+    }
+    if (plan.frames.size() > kMaxTimes)
+        return usage("--times: at most " + std::to_string(kMaxTimes) + " times");
+    plan.isSheet = plan.output.isStill();
+    if (plan.isSheet &&
+        (plan.width * plan.sheetColumns() > kMaxSize || plan.height * plan.sheetRows() > kMaxSize))
+        return usage("--times: the sheet would have a side of more than 16384 pixels; make --size smaller");
+    return {};
+}
+
 base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
 {
+    if (!arguments.times.empty())
+        return planTimes(arguments, plan);
     if (plan.output.isStill()) {
         if (!arguments.frames.empty())
             return usage("--frames needs a sequence (-o name.%04d.png) or a video (-o name.mp4)");
@@ -80,6 +114,9 @@ void addOutputOptions(CLI::App& command, RenderArguments& arguments)
     command.add_option("--frames", arguments.frames,
                        "Frames of a sequence or video, FIRST:LAST, both included "
                        "(default: 2 seconds)");
+    command.add_option("--times", arguments.times,
+                       "Scene times T,T,... [s] instead of frames: one file each with a sequence, a sheet of "
+                       "all of them with one PNG");
     command.add_option("--fps", arguments.framesPerSecond, "Frames a second; frame N shows the time N / fps")
         ->check(CLI::Range(0.1, 1000.0))
         ->capture_default_str();
@@ -100,6 +137,11 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
     command.add_option("--seed", arguments.seed, "Instance k gets the seed N + k instead of the file's")
         ->check(CLI::Validator(
             [](std::string& text) { return text.starts_with('-') ? "must not be negative" : ""; }, "UINT"));
+    command
+        .add_option("--compute", arguments.compute,
+                    "What computes the particles of all emitters instead of what presets say; the GPU does "
+                    "where it can, see fx explain")
+        ->check(CLI::IsMember({"cpu", "gpu", "auto"}));
     command.add_option("--exposure", arguments.exposureEv100, "Exposure [EV100] instead of the scene's")
         ->check(CLI::Range(-20.0, 40.0));
     command.add_flag("--no-dazzle", arguments.noDazzle, "Without glare (EXR never has it)");
@@ -158,6 +200,11 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments)
     addEconomyOptions(command, arguments);
     addReportOptions(command, arguments);
     addReferenceOptions(command, arguments.reference);
+}
+
+int RenderPlan::sheetColumns() const
+{
+    return int(std::ceil(std::sqrt(double(frames.size()))));
 }
 
 base::Result<RenderPlan> planRender(const RenderArguments& arguments)

@@ -31,6 +31,8 @@ struct RenderArguments
     std::string form; ///< empty: what quality says
     std::string renderer = "gl";
     std::string statistics; ///< file, empty for none
+    std::string times;      ///< "A,B,..." [s] instead of frames; empty: none
+    std::string compute;    ///< empty: what emitters say
     double framesPerSecond = 30.0;
     std::optional<double> time; ///< [s] none: the preset's preview's, or half a second
     std::optional<uint64_t> seed;
@@ -60,9 +62,13 @@ struct RenderPlan
     int width = 0;  ///< [pixel]
     int height = 0; ///< [pixel]
     std::vector<Frame> frames;
+    bool isSheet = false; ///< the frames are the pictures of one file, row by row
     double framesPerSecond = 30.0;
     int stepsPerSecond = 60; ///< of the simulation
     uint32_t simulationQuality = FX_QUALITY_DEFAULT;
+
+    int sheetColumns() const; ///< as near to a square as they come
+    int sheetRows() const { return (int(frames.size()) + sheetColumns() - 1) / sheetColumns(); }
 };
 
 void addRenderOptions(CLI::App& command, RenderArguments& arguments);

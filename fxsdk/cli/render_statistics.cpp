@@ -15,6 +15,7 @@ nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool 
         {"instances_resting", scene.instancesResting},
         {"simulations", scene.simulations},
         {"particles", scene.particles},
+        {"particles_gpu", view.gpuParticles},
         {"particles_dropped", scene.dropped},
         {"blobs", view.blobs},
         {"blobs_culled", view.blobsCulled},

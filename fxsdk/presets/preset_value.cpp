@@ -140,6 +140,21 @@ void PresetValue::read(const char* member, base::ColorCurve& out) const
     readCurve(member, out);
 }
 
+std::vector<std::pair<double, double>> PresetValue::steps(const char* member) const
+{
+    const auto number = [](const Json& value) {
+        return value.is_boolean() ? double(value.get<bool>()) : value.get<double>();
+    };
+    const Json* const value = find(member);
+    std::vector<std::pair<double, double>> steps;
+    if (value && !value->is_object())
+        steps.emplace_back(0.0, number(*value));
+    if (value && value->is_object())
+        for (const Json& step : (*value)["steps"])
+            steps.emplace_back(step[0].get<double>(), number(step[1]));
+    return steps;
+}
+
 PresetValue PresetValue::child(const char* member) const
 {
     return {find(member), pointer_ + "/" + member, findings_};

@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace fx::preset {
 
@@ -41,6 +42,9 @@ public:
     void read(const char* member, base::Range& out) const;
     void read(const char* member, base::ScalarCurve& out) const;
     void read(const char* member, base::ColorCurve& out) const;
+    /// Time [s] and value of each step of a member of the kind "steps" or "switches", as they are written;
+    /// one value stands for a step at time 0. Empty when absent.
+    std::vector<std::pair<double, double>> steps(const char* member) const;
 
     /// Reads one of the names in `choices`.
     template <class E>

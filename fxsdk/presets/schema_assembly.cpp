@@ -50,6 +50,16 @@ Schema keysOf(const Schema& value)
     return objectOf({{"keys", keys}}, {"keys"});
 }
 
+/// {"steps": [[time, value], ...]}
+Schema stepsOf(const Schema& value)
+{
+    const Schema time{{"type", "number"}, {"minimum", 0}, {"maximum", 86400}};
+    const Schema step{
+        {"type", "array"}, {"items", Schema::array({time, value})}, {"minItems", 2}, {"maxItems", 2}};
+    const Schema steps{{"type", "array"}, {"items", step}, {"minItems", 1}, {"maxItems", 1024}};
+    return objectOf({{"steps", steps}}, {"steps"});
+}
+
 /// `then` for values of type `type`, otherwise `otherwise`.
 Schema choice(const char* type, Schema then, Schema otherwise)
 {
@@ -66,6 +76,8 @@ Schema expandKind(const std::string& kind, const Schema& number)
         return choice("object", keysOf(tripleOf(number)), tripleOf(number));
     if (kind == "extent")
         return choice("array", tripleOf(number), number);
+    if (kind == "steps" || kind == "switches")
+        return choice("object", stepsOf(number), number);
     return tripleOf(number); // color, vector
 }
 
@@ -78,7 +90,8 @@ void expand(Schema& schema)
         expand(part);
     if (!schema.is_object() || !schema.contains("x-kind"))
         return;
-    const Schema number = numberWithin(schema);
+    const bool isSwitch = schema["x-kind"] == "switches";
+    const Schema number = isSwitch ? Schema{{"type", "boolean"}} : numberWithin(schema);
     schema.erase("minimum");
     schema.erase("maximum");
     schema.update(expandKind(schema["x-kind"].get<std::string>(), number));

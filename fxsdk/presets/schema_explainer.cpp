@@ -66,6 +66,10 @@ std::string kindText(const std::string& kind, const std::string& number)
         return "[r, g, b] with numbers" + number;
     if (kind == "extent")
         return "a number" + number + " or [x, y, z] of such numbers";
+    if (kind == "steps")
+        return "a number" + number + " or {\"steps\": [[time, value], ...]} of such numbers";
+    if (kind == "switches")
+        return "true, false or {\"steps\": [[time, value], ...]} of these";
     return "[x, y, z] with numbers" + number;
 }
 

@@ -2,6 +2,7 @@
 
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
+#include "fxsdk/scene_file/instance_play_reader.h"
 #include "fxsdk/scene_file/scene_settings.h"
 #include "fxsdk/scene_file/scene_stage.h"
 
@@ -33,6 +34,8 @@ Preview readParts(const PresetValue& value, const asset::AssetResolver& resolver
         const size_t index = scene.instances[0].preset;
         scene.instances[0] = readInstance(value.child("instance"));
         scene.instances[0].preset = index;
+        checkTriggers(value.child("instance"), scene.instances[0].play,
+                      scene.presets[index].effect->hostEvents);
     }
     return preview;
 }

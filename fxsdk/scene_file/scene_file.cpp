@@ -5,6 +5,8 @@
 #include "fxsdk/presets/migration.h"
 #include "fxsdk/presets/schema_assembly.h"
 #include "fxsdk/presets/schema_validator.h"
+#include "fxsdk/scene_file/instance_play_reader.h"
+#include "fxsdk/scene_file/key_interpolation.h"
 #include "fxsdk/scene_file/scene_settings.h"
 #include "fxsdk/scene_file/scene_stage.h"
 
@@ -89,6 +91,7 @@ void readInstances(Reader& reader, const PresetValue& root)
         value.read("preset", name);
         if (const std::optional<size_t> index = findPreset(reader, name, value)) {
             instance.preset = *index;
+            checkTriggers(value, instance.play, reader.scene.presets[*index].effect->hostEvents);
             reader.scene.instances.push_back(instance);
         }
     }
@@ -119,6 +122,13 @@ bool readScene(std::string_view text, const asset::AssetResolver& resolver, Find
 }
 
 } // namespace
+
+base::Placement SceneInstance::placementAt(double time) const
+{
+    return {play.moves ? smoothAt(play.keys, time, &InstanceKey::position) : position,
+            play.turns ? rotationOf(smoothAt(play.keys, time, &InstanceKey::rotationDegrees)) : rotation,
+            scale};
+}
 
 base::Result<SceneFile> loadSceneText(std::string_view text, const std::string& displayName,
                                       const asset::AssetResolver& resolver,

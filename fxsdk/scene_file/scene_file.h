@@ -8,6 +8,7 @@
 #include "foundation/result/status.h"
 #include "fxsdk/presets/preset_loader.h"
 #include "fxsdk/scene_file/camera_path.h"
+#include "fxsdk/scene_file/instance_play.h"
 #include "rendering/stage/stage_renderer.h"
 #include "rendering/view/view_types.h"
 #include "simulation/solver.h"
@@ -21,12 +22,6 @@
 
 namespace fx::scene_file {
 
-struct InstanceKey
-{
-    double time = 0;          ///< [s] scene time
-    glm::dvec3 position{0.0}; ///< [m] world
-};
-
 /// One effect in the scene.
 struct SceneInstance
 {
@@ -37,10 +32,10 @@ struct SceneInstance
     double start = 0.0;                         ///< [s] scene time, >= 0
     uint64_t seed = 1;
     sim::InstanceParameters parameters;
-    std::vector<InstanceKey> keys; ///< its way, in rising times; empty: it stays at the position
+    InstancePlay play; ///< what happens to it
 
-    /// [m] where it is at scene time `time` [s]; smooth through the keys as a camera's way.
-    glm::dvec3 positionAt(double time) const;
+    /// Where it is at a scene time [s].
+    base::Placement placementAt(double time) const;
 };
 
 /// A preset that instances use. Tools that go through the C API load it again by its text.

@@ -1,5 +1,7 @@
 #include "fxsdk/scene_file/scene_settings.h"
 
+#include "fxsdk/scene_file/instance_play_reader.h"
+
 #include <glm/geometric.hpp>
 
 #include <array>
@@ -77,11 +79,9 @@ glm::quat readRotation(const PresetValue& value)
             return glm::normalize(rotation);
         value.error("quaternion", "found length 0; allowed is any other");
     }
-    glm::vec3 degrees(0.0f);
+    glm::dvec3 degrees(0.0);
     value.read("rotationDegrees", degrees);
-    const glm::vec3 angles = glm::radians(degrees);
-    return glm::angleAxis(angles.z, glm::vec3(0, 0, 1)) * glm::angleAxis(angles.y, glm::vec3(0, 1, 0)) *
-           glm::angleAxis(angles.x, glm::vec3(1, 0, 0));
+    return rotationOf(degrees);
 }
 
 } // namespace
@@ -143,27 +143,8 @@ SceneInstance readInstance(const PresetValue& value)
     value.read("start", instance.start);
     value.read("intensity", instance.parameters.intensity);
     value.read("wind", instance.parameters.wind);
-    for (size_t i = 0; i < value.size("keys"); ++i) {
-        const PresetValue element = value.element("keys", i);
-        InstanceKey key;
-        element.read("time", key.time);
-        element.read("position", key.position);
-        if (i > 0 && key.time <= instance.keys.back().time)
-            element.error("time", "found a time that is not later than that of the key before");
-        instance.keys.push_back(key);
-    }
-    instance.position = instance.positionAt(0.0);
+    instance.play = readPlay(value, instance.start);
     return instance;
-}
-
-glm::dvec3 SceneInstance::positionAt(double time) const
-{
-    if (keys.empty())
-        return position;
-    CameraPath way;
-    for (const InstanceKey& key : keys)
-        way.keys.push_back({key.time, key.position, key.position});
-    return way.at(time).position;
 }
 
 } // namespace fx::scene_file

@@ -22,6 +22,7 @@ uint64_t validatePreset(const std::string& path, std::vector<Diagnostic>& diagno
     const std::string folder = folderOf(path);
     const asset::AssetResolver resolver(folder.empty() ? "." : folder, libraryFiles());
     scene_file::SceneFile scene;
+    scene.presets.push_back({path, *text, path, loaded->effect});
     scene.instances.emplace_back();
     static_cast<void>(scene_file::readPreview(*text, path, resolver, scene, &diagnostics));
     return bytes;

@@ -19,6 +19,9 @@ std::string presetWith(const std::string& preview)
 SceneFile stage()
 {
     SceneFile scene;
+    const auto loaded = fx::preset::loadPresetText(presetWith(""), "p");
+    EXPECT_TRUE(loaded.ok());
+    scene.presets.push_back({"p", presetWith(""), "", loaded->effect});
     scene.instances.emplace_back();
     scene.instances[0].position = {7, 8, 9};
     scene.view.exposureEv100 = 13;
@@ -124,13 +127,13 @@ TEST(SceneInstance, goesThroughItsKeysAndRestsOutsideOfThem)
 {
     SceneInstance instance;
     instance.position = {3, 0, 0};
-    EXPECT_EQ(instance.positionAt(5.0), glm::dvec3(3, 0, 0));
+    EXPECT_EQ(instance.placementAt(5.0).position, glm::dvec3(3, 0, 0));
     instance.keys = {{1.0, {0, 1, 0}}, {2.0, {4, 1, 0}}, {4.0, {4, 5, 0}}};
-    EXPECT_EQ(instance.positionAt(0.0), glm::dvec3(0, 1, 0));
-    EXPECT_EQ(instance.positionAt(9.0), glm::dvec3(4, 5, 0));
+    EXPECT_EQ(instance.placementAt(0.0).position, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(instance.placementAt(9.0).position, glm::dvec3(4, 5, 0));
     for (const InstanceKey& key : instance.keys)
-        EXPECT_LT(glm::distance(instance.positionAt(key.time), key.position), 1e-9);
-    const glm::dvec3 between = instance.positionAt(1.5);
+        EXPECT_LT(glm::distance(instance.placementAt(key.time).position, key.position), 1e-9);
+    const glm::dvec3 between = instance.placementAt(1.5).position;
     EXPECT_GT(between.x, 1.0);
     EXPECT_LT(between.x, 3.0);
 }

@@ -108,6 +108,48 @@ class FxRender(FxTest):
         still, frame = ((self.folder / name).read_bytes() for name in ("still.png", "a.12.png"))
         self.assertEqual(still, frame)
 
+    def test_a_range_that_begins_late_shows_what_playing_shows_whatever_happens_to_an_instance(self):
+        (self.folder / "s.fx.json").write_text("""{"version": 1, "emitters": [
+            {"name": "a", "space": "world", "inheritVelocity": 0.5, "radius": 0.2, "lifetime": 1, "emission": {"rate": 60},
+             "speed": {"min": 0, "max": 1}, "appearance": {"kind": "sprite", "luminance": 3000},
+             "events": [{"on": "host", "name": "boom", "emit": "b", "count": 30}]},
+            {"name": "b", "space": "world", "radius": 0.3, "lifetime": 1, "speed": 4, "emission": {"rate": 0},
+             "appearance": {"kind": "sprite", "luminance": 5000}}]}""")
+        scene = self.folder / "s.scene.json"
+        text = """{"version": 1, "camera": {}, "instances": [{"preset": "s.fx.json", "start": 0.1,
+            "keys": [{"time": 0, "position": [-3, 2, 0]}, {"time": 0.6, "position": [3, 2, 0]}, {"time": 1, "position": [0, 4, 0]}],
+            "speed": {"steps": [[0.3, 2], [0.5, 0.5]]}, "emitting": {"steps": [[0.9, false]]}%s}]}"""
+        scene.write_text(text % ', "triggers": [{"time": 0.4, "name": "boom"}]')
+        self.render("all.%02d.png", "--frames", "0:20", "--fps", "24", "--no-dazzle", scene=scene)
+        self.render("late.%02d.png", "--frames", "12:20", "--fps", "24", "--no-dazzle", scene=scene)
+        self.render("times.%d.png", "--times", "0.5,0.75", "--no-dazzle", scene=scene)
+        frames = [(self.folder / f"all.{n:02d}.png").read_bytes() for n in range(12, 21)]
+        self.assertEqual(frames, [(self.folder / f"late.{n:02d}.png").read_bytes() for n in range(12, 21)])
+        self.assertEqual([frames[0], frames[6]], [(self.folder / f"times.{n}.png").read_bytes() for n in (0, 1)])
+        scene.write_text(text % "")
+        self.render("silent.png", "--time", "0.5", "--no-dazzle", scene=scene)
+        self.assertNotEqual((self.folder / "silent.png").read_bytes(), frames[0])
+
+    def test_times_are_one_file_each_or_one_sheet(self):
+        self.render("a.%d.png", "--times", "0.1,0.2,0.5")
+        self.assertEqual(self.names(), ["a.0.png", "a.1.png", "a.2.png"])
+        self.render("sheet.png", "--times", "0.1,0.2,0.5")
+        self.assertEqual(png_size(self.folder / "sheet.png"), (96, 64))
+        for wrong in ("0.2,0.1", "0.1,", "a", "-1", "0,nan", "0,9999"):
+            self.assertEqual(fx("render", "library:sparks", "-o", self.folder / "a.png", f"--times={wrong}").code, 2, wrong)
+        for output, more in (("a.mp4", ()), ("a.exr", ()), ("a.%d.png", ("--frames", "0:1"))):
+            self.assertEqual(fx("render", "library:sparks", "-o", self.folder / output, "--times", "0,1", *more).code, 2)
+
+    def test_compute_moves_emitters_of_any_preset_with_their_files(self):
+        (self.folder / "t.png").write_bytes(png_of_one_texel(255, 0, 0))
+        preset = self.folder / "p.fx.json"
+        preset.write_text("""{"version": 1, "emitters": [{"position": [0, 1, 0], "radius": 0.3, "speed": 1, "maxParticles": 50,
+            "emission": {"rate": 40}, "lifetime": 1, "appearance": {"kind": "sprite", "texture": "t.png", "luminance": 5000}}]}""")
+        for where, computed in (("cpu", 0), ("gpu", 50), ("auto", 0)):
+            self.render(f"{where}.png", "--compute", where, "--stats", self.folder / "stats.json", scene=preset)
+            self.assertEqual(json.loads((self.folder / "stats.json").read_text())["particles_gpu"], computed, where)
+        self.assertEqual((self.folder / "cpu.png").read_bytes(), (self.folder / "auto.png").read_bytes())
+
     def test_statistics_have_every_promised_field_once_a_frame(self):
         self.render("a.%d.png", "--frames", "0:2", "--overdraw", "--stats", self.folder / "stats.json")
         lines = [json.loads(line) for line in (self.folder / "stats.json").read_text().strip().split("\n")]
