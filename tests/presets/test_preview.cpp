@@ -3,7 +3,6 @@
 #include "fxsdk/scene_file/validate_file.h"
 #include "tests/presets/temp_folder.h"
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 using namespace fx::scene_file;
@@ -121,19 +120,4 @@ TEST(Preview, ofEveryPresetOfTheLibraryIsValid)
         previews += entry.text.find("\"preview\"") != std::string_view::npos ? 1 : 0;
     }
     EXPECT_GE(previews, 8u);
-}
-
-TEST(SceneInstance, goesThroughItsKeysAndRestsOutsideOfThem)
-{
-    SceneInstance instance;
-    instance.position = {3, 0, 0};
-    EXPECT_EQ(instance.placementAt(5.0).position, glm::dvec3(3, 0, 0));
-    instance.keys = {{1.0, {0, 1, 0}}, {2.0, {4, 1, 0}}, {4.0, {4, 5, 0}}};
-    EXPECT_EQ(instance.placementAt(0.0).position, glm::dvec3(0, 1, 0));
-    EXPECT_EQ(instance.placementAt(9.0).position, glm::dvec3(4, 5, 0));
-    for (const InstanceKey& key : instance.keys)
-        EXPECT_LT(glm::distance(instance.placementAt(key.time).position, key.position), 1e-9);
-    const glm::dvec3 between = instance.placementAt(1.5).position;
-    EXPECT_GT(between.x, 1.0);
-    EXPECT_LT(between.x, 3.0);
 }
