@@ -9,7 +9,7 @@ namespace fx::render {
 
 namespace {
 
-constexpr uint32_t kSlabs = 32;
+constexpr uint32_t kMostSlabs = 32;
 
 /// First element from `begin` on that is not farther than `distance`.
 uint32_t firstNotBeyond(const DrawStream& stream, uint32_t begin, float distance)
@@ -47,16 +47,20 @@ DrawRuns::Range DrawRuns::overlapOf(std::span<const DrawStream> streams)
     });
     Range overlap{1.0f, 0.0f};
     bool any = false;
-    float lowest = std::numeric_limits<float>::infinity();
+    float lowestOfAll = std::numeric_limits<float>::infinity();
+    float lowestCovering = lowestOfAll;
     for (const uint32_t s : byFar_) {
         const float far = streams[s].at(0);
         const float near = streams[s].at(streams[s].count - 1);
+        const float lowest = streams[s].adds ? lowestCovering : lowestOfAll;
         if (lowest <= far) {
             overlap.far = any ? std::max(overlap.far, far) : far;
             overlap.near = any ? std::min(overlap.near, std::max(lowest, near)) : std::max(lowest, near);
             any = true;
         }
-        lowest = std::min(lowest, near);
+        lowestOfAll = std::min(lowestOfAll, near);
+        if (!streams[s].adds)
+            lowestCovering = std::min(lowestCovering, near);
     }
     return overlap;
 }
@@ -70,28 +74,62 @@ void DrawRuns::add(const Part& part, uint32_t batch)
         runs_.push_back({batch, part.first, part.count});
 }
 
-std::span<const MediaRun> DrawRuns::build(std::span<const DrawStream> streams)
+/// What of each stream is farther than `edge`, or all that is left.
+void DrawRuns::takeParts(std::span<const DrawStream> streams, bool isLast, float edge)
+{
+    parts_.clear();
+    for (uint32_t s = 0; s < streams.size(); ++s) {
+        const uint32_t begin = begin_[s];
+        const uint32_t end = isLast ? streams[s].count : firstNotBeyond(streams[s], begin, edge);
+        if (end > begin)
+            parts_.push_back({s, begin, end - begin, streams[s].at(begin + (end - begin) / 2)});
+        begin_[s] = end;
+    }
+}
+
+/// @param goesOn the stream that was drawn last comes first
+void DrawRuns::arrange(bool goesOn)
+{
+    std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
+        return a.middle != b.middle ? a.middle > b.middle : a.stream < b.stream;
+    });
+    if (!goesOn || runs_.empty())
+        return;
+    const auto last =
+        std::ranges::find_if(parts_, [&](const Part& part) { return part.stream == lastStream_; });
+    if (last != parts_.end())
+        std::rotate(parts_.begin(), last, last + 1);
+}
+
+/// @param slabs 0: every stream stays whole
+void DrawRuns::cut(std::span<const DrawStream> streams, const Range& overlap, uint32_t slabs)
 {
     runs_.clear();
     begin_.assign(streams.size(), 0u);
-    const Range overlap = overlapOf(streams);
-    bool isLast = false;
-    for (uint32_t slab = 0; !isLast; ++slab) {
-        isLast = slab == kSlabs || overlap.near > overlap.far;
-        const float edge = overlap.far + (overlap.near - overlap.far) * float(slab) / float(kSlabs);
-        parts_.clear();
-        for (uint32_t s = 0; s < streams.size(); ++s) {
-            const uint32_t begin = begin_[s];
-            const uint32_t end = isLast ? streams[s].count : firstNotBeyond(streams[s], begin, edge);
-            if (end > begin)
-                parts_.push_back({s, begin, end - begin, streams[s].at(begin + (end - begin) / 2)});
-            begin_[s] = end;
-        }
-        std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
-            return a.middle != b.middle ? a.middle > b.middle : a.stream < b.stream;
-        });
-        for (const Part& part : parts_)
+    for (uint32_t slab = 0; slab <= slabs; ++slab) { // before the first and behind the last nothing overlaps
+        const bool isLast = slabs == 0;
+        const float share = isLast ? 1.0f : float(slab) / float(slabs);
+        takeParts(streams, isLast, overlap.far + (overlap.near - overlap.far) * share);
+        arrange(slab > 0);
+        for (const Part& part : parts_) {
             add(part, streams[part.stream].batch);
+            lastStream_ = part.stream;
+        }
+    }
+    takeParts(streams, true, 0.0f);
+    arrange(false);
+    for (const Part& part : parts_)
+        add(part, streams[part.stream].batch);
+}
+
+std::span<const MediaRun> DrawRuns::build(std::span<const DrawStream> streams)
+{
+    const Range overlap = overlapOf(streams);
+    uint32_t slabs = overlap.near > overlap.far ? 0 : kMostSlabs;
+    cut(streams, overlap, slabs);
+    while (slabs > 0 && runs_.size() > kMostTurns) {
+        slabs = std::min(slabs - 1, uint32_t(uint64_t(slabs) * kMostTurns / runs_.size()));
+        cut(streams, overlap, slabs);
     }
     return runs_;
 }

@@ -21,6 +21,7 @@ struct DrawStream
     const uint32_t* order = nullptr; ///< element drawn as number i, farthest first
     bool isSquared = false;          ///< `distances` holds squares
     float distance = 0.0f;           ///< [m]
+    bool adds = false;               ///< the order among streams that only add does not matter
 
     float at(uint32_t i) const;
 };
@@ -33,9 +34,16 @@ public:
         : byFar_(memory), begin_(memory), parts_(memory), runs_(memory)
     {}
 
-    /// Cuts the streams into runs, farthest first. Streams whose ranges of distance do not overlap stay
-    /// whole. Where some do, the overlap is cut into 32 slabs of equal thickness: between slabs the order is
-    /// by distance, within one it is stream by stream, the one that is farther in the middle first.
+    static constexpr uint32_t kMostTurns = 16;
+
+    /// Cuts the streams into runs, farthest first. Streams stay whole whose ranges of distance do not
+    /// overlap, or which only add. Where others overlap, that range is cut into slabs of equal thickness, 32
+    /// or as many as kMostTurns runs allow: between slabs the order is by distance. Within one it is stream
+    /// by stream: first what was drawn last, so that it goes on, then the one that is farther in the middle.
+    /// Things in a wrong order are no farther apart than a slab is thick: for two streams 1/13 of the range
+    /// that they share, for three 1/6.
+    ///
+    /// More than kMostTurns streams are one run each, or little more.
     /// @param streams each of at least one element
     /// @return valid until the next call
     std::span<const MediaRun> build(std::span<const DrawStream> streams);
@@ -52,12 +60,16 @@ private:
     };
 
     Range overlapOf(std::span<const DrawStream> streams);
+    void cut(std::span<const DrawStream> streams, const Range& overlap, uint32_t slabs);
+    void takeParts(std::span<const DrawStream> streams, bool isLast, float edge);
+    void arrange(bool goesOn);
     void add(const Part& part, uint32_t batch);
 
     std::pmr::vector<uint32_t> byFar_;
     std::pmr::vector<uint32_t> begin_;
     std::pmr::vector<Part> parts_;
     std::pmr::vector<MediaRun> runs_;
+    uint32_t lastStream_ = 0; ///< of runs_
 };
 
 } // namespace fx::render

@@ -2,6 +2,8 @@
 
 #include "foundation/snapshot/gpu_particles.h"
 #include "rendering/gl/gl_device.h"
+#include "rendering/view/row_thinning.h"
+#include "rendering/view/snapshot_match.h"
 
 #include <algorithm>
 #include <bit>
@@ -20,20 +22,6 @@ uint64_t roundUp(uint64_t value, uint64_t step)
     return (value + step - 1) / step * step;
 }
 
-/// Columns that drawing reads.
-base::ColumnSet drawnColumns(bool isRibbon)
-{
-    return isRibbon ? base::kAllColumns : ~base::particle_column::kIndex;
-}
-
-bool isDrawn(const base::FrameSnapshot& snapshot, size_t group, bool withComputed, bool& outRibbon)
-{
-    const base::KindId kind = snapshot.name(group).kind;
-    outRibbon = kind == snapshot.schema().find(base::kRibbonKind.name);
-    return outRibbon || kind == snapshot.schema().find(base::kParticleKind.name) ||
-           (withComputed && snapshot.group(group).program());
-}
-
 /// Whether a group of a pool is drawn as it is.
 bool drawsPools(const base::FrameSnapshot& snapshot, bool isOlder, std::span<const ParticleGroup> groups)
 {
@@ -41,21 +29,6 @@ bool drawsPools(const base::FrameSnapshot& snapshot, bool isOlder, std::span<con
                return isOlder ? group.older && snapshot.pooled(group.olderIndex)
                               : snapshot.pooled(group.newerIndex) != nullptr;
            });
-}
-
-/// Rows of a group: some more than it has, so that others stay where they are when it grows.
-uint64_t roomFor(uint64_t rows)
-{
-    return roundUp(rows, std::max<uint64_t>(std::bit_floor(rows) / 8, 16));
-}
-
-/// [byte] a row of the columns that are uploaded.
-uint64_t rowBytes(std::span<const base::ColumnDesc> columns, const std::array<int32_t, 16>& places)
-{
-    uint64_t bytes = 0;
-    for (size_t c = 0; c < std::min(columns.size(), places.size()); ++c)
-        bytes += places[c] >= 0 ? base::columnElementSize(columns[c].type) : 0;
-    return bytes;
 }
 
 base::Status ensure(GlDevice& device, GlMappedBuffer& buffer, uint64_t bytes, const char* label)
@@ -70,21 +43,31 @@ base::Status ensure(GlDevice& device, GlMappedBuffer& buffer, uint64_t bytes, co
     return {};
 }
 
-/// Of rows that are thinned out each has its look beside it.
+/// What tells which rows are drawn, and how.
 size_t orderBytes(const ParticleGroup& group)
 {
-    return group.order.size_bytes() * (group.looks.empty() ? 1 : 2);
+    const size_t words = group.orderForm == OrderForm::RowLooks ? group.looks.size() : group.order.size();
+    return words * (group.orderForm == OrderForm::LooksBeside ? 8 : 4);
 }
 
 void writeOrder(const ParticleGroup& group, uint32_t* out)
 {
-    if (group.looks.empty()) {
+    switch (group.orderForm) {
+    case OrderForm::LooksBeside:
+        for (const uint32_t row : group.order) {
+            *out++ = row;
+            *out++ = group.looks[row];
+        }
+        break;
+    case OrderForm::LooksWithin:
+        for (const uint32_t row : group.order)
+            *out++ = row | packSmallLook(group.looks[row]) << 16;
+        break;
+    case OrderForm::RowLooks:
+        std::memcpy(out, group.looks.data(), group.looks.size_bytes());
+        break;
+    default:
         std::memcpy(out, group.order.data(), group.order.size_bytes());
-        return;
-    }
-    for (const uint32_t row : group.order) {
-        *out++ = row;
-        *out++ = group.looks[row];
     }
 }
 
@@ -92,7 +75,7 @@ void writeOrder(const ParticleGroup& group, uint32_t* out)
 
 ParticleBuffers::ParticleBuffers(GlDevice& device, std::pmr::memory_resource* memory)
     : device_(device), places_{Place(memory), Place(memory), Place(memory)}, assets_(device, memory),
-      emitters_(device, memory), states_(device, memory), jobs_(memory)
+      emitters_(device, memory), states_(device, memory), jobs_(memory), wanted_(memory), older_(memory)
 {}
 
 uint64_t ParticleBuffers::bytes() const
@@ -103,138 +86,72 @@ uint64_t ParticleBuffers::bytes() const
     return sum;
 }
 
-ParticleBuffers::Sizes ParticleBuffers::layOut(const base::FrameSnapshot& snapshot,
-                                               const SnapshotRowStamps& rows, bool withPools,
-                                               std::pmr::vector<GroupPlace>& out) const
+ParticleBuffers::Place* ParticleBuffers::find(uint64_t stamp, bool withPools)
 {
-    const auto alignment = uint64_t(std::max(device_.limits().storageAlignment, 64));
-    Sizes end;
-    out.assign(snapshot.groupCount(), GroupPlace{});
-    for (size_t g = 0; g < snapshot.groupCount(); ++g) {
-        bool isRibbon = false;
-        if ((snapshot.pooled(g) && !withPools) || !isDrawn(snapshot, g, !refusesGpu_, isRibbon))
-            continue;
-        const base::SnapshotGroup& group = snapshot.group(g);
-        const base::GpuParticleProgram* program = group.program().get();
-        const std::span<const base::ColumnDesc> columns =
-            program ? base::kParticleColumns : snapshot.schema().kind(group.info().kind).columns;
-        GroupPlace& place = out[g];
-        if (rows.alikeOf(g) != g) {
-            place = out[rows.alikeOf(g)];
-            place.isShared = true;
-            continue;
-        }
-        place.isComputed = program != nullptr;
-        if (program) {
-            place.wordsOffset = roundUp(end.mapped, alignment);
-            place.wordsBytes = group.column64(0).size_bytes();
-            end.mapped = place.wordsOffset + place.wordsBytes;
-        }
-        uint64_t& rowsEnd = program ? end.computed : end.mapped;
-        place.offset = roundUp(rowsEnd, alignment);
-        place.columns.fill(-1);
-        uint64_t words = 0;
-        for (size_t c = 0; c < std::min(columns.size(), place.columns.size()); ++c) {
-            const bool isThere = program ? (program->features.columns >> c & 1) != 0 : group.has(c);
-            if (!isThere || !(drawnColumns(isRibbon) >> c & 1))
-                continue;
-            place.columns[c] = int32_t(words);
-            words += roundUp(roomFor(rowCount(group)) * base::columnElementSize(columns[c].type) / 4, 16);
-        }
-        place.bytes = words * 4;
-        rowsEnd = place.offset + place.bytes;
-    }
-    return end;
+    const auto found = std::ranges::find_if(places_, [&](const Place& place) {
+        return stamp != 0 && place.stamp == stamp && (place.hasPools || !withPools);
+    });
+    return found == places_.end() ? nullptr : &*found;
 }
 
-void ParticleBuffers::write(const base::FrameSnapshot& snapshot, const SnapshotRowStamps& rows, Place& place)
+void ParticleBuffers::listWanted(const Source& source, const ParticleFrame& frame)
 {
-    auto before = place.groupsBefore.begin(); // both lie by rising offsets
-    const auto isOfRows = [](const GroupPlace& at) { return at.bytes > 0 && !at.isComputed && !at.isShared; };
-    for (size_t g = 0; g < place.groups.size(); ++g) {
-        GroupPlace& at = place.groups[g];
-        if (at.bytes == 0 && !at.isComputed)
+    wanted_.assign(source.snapshot->groupCount(), 0);
+    for (const ParticleGroup& group : frame.groups()) {
+        if (source.isOlder && !group.older)
             continue;
-        const base::SnapshotGroup& group = snapshot.group(g);
-        if (at.isComputed) {
-            std::memcpy(place.buffer.data() + at.wordsOffset, group.column64(0).data(), at.wordsBytes);
-            uploadedBytes_ += at.wordsBytes;
-            continue;
-        }
-        const auto columns = snapshot.schema().kind(group.info().kind).columns;
-        if (at.isShared)
-            sharedBytes_ += group.count() * rowBytes(columns, at.columns);
-        if (!isOfRows(at))
-            continue;
-        while (before != place.groupsBefore.end() && (!isOfRows(*before) || before->offset < at.offset))
-            ++before;
-        const bool isSame = before != place.groupsBefore.end() && before->offset == at.offset &&
-                            before->bytes == at.bytes && before->columns == at.columns;
-        const RowStamp unknown{0, group.count(), 0};
-        writeRows(group, columns, rows.parts.empty() ? std::span(&unknown, 1) : rows.of(g),
-                  isSame ? &*before : nullptr, at, place);
+        const size_t index = source.isOlder ? group.olderIndex : group.newerIndex;
+        wanted_[index] = 1;
+        if (isAlike(source, index))
+            wanted_[source.rows.alikeOf(index)] = 1;
     }
 }
 
-/// @param before what lay there until now, in the same columns; null: something else
-void ParticleBuffers::writeRows(const base::SnapshotGroup& group, std::span<const base::ColumnDesc> columns,
-                                std::span<const RowStamp> parts, const GroupPlace* before, GroupPlace& at,
-                                Place& place)
+base::Status ParticleBuffers::makeResident(const Source& source, const ParticleFrame& frame, Place*& out)
 {
-    at.rowsBegin = place.rows.size();
-    auto held =
-        before ? place.rowsBefore.begin() + std::ptrdiff_t(before->rowsBegin) : place.rowsBefore.end();
-    const auto heldEnd =
-        before ? place.rowsBefore.begin() + std::ptrdiff_t(before->rowsEnd) : place.rowsBefore.end();
-    for (const RowStamp& part : parts) { // both lie by rising rows
-        place.rows.push_back(part);
-        while (held != heldEnd && held->first < part.first)
-            ++held;
-        const uint64_t bytes = part.count * rowBytes(columns, at.columns);
-        if (part.stamp != 0 && held != heldEnd && *held == part) {
-            keptBytes_ += bytes;
-            continue;
-        }
-        for (size_t c = 0; c < std::min(columns.size(), at.columns.size()); ++c) {
-            if (at.columns[c] < 0)
-                continue;
-            const size_t size = base::columnElementSize(columns[c].type);
-            const auto from = columns[c].type == base::ColumnType::U64 ? std::as_bytes(group.column64(c))
-                                                                       : std::as_bytes(group.column(c));
-            std::memcpy(place.buffer.data() + at.offset + size_t(at.columns[c]) * 4 + part.first * size,
-                        from.data() + part.first * size, part.count * size);
-        }
-        uploadedBytes_ += bytes;
-    }
-    at.rowsEnd = place.rows.size();
-}
-
-base::Status ParticleBuffers::makeResident(const base::FrameSnapshot& snapshot, uint64_t stamp,
-                                           const SnapshotRowStamps& rows, bool withPools, Place*& out)
-{
-    const auto found =
-        std::ranges::find_if(places_, [stamp](const Place& place) { return place.stamp == stamp; });
-    if (found != places_.end() && (found->hasPools || !withPools)) {
-        found->usedFrame = frame_;
-        out = &*found;
+    listWanted(source, frame);
+    out = find(source.stamp, source.withPools);
+    if (out) {
+        write(source, *out); // what was not drawn until now
+        out->usedFrame = frame_;
         return {};
     }
     const auto isUsedEarlier = [](const Place& a, const Place& b) { return a.usedFrame < b.usedFrame; };
-    out = found != places_.end() ? &*found : &*std::ranges::min_element(places_, isUsedEarlier);
+    out = find(source.stamp, false);
+    out = out ? out : &*std::ranges::min_element(places_, isUsedEarlier);
     out->stamp = 0;
-    out->hasPools = withPools;
+    out->isMixed = source.stamp == 0;
+    out->hasPools = source.withPools;
     out->groupsBefore.swap(out->groups);
     out->rowsBefore.swap(out->rows);
     out->rows.clear();
-    const Sizes sizes = layOut(snapshot, rows, withPools, out->groups);
+    const Sizes sizes = layOut(source, out->groups);
     if (base::Status status = makeRoom(sizes, *out); !status) {
         out->groups.clear(); // nothing of it was written
         return status;
     }
-    write(snapshot, rows, *out);
-    out->stamp = stamp;
+    write(source, *out);
+    out->groupsBefore.clear();
+    out->stamp = source.stamp;
     out->usedFrame = frame_;
     return {};
+}
+
+/// Whether neither of the two snapshots is there, nor will be wanted again, as far as can be told.
+bool ParticleBuffers::mixes(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
+                            ParticleFrame& frame)
+{
+    const StampPair mixedBefore = mixed_;
+    mixed_ = {};
+    const bool isComputed =
+        std::ranges::any_of(frame.batches(), [](const ParticleBatch& batch) { return batch.isComputed; });
+    const bool hasOlder = std::ranges::any_of(frame.groups(), [](const auto& group) { return group.older; });
+    if (!snapshots.older || !hasOlder || isComputed || stamps.snapshots == mixedBefore ||
+        find(stamps.snapshots.newer, drawsPools(*snapshots.newer, false, frame.groups())) ||
+        find(stamps.snapshots.older, drawsPools(*snapshots.older, true, frame.groups())))
+        return false;
+    mixed_ = stamps.snapshots;
+    return true;
 }
 
 base::Status ParticleBuffers::makeRoom(const Sizes& sizes, Place& place)
@@ -317,8 +234,7 @@ base::Status ParticleBuffers::writeOrders(ParticleFrame& frame)
         return status;
     uint64_t end = 0;
     for (size_t i = 0; i < frame.groups().size(); ++i) {
-        const auto order = frame.groups()[i].order;
-        if (order.empty())
+        if (orderBytes(frame.groups()[i]) == 0)
             continue;
         const uint64_t offset = roundUp(end, alignment);
         writeOrder(frame.groups()[i], reinterpret_cast<uint32_t*>(buffer.data() + offset));
@@ -357,6 +273,33 @@ base::Status ParticleBuffers::findAssets(ParticleFrame& frame, const base::Asset
     return {};
 }
 
+/// @param older null after it: rows of the newer are as the frame's moment wants them
+base::Status ParticleBuffers::makeTwoResident(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
+                                              ParticleFrame& frame, Place*& older, Place*& newer)
+{
+    Source source{snapshots.newer, stamps.snapshots.newer, stamps.newerRows,
+                  drawsPools(*snapshots.newer, false, frame.groups()), false};
+    if (mixes(snapshots, stamps, frame)) {
+        const base::Ticks between = snapshots.newer->tick() - snapshots.older->tick();
+        source.moment = {frame.batches()[0].block.moment.x, float(base::toSeconds(between))};
+        older_.assign(snapshots.newer->groupCount(), kNoGroup);
+        for (const ParticleGroup& group : frame.groups())
+            if (group.older)
+                older_[group.newerIndex] = group.olderIndex;
+        source.stamp = 0;
+        source.older = snapshots.older;
+        source.olderRows = stamps.olderRows;
+        return makeResident(source, frame, newer);
+    }
+    if (snapshots.older)
+        if (base::Status status = makeResident({snapshots.older, stamps.snapshots.older, stamps.olderRows,
+                                                drawsPools(*snapshots.older, true, frame.groups()), true},
+                                               frame, older);
+            !status)
+            return status;
+    return makeResident(source, frame, newer);
+}
+
 base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
                                       ParticleFrame& frame, const base::AssetTable* assets)
 {
@@ -372,21 +315,16 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
     states_.nextFrame();
     Place* older = nullptr;
     Place* newer = nullptr;
-    if (snapshots.older)
-        if (base::Status status = makeResident(*snapshots.older, stamps.snapshots.older, stamps.olderRows,
-                                               drawsPools(*snapshots.older, true, frame.groups()), older);
-            !status)
-            return status;
-    if (base::Status status = makeResident(*snapshots.newer, stamps.snapshots.newer, stamps.newerRows,
-                                           drawsPools(*snapshots.newer, false, frame.groups()), newer);
-        !status)
+    if (base::Status status = makeTwoResident(snapshots, stamps, frame, older, newer); !status)
         return status;
     if (base::Status status = writeOrders(frame); !status)
         return status;
     for (size_t i = 0; i < frame.groups().size(); ++i) {
         const ParticleGroup& group = frame.groups()[i];
         ParticleBatch& batch = frame.batches()[i];
-        if (group.older) { // the newer ones go on from there
+        if (group.older && !older)
+            batch.block.moment.z = 0.0f; // rows are those of the moment
+        if (group.older && older) {      // the newer ones go on from there
             if (base::Status status =
                     takeRows(*older, *group.older, group.olderIndex, uint32_t(i), false, batch.older);
                 !status)
@@ -432,7 +370,7 @@ void ParticleBuffers::idle()
 void ParticleBuffers::fence()
 {
     for (Place& place : places_)
-        if (place.usedFrame == frame_ && place.stamp != 0)
+        if (place.usedFrame == frame_ && (place.stamp != 0 || place.isMixed))
             place.buffer.fence();
     if (orders_[frame_ % orders_.size()].name() != 0)
         orders_[frame_ % orders_.size()].fence();

@@ -194,6 +194,7 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
     DrawStream stream;
     stream.batch = uint32_t(batches_.size());
     stream.count = batch.instances;
+    stream.adds = constants[constant::Blend] == float(base::ParticleBlend::Additive);
     if (!batch.isSolid) {
         const glm::vec3 middle =
             ball.radius >= 0.0f
@@ -205,11 +206,12 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
         if (batch.isComputed)
             orderOnGpu(in, place, group, batch);
     }
+    uint32_t shownRows = batch.instances;
     if (!batch.isComputed)
-        arrangeRows(in, place, group, batch, stream);
-    if (batch.instances == 0)
+        arrangeRows(in, place, group, batch, stream, shownRows);
+    if (shownRows == 0)
         return;
-    rows_ += batch.instances;
+    rows_ += shownRows;
     groups_.push_back(group);
     batches_.push_back(batch);
     if (batch.isSolid)
@@ -298,7 +300,7 @@ void ParticleFrame::orderOnGpu(const ParticleFrameInputs& in, const base::Placem
     gpuOrders_.push_back({uint32_t(batches_.size()), mode != base::ParticleOrder::Depth,
                           mode == base::ParticleOrder::Youngest, in.camera->orthographic, origin.eye,
                           place.scale, origin.offset});
-    batch.block.strip.z = 1.0f;
+    batch.block.strip.z = float(OrderForm::Rows);
 }
 
 bool ParticleFrame::thin(const ParticleFrameInputs& in, const base::Placement& place,
@@ -313,9 +315,21 @@ bool ParticleFrame::thin(const ParticleFrameInputs& in, const base::Placement& p
                     thinnedRows_);
 }
 
+/// The shortest.
+OrderForm ParticleFrame::formOf(const ParticleGroup& group, base::ParticleOrder mode, uint32_t rows)
+{
+    constexpr uint32_t kMostWithin = 1 << 16;
+    if (group.looks.empty())
+        return OrderForm::Rows;
+    if (mode == base::ParticleOrder::None && group.order.size() >= rows / 2)
+        return OrderForm::RowLooks;
+    return group.newer->count() <= kMostWithin ? OrderForm::LooksWithin : OrderForm::LooksBeside;
+}
+
 /// Which rows are drawn, and in which order. Computed ones are neither thinned out nor ordered here.
 void ParticleFrame::arrangeRows(const ParticleFrameInputs& in, const base::Placement& place,
-                                ParticleGroup& group, ParticleBatch& batch, DrawStream& stream)
+                                ParticleGroup& group, ParticleBatch& batch, DrawStream& stream,
+                                uint32_t& shownRows)
 {
     const base::SnapshotGroup& rows = *group.newer;
     const auto mode = batch.isSolid || batch.shape == BatchShape::Ribbon
@@ -341,8 +355,16 @@ void ParticleFrame::arrangeRows(const ParticleFrameInputs& in, const base::Place
     }
     if (isThinned)
         group.looks = orderer.looks;
-    batch.instances = stream.count = uint32_t(group.order.size());
-    batch.block.strip.z = isThinned ? 2.0f : 1.0f;
+    shownRows = uint32_t(group.order.size());
+    group.orderForm = formOf(group, mode, batch.instances);
+    batch.block.strip.z = float(group.orderForm);
+    if (group.orderForm == OrderForm::RowLooks) { // all are drawn, to see there whether they are
+        group.order = {};
+        group.looks = group.looks.first(shownRows == 0 ? 0 : batch.instances);
+    }
+    batch.instances = stream.count = group.order.empty() ? uint32_t(group.looks.size()) : shownRows;
+    if (shownRows == 0)
+        batch.instances = stream.count = 0;
     if (mode == base::ParticleOrder::Depth) {
         stream.distances = orderer.distances.data();
         stream.order = group.order.data();

@@ -21,6 +21,16 @@
 
 namespace fx::render {
 
+/// How what is uploaded tells which rows are drawn; the shaders know the numbers.
+enum class OrderForm : uint8_t
+{
+    All,         ///< nothing is: all rows, as they are
+    Rows,        ///< a word each
+    LooksBeside, ///< a row and its look, two words
+    LooksWithin, ///< a row in 16 bits, packSmallLook() above it
+    RowLooks,    ///< no rows, but the look of each
+};
+
 /// A group that is drawn, beside the batch of the same index.
 struct ParticleGroup
 {
@@ -31,6 +41,7 @@ struct ParticleGroup
     std::span<const uint32_t> looks;  ///< by row, see thinRows(); empty: nothing is thinned out
     uint32_t texture, motion, mesh;   ///< ids in the asset table
     int columns, rows;                ///< frames of the texture
+    OrderForm orderForm = OrderForm::All;
 };
 
 /// Rows of a group of particles, published or computed.
@@ -81,7 +92,8 @@ private:
                    ParticleBatch& batch);
     void fillLights(const ParticleFrameInputs& in, ParticleBlock& block);
     void arrangeRows(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
-                     ParticleBatch& batch, DrawStream& stream);
+                     ParticleBatch& batch, DrawStream& stream, uint32_t& shownRows);
+    static OrderForm formOf(const ParticleGroup& group, base::ParticleOrder mode, uint32_t rows);
     bool thin(const ParticleFrameInputs& in, const base::Placement& place, const ParticleGroup& group,
               const ParticleBatch& batch, Orderer& orderer);
     static void sortRows(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,

@@ -140,6 +140,16 @@ RowLook rowLook(const LodLevel& level, float rank, float pixels, RowShape shape)
                                    : RowLook{size * std::sqrt(weight), 1.0f};     // (4)
 }
 
+uint32_t packSmallLook(uint32_t look)
+{ // the shader's smallLook() reads it
+    const glm::vec2 parts = glm::unpackHalf2x16(look);
+    const auto code = [](float value, float perOctave, float one) {
+        const float steps = one + perOctave * std::log2(std::max(value, 1e-6f));
+        return uint32_t(std::clamp(std::round(steps), 0.0f, 255.0f));
+    };
+    return code(parts.x, 32.0f, 128.0f) | code(parts.y, 24.0f, 168.0f) << 8;
+}
+
 bool thinRows(const ThinningInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outLooks,
               uint64_t& ioLeftOut)
 {

@@ -29,5 +29,5 @@ void main()
     fragmentTexture = vec2(meshWords[at + 6], meshWords[at + 7]);
     fragmentColor = vec4(p.color.rgb, opacityOf(p.color.a, levelLook));
     fragmentFrame = p.frame;
-    gl_Position = p.alive ? clipOf(fragmentPlace) : clippedAway();
+    gl_Position = p.alive && levelLook.x > 0.0 ? clipOf(fragmentPlace) : clippedAway();
 }

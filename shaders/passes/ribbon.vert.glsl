@@ -8,22 +8,20 @@ out vec3 fragmentPlace;
 out vec2 fragmentTexture;     // x across, 0 to 1; y [m] along, in lengths of the texture
 out vec4 fragmentColor;
 
-// Columns of the kind: x y z halfWidth arc color strip age.
+// Columns of the kind: x y z halfWidth arc color strip age. The strip is not there: a color whose opacity has a sign goes on
+// with the strip of the row before.
 vec3 pointAt(int row) { return placed(newerVector(0, row)); }
-bool sameStrip(int a, int b)
+bool goesOn(int row)
 {
-    if (a < 0 || b >= rows.x)
-        return false;
-    int at = newerPlace(6);
-    return floatBitsToUint(newerWords[at + 2 * a]) == floatBitsToUint(newerWords[at + 2 * b]) &&
-           floatBitsToUint(newerWords[at + 2 * a + 1]) == floatBitsToUint(newerWords[at + 2 * b + 1]);
+    return row > 0 && row < rows.x && floatBitsToUint(newerWords[newerPlace(5) + 2 * row + 1]) >> 31 != 0u;
 }
+vec4 colorAt(int row) { return abs(newerColor(5, row)); }
 
 // Unit vector across the strip at a row, as far as it can facing the eye.
 vec3 acrossAt(int row)
 {
     vec3 here = pointAt(row);
-    vec3 along = (sameStrip(row - 1, row) ? pointAt(row - 1) : here) - (sameStrip(row, row + 1) ? pointAt(row + 1) : here);
+    vec3 along = (goesOn(row) ? pointAt(row - 1) : here) - (goesOn(row + 1) ? pointAt(row + 1) : here);
     vec3 across = cross(lookAt(here), along);
     float size = length(across);
     return size > 1e-6 * length(along) ? across / size : right.xyz;
@@ -37,7 +35,7 @@ void main()
     fragmentTexture = vec2(0.0);
     fragmentColor = vec4(0.0);
     gl_Position = clippedAway();
-    if (!sameStrip(row, row + 1))
+    if (!goesOn(row + 1) || levelLook.x == 0.0)
         return;
     bool isSecond = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
     float side = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4 ? 1.0 : -1.0;
@@ -68,7 +66,7 @@ void main()
     vec3 center = mix(pointAt(from), pointAt(row + 1), later);
     float halfWidth = mix(newerValue(3, from), newerValue(3, row + 1), later) * placePosition.w * levelLook.x;
     float shown = max(halfWidth, moment.w * pixelSize(center));
-    vec4 color = mix(newerColor(5, from), newerColor(5, row + 1), later);
+    vec4 color = mix(colorAt(from), colorAt(row + 1), later);
     fragmentPlace = center + acrossAt(at) * (side * shown);
     float arc = mix(newerValue(4, from), newerValue(4, row + 1), later);
     fragmentTexture = vec2(0.5 + 0.5 * side, strip.y > 0.0 ? arc / strip.y : arc);

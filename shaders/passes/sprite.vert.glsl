@@ -56,7 +56,8 @@ void main()
     fragmentColor = vec4(0.0);
     fragmentFrame = p.frame;
     gl_Position = clippedAway();
-    if (!p.alive)
+    vec2 levelLook = lookOfRank(rows.z + gl_InstanceID);
+    if (!p.alive || levelLook.x == 0.0)
         return;
     vec3 horizontal;
     vec3 vertical;
@@ -64,7 +65,6 @@ void main()
     vec2 extent = vec2(p.radius * look.x, p.radius);
     if (isAlong)
         extent.y += 0.5 * look.y * length(p.velocity);
-    vec2 levelLook = lookOfRank(rows.z + gl_InstanceID);
     extent = grown(extent, levelLook.x * levelLook.x);
     float least = moment.w * pixelSize(p.center);
     vec2 shown = max(extent, vec2(least)); // what is smaller than a pixel is widened to it and thinned as much

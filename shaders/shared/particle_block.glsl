@@ -9,7 +9,7 @@
 // moment          x share of the newer snapshot; y seconds between both; z 1 when there is an older one; w least radius [pixel]
 // atlas           x frames; y 1 to mix frames; z motion of a vector of 1 [frame]; w 1 with texture
 // strip           x 1 with motion vectors; y length of a ribbon for one width of texture [m], 0: its own;
-//                 z 1 when rows are drawn by an order, 2 when each has its look beside it; w share of a ribbon's half width that is soft
+//                 z OrderForm: which rows are drawn, and how; w share of a ribbon's half width that is soft
 // skyAbove        rgb exposed radiance that comes from above on average; skyBelow from below
 // sunLight        rgb exposed illuminance
 // lightPosition   xyz [m] relative to the eye; w radius [m]

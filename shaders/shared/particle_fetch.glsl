@@ -26,16 +26,33 @@ vec4 olderColor(int column, int row)
     return colorOfWords(olderWords[at], olderWords[at + 1]);
 }
 
-// The row that is drawn as number `rank`.
+// The row that is drawn as number `rank`; strip.z is an OrderForm of rendering/view/particle_frame.h.
 int rowOfRank(int rank)
 {
-    if (strip.z > 1.5)
+    int form = int(strip.z);
+    if (form == 2)
         return int(drawOrder[2 * rank]);
-    return strip.z > 0.5 ? int(drawOrder[rank]) : rank;
+    if (form == 3)
+        return int(drawOrder[rank] & 0xFFFFu);
+    return form == 1 ? int(drawOrder[rank]) : rank;
 }
 
-// What the level of detail makes of it: factors of its size and of its opacity.
-vec2 lookOfRank(int rank) { return strip.z > 1.5 ? unpackHalf2x16(drawOrder[2 * rank + 1]) : vec2(1.0); }
+// As rendering/view/row_thinning.cpp packs it.
+vec2 smallLook(uint look)
+{
+    return exp2(vec2((float(look & 255u) - 128.0) / 32.0, (float(look >> 8 & 255u) - 168.0) / 24.0));
+}
+
+// What the level of detail makes of it: factors of its size and of its opacity; 0: it is not drawn.
+vec2 lookOfRank(int rank)
+{
+    int form = int(strip.z);
+    if (form == 2)
+        return unpackHalf2x16(drawOrder[2 * rank + 1]);
+    if (form == 3)
+        return smallLook(drawOrder[rank] >> 16);
+    return form == 4 ? unpackHalf2x16(drawOrder[rank]) : vec2(1.0);
+}
 float opacityOf(float opacity, vec2 levelLook)
 {
     bool covers = look.w < 0.5; // and cannot do so more than wholly
@@ -60,47 +77,165 @@ struct Particle
     vec4 orientation;
 };
 
+// Rows of the CPU are packed, as rendering/view/packed_rows.h says.
+const float kAgeUnit = 1.0 / 2048.0; // [s]
+const float kMostAge = 2047.0 / 2048.0;
+const float kTurnUnit = 6.28318531 / 4096.0; // [rad]
+bool newerIsPacked() { return newerPlace(15) >= 0; }
+bool olderIsPacked() { return moment.z > 0.5 && olderPlace(15) >= 0; }
+uint newerBits(int column, int row) { return floatBitsToUint(newerValue(column, row)); }
+uint olderBits(int column, int row) { return floatBitsToUint(olderValue(column, row)); }
+
+float radiusOfBits(uint sizes)
+{
+    uint code = sizes & 0x1FFFFu;
+    return code == 0u ? 0.0 : uintBitsToFloat((code << 12) + (87u << 23));
+}
+float powerOfTwo(int e) { return uintBitsToFloat(uint(e + 127) << 23); }
+float ageOfBits(uint high) { return float(high >> 21) * kAgeUnit; }
+vec4 colorOfBits(uint sizes, uint low, uint high)
+{
+    vec3 parts = vec3(uvec3(low, low >> 12, low >> 24 | high << 8) & 0xFFFu);
+    return vec4(parts * powerOfTwo(int(high >> 4 & 31u) - 27), unpackHalf2x16(sizes >> 17).x);
+}
+vec3 velocityOfBits(uint bits, uint turn)
+{
+    uvec3 parts = (uvec3(bits, bits >> 9, bits >> 18) & 511u) << 4 | (uvec3(turn, turn >> 4, turn >> 8) & 15u);
+    return (vec3(parts) - 4096.0) * powerOfTwo(int(bits >> 27) - 25);
+}
+vec4 orientationOfBits(uint xy, uint zw) { return normalize(vec4(unpackSnorm2x16(xy), unpackSnorm2x16(zw))); }
+
+// What a row says, in the group's axes.
+struct Row
+{
+    vec3 position;
+    float age;
+    float radius;
+    vec4 color;
+    vec3 velocity;
+    float angle;
+    float frame;
+    vec4 orientation;
+};
+
+Row newerRow(int row)
+{
+    Row r;
+    r.position = newerVector(0, row);
+    r.frame = newerPlace(10) >= 0 ? newerValue(10, row) : 0.0;
+    r.velocity = vec3(0.0);
+    r.angle = 0.0;
+    r.orientation = vec4(0.0, 0.0, 0.0, 1.0);
+    if (newerIsPacked()) {
+        uint sizes = newerBits(3, row);
+        uint high = newerBits(5, row);
+        uint turn = high >> 9 & 0xFFFu;
+        bool hasAngle = newerPlace(9) >= 0;
+        r.radius = radiusOfBits(sizes);
+        r.age = ageOfBits(high);
+        r.color = colorOfBits(sizes, newerBits(4, row), high);
+        if (newerPlace(6) >= 0)
+            r.velocity = velocityOfBits(newerBits(6, row), hasAngle ? 0u : turn);
+        r.angle = hasAngle ? float(turn) * kTurnUnit : 0.0;
+        if (newerPlace(11) >= 0)
+            r.orientation = orientationOfBits(newerBits(11, row), newerBits(12, row));
+        return r;
+    }
+    r.age = newerValue(3, row);
+    r.radius = newerValue(4, row);
+    r.color = newerColor(5, row);
+    if (newerPlace(6) >= 0)
+        r.velocity = newerVector(6, row);
+    if (newerPlace(9) >= 0)
+        r.angle = newerValue(9, row);
+    if (newerPlace(11) >= 0)
+        r.orientation = vec4(newerVector(11, row), newerValue(14, row));
+    return r;
+}
+
+// Columns that are not there are as in the newer.
+Row olderRow(int row, Row newer)
+{
+    Row r = newer;
+    r.position = olderVector(0, row);
+    if (olderPlace(10) >= 0)
+        r.frame = olderValue(10, row);
+    if (olderIsPacked()) {
+        uint sizes = olderBits(3, row);
+        uint high = olderBits(5, row);
+        uint turn = high >> 9 & 0xFFFu;
+        bool hasAngle = olderPlace(9) >= 0;
+        r.radius = radiusOfBits(sizes);
+        r.age = ageOfBits(high);
+        r.color = colorOfBits(sizes, olderBits(4, row), high);
+        if (olderPlace(6) >= 0)
+            r.velocity = velocityOfBits(olderBits(6, row), hasAngle ? 0u : turn);
+        if (hasAngle)
+            r.angle = float(turn) * kTurnUnit;
+        if (olderPlace(11) >= 0)
+            r.orientation = orientationOfBits(olderBits(11, row), olderBits(12, row));
+    } else {
+        r.age = olderValue(3, row);
+        r.radius = olderValue(4, row);
+        r.color = olderColor(5, row);
+        if (olderPlace(6) >= 0)
+            r.velocity = olderVector(6, row);
+        if (olderPlace(9) >= 0)
+            r.angle = olderValue(9, row);
+        if (olderPlace(11) >= 0)
+            r.orientation = vec4(olderVector(11, row), olderValue(14, row));
+    }
+    if (newerIsPacked() || olderIsPacked()) // whole turns are not told
+        r.angle += 6.28318531 * round((newer.angle - r.angle) / 6.28318531);
+    return r;
+}
+
+// Whether two rows are the same particle; ages of packed ones are rounded down, and go no further than one second.
+bool isSame(Row older, Row newer, bool isPacked)
+{
+    float since = moment.y;
+    float most = isPacked ? kMostAge : 3.0e38;
+    float least = isPacked ? min(floor(since / kAgeUnit) * kAgeUnit, most) : since;
+    float room = 0.5 * since + (isPacked ? 1.5 * kAgeUnit : 0.0);
+    return newer.age >= least && older.radius > 0.0 && abs(min(older.age + since, most) - newer.age) < room;
+}
+
 // A row that lives in both snapshots is mixed of both; one that was born between them is carried back along its velocity.
 Particle fetchParticle(int row)
 {
     Particle p;
-    float age = newerValue(3, row);
+    Row newer = newerRow(row);
+    bool isPacked = newerIsPacked();
     float back = (1.0 - moment.x) * moment.y;
-    bool both = moment.z > 0.5 && row < rows.y && age >= moment.y;
-    if (both) {
-        float before = olderValue(3, row);
-        both = olderValue(4, row) > 0.0 && abs(before + moment.y - age) < 0.5 * moment.y;
-    }
-    float t = both ? moment.x : 1.0;
-    vec3 position = newerVector(0, row);
-    p.radius = newerValue(4, row);
-    p.color = newerColor(5, row);
-    p.alive = p.radius > 0.0 && (both || moment.z < 0.5 || age >= back);
-    vec3 velocity = newerPlace(6) >= 0 ? newerVector(6, row) : vec3(0.0);
-    p.angle = newerPlace(9) >= 0 ? newerValue(9, row) : 0.0;
-    p.frame = newerPlace(10) >= 0 ? newerValue(10, row) : 0.0;
-    p.orientation = vec4(0.0, 0.0, 0.0, 1.0);
-    if (newerPlace(11) >= 0)
-        p.orientation = vec4(newerVector(11, row), newerValue(14, row));
-    if (both) {
-        position = mix(olderVector(0, row), position, t);
-        p.radius = mix(olderValue(4, row), p.radius, t);
-        if (newerPlace(6) >= 0 && olderPlace(6) >= 0)
-            velocity = mix(olderVector(6, row), velocity, t);
-        p.color = mix(olderColor(5, row), p.color, t);
-        if (olderPlace(9) >= 0)
-            p.angle = mix(olderValue(9, row), p.angle, t);
-        if (olderPlace(10) >= 0 && olderValue(10, row) <= p.frame) // otherwise it began anew
-            p.frame = mix(olderValue(10, row), p.frame, t);
-        if (olderPlace(11) >= 0 && newerPlace(11) >= 0) {
-            vec4 before = vec4(olderVector(11, row), olderValue(14, row));
-            p.orientation = normalize(mix(dot(before, p.orientation) < 0.0 ? -before : before, p.orientation, t));
+    bool isBorn = isPacked ? newer.age + kAgeUnit > back || newer.age >= kMostAge : newer.age >= back;
+    bool both = false;
+    if (moment.z > 0.5 && row < rows.y) {
+        Row older = olderRow(row, newer);
+        both = isSame(older, newer, isPacked || olderIsPacked());
+        if (both) {
+            float t = moment.x;
+            vec4 now = newer.orientation;
+            newer.position = mix(older.position, newer.position, t);
+            newer.radius = mix(older.radius, newer.radius, t);
+            newer.velocity = mix(older.velocity, newer.velocity, t);
+            newer.color = mix(older.color, newer.color, t);
+            newer.angle = mix(older.angle, newer.angle, t);
+            if (older.frame <= newer.frame) // otherwise it began anew
+                newer.frame = mix(older.frame, newer.frame, t);
+            if (newerPlace(11) >= 0 && olderPlace(11) >= 0)
+                newer.orientation =
+                    normalize(mix(dot(older.orientation, now) < 0.0 ? -older.orientation : older.orientation, now, t));
         }
-    } else if (moment.z > 0.5) {
-        position -= velocity * back;
     }
-    p.center = placed(position);
-    p.velocity = placedDirection(velocity);
-    p.radius *= placePosition.w;
+    p.alive = newer.radius > 0.0 && (both || moment.z < 0.5 || isBorn);
+    if (!both && moment.z > 0.5)
+        newer.position -= newer.velocity * back;
+    p.center = placed(newer.position);
+    p.velocity = placedDirection(newer.velocity);
+    p.radius = newer.radius * placePosition.w;
+    p.color = newer.color;
+    p.angle = newer.angle;
+    p.frame = newer.frame;
+    p.orientation = newer.orientation;
     return p;
 }

@@ -299,7 +299,7 @@ TEST_F(DrawnPools, areUploadedOnceAStep)
         const Picture picture = draw(pooled);
         const double kept = double(statistics_.uploadedBytes);
         EXPECT_EQ(drawAnew(pooled).texels, picture.texels) << step;
-        EXPECT_LT(kept, 0.6 * double(statistics_.uploadedBytes)) << step; // of two snapshots, and orders
+        EXPECT_LE(kept, double(statistics_.uploadedBytes)) << step; // one state, whether mixed or kept
     }
 }
 

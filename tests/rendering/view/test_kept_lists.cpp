@@ -144,7 +144,7 @@ TEST_F(KeptLists, whenTheCameraTurnsRowsOfAnUnchangedSceneStayWhereTheyAre)
     request_.camera.origin.x += 0.01;
     (void)show(b, &a, 0.5);
     EXPECT_FALSE(isKept());
-    EXPECT_EQ(view_->statistics().uploadedBytes, all - 10u * 28u) << "all but the ten rows";
+    EXPECT_EQ(view_->statistics().uploadedBytes, all - 10u * 24u) << "all but the ten rows";
 }
 
 TEST_F(KeptLists, memoryOfTheFrameIsSharedAndCounted)

@@ -292,7 +292,7 @@ TEST(DrawRuns, everyElementIsDrawnOnceAndTheOrderIsRightToASlab)
                                           {1, 1000, b.data(), order.data(), true, 0}};
     uint32_t next[2] = {};
     float least = 100.0f;
-    const float slab = 7.0f / 32.0f;
+    const float slab = 7.0f / 13.0f;
     const auto built = runs.build(streams);
     for (const auto& run : built) {
         ASSERT_EQ(run.first, next[run.batch]);
@@ -305,5 +305,47 @@ TEST(DrawRuns, everyElementIsDrawnOnceAndTheOrderIsRightToASlab)
     }
     EXPECT_EQ(next[0], 1000u);
     EXPECT_EQ(next[1], 1000u);
-    EXPECT_LE(built.size(), 66u);
+    EXPECT_LE(built.size(), render::DrawRuns::kMostTurns);
+    EXPECT_GE(built.size(), 15u);
+}
+
+TEST(DrawRuns, whatOnlyAddsIsNotCutAgainstOthersThatAdd)
+{
+    std::vector<float> distances;
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < 100; ++i) {
+        distances.push_back(100.0f - float(i));
+        order.push_back(i);
+    }
+    render::DrawRuns runs(std::pmr::get_default_resource());
+    render::DrawStream streams[3];
+    for (uint32_t s = 0; s < 3; ++s) {
+        streams[s] = {s, 100, distances.data(), order.data(), false, 0};
+        streams[s].adds = true;
+    }
+    EXPECT_EQ(runs.build(streams).size(), 3u);
+    streams[1].adds = false;
+    EXPECT_GT(runs.build(streams).size(), 3u) << "the control: one of them covers";
+    EXPECT_LE(runs.build(streams).size(), render::DrawRuns::kMostTurns);
+}
+
+TEST(DrawRuns, manyStreamsAreWholeRatherThanManyTurns)
+{
+    std::vector<float> distances;
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < 100; ++i) {
+        distances.push_back(100.0f - float(i));
+        order.push_back(i);
+    }
+    render::DrawRuns runs(std::pmr::get_default_resource());
+    std::vector<render::DrawStream> streams;
+    for (uint32_t s = 0; s < 40; ++s) {
+        streams.push_back({s, 100, distances.data(), order.data(), false, 0});
+        uint64_t drawn = 0;
+        const auto built = runs.build(streams);
+        for (const auto& run : built)
+            drawn += run.count;
+        EXPECT_EQ(drawn, 100 * streams.size());
+        EXPECT_LE(built.size(), std::max<size_t>(render::DrawRuns::kMostTurns, streams.size()));
+    }
 }

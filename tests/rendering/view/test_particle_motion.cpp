@@ -108,25 +108,43 @@ TEST_F(ParticleMotionTest, columnsThatAreNotThereAreNotNeeded)
     EXPECT_NEAR(centroid(draw(newer, &older, 0.5)).x, 50.0f, 0.01f);
 }
 
-TEST_F(ParticleMotionTest, aSnapshotIsUploadedOnceAndCostsTwentyEightBytesARow)
+TEST_F(ParticleMotionTest, aFrameUploadsOneStateOfTwentyFourBytesARow)
 {
     std::vector<TestParticle> many(1000);
-    auto a = emptySnapshot(1.0);
-    addParticles(a, many, column::kAlways);
-    auto b = emptySnapshot(1.5);
-    many[7].center.x = 1.0f;
-    addParticles(b, many, column::kAlways);
-    auto c = emptySnapshot(2.0);
-    many[7].center.x = 2.0f;
-    addParticles(c, many, column::kAlways);
-    (void)draw(b, &a, 0.0);
-    EXPECT_EQ(view_->statistics().uploadedBytes, 2u * 28'000u);
-    (void)draw(b, &a, 0.5);
-    EXPECT_EQ(view_->statistics().uploadedBytes, 0u);
-    (void)draw(c, &b, 0.0);
-    EXPECT_EQ(view_->statistics().uploadedBytes, 28'000u);
+    std::vector<base::FrameSnapshot> states;
+    for (int i = 0; i < 8; ++i) {
+        many[7].center.x = float(i);
+        states.push_back(emptySnapshot(1.0 + 0.5 * i));
+        addParticles(states.back(), many, column::kAlways);
+    }
+    const auto uploaded = [&](size_t newer, double share) {
+        (void)draw(states[newer], &states[newer - 1], share);
+        return view_->statistics().uploadedBytes;
+    };
+    EXPECT_EQ(uploaded(1, 0.25), 24'000u) << "mixed of both";
+    EXPECT_EQ(uploaded(3, 0.25), 24'000u) << "every second is left out";
+    EXPECT_EQ(uploaded(5, 0.25), 24'000u);
+    EXPECT_EQ(uploaded(6, 0.5), 24'000u) << "as many frames as snapshots";
+    EXPECT_EQ(uploaded(6, 0.75), 48'000u) << "more frames than snapshots: both are kept from now on";
+    EXPECT_EQ(uploaded(6, 1.0), 0u);
+    EXPECT_EQ(uploaded(7, 0.25), 24'000u);
+    EXPECT_EQ(uploaded(7, 0.5), 0u);
     EXPECT_EQ(view_->statistics().particles, 1000u);
     EXPECT_EQ(view_->statistics().programsCompiled, 0u);
+}
+
+TEST_F(ParticleMotionTest, whatIsNotSeenIsNotUploadedUntilItIs)
+{
+    auto snapshot = emptySnapshot(1.0);
+    addParticles(snapshot, std::vector<TestParticle>(100), column::kAlways);
+    auto& aside = addParticles(snapshot, std::vector<TestParticle>(1000), column::kAlways);
+    aside.editInfo().placement.position = {1000.0, 0.0, 0.0};
+    aside.editInfo().bounds = {{-1, -1, -1}, {1, 1, 1}};
+    (void)draw(snapshot, nullptr, 1.0);
+    EXPECT_EQ(view_->statistics().uploadedBytes, 2'400u);
+    (void)renderPair(snapshot, nullptr, 1.0,
+                     render::orthographicView({{1000, 0, 10}, {1000, 0, 0}}, 4000.0f, 1.0f, 0.1f, 100.0f));
+    EXPECT_EQ(view_->statistics().uploadedBytes, 24'000u) << "the others are there";
 }
 
 TEST_F(ParticleMotionTest, onlyLivingRowsAreOrderedAndUploaded)
@@ -138,7 +156,7 @@ TEST_F(ParticleMotionTest, onlyLivingRowsAreOrderedAndUploaded)
     set(addParticles(snapshot, many, column::kAlways), constant::Order, float(base::ParticleOrder::Depth));
     (void)draw(snapshot, nullptr, 1.0);
     EXPECT_EQ(view_->statistics().particlesOrdered, 75u);
-    EXPECT_EQ(view_->statistics().uploadedBytes, 2800u + 75u * 4u);
+    EXPECT_EQ(view_->statistics().uploadedBytes, 2400u + 75u * 4u);
 }
 
 TEST_F(ParticleMotionTest, framesOfAnAtlasDoNotBleedIntoEachOther)

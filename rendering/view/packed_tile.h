@@ -1,0 +1,39 @@
+/// @file packed_tile.h
+/// Some rows of particles on their way to packed_rows.h.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace fx::render {
+
+struct PackedTile
+{
+    static constexpr uint32_t kRows = 256;
+
+    float x[kRows], y[kRows], z[kRows], age[kRows], radius[kRows];
+    float red[kRows], green[kRows], blue[kRows], opacity[kRows];
+    float velocityX[kRows], velocityY[kRows], velocityZ[kRows], angle[kRows], frame[kRows];
+    float qx[kRows], qy[kRows], qz[kRows], qw[kRows];
+    float flip[kRows];    ///< of the orientation
+    uint32_t turn[kRows]; ///< 12 bits, see packed_rows.h
+
+    /// Makes rows empty.
+    void fillFrom(uint32_t first, uint32_t count)
+    {
+        for (float* all : {x, y, z, age, radius, red, green, blue, opacity, velocityX, velocityY, velocityZ,
+                           angle, frame, qx, qy, qz, qw})
+            std::fill(all + first, all + count, 0.0f);
+    }
+};
+
+/// Where words of rows go to; null: nowhere.
+struct PackedTargets
+{
+    float* position[3];
+    uint32_t *sizes, *colorLow, *colorHigh, *velocity, *orientation[2];
+    float* frame;
+    bool hasAngle;
+};
+
+} // namespace fx::render
