@@ -74,7 +74,8 @@ base::Status FrameRenderer::start(const FrameRendererOptions& options)
         return status;
 
     const bool isAsked = options_.scene.compute == "gpu" || options_.scene.compute == "auto";
-    staysOnGpu_ = (isAsked && gpuObstacleOf(file_).empty()) || showsDepthContacts(file_);
+    staysOnGpu_ = (isAsked && gpuObstacleOf(file_).empty()) ||
+                  (options_.scene.compute != "cpu" && showsDepthContacts(file_));
     stage_ = std::make_unique<render::StageRenderer>(device_.get());
     if (base::Status status = stage_->setMesh(file_.mesh); !status)
         return status;
@@ -98,7 +99,7 @@ base::Status FrameRenderer::keepOnGpu(base::Ticks tick)
         if (status.ok())
             status = drawStage(camera);
         if (status.ok())
-            status = drawEffects(camera, between);
+            status = drawEffects(camera, 0.0);
         if (!status)
             return status;
     }
@@ -136,7 +137,8 @@ base::Status FrameRenderer::render(base::Ticks tick)
         return status;
     if (options_.settings.layerOutputs)
         background_ = readPicture(stage_->colorTexture(), 4);
-    if (base::Status status = drawEffects(camera, tick); !status)
+    const double passed = lastTick_ < 0 ? 0.0 : base::toSeconds(tick - lastTick_);
+    if (base::Status status = drawEffects(camera, passed); !status)
         return status;
     device_->gl.Finish();
     counters_.millisecondsRender = millisecondsSince(start);
@@ -158,7 +160,7 @@ base::Status FrameRenderer::drawStage(const render::CameraView& camera)
                           options_.settings.exposureEv100, options_.width, options_.height);
 }
 
-base::Status FrameRenderer::drawEffects(const render::CameraView& camera, base::Ticks tick)
+base::Status FrameRenderer::drawEffects(const render::CameraView& camera, double passed)
 {
     FxFrameDef frame = fxDefaultFrameDef();
     frame.resetHistory = lastTick_ < 0 ? 1 : 0;
@@ -170,7 +172,7 @@ base::Status FrameRenderer::drawEffects(const render::CameraView& camera, base::
     frame.depthTexture = stage_->depthTexture();
     frame.width = options_.width;
     frame.height = options_.height;
-    frame.deltaTime = lastTick_ < 0 ? 0.0 : base::toSeconds(tick - lastTick_);
+    frame.deltaTime = passed;
     return toStatus(fxView_Render(view_, &frame));
 }
 

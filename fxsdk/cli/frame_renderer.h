@@ -72,7 +72,8 @@ private:
     base::Status keepOnGpu(base::Ticks tick);
     base::Status lookThrough(const render::CameraView& camera);
     base::Status drawStage(const render::CameraView& camera);
-    base::Status drawEffects(const render::CameraView& camera, base::Ticks tick);
+    /// @param passed [s] since the picture before, which eyes have adapted in
+    base::Status drawEffects(const render::CameraView& camera, double passed);
     base::Status count();
     Picture readPicture(uint32_t texture, int channels, float whenAbsent = 0.0f);
 

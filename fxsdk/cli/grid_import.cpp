@@ -81,8 +81,15 @@ Status readRows(std::string_view text, std::vector<Row>& rows, uint32_t& outChan
     return rows.empty() ? Status(Code::Parse, "no line with numbers") : Status();
 }
 
+/// Places of nodes along one axis, not rounded yet.
+struct Axis
+{
+    double low = 0;  ///< [m]
+    double cell = 1; ///< [m]
+};
+
 /// Nodes along one axis, from the places of all rows.
-void measureAxis(const std::vector<Row>& rows, size_t axis, sim::FieldGrid& grid)
+Axis measureAxis(const std::vector<Row>& rows, size_t axis, sim::FieldGrid& grid)
 {
     std::vector<double> places;
     for (const Row& row : rows)
@@ -95,18 +102,20 @@ void measureAxis(const std::vector<Row>& rows, size_t axis, sim::FieldGrid& grid
         nodes += places[i] - places[i - 1] > same ? 1 : 0;
     const int a = int(axis);
     grid.nodes[a] = nodes;
-    grid.low[a] = float(places.front());
-    grid.cell[a] = nodes > 1 ? float(extent / double(nodes - 1)) : 1.0f;
+    const Axis out{places.front(), nodes > 1 ? extent / double(nodes - 1) : 1.0};
+    grid.low[a] = float(out.low);
+    grid.cell[a] = float(out.cell);
+    return out;
 }
 
-Status place(const std::vector<Row>& rows, sim::FieldGrid& grid)
+Status place(const std::vector<Row>& rows, const std::array<Axis, 3>& axes, sim::FieldGrid& grid)
 {
     std::vector<bool> taken(grid.count());
     for (const Row& row : rows) {
         glm::uvec3 node(0u);
         for (size_t axis = 0; axis < 3; ++axis) {
             const int a = int(axis);
-            const double cells = (row.place[axis] - double(grid.low[a])) / double(grid.cell[a]);
+            const double cells = (row.place[axis] - axes[axis].low) / axes[axis].cell;
             node[a] = uint32_t(std::clamp(std::lround(cells), 0L, long(grid.nodes[a]) - 1));
             if (std::abs(cells - double(node[a])) > kUneven)
                 return atLine(row.line, "the place lies between the nodes of a regular grid");
@@ -141,8 +150,9 @@ base::Result<sim::FieldGrid> gridFromCsv(std::string_view text)
     sim::FieldGrid grid;
     if (Status status = readRows(text, rows, grid.channels); !status)
         return status;
+    std::array<Axis, 3> axes;
     for (size_t axis = 0; axis < 3; ++axis)
-        measureAxis(rows, axis, grid);
+        axes[axis] = measureAxis(rows, axis, grid);
     if (Status status = checkShape(grid); !status)
         return status;
     if (grid.count() != rows.size())
@@ -151,7 +161,7 @@ base::Result<sim::FieldGrid> gridFromCsv(std::string_view text)
                                        std::to_string(grid.nodes.x) + " x " + std::to_string(grid.nodes.y) +
                                        " x " + std::to_string(grid.nodes.z));
     grid.values.resize(grid.count() * grid.channels);
-    if (Status status = place(rows, grid); !status)
+    if (Status status = place(rows, axes, grid); !status)
         return status;
     return grid;
 }

@@ -42,7 +42,7 @@ base::Status InstanceDirector::play(FxScene* scene, Role& role, base::Ticks due,
     const bool hasStarted = state != FX_INSTANCE_DORMANT;
     base::Status status = hasStarted ? jump(scene, role, due) : base::Status();
     if (status.ok())
-        status = change(scene, role, due);
+        status = change(scene, role, due, hasStarted);
     if (status.ok() && to > base::toTicks(role.instance.start))
         status = move(scene, role, to);
     if (status.ok() && hasStarted)
@@ -58,7 +58,7 @@ base::Status InstanceDirector::jump(FxScene* scene, Role& role, base::Ticks due)
                : base::Status();
 }
 
-base::Status InstanceDirector::change(FxScene* scene, Role& role, base::Ticks due)
+base::Status InstanceDirector::change(FxScene* scene, Role& role, base::Ticks due, bool hasStarted)
 {
     const scene_file::InstancePlay& play = role.instance.play;
     if (takeDue(play.speed, due, role.speeds)) {
@@ -66,7 +66,7 @@ base::Status InstanceDirector::change(FxScene* scene, Role& role, base::Ticks du
         if (base::Status status = toStatus(fxScene_SetInstanceSpeed(scene, role.id, speed)); !status)
             return status;
     }
-    if (!takeDue(play.emitting, due, role.switches))
+    if (!hasStarted || !takeDue(play.emitting, due, role.switches))
         return {};
     FxInstanceParameters parameters = fxDefaultInstanceParameters();
     parameters.intensity = role.instance.parameters.intensity;

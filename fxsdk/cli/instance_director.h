@@ -40,7 +40,7 @@ private:
     };
 
     static base::Status play(FxScene* scene, Role& role, base::Ticks due, base::Ticks to);
-    static base::Status change(FxScene* scene, Role& role, base::Ticks due);
+    static base::Status change(FxScene* scene, Role& role, base::Ticks due, bool hasStarted);
     static base::Status jump(FxScene* scene, Role& role, base::Ticks due);
     static base::Status move(FxScene* scene, Role& role, base::Ticks to);
     static base::Status tell(FxScene* scene, Role& role, base::Ticks due);

@@ -4,6 +4,7 @@
 #include "fxsdk/cli/atomic_file.h"
 #include "fxsdk/cli/commands.h"
 #include "fxsdk/cli/default_stage.h"
+#include "fxsdk/cli/depth_contacts.h"
 #include "fxsdk/cli/exit_code.h"
 #include "fxsdk/cli/frame_output.h"
 #include "fxsdk/cli/interrupt.h"
@@ -155,7 +156,8 @@ int runRender(const RenderArguments& arguments)
     for (const preset::Diagnostic& warning : scene->warnings)
         std::fprintf(stderr, "warning: %s\n", preset::toString(warning).c_str());
 
-    if (const std::string why = gpuObstacleOf(*scene); arguments.compute == "gpu" && !why.empty())
+    const std::string why = gpuObstacleOf(*scene);
+    if (arguments.compute == "gpu" && !why.empty() && !showsDepthContacts(*scene))
         std::fprintf(stderr,
                      "warning: --compute gpu: the CPU computes all particles here, as the stage takes light "
                      "from them: %s\n",

@@ -106,7 +106,9 @@ void Scene::measure(Instance& instance) const
         instance.reachWind = wind;
     }
     if (!stays) {
-        instance.reach = double(setup.placement.scale) * double(instance.localReach);
+        instance.reach = instance.past && !instance.past->isKnown()
+                             ? kUnlimited
+                             : double(setup.placement.scale) * double(instance.localReach);
         return;
     }
     const glm::dvec3 away =
@@ -239,7 +241,9 @@ void Scene::lookAround()
 {
     lookAgain_ = false;
     const auto leaves = [this](uint32_t index, sim::Slot) {
-        const Instance& instance = instances_.at(index);
+        Instance& instance = instances_.at(index);
+        if (instance.past && !instance.past->isSettled())
+            measure(instance); // what was once may be over
         const Reason reason = mayHide(instance) ? judge(instance, true) : Reason::None;
         return reason != Reason::None && sendOut(index, reason);
     };

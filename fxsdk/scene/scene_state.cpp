@@ -2,11 +2,20 @@
 #include "fxsdk/scene/scene.h"
 
 #include <algorithm>
+#include <memory>
+#include <new>
 #include <utility>
 
 namespace fx::scene {
 
 namespace {
+
+/// Whether particles get farther in a gale.
+bool isBlown(const sim::EffectDef& effect)
+{
+    constexpr float kGravity = 9.81f, kGale = 100.0f;
+    return effect.reach(kGravity, kGale) > effect.reach(kGravity, 0.0f);
+}
 
 constexpr base::Ticks kLatestTick = INT64_MAX / 4; ///< no clock and no start goes beyond it
 constexpr double kFarthest = 1e9;                  ///< [m]
@@ -261,8 +270,11 @@ void Scene::restoreInstances(sim::StateReader& reader, const Effects& effects, R
         if (reader.ok()) {
             instance.setup.effect = effects[effect];
             instance.policy = instance.setup.effect->catchUp();
+            if (isBlown(*instance.setup.effect))
+                instance.past.reset(new (std::nothrow) Whereabouts);
             measure(instance);
-            if (instance.past) {
+            if (instance.past) { // a state does not tell where it has been, and in which wind
+
                 instance.past->forget();
                 measure(instance);
             }

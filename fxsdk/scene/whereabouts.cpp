@@ -68,6 +68,11 @@ void Whereabouts::note(base::Ticks now, const Circumstances& is, float seconds)
     last_ = is;
 }
 
+bool Whereabouts::isSettled() const
+{
+    return isKnown() && newer_ == last_ && (!(older_.largest > 0.0f) || older_ == last_);
+}
+
 Circumstances Whereabouts::all() const
 {
     Circumstances all = older_;

@@ -39,6 +39,7 @@ struct Circumstances
     uint32_t slowest = UINT32_MAX; ///< see sim::RunClock::rate
 
     void add(const Circumstances& more);
+    bool operator==(const Circumstances&) const = default;
 };
 
 class Whereabouts
@@ -52,6 +53,8 @@ public:
     void forget() { unknown_ = 2; }
 
     bool isKnown() const { return unknown_ == 0; }
+    /// All has been as it is now: later notes of the same change nothing.
+    bool isSettled() const;
     Circumstances all() const;
 
 private:

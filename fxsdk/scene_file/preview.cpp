@@ -55,7 +55,8 @@ base::Result<Preview> readPreview(std::string_view text, const std::string& disp
         if (root.has("preview"))
             preview = readParts(root.child("preview"), resolver, findings, io);
     }
-    const std::vector<preset::Diagnostic> found = findings.locate(text, displayName);
+    std::vector<preset::Diagnostic> found = findings.locate(text, displayName);
+    std::erase_if(found, [](const auto& f) { return !f.pointer.starts_with("/preview"); }); // the loader's
     if (outDiagnostics)
         outDiagnostics->insert(outDiagnostics->end(), found.begin(), found.end());
     if (findings.hasErrors())

@@ -17,6 +17,14 @@ namespace column = base::particle_column;
 namespace constant = base::particle_constant;
 using base::SnapshotGroup;
 
+void forgetRibbonBounds(base::FrameSnapshot& merged)
+{
+    const base::KindId ribbon = merged.schema().find(base::kRibbonKind.name);
+    for (size_t g = 0; g < merged.groupCount(); ++g)
+        if (merged.editGroup(g).info().kind == ribbon)
+            merged.editGroup(g).editInfo().bounds = {};
+}
+
 /// Whether rows of several groups may be drawn in one order without changing the picture: in that of their
 /// distances, or in any.
 bool hasFreeOrder(const SnapshotGroup& group, bool ribbon)
@@ -218,6 +226,7 @@ void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of
     if (isKept) {
         std::swap(newer_, older_);
         newerStamps_.swap(olderStamps_);
+        forgetRibbonBounds(older_); // those that are merged as older have none
     }
     newer_.begin(snapshots.newer ? snapshots.newer->tick() : 0, ++sequence_);
     stamps_ = {sequence_, 0};

@@ -186,7 +186,7 @@ void MergedRows::measure(Member& member, const PlacedRows& placed, base::Bounds&
             member.from.pool->velocityColumn != 0 ? scatter_.extentOf(*member.from.entry) : placed.extent);
     else
         own = member.from.rows->info().bounds;
-    ioBounded = ioBounded && !own.empty();
+    ioBounded = ioBounded && (!own.empty() || member.from.count == 0);
     if (own.empty())
         return;
     const glm::vec3 middle = 0.5f * (own.min + own.max);

@@ -47,6 +47,8 @@ base::Ticks deathTick(const ParticleStore& store, uint32_t row, base::Ticks from
 /// `tick`, with what it has inherited; without its brightness.
 glm::vec3 colorAt(const EmitterDef& def, const ParticleStore& store, uint32_t row, base::Ticks tick);
 
+constexpr uint32_t kMostContactsOfOne = 10; ///< in one step: obstacles', the host's, the ground's
+
 /// What an emitter's rules want to know of its particles.
 class EventInterest
 {
@@ -63,7 +65,10 @@ public:
         return uint32_t(std::upper_bound(ages_.begin(), ages_.end(), age) - ages_.begin());
     }
     /// Events that one particle can have in one step.
-    uint32_t mostOfOne() const { return 3 + uint32_t(ages_.size()); }
+    uint32_t mostOfOne() const
+    {
+        return 3 + uint32_t(ages_.size()) + (in(EventKind::Collision) ? kMostContactsOfOne : 0);
+    }
     /// True when an event is what `rule` is about.
     bool answers(const EventRule& rule, const ParticleEvent& event) const;
     /// True when some rule may be about a contact.

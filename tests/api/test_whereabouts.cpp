@@ -163,6 +163,31 @@ TEST(Whereabouts, afterALifetimeARestoredTorchReachesAsFarAsItCanAgain)
     EXPECT_LT(stage.scene().activity(id).reach, 3.0);
 }
 
+TEST(Whereabouts, afterARestoreNobodyKnowsOfAStormUntilItIsGone)
+{
+    SightStage stage;
+    Effect effect = fountainEffect(false, 2.0f);
+    auto& emitter = const_cast<sim::EmitterDef&>(static_cast<const sim::EmitterDef&>(*effect->solvers[0]));
+    emitter.forces.drag = 5;
+    const auto id = stage.add(effect, kAhead);
+    sim::InstanceParameters parameters;
+    parameters.wind = {30, 0, 0};
+    stage.scene().setParameters(id, parameters);
+    stage.play(2 * kSecond);
+    parameters.wind = glm::vec3(0.0f);
+    stage.scene().setParameters(id, parameters);
+    sim::StateBuffer bytes(std::pmr::get_default_resource());
+    stage.scene().save(bytes);
+    ASSERT_TRUE(stage.scene().restore(bytes.bytes(), [&](uint64_t) { return effect; }).ok());
+    stage.play(1);
+    EXPECT_LE(farthest(stage.scene(), kAhead), stage.scene().activity(id).reach);
+    for (int i = 0; i < 10 * kSecond; ++i) {
+        stage.look(1e-4 * i); // that a camera looks around is enough
+        stage.play(1);
+    }
+    EXPECT_LT(stage.scene().activity(id).reach, 1e3);
+}
+
 TEST(Whereabouts, slowTimeForgetsLater)
 {
     scene::Whereabouts normal, slow;
