@@ -12,6 +12,8 @@ import math
 import pathlib
 import sys
 
+from polygons import Polygons, noise
+
 COLORS = {
     "rock_dark": (0.045, 0.045, 0.045), "rock": (0.11, 0.10, 0.09), "rock_light": (0.17, 0.155, 0.13),
     "moss": (0.07, 0.10, 0.035), "pool": (0.02, 0.035, 0.04), "steel": (0.035, 0.035, 0.04),
@@ -21,34 +23,7 @@ COLORS = {
 }  # fmt: skip
 
 
-def noise(*key):
-    """A number in [0, 1) that depends on nothing but the integers `key` (splitmix64 steps)."""
-    state = 0x9E3779B97F4A7C15
-    for value in key:
-        state = (state ^ (value & 0xFFFFFFFFFFFFFFFF)) * 0xBF58476D1CE4E5B9 & 0xFFFFFFFFFFFFFFFF
-        state = (state ^ (state >> 27)) * 0x94D049BB133111EB & 0xFFFFFFFFFFFFFFFF
-        state ^= state >> 31
-    return state / 2.0**64
-
-
-class Mesh:
-    """Polygons by material, counter-clockwise seen from outside."""
-
-    def __init__(self):
-        self.faces = {}
-
-    def polygon(self, material, points):
-        self.faces.setdefault(material, []).append(points)
-
-    def box(self, material, low, high):
-        (x0, y0, z0), (x1, y1, z1) = low, high
-        for side in ([(x0, y0, z1), (x1, y0, z1), (x1, y1, z1), (x0, y1, z1)],
-                     [(x1, y0, z0), (x0, y0, z0), (x0, y1, z0), (x1, y1, z0)],
-                     [(x1, y0, z1), (x1, y0, z0), (x1, y1, z0), (x1, y1, z1)],
-                     [(x0, y0, z0), (x0, y0, z1), (x0, y1, z1), (x0, y1, z0)],
-                     [(x0, y1, z1), (x1, y1, z1), (x1, y1, z0), (x0, y1, z0)]):
-            self.polygon(material, side)
-
+class Mesh(Polygons):
     def tube(self, material, x0, x1, y, radius, sides=12):
         """Along +X, with an end at x1."""
         def rim(x, k, r=radius):

@@ -19,17 +19,9 @@ import struct
 import sys
 import zlib
 
+from polygons import noise
+
 TAU = 2 * math.pi
-
-
-def noise(*key):
-    """A number in [0, 1) that depends on nothing but the integers `key` (splitmix64 steps)."""
-    state = 0x9E3779B97F4A7C15
-    for value in key:
-        state = (state ^ (value & 0xFFFFFFFFFFFFFFFF)) * 0xBF58476D1CE4E5B9 & 0xFFFFFFFFFFFFFFFF
-        state = (state ^ (state >> 27)) * 0x94D049BB133111EB & 0xFFFFFFFFFFFFFFFF
-        state ^= state >> 31
-    return state / 2.0**64
 
 
 class Lattice:
