@@ -9,7 +9,7 @@ import math
 import pathlib
 import sys
 
-from polygons import Polygons, noise
+from made_files import Polygons, noise, write_text
 
 HALF = 12.0  # [m] half the side of the square
 WALL_HEIGHT = 5.0  # [m]
@@ -182,15 +182,6 @@ def courtyard():
         add_crate(mesh, x, y, z, size, degrees, int(abs(x * 100) + y * 10))
     add_steps(mesh)
     return mesh
-
-
-def write_text(path, text):
-    """Replaces the file only when it differs, so that builds see no change where there is none."""
-    if path.exists() and path.read_text() == text:
-        return
-    temporary = path.with_name(path.name + ".tmp")
-    temporary.write_text(text)
-    temporary.replace(path)
 
 
 def write_mesh(mesh, folder):

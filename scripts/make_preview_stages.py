@@ -12,7 +12,7 @@ import math
 import pathlib
 import sys
 
-from polygons import Polygons, noise
+from made_files import Polygons, noise, write_text
 
 COLORS = {
     "rock_dark": (0.045, 0.045, 0.045), "rock": (0.11, 0.10, 0.09), "rock_light": (0.17, 0.155, 0.13),
@@ -124,15 +124,6 @@ def yard():
     for x in (1.15, 2.7):
         mesh.box("slab_0", (x, 0, -4.35), (x + 0.15, 0.40, -3.95))
     return mesh
-
-
-def write_text(path, text):
-    """Replaces the file only when it differs, so that builds see no change where there is none."""
-    if path.exists() and path.read_text() == text:
-        return
-    temporary = path.with_name(path.name + ".tmp")
-    temporary.write_text(text)
-    temporary.replace(path)
 
 
 def obj(mesh):

@@ -19,7 +19,7 @@ import struct
 import sys
 import zlib
 
-from polygons import noise
+from made_files import noise, write_bytes
 
 TAU = 2 * math.pi
 
@@ -338,15 +338,6 @@ def sample_pair(table, x, y):
     a, b, c, d = (1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy
     low, high = table[j], table[j + 1]
     return tuple(low[i][k] * a + low[i + 1][k] * b + high[i][k] * c + high[i + 1][k] * d for k in (0, 1))
-
-
-def write_bytes(path, data):
-    """Replaces the file only when it differs, so that builds see no change where there is none."""
-    if path.exists() and path.read_bytes() == data:
-        return
-    temporary = path.with_name(path.name + ".tmp")
-    temporary.write_bytes(data)
-    temporary.replace(path)
 
 
 def main():

@@ -1,4 +1,4 @@
-"""What the scripts that make meshes and textures share: polygons by material, and repeatable noise."""
+"""What the scripts that make meshes and textures share: polygons by material, repeatable noise, files."""
 
 
 def noise(*key):
@@ -34,3 +34,16 @@ class Polygons:
             sides.append([(x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)])
         for side in sides:
             self.polygon(material, [place(p) for p in side])
+
+
+def write_bytes(path, data):
+    """Replaces the file only when it differs, so that builds see no change where there is none."""
+    if path.exists() and path.read_bytes() == data:
+        return
+    temporary = path.with_name(path.name + ".tmp")
+    temporary.write_bytes(data)
+    temporary.replace(path)
+
+
+def write_text(path, text):
+    write_bytes(path, text.encode())
