@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <optional>
+#include <vector>
 
 namespace fx::preset {
 
@@ -45,51 +46,81 @@ double timesOf(const sim::EventRule& rule, const base::Range& lifetime)
                           : 1.0;
 }
 
-/// Births in the emitters of one preset, those that events cause included, as they are to be expected.
+/// Births in the emitters of one preset, those that events cause included, as they are to be expected. Each
+/// emitter is asked for the births within the longest lives of others, which are few: each answer is found
+/// once, so that the work grows with the rules times the different lives, however rules lead from emitter to
+/// emitter. Events make no circle.
 class BirthCount
 {
 public:
-    explicit BirthCount(const std::vector<const sim::EmitterDef*>& emitters) : emitters_(emitters) {}
-
-    /// Within any `seconds` of emitter number `index`.
-    double within(double seconds, size_t index) const
+    explicit BirthCount(const std::vector<const sim::EmitterDef*>& emitters)
+        : emitters_(emitters), causes_(emitters.size())
     {
-        const sim::EmitterDef& emitter = *emitters_[index];
-        double births = ownBirths(emitter.emission, seconds);
-        for (size_t cause = 0; emitter.fed && cause < emitters_.size(); ++cause)
-            for (const sim::EventRule& rule : emitters_[cause]->events)
-                if (rule.target == index)
-                    births += causedBy(cause, rule, seconds);
-        const double life = std::max(double(emitter.lifetime.min), 1e-3);
-        return std::min(births, double(emitter.maxParticles) * (seconds / life + 1.0));
+        for (size_t cause = 0; cause < emitters.size(); ++cause) {
+            lives_.push_back(double(emitters[cause]->lifetime.max));
+            for (const sim::EventRule& rule : emitters[cause]->events)
+                causes_[rule.target].push_back({cause, &rule});
+        }
+        std::sort(lives_.begin(), lives_.end());
+        lives_.erase(std::unique(lives_.begin(), lives_.end()), lives_.end());
+        known_.resize(emitters.size() * lives_.size());
     }
+
     /// Alive at once, if there were room for all.
-    double alive(size_t index) const
+    double alive(size_t index) { return wanted(lifeOf(index), index); }
+
+private:
+    struct Cause
     {
-        const sim::EmitterDef& emitter = *emitters_[index];
-        double births = ownBirths(emitter.emission, double(emitter.lifetime.max));
-        for (size_t cause = 0; emitter.fed && cause < emitters_.size(); ++cause)
-            for (const sim::EventRule& rule : emitters_[cause]->events)
-                if (rule.target == index)
-                    births += causedBy(cause, rule, double(emitter.lifetime.max));
+        size_t emitter;
+        const sim::EventRule* rule;
+    };
+
+    /// Number of the emitter's longest life in `lives_`.
+    size_t lifeOf(size_t index) const
+    {
+        const double life = double(emitters_[index]->lifetime.max);
+        return size_t(std::lower_bound(lives_.begin(), lives_.end(), life) - lives_.begin());
+    }
+
+    /// Births of emitter number `index` within any time of life number `life`, if there were room for all.
+    double wanted(size_t life, size_t index)
+    {
+        double births = ownBirths(emitters_[index]->emission, lives_[life]);
+        for (const Cause& cause : causes_[index])
+            births += causedBy(cause.emitter, *cause.rule, life);
         return births;
     }
 
-private:
-    double causedBy(size_t cause, const sim::EventRule& rule, double seconds) const
+    /// The same with the room that there is.
+    double within(size_t life, size_t index)
+    {
+        std::optional<double>& known = known_[index * lives_.size() + life];
+        if (!known) {
+            const sim::EmitterDef& emitter = *emitters_[index];
+            const double shortest = std::max(double(emitter.lifetime.min), 1e-3);
+            const double births = wanted(life, index);
+            known = std::min(births, double(emitter.maxParticles) * (lives_[life] / shortest + 1.0));
+        }
+        return *known;
+    }
+
+    double causedBy(size_t cause, const sim::EventRule& rule, size_t life)
     {
         const double count = 0.5 * (double(rule.fewest) + double(rule.most)) * double(rule.probability);
         if (rule.on == sim::EventKind::Host)
             return count; // how often is the host's affair
-        const base::Range& life = emitters_[cause]->lifetime;
-        double events = within(seconds, cause) * timesOf(rule, life);
+        double events = within(life, cause) * timesOf(rule, emitters_[cause]->lifetime);
         if (rule.every > 0) // no more than all who live at once can cause
-            events = std::min(events, within(double(life.max), cause) *
-                                          (seconds / base::toSeconds(rule.every) + 1.0));
+            events = std::min(events, within(lifeOf(cause), cause) *
+                                          (lives_[life] / base::toSeconds(rule.every) + 1.0));
         return count * (events > 0.0 ? std::max(events, 1.0) : 0.0);
     }
 
     const std::vector<const sim::EmitterDef*>& emitters_;
+    std::vector<std::vector<Cause>> causes_;   ///< of births in each emitter
+    std::vector<double> lives_;                ///< [s] longest ones of all emitters, ascending, each once
+    std::vector<std::optional<double>> known_; ///< of within(), by emitter and life
 };
 
 std::string mebibytes(uint64_t bytes)
@@ -116,7 +147,7 @@ void adviseCapacity(const PresetValue& root, const sim::EffectDef& effect)
     std::vector<const sim::EmitterDef*> emitters;
     for (size_t i = 0; i < root.size("emitters"); ++i)
         emitters.push_back(dynamic_cast<const sim::EmitterDef*>(effect.solvers[i].get()));
-    const BirthCount count(emitters);
+    BirthCount count(emitters);
     for (size_t i = 0; i < emitters.size(); ++i) {
         const PresetValue element = root.element("emitters", i);
         const double alive = count.alive(i);

@@ -179,6 +179,31 @@ TEST(EmitterAdvice, capacityCountsWhatEventsGiveBirthTo)
     EXPECT_TRUE(load(cause + R"(,{"name":"b","lifetime":5,"maxParticles":500000})")->warnings.empty());
 }
 
+/// So many emitters, each of which causes births in the next one through so many rules.
+std::string chainOf(int emitters, int rules)
+{
+    std::string text;
+    for (int i = 0; i < emitters; ++i) {
+        text += std::string(i > 0 ? "," : "") + R"({"name":"e)" + std::to_string(i) +
+                R"(","maxParticles":1,"lifetime":)" + std::to_string(0.1 + 0.001 * i);
+        text += i == 0 ? R"(,"emission":{"rate":1})" : "";
+        for (int k = 0; k < rules && i + 1 < emitters; ++k)
+            text += std::string(k == 0 ? R"(,"events":[)" : ",") +
+                    R"({"on":"age","age":0.01,"every":0.01,"emit":"e)" + std::to_string(i + 1) + "\"}";
+        text += i + 1 < emitters ? "]}" : "}";
+    }
+    return text;
+}
+
+TEST(EmitterAdvice, longChainsOfManyRulesAreCountedOnceAnEmitter)
+{
+    // 32^63 ways lead to the last emitter: whoever followed each of them would never come to an end.
+    const auto loaded = load(chainOf(64, 32));
+    ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+    EXPECT_EQ(loaded->effect->solvers.size(), 64u);
+    EXPECT_EQ(loaded->warnings.size(), 64u - 1u); // all but the first have room for too few
+}
+
 TEST(EmitterAdvice, repeatedEventsCountNoMoreThanThoseWhoLiveCanCause)
 {
     const auto warnings = [](const std::string& capacity) { // 10 that puff every 0.1 s, for 1 s each: 10 * 11
