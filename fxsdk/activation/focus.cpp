@@ -20,7 +20,8 @@ Frustum::Frustum(const glm::dvec3& origin, const glm::mat4& view, const glm::mat
     const glm::dmat4 toClip = glm::dmat4(projection) * glm::dmat4(view);
     const glm::dvec4 w = glm::row(toClip, 3);
     const glm::dvec4 left = w + glm::row(toClip, 0);
-    const glm::dvec4 behind = projection[3][3] != 0.0f ? left : w; // nothing is behind an orthographic camera
+    orthographic_ = std::abs(projection[3][3]) > std::abs(projection[2][3]);
+    const glm::dvec4 behind = orthographic_ ? left : w; // nothing is behind an orthographic camera
     const glm::dvec4 sides[5] = {left, w - glm::row(toClip, 0), w + glm::row(toClip, 1),
                                  w - glm::row(toClip, 1), behind};
     for (size_t i = 0; i < planes_.size(); ++i) {
@@ -29,7 +30,6 @@ Frustum::Frustum(const glm::dvec3& origin, const glm::mat4& view, const glm::mat
         planes_[i] = {normal, offset - glm::dot(normal, origin)};
     }
     eye_ = origin + glm::dvec3(glm::inverse(glm::dmat4(view))[3]);
-    orthographic_ = projection[3][3] != 0.0f;
     pixelsPerMeter_ = std::abs(double(projection[1][1])) * limits.height * 0.5;
 }
 

@@ -1,4 +1,5 @@
 // The functions of fx_activation.h.
+#include "fxsdk/api/check_projection.h"
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/api/versioned_struct.h"
 #include "fxsdk/fx_activation.h"
@@ -28,10 +29,8 @@ Status checkFocus(const FxFocus& focus)
     fx::api::Checks check;
     check.range(focus.height, 1.0f, kMostPixels, "foci.height");
     check.range3(focus.origin, -kFarthest, kFarthest, "foci.origin");
-    check.that(fx::api::isRigid(focus.view), "foci.view is not a rotation and a translation, or not finite");
-    check.that(fx::base::allFinite(focus.projection, 16), "foci.projection is not finite");
-    check.that(focus.projection[0] != 0.0f && focus.projection[5] != 0.0f,
-               "foci.projection has no extent: its first or second diagonal element is 0");
+    check.noFault(fx::api::viewFault(focus.view), "foci.view");
+    check.noFault(fx::api::projectionFault(focus.projection), "foci.projection");
     check.range(focus.maxDistance, 0.0, kFarthest, "foci.maxDistance");
     check.range(focus.margin, 0.0f, 1e6f, "foci.margin");
     check.range(focus.minPixels, 0.0f, kMostPixels, "foci.minPixels");

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 
 #include <array>
 #include <cmath>
@@ -46,6 +47,19 @@ bool isRigid(const float* matrix)
                              glm::length(glm::cross(x, y) - z) <= 2 * kUnitTolerance &&
                              isAlmost(glm::dot(x, y), 0.0f);
     return orthonormal && m[0].w == 0.0f && m[1].w == 0.0f && m[2].w == 0.0f && m[3].w == 1.0f;
+}
+
+const char* viewFault(const float* matrix)
+{
+    if (!base::allFinite(matrix, 16))
+        return "is not finite";
+    if (isRigid(matrix))
+        return nullptr;
+    const glm::mat4 transposed = glm::transpose(glm::make_mat4(matrix));
+    return isRigid(glm::value_ptr(transposed))
+               ? "looks row-major: transpose it"
+               : "is not a rotation and a translation: take scale, mirroring and "
+                 "shear out of it";
 }
 
 } // namespace fx::api

@@ -51,6 +51,13 @@ public:
             status_ = invalid(failure);
     }
 
+    /// @param fault null, or what is wrong with the argument
+    void noFault(const char* fault, const char* name)
+    {
+        if (status_.ok() && fault)
+            status_ = invalid(std::string(name) + " " + fault);
+    }
+
     const base::Status& status() const { return status_; }
 
 private:
@@ -64,5 +71,7 @@ bool isUnitQuaternion(const float* xyzw);
 glm::quat toRotation(const float* xyzw);
 /// Orthonormal within 1e-3, right-handed, last row 0 0 0 1, column-major.
 bool isRigid(const float* matrix);
+/// Null, or why the matrix is no camera's, with the remedy.
+const char* viewFault(const float* matrix);
 
 } // namespace fx::api

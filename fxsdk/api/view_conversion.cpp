@@ -1,4 +1,5 @@
 // The definitions of fx_view.h, checked and in the renderer's terms.
+#include "fxsdk/api/check_projection.h"
 #include "fxsdk/api/view_object.h"
 
 #include <glm/geometric.hpp>
@@ -127,9 +128,11 @@ fx::base::Status fx::api::convertFrame(const FxFrameDef& given, render::FrameReq
 {
     Checks check;
     check.range3(given.origin, -kFarthest, kFarthest, "frame.origin");
-    check.that(isRigid(given.view), "frame.view is not a rotation and a translation, or not finite");
-    check.that(base::allFinite(given.projection, 16), "frame.projection is not finite");
+    check.noFault(viewFault(given.view), "frame.view");
+    check.noFault(projectionFault(given.projection), "frame.projection");
     checkTarget(check, given);
+    check.noFault(frameProjectionFault(given.projection, given.depthConvention == FX_DEPTH_REVERSED),
+                  "frame.projection");
     if (!check.status())
         return check.status();
 

@@ -11,7 +11,7 @@ GlBackend::GlBackend(GlDevice& device, std::pmr::memory_resource* memory)
 
 // ---- the frame ----
 
-base::Status GlBackend::beginFrame(const FrameGraph& graph)
+base::Status GlBackend::beginFrame(const FrameGraph& graph, SrgbTargets srgb)
 {
     graph_ = &graph;
     status_ = graph.status();
@@ -27,7 +27,7 @@ base::Status GlBackend::beginFrame(const FrameGraph& graph)
     framebuffers_.beginFrame();
     status_ = pool_.realise(graph, framebuffers_);
     if (status_.ok())
-        state_.reset();
+        state_.reset(srgb == SrgbTargets::Light);
     return status_;
 }
 
@@ -124,7 +124,8 @@ uint32_t GlBackend::nameOrFail(ResourceId id, bool isTexture, const char* use)
     return name;
 }
 
-/// Finds or makes the framebuffer of some targets. The host's own framebuffer stands alone.
+/// Finds or makes the framebuffer of some targets. The host's own framebuffer stands alone; it may have more
+/// draw buffers than programs write.
 bool GlBackend::findFramebuffer(std::span<const ResourceId> targets, ResourceId depthTarget,
                                 uint32_t& outFramebuffer)
 {
@@ -133,6 +134,7 @@ bool GlBackend::findFramebuffer(std::span<const ResourceId> targets, ResourceId 
     };
     if (targets.size() == 1 && isFramebuffer(targets[0]) && !depthTarget.valid()) {
         outFramebuffer = graph_->resource(targets[0]).importedName;
+        state_.drawToFirst(true);
         return true;
     }
     if (targets.size() > kColorTargets || (targets.empty() && !depthTarget.valid())) {
@@ -161,6 +163,7 @@ bool GlBackend::findFramebuffer(std::span<const ResourceId> targets, ResourceId 
         return false;
     }
     outFramebuffer = *framebuffer;
+    state_.drawToFirst(false);
     return true;
 }
 

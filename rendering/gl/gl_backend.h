@@ -30,6 +30,13 @@
 
 namespace fx::render {
 
+/// What a frame writes into targets of an sRGB format.
+enum class SrgbTargets : uint8_t
+{
+    Light, ///< linear light, which OpenGL blends as such and encodes
+    Codes, ///< encoded values, which are stored as they are
+};
+
 class GlBackend final : public Backend
 {
 public:
@@ -43,7 +50,7 @@ public:
     /// Realises the textures and buffers of `graph`, which is compiled and outlives endFrame(), and sets the
     /// state that all draws share. A pending GL error of the host is discarded.
     /// @return the graph's own status, GlFailed (context lost), OutOfMemory, InvalidArgument (size)
-    base::Status beginFrame(const FrameGraph& graph);
+    base::Status beginFrame(const FrameGraph& graph, SrgbTargets srgb = SrgbTargets::Light);
     /// @return status()
     base::Status endFrame();
 
@@ -54,6 +61,9 @@ public:
     /// that were kept stay valid and unchanged until the next beginFrame().
     uint32_t textureName(ResourceId texture) const;
     uint32_t bufferName(ResourceId buffer) const;
+
+    /// Whether frames may draw to the texture of that name on the way.
+    bool owns(uint32_t texture) const { return pool_.owns(texture); }
 
     uint32_t drawCalls() const { return drawCalls_; } ///< draws and dispatches of the last frame
     /// [byte] of textures and buffers held

@@ -6,12 +6,28 @@ namespace {
 
 /// Switches that could discard, move or alter fragments, none of which a pass wants.
 constexpr GLenum kOff[] = {
-    GL_CULL_FACE,           GL_DEPTH_TEST,         GL_STENCIL_TEST,   GL_DEPTH_CLAMP,
-    GL_FRAMEBUFFER_SRGB,    GL_RASTERIZER_DISCARD, GL_COLOR_LOGIC_OP, GL_DITHER,
-    GL_POLYGON_OFFSET_FILL, GL_POLYGON_SMOOTH,     GL_SAMPLE_MASK,    GL_SAMPLE_ALPHA_TO_COVERAGE,
-    GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE,    GL_SAMPLE_SHADING, GL_CLIP_DISTANCE0,
-    GL_CLIP_DISTANCE1,      GL_CLIP_DISTANCE2,     GL_CLIP_DISTANCE3, GL_CLIP_DISTANCE4,
-    GL_CLIP_DISTANCE5,      GL_CLIP_DISTANCE6,     GL_CLIP_DISTANCE7,
+    GL_CULL_FACE,
+    GL_DEPTH_TEST,
+    GL_STENCIL_TEST,
+    GL_DEPTH_CLAMP,
+    GL_RASTERIZER_DISCARD,
+    GL_COLOR_LOGIC_OP,
+    GL_DITHER,
+    GL_POLYGON_OFFSET_FILL,
+    GL_POLYGON_SMOOTH,
+    GL_SAMPLE_MASK,
+    GL_SAMPLE_ALPHA_TO_COVERAGE,
+    GL_SAMPLE_ALPHA_TO_ONE,
+    GL_SAMPLE_COVERAGE,
+    GL_SAMPLE_SHADING,
+    GL_CLIP_DISTANCE0,
+    GL_CLIP_DISTANCE1,
+    GL_CLIP_DISTANCE2,
+    GL_CLIP_DISTANCE3,
+    GL_CLIP_DISTANCE4,
+    GL_CLIP_DISTANCE5,
+    GL_CLIP_DISTANCE6,
+    GL_CLIP_DISTANCE7,
 };
 
 } // namespace
@@ -25,11 +41,12 @@ GlDrawState::GlDrawState(GlDevice& device)
                                                          createSampler(device, Sampling::TrilinearRepeat)}
 {}
 
-void GlDrawState::reset()
+void GlDrawState::reset(bool encodeSrgb)
 {
     const GlFunctions& gl = device_.gl;
     for (const GLenum what : kOff)
         gl.Disable(what);
+    encodeSrgb ? gl.Enable(GL_FRAMEBUFFER_SRGB) : gl.Disable(GL_FRAMEBUFFER_SRGB);
     gl.Disablei(GL_SCISSOR_TEST, 0);
     for (uint32_t i = 0; i < kTargets; ++i) {
         gl.Disablei(GL_BLEND, i);
@@ -43,7 +60,7 @@ void GlDrawState::reset()
 
     program_ = framebuffer_ = kUnknown;
     blend_ = Blend::None;
-    depthTested_ = depthReversed_ = false;
+    onlyFirst_ = depthTested_ = depthReversed_ = false;
     units_.fill({kUnknown, kUnknown});
 }
 
@@ -64,6 +81,16 @@ void GlDrawState::bindFramebuffer(uint32_t framebuffer, int width, int height)
     framebuffer_ = framebuffer;
     width_ = width;
     height_ = height;
+}
+
+void GlDrawState::drawToFirst(bool only)
+{
+    if (onlyFirst_ == only)
+        return;
+    onlyFirst_ = only;
+    const GLboolean mask = only ? GL_FALSE : GL_TRUE;
+    for (uint32_t i = 1; i < kTargets; ++i)
+        device_.gl.ColorMaski(i, mask, mask, mask, mask);
 }
 
 void GlDrawState::setBlend(Blend blend)

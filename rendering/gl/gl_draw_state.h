@@ -20,10 +20,12 @@ public:
     explicit GlDrawState(GlDevice& device);
 
     /// Every switch that could disturb a draw is set to what draws expect, whatever the host left.
-    void reset();
+    /// @param encodeSrgb targets of an sRGB format are given linear light
+    void reset(bool encodeSrgb);
 
     void useProgram(uint32_t program);
     void bindFramebuffer(uint32_t framebuffer, int width, int height); ///< and its whole area as viewport
+    void drawToFirst(bool only); ///< draw buffers but the first are left as they are
     void setBlend(Blend blend);
     void setDepth(bool tested, bool reversed); ///< tested and written, or neither
     void bindTexture(uint32_t unit, uint32_t texture, Sampling sampling);
@@ -47,6 +49,7 @@ private:
     int width_ = 0;
     int height_ = 0;
     Blend blend_ = Blend::None;
+    bool onlyFirst_ = false;
     bool depthTested_ = false;
     bool depthReversed_ = false;
     std::array<Unit, kUnits> units_{};

@@ -2,6 +2,7 @@
 
 #include "rendering/gl/gl_device.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace fx::render {
@@ -91,6 +92,12 @@ void GlResourcePool::release(GlFramebufferCache& framebuffers)
     textures_.clear();
     assigned_.clear();
     buffers_.clear();
+}
+
+bool GlResourcePool::owns(uint32_t texture) const
+{
+    return std::any_of(textures_.begin(), textures_.end(),
+                       [texture](const PooledTexture& pooled) { return pooled.texture.name() == texture; });
 }
 
 uint64_t GlResourcePool::bytes() const

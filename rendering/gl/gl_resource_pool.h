@@ -28,7 +28,8 @@ public:
 
     uint32_t texture(uint32_t physical) const { return textures_[assigned_[physical]].texture.name(); }
     uint32_t buffer(uint32_t physical) const { return buffers_[physical].buffer.name(); }
-    uint64_t bytes() const; ///< [byte]
+    bool owns(uint32_t texture) const; ///< whether it is the name of one of these textures
+    uint64_t bytes() const;            ///< [byte]
 
 private:
     struct PooledTexture

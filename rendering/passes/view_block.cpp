@@ -3,6 +3,8 @@
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 
+#include <cmath>
+
 namespace fx::render {
 
 namespace {
@@ -26,7 +28,7 @@ CameraGeometry cameraGeometry(const CameraView& camera)
     const glm::dvec3 t(v[3][0], v[3][1], v[3][2]);
     const glm::dmat3 rotation(v);
     g.eye = camera.origin - glm::transpose(rotation) * t;
-    g.orthographic = p[3][3] != 0.0f;
+    g.orthographic = std::abs(p[3][3]) > std::abs(p[2][3]);
     const float nearClip =
         camera.depth == DepthConvention::Reversed ? 1.0f : (camera.zeroToOne ? 0.0f : -1.0f);
     g.nearDistance = axisDistance(p, nearClip);

@@ -10,6 +10,7 @@
 #include "rendering/view/frame_builder.h"
 #include "rendering/view/frame_key.h"
 #include "rendering/view/group_merger.h"
+#include "rendering/view/host_target_check.h"
 #include "rendering/view/layer_scale_control.h"
 #include "rendering/view/particle_buffers.h"
 #include "rendering/view/particle_frame.h"
@@ -26,7 +27,7 @@ struct ViewRenderer::Impl
         : device(d), graph(memory), backend(*d, memory), builder(memory),
           merger(schema, memory), single{ParticleFrame(memory), ParticleBuffers(*d, memory)},
           joined{ParticleFrame(memory), ParticleBuffers(*d, memory)}, batches(memory), runs(memory),
-          streams(memory), stamps(memory), timer(*d)
+          streams(memory), stamps(memory), targetCheck(*d), timer(*d)
     {}
 
     struct Particles
@@ -35,6 +36,7 @@ struct ViewRenderer::Impl
         ParticleBuffers buffers;
     };
 
+    base::Status checkTargets(const FrameRequest& request);
     base::Status ensureHistory();
     base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
                         const ViewSettings& settings); ///< everything that is to be drawn
@@ -74,6 +76,7 @@ struct ViewRenderer::Impl
     const base::AssetTable* assets = nullptr;
     FragmentCounts fragments{}; ///< of this frame
     LayerScaleControl layerScale;
+    HostTargetCheck targetCheck;
     GlPassTimer timer;
     TimingClock clock = TimingClock::Off;
     uint64_t tag = 0;

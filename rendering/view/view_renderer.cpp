@@ -43,6 +43,17 @@ bool leavesPictureAlone(const base::SnapshotPair& snapshots, const FrameRequest&
 
 } // namespace
 
+base::Status ViewRenderer::Impl::checkTargets(const FrameRequest& request)
+{
+    const HostTargets& targets = request.targets;
+    const char* const own = backend.owns(targets.color)   ? "frame.colorTexture"
+                            : backend.owns(targets.depth) ? "frame.depthTexture"
+                                                          : nullptr;
+    if (own)
+        return invalid(std::string(own) + " is a texture of this view, which draws to it: give a copy");
+    return targetCheck.check(request);
+}
+
 base::Status ViewRenderer::Impl::ensureHistory()
 {
     if (dazzleHistory.name() != 0)
@@ -203,8 +214,10 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         asleep_ = statistics_.glCalls == 0 && s.holdsNothing();
         return {};
     }
-    s.idleFrames = 0;
     const uint64_t callsBefore = s.device->callCount();
+    if (base::Status status = s.checkTargets(asked); !status)
+        return status;
+    s.idleFrames = 0;
     const uint32_t compiledBefore = s.device->programsCompiled();
     if (base::Status status = settings_.dazzle.enabled ? s.ensureHistory() : base::Status(); !status)
         return status;
@@ -231,7 +244,9 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         s.graph.compile();
         GlStateGuard guard(*s.device, settings_.saveState);
         s.timer.beginPasses();
-        if (s.backend.beginFrame(s.graph))
+        // tone mapping writes the codes of sRGB itself
+        const bool isDisplayReferred = settings_.toneMap && asked.targets.color != 0;
+        if (s.backend.beginFrame(s.graph, isDisplayReferred ? SrgbTargets::Codes : SrgbTargets::Light))
             s.graph.execute(s.backend);
         s.single.buffers.fence();
         s.joined.buffers.fence();

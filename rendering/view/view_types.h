@@ -118,7 +118,7 @@ struct HostTargets
         0; ///< 2-D texture, already holding the opaque picture [cd/m2 times exposure]; read and written
     uint32_t depth = 0; ///< 2-D depth texture of the opaque picture; 0: nothing occludes
     uint32_t framebuffer =
-        0; ///< used instead of `color` when that is 0: its color attachment is blended into
+        0; ///< used instead of `color` when that is 0: the attachment of draw buffer 0 is blended into
     bool useFramebuffer = false; ///< true: draw into `framebuffer` (0 is the window) instead of `color`
     int width = 0;               ///< [pixel]
     int height = 0;              ///< [pixel]

@@ -10,7 +10,9 @@ void main()
     ivec2 p = ivec2(gl_FragCoord.xy);
     vec4 m = texelFetch(media, p, 0);
 #if FX_BLEND
-    color = m; // fixed-function blending puts it over the target
+    if (m == vec4(0.0))
+        discard; // blending could change the bits of what no medium touches
+    color = m;   // fixed-function blending puts it over the target
 #else
     vec4 b = texelFetch(behind, p, 0);
     color = vec4(m.rgb + (1.0 - m.a) * b.rgb, m.a + (1.0 - m.a) * b.a);

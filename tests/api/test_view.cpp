@@ -54,6 +54,7 @@ TEST_F(ViewApi, noGlStateDiffersAfterwards)
     GlHost host(gl_->loader());
     host.makeHostile();
     FxFrameDef def = frame();
+    def.upperLeftOrigin = 1; // as its clip control
     ASSERT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();
     const GlProbe before = host.probe();
     ASSERT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();

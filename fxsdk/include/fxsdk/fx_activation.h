@@ -30,9 +30,9 @@ typedef struct FxFocus
     uint32_t structSize;  ///< set by fxDefaultFocus(); do not touch
     float height;         ///< [pixel] of the picture, 1..65536; default 1080
     double origin[3];     ///< [m] world position that the matrices are relative to, each within +-1e9
-    float view[16];       ///< world minus origin to eye; rigid; default identity
-    float projection[16]; ///< eye to clip, perspective or orthographic; required: its first two diagonal
-                          ///< elements must not be 0
+    float view[16];       ///< world minus origin to eye, column-major; rigid; default identity
+    float projection[16]; ///< eye to clip, column-major, right-handed; perspective (elements 11 and 15 are -1
+                          ///< and 0) or orthographic (0 and 1); required
     double maxDistance;   ///< [m] from the eye, beyond which nothing is seen; 0 (default): no limit
     float margin;         ///< [m] 0..1e6, by which the frustum is widened on all sides, for what throws light
                           ///< or shadow into it, and for cameras that turn quickly; default 2

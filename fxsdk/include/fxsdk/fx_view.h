@@ -8,7 +8,7 @@
 ///
 /// GL state: with saveState = 1 no GL state differs after fxView_Render(). With 0 exactly the states that
 /// fxGetTouchedGlState() names may differ. Clip control is read from the frame's definition and never
-/// changed.
+/// changed. Which formats and targets of textures a frame takes: docs/howto/host-targets.md.
 #ifndef FXSDK_FX_VIEW_H
 #define FXSDK_FX_VIEW_H
 
@@ -30,9 +30,10 @@ enum
 {
     /// Draw over colorTexture.
     FX_TARGET_TEXTURE = 0,
-    /// Write into the first color attachment of framebuffer; 0 is the window. With a colorTexture the picture
-    /// is read from there and comes out complete. Without, the media are blended over what the framebuffer
-    /// holds: it cannot be read, so there is no heat shimmer, no glare and no tone mapping.
+    /// Write into the color attachment of framebuffer that its draw buffer 0 names, the first one unless
+    /// glDrawBuffer said otherwise; 0 is the window. Other attachments stay as they are. With a colorTexture
+    /// the picture is read from there and comes out complete. Without, the media are blended over what the
+    /// framebuffer holds: it cannot be read, so there is no heat shimmer, no glare and no tone mapping.
     FX_TARGET_FRAMEBUFFER = 1
 };
 
@@ -147,21 +148,26 @@ typedef struct FxFrameDef
     uint32_t resetHistory; ///< 1: camera cut, glare adapts from this frame; default 0
     double origin[3]; ///< [m] world position that the matrices are relative to, each within +-1e9; default 0.
                       ///< Near the camera, floats stay exact far from the world's center.
-    float view[16]; ///< world minus origin to eye; rigid (columns orthonormal within 1e-3); default identity
-    float projection[16]; ///< eye to clip; perspective or orthographic, infinite far plane allowed; default
-                          ///< identity
+    float view[16];   ///< world minus origin to eye, column-major; rigid (columns orthonormal within 1e-3);
+                      ///< default identity
+    float projection[16]; ///< eye to clip, column-major, right-handed; perspective (elements 11 and 15 are -1
+                          ///< and 0) or orthographic (0 and 1), infinite far plane, off-center, jitter and
+                          ///< mirroring allowed; near maps to what depthConvention says; required: the
+                          ///< default, identity, is refused
     uint32_t depthConvention; ///< FX_DEPTH_...; default FX_DEPTH_STANDARD
     uint32_t
         zeroToOne; ///< 1: clip space depth is [0, w] (glClipControl GL_ZERO_TO_ONE); 0 (default): [-w, w]
-    uint32_t upperLeftOrigin; ///< 1: glClipControl GL_UPPER_LEFT; default 0
+    uint32_t upperLeftOrigin; ///< 1: glClipControl GL_UPPER_LEFT, as it must be during the call; default 0
     uint32_t target;          ///< FX_TARGET_...; default FX_TARGET_TEXTURE
-    uint32_t colorTexture; ///< GL name of a 2-D texture holding the opaque picture [cd/m2 times exposure]; 0
+    uint32_t colorTexture; ///< GL name of a GL_TEXTURE_2D holding the opaque picture [cd/m2 times exposure],
+                           ///< red, green and blue as floats or normalized; sRGB formats hold codes of it; 0
                            ///< only with FX_TARGET_FRAMEBUFFER
-    uint32_t depthTexture; ///< GL name of a 2-D depth texture of it; 0 (default): nothing occludes. Particles
-                           ///< on the GPU collide with it where their preset says so (shape "depth")
+    uint32_t depthTexture; ///< GL name of a GL_TEXTURE_2D with its depth, one texel for each pixel; 0
+                           ///< (default): nothing occludes. Particles on the GPU collide with it where their
+                           ///< preset says so (shape "depth")
     uint32_t framebuffer;  ///< GL name, with FX_TARGET_FRAMEBUFFER; default 0
-    int32_t width;         ///< [pixel] of the target, 1..16384
-    int32_t height;        ///< [pixel] of the target, 1..16384
+    int32_t width;         ///< [pixel] of the frame, 1..16384 and within the target
+    int32_t height;        ///< [pixel] of the frame, 1..16384 and within the target
     uint32_t holdQuality; ///< 1: the host is loading, seeking or catching up: with a budget, quality stays as
                           ///< it is and the frame's time teaches nothing; default 0
     double deltaTime;     ///< [s] 0..1e6 since the last frame of this view, for adaptation only; default 1/60
@@ -284,9 +290,10 @@ FX_API FxResult fxDestroyView(FxView* view);
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings);
 
-/// Draws the scene, as it is between its last two steps, over the host's picture. [GL thread]
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member), FX_ERROR_VERSION,
-/// FX_ERROR_GL_FAILED,
+/// Draws the scene, as it is between its last two steps, over the host's picture. Textures and framebuffers
+/// are looked at in frames that draw; a frame that draws nothing makes no GL call. [GL thread]
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member, what was found, and what to do;
+/// also of targets that would be read or drawn to wrongly), FX_ERROR_VERSION, FX_ERROR_GL_FAILED,
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. On failure the picture and the
 ///         GL state are what the host left.
 FX_API FxResult fxView_Render(FxView* view, const FxFrameDef* frame);

@@ -166,6 +166,7 @@ TEST_F(GlStateGuardTest, everyPublishedStateIsReallyTouched)
         device->gl.ActiveTexture(static_cast<GLenum>(active));
         return all;
     };
+    device->gl.Disable(GL_FRAMEBUFFER_SRGB); // frames that write light enable it
     const auto before = snapshot();
     drawEverything();
     GlAssetCache assets(*device, std::pmr::get_default_resource()); // frames of particles are texture arrays

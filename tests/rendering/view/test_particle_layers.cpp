@@ -255,6 +255,7 @@ TEST_F(ParticleLayersTest, theHostsStateIsAsItWas)
     const render::GlProbe before = host.probe();
     render::FrameRequest request;
     request.camera = flatCamera();
+    request.camera.upperLeftOrigin = true; // as the host's clip control
     request.targets = {color_->name(), 0, 0, false, kSide, kSide};
     EXPECT_TRUE(
         view_->render({&snapshot, nullptr}, request).ok()); // the first frame: textures are made as well

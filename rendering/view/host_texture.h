@@ -1,0 +1,69 @@
+/// @file host_texture.h
+/// Whether a texture of the host is one that a frame reads and writes rightly, and if not, why and what to
+/// do.
+///
+/// Threads: [GL thread]. No GL state is changed.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <GL/glcorearb.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace fx::render {
+
+class GlDevice;
+
+/// What a frame does with a texture of the host.
+enum class HostUse : uint8_t
+{
+    Nothing,
+    ReadColor, ///< the picture comes from it
+    DrawColor, ///< and goes back into it
+    ReadDepth,
+};
+
+/// What OpenGL tells about a texture in a few calls. Textures with the same facts are equally good; a texture
+/// that was deleted and made again under the same name is seen by its facts.
+struct HostTexture
+{
+    uint32_t name = 0;
+    HostUse use = HostUse::Nothing;
+    GLint target = 0;
+    GLint format = 0; ///< internal format of level 0
+    GLint width = 0;  ///< [texel]
+    GLint height = 0; ///< [texel]
+    GLint baseLevel = 0;
+    GLint stencilMode = 0; ///< of ReadDepth
+    std::array<GLint, 4> swizzle{};
+
+    bool operator==(const HostTexture&) const = default;
+};
+
+/// Remembers which textures were found good, so that a frame like the one before asks for facts only.
+class HostTextureCheck
+{
+public:
+    explicit HostTextureCheck(GlDevice& device) : device_(device) {}
+
+    /// @param member  of the frame, "frame.colorTexture", for the message
+    /// @param outFacts untouched on failure
+    /// @return InvalidArgument with what was found and the remedy
+    base::Status check(uint32_t name, HostUse use, const char* member, HostTexture& outFacts);
+
+private:
+    HostTexture factsOf(uint32_t name, HostUse use) const;
+    bool isDrawable(uint32_t name) const;
+    std::string faultOf(const HostTexture& facts) const;
+    std::string formatFault(const HostTexture& facts) const;
+
+    GlDevice& device_;
+    std::array<HostTexture, 16> good_{}; ///< the latest ones; hosts take turns with several
+    size_t next_ = 0;                    ///< of good_, to be replaced
+};
+
+} // namespace fx::render
