@@ -1,4 +1,4 @@
-// bench_layer_scale [--size=WxH] [--blobs=N] [--repeat=N]
+// bench_layer_scale [--size=WxH] [--blobs=N] [--repeat=N] [--small]
 //
 // What drawing media at 1/2 and 1/4 of the picture's size saves and costs: a cloud seen from outside and from
 // inside, alone and among pillars before a wall. Prints one JSON object a case and scale: least wall time and
@@ -23,6 +23,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -63,10 +64,12 @@ Options parse(int argc, char** argv)
 {
     Options options;
     for (int i = 1; i < argc; ++i)
-        if (std::sscanf(argv[i], "--size=%dx%d", &options.width, &options.height) != 2 &&
-            std::sscanf(argv[i], "--blobs=%d", &options.blobs) != 1 &&
-            std::sscanf(argv[i], "--repeat=%d", &options.repeat) != 1)
-            fail("usage: bench_layer_scale [--size=WxH] [--blobs=N] [--repeat=N]");
+        if (std::string_view(argv[i]) == "--small") // to see that the program works
+            options = {240, 150, 1000, 1};
+        else if (std::sscanf(argv[i], "--size=%dx%d", &options.width, &options.height) != 2 &&
+                 std::sscanf(argv[i], "--blobs=%d", &options.blobs) != 1 &&
+                 std::sscanf(argv[i], "--repeat=%d", &options.repeat) != 1)
+            fail("usage: bench_layer_scale [--size=WxH] [--blobs=N] [--repeat=N] [--small]");
     if (options.width < 8 || options.height < 8 || options.blobs < 1 || options.repeat < 1)
         fail("sizes begin at 8x8, counts at 1");
     return options;

@@ -1,10 +1,10 @@
-// bench_neighbor_search [--repeat=N] [--threads=T] [--neighbors=N] [--margin=M]
+// bench_neighbor_search [--repeat=N] [--threads=T] [--neighbors=N] [--margin=M] [--small]
 //
 // The search for neighbors alone: sort (keys, order, cells), reorder (the caller's four columns), refit
 // (boxes), lists. One JSON object a case: nanoseconds per particle of each part, the least of N runs, whose
 // caches hold what 262144 particles leave in them; the mean length of a list; a hash of all lists. Search =
 // sort + refit + lists, what a library must do for unsorted particles. Fails when a sample of lists is not
-// what a trial of all pairs finds.
+// what a trial of all pairs finds. --small: 8^3 and 16^3 particles once, to see that the program works.
 #include "benchmarks/bench_failure.h"
 #include "foundation/math/hash.h"
 #include "foundation/random/philox.h"
@@ -32,6 +32,7 @@ using bench::fail;
 struct Options
 {
     int repeat = 15;
+    uint32_t edge = 64;   ///< particles along an edge of the large clouds; of the small one half of it
     uint32_t threads = 0; ///< 0: one and two
     double neighbors = 58;
     double margin = 0;
@@ -50,8 +51,11 @@ Options parse(int argc, char** argv)
             options.neighbors = std::atof(a.data() + 12);
         else if (a.starts_with("--margin="))
             options.margin = std::atof(a.data() + 9);
+        else if (a == "--small")
+            options.edge = 16, options.repeat = 1;
         else
-            fail("usage: bench_neighbor_search [--repeat=N] [--threads=T] [--neighbors=N] [--margin=M]");
+            fail("usage: bench_neighbor_search [--repeat=N] [--threads=T] [--neighbors=N] [--margin=M] "
+                 "[--small]");
     }
     return options;
 }
@@ -252,11 +256,13 @@ void measure(const std::string& variant, const Cloud<T>& cloud, uint32_t threads
 template <class T>
 void measureAll(uint32_t threads, const Options& options)
 {
-    measure("lattice.32", lattice<T>(32, options.neighbors), threads, options);
-    const Cloud<T> large = lattice<T>(64, options.neighbors);
-    measure("lattice.64", large, threads, options);
-    measure("shuffled.64", shuffled(large), threads, options);
-    measure("contrast1e6.64", contrast<T>(64, options.neighbors), threads, options);
+    const std::string large = std::to_string(options.edge);
+    const uint32_t half = options.edge / 2;
+    measure("lattice." + std::to_string(half), lattice<T>(half, options.neighbors), threads, options);
+    const Cloud<T> even = lattice<T>(options.edge, options.neighbors);
+    measure("lattice." + large, even, threads, options);
+    measure("shuffled." + large, shuffled(even), threads, options);
+    measure("contrast1e6." + large, contrast<T>(options.edge, options.neighbors), threads, options);
 }
 
 } // namespace

@@ -1,4 +1,5 @@
-// bench_pair_loops [--size=N] [--repeat=N] [--neighbors=N] [--reach=R] [--widest] [--validate-hash=0x...]
+// bench_pair_loops [--size=N] [--repeat=N] [--neighbors=N] [--reach=R] [--widest] [--small]
+//                  [--validate-hash=0x...]
 //
 // Times the sums over neighbors of a jittered periodic lattice of N^3 particles that stand in the order of
 // the tree: density with its search for the support, and forces. One thread, CPU time of the fastest of
@@ -7,6 +8,7 @@
 // every instruction set. `share_of_flops` compares the operations with what the same instruction set does at
 // most in multiplications and additions that are not fused, `share_of_reading` the records read with what one
 // thread reads from 1 MiB of memory nearby, both measured at the end.
+// --small: 12^3 particles once, to see that the program works.
 #include "benchmarks/machine_peak.h"
 #include "foundation/math/hash.h"
 #include "foundation/simd/instruction_set.h"
@@ -210,6 +212,8 @@ int main(int count, char** arguments)
             options.reach = std::strtod(value.c_str(), nullptr);
         else if (!std::strcmp(arguments[i], "--widest"))
             options.onlyWidest = true;
+        else if (!std::strcmp(arguments[i], "--small"))
+            options.size = 12, options.repeat = 1;
         else if (read(arguments[i], "--validate-hash=", value))
             options.validateHash = std::strtoull(value.c_str(), nullptr, 16);
         else {

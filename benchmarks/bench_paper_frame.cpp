@@ -1,4 +1,4 @@
-// bench_paper_frame [--frames=N] [--form=planar|constant|kernel] [--detail] [--size=WxH]
+// bench_paper_frame [--frames=N] [--form=planar|constant|kernel] [--detail] [--size=WxH] [--small]
 //
 // The case of the paper [UBT96]: an explosion of 270 blobs, simulated, drawn and dazzled at 480x300. Prints
 // one JSON object: time of each stage (median of N frames), frames a second of the whole (of the mean frame,
@@ -32,9 +32,8 @@ using fx::bench::fail;
 constexpr std::string_view kPreset = R"({
   "version": 1, "name": "paper",
   "ground": false,
-  "gas": [{"name": "blobs", "particles": 270, "position": [0, 0, 0], "radius": 1.2, "temperature": 2100,
-           "pressureRatio": 8, "soundSpeed": 30, "drag": 1.2, "radiation": 0.3, "cooling": 0.1, "buoyancy": 0.2,
-           "opticalDepth": 1.2, "growth": 1.35, "detailAmount": 0.8, "heat": 0}]
+  "gas": [{"name": "blobs", "particles": 270, "position": [0, 0, 0], "material": "petrol", "energy": 250000000,
+           "soundSpeed": 30, "throwSpeed": 2.2, "opacity": 0.1, "growth": 0.9, "detailAmount": 0.8, "heat": 0}]
 })";
 
 struct Options
@@ -69,6 +68,8 @@ Options parse(int argc, char** argv)
         else if (a.starts_with("--size=") &&
                  std::sscanf(a.data() + 7, "%dx%d", &options.width, &options.height) == 2)
             continue;
+        else if (a == "--small") // to see that the program works
+            options.frames = 4, options.width = 120, options.height = 75;
         else if (a == "--form=planar")
             options.form = FX_BILLBOARD_PLANAR;
         else if (a == "--form=constant")
@@ -77,7 +78,7 @@ Options parse(int argc, char** argv)
             options.detail = true;
         else if (a != "--form=kernel")
             fail("usage: bench_paper_frame [--frames=N] [--form=planar|constant|kernel] [--detail] "
-                 "[--size=WxH]");
+                 "[--size=WxH] [--small]");
     }
     return options;
 }

@@ -1,4 +1,4 @@
-// bench_ray_integral [--repeat=N] [--width=W] [--height=H] [--validate-hash=0x...]
+// bench_ray_integral [--repeat=N] [--width=W] [--height=H] [--small] [--validate-hash=0x...]
 //
 // The integration alone of a picture of 270 overlapping blobs in a ball whose diameter is the picture's
 // width: blobs of every ray are found beforehand. One JSON object a case: scheme, optical depth, processor
@@ -52,8 +52,11 @@ Options parse(int argc, char** argv)
             options.height = uint32_t(std::max(std::atoi(a.data() + 9) / 4, 1)) * 4;
         else if (a.starts_with("--validate-hash="))
             options.validate = std::strtoull(a.data() + 16, nullptr, 16);
+        else if (a == "--small")
+            options.width = 32, options.height = 16, options.repeat = 1;
         else
-            fail("usage: bench_ray_integral [--repeat=N] [--width=W] [--height=H] [--validate-hash=0x...]");
+            fail("usage: bench_ray_integral [--repeat=N] [--width=W] [--height=H] [--small] "
+                 "[--validate-hash=0x...]");
     }
     return options;
 }

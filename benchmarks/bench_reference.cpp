@@ -1,4 +1,5 @@
 // bench_reference [--blobs=N] [--cover=C] [--depth=D] [--size=WxH] [--threads=N] [--repeat=N] [--float]
+//                 [--small]
 //
 // Times a whole picture of the reference renderer: N blobs in a unit ball, that cover its cross-section C
 // times and have the mean optical depth D over it, whatever N is. So pictures of different N show as much
@@ -47,8 +48,15 @@ bool parse(int argc, char** argv, Options& options)
             options.isSingle = true;
             continue;
         }
+        if (std::string_view(argv[i]) == "--small") { // to see that the program works
+            options.blobs = 1000;
+            options.width = 64;
+            options.height = 36;
+            options.repeat = 1;
+            continue;
+        }
         std::fprintf(stderr, "bench_reference [--blobs=N] [--cover=C] [--depth=D] [--size=WxH] [--threads=N] "
-                             "[--repeat=N] [--float]\n");
+                             "[--repeat=N] [--float] [--small]\n");
         return false;
     }
     return options.blobs > 0 && options.cover > 0.0 && options.depth > 0.0 && options.repeat > 0;

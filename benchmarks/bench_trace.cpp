@@ -1,4 +1,4 @@
-// bench_trace [--balls=N] [--size=WxH] [--repeat=N] [--fill=F]
+// bench_trace [--balls=N] [--size=WxH] [--repeat=N] [--fill=F] [--small]
 //
 // Times finding all balls that every ray of a picture meets, with where it enters them, among `balls` balls
 // that fill a unit ball `fill` times over: the tree is built anew each time, with caches that hold something
@@ -112,7 +112,14 @@ bool parse(int argc, char** argv, Options& options)
             std::sscanf(argv[i], "--repeat=%d", &options.repeat) == 1 ||
             std::sscanf(argv[i], "--fill=%lf", &options.fill) == 1)
             continue;
-        std::fprintf(stderr, "bench_trace [--balls=N] [--size=WxH] [--repeat=N] [--fill=F]\n");
+        if (std::strcmp(argv[i], "--small") == 0) { // to see that the program works
+            options.balls = 2000;
+            options.width = 64;
+            options.height = 36;
+            options.repeat = 1;
+            continue;
+        }
+        std::fprintf(stderr, "bench_trace [--balls=N] [--size=WxH] [--repeat=N] [--fill=F] [--small]\n");
         return false;
     }
     return options.balls > 0 && options.width > 0 && options.height > 0 && options.repeat > 0;

@@ -4,6 +4,9 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/frame_snapshot.h"
+#include "foundation/snapshot/streak.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -49,10 +52,14 @@ public:
         base::Bounds bounds;
         for (uint32_t i = 0; i < count_; ++i) {
             const glm::vec3 position = vector(blob::PositionX, i);
-            bounds.add(position, radius[i]);
+            const glm::vec3 velocity = vector(blob::VelocityX, i);
+            const float widest = shutter > 0.0f
+                                     ? base::streakOf(shutter * glm::length(velocity), radius[i]).radius
+                                     : radius[i];
+            bounds.add(position, widest);
             const float back = std::min(age[i], kRoundedUp * secondsBack_);
             if (back + shutter > 0.0f)
-                bounds.add(position - vector(blob::VelocityX, i) * (back + shutter), radius[i]);
+                bounds.add(position - velocity * (back + shutter), widest);
         }
         group_.editInfo().bounds = bounds;
     }

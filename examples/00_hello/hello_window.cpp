@@ -1,24 +1,25 @@
 #include "hello_window.h"
 
-#include "rendering/gl/gl_device.h"
-#include "rendering/gl/gl_read_texture.h"
-#include "rendering/gl/gl_texture.h"
-#include "rendering/image/image.h"
-#include "rendering/platform/gl_context.h"
+#include "offscreen_gl.h"
+
+#ifdef HELLO_WITH_WINDOW
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#endif
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
+#include <exception>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using fx::base::Result;
-using fx::base::Status;
 
 constexpr int kWidth = 960;
 constexpr int kHeight = 540;
@@ -50,56 +51,52 @@ Options parse(int argumentCount, char** arguments)
     return options;
 }
 
-Result<std::unique_ptr<fx::render::GlContext>> openContext(bool isHeadless)
-{
-    fx::render::GlContextOptions options;
-    options.visible = true;
-    options.width = kWidth;
-    options.height = kHeight;
-    options.title = "fxsdk: hello";
-    if (isHeadless)
-        return fx::render::createEglContext(options);
 #ifdef HELLO_WITH_WINDOW
-    return fx::render::createGlfwContext(options);
-#else
-    return Status(fx::base::Code::GlUnsupported, "this build has no windows; use --headless");
-#endif
-}
-
-} // namespace
-
-struct HelloWindow
+/// A window on the screen with a current OpenGL 4.5 core context.
+class ScreenWindow
 {
-    Options options;
-    std::unique_ptr<fx::render::GlContext> context;
-    std::unique_ptr<fx::render::GlDevice> device;
-    fx::render::GlTexture color; ///< the game's picture
-    fx::render::GlTexture depth; ///< and its depth; here nothing occludes
-    Clock::time_point last = Clock::now();
-    long frame = 0;
+public:
+    ScreenWindow()
+    {
+        if (!glfwInit())
+            throw std::runtime_error("no screen; use --headless");
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+        glfwWindowHint(GLFW_RESIZABLE, GLFW_FALSE);
+        window_ = glfwCreateWindow(kWidth, kHeight, "fxsdk: hello", nullptr, nullptr);
+        if (!window_) {
+            glfwTerminate();
+            throw std::runtime_error("no window with OpenGL 4.5; use --headless");
+        }
+        glfwMakeContextCurrent(window_);
+        glfwSwapInterval(1);
+    }
+    ~ScreenWindow() { glfwTerminate(); }
+    ScreenWindow(const ScreenWindow&) = delete;
+    ScreenWindow& operator=(const ScreenWindow&) = delete;
+
+    static void* findFunction(const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); }
+    bool closes() const
+    {
+        glfwPollEvents();
+        return glfwWindowShouldClose(window_) != 0;
+    }
+    void swap() const { glfwSwapBuffers(window_); }
+
+private:
+    GLFWwindow* window_ = nullptr;
 };
-
-namespace {
-
-Status open(HelloWindow& window)
+#else
+class ScreenWindow
 {
-    auto context = openContext(window.options.isHeadless);
-    if (!context)
-        return context.status();
-    window.context = std::move(*context);
-    auto device = fx::render::GlDevice::create(window.context->loader(), std::pmr::get_default_resource());
-    if (!device)
-        return device.status();
-    window.device = std::move(*device);
-    auto color = fx::render::GlTexture::create(*window.device, kWidth, kHeight, GL_RGBA32F, "picture");
-    auto depth =
-        fx::render::GlTexture::create(*window.device, kWidth, kHeight, GL_DEPTH_COMPONENT32F, "depth");
-    if (!color || !depth)
-        return color ? depth.status() : color.status();
-    window.color = std::move(*color);
-    window.depth = std::move(*depth);
-    return {};
-}
+public:
+    ScreenWindow() { throw std::runtime_error("this build has no windows; use --headless"); }
+    static void* findFunction(const char*) { return nullptr; }
+    static bool closes() { return true; }
+    static void swap() {}
+};
+#endif
 
 /// Looks horizontally from 16 m away and 3 m up, 50 degrees of height.
 void setCamera(FxFrameDef& frame)
@@ -116,65 +113,62 @@ void setCamera(FxFrameDef& frame)
     frame.projection[14] = -2.0f * kNear;
 }
 
-Status writePicture(HelloWindow& window)
-{
-    const std::vector<float> texels =
-        fx::render::readTexture(*window.device, window.color.name(), kWidth, kHeight, 3);
-    fx::image::Image image{kWidth, kHeight, 3, {}};
-    for (int y = kHeight - 1; y >= 0; --y) { // GL's rows begin at the bottom
-        const auto row = texels.begin() + std::ptrdiff_t(y) * kWidth * 3;
-        image.pixels.insert(image.pixels.end(), row, row + kWidth * 3);
-    }
-    const auto png = fx::image::writePng(image);
-    if (!png)
-        return png.status();
-    std::ofstream file(window.options.output, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(png->data()), std::streamsize(png->size()));
-    file.close();
-    return file ? Status() : Status(fx::base::Code::Io, "cannot write " + window.options.output);
-}
-
 } // namespace
+
+struct HelloWindow
+{
+    explicit HelloWindow(const Options& given) : options(given)
+    {
+        if (options.isHeadless)
+            offscreen.emplace();
+        else
+            screen.emplace();
+        picture.emplace(kWidth, kHeight);
+    }
+
+    Options options;
+    std::optional<example::OffscreenGl> offscreen; ///< one of the two
+    std::optional<ScreenWindow> screen;
+    std::optional<example::Picture> picture; ///< the game's picture and its depth; here nothing occludes
+    Clock::time_point last = Clock::now();
+    long frame = 0;
+};
 
 HelloWindow* helloOpen(int argumentCount, char** arguments)
 {
-    auto window = std::make_unique<HelloWindow>();
-    window->options = parse(argumentCount, arguments);
-    if (!window->options.isUnderstood) {
+    const Options options = parse(argumentCount, arguments);
+    if (!options.isUnderstood) {
         helloFail("usage: 00_hello [--headless] [--frames N] [--output FILE.png]");
         return nullptr;
     }
-    if (const Status status = open(*window); !status) {
-        helloFail(status.message().c_str());
+    try {
+        return std::make_unique<HelloWindow>(options).release();
+    } catch (const std::exception& error) {
+        helloFail(error.what());
         return nullptr;
     }
-    return window.release();
 }
 
 void* helloGetProcAddress(void* user, const char* name)
 {
-    const fx::render::GlLoader loader = static_cast<HelloWindow*>(user)->context->loader();
-    return loader.getProcAddress(loader.user, name);
+    return static_cast<HelloWindow*>(user)->screen ? ScreenWindow::findFunction(name)
+                                                   : example::findOffscreenFunction(nullptr, name);
 }
 
 int helloBeginFrame(HelloWindow* window, FxFrameDef* ioFrame)
 {
-    const bool stops = window->options.isHeadless ? window->frame >= window->options.frames
-                                                  : window->context->closeRequested();
-    if (stops)
+    const bool isHeadless = window->options.isHeadless;
+    if (isHeadless ? window->frame >= window->options.frames : window->screen->closes())
         return 0;
-    const float farPlane = 1.0f;
-    window->device->gl.ClearTexImage(window->color.name(), 0, GL_RGBA, GL_FLOAT, kSky);
-    window->device->gl.ClearTexImage(window->depth.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &farPlane);
+    window->picture->clear(kSky);
     setCamera(*ioFrame);
-    ioFrame->target = window->options.isHeadless ? FX_TARGET_TEXTURE : FX_TARGET_FRAMEBUFFER;
-    ioFrame->colorTexture = window->color.name();
-    ioFrame->depthTexture = window->depth.name();
+    ioFrame->target = isHeadless ? FX_TARGET_TEXTURE : FX_TARGET_FRAMEBUFFER;
+    ioFrame->colorTexture = window->picture->color();
+    ioFrame->depthTexture = window->picture->depth();
     ioFrame->width = kWidth;
     ioFrame->height = kHeight;
     const Clock::time_point now = Clock::now();
-    ioFrame->deltaTime =
-        window->options.isHeadless ? 1.0 / 60.0 : std::chrono::duration<double>(now - window->last).count();
+    ioFrame->deltaTime = isHeadless ? 1.0 / 60.0 : std::chrono::duration<double>(now - window->last).count();
     window->last = now;
     ++window->frame;
     return 1;
@@ -182,14 +176,20 @@ int helloBeginFrame(HelloWindow* window, FxFrameDef* ioFrame)
 
 void helloEndFrame(HelloWindow* window)
 {
-    window->context->swapBuffers();
+    if (window->screen)
+        window->screen->swap();
 }
 
 int helloClose(HelloWindow* window)
 {
     const std::unique_ptr<HelloWindow> owned(window);
-    const Status status = window->options.output.empty() ? Status() : writePicture(*window);
-    return status ? EXIT_SUCCESS : helloFail(status.message().c_str());
+    try {
+        if (!owned->options.output.empty())
+            owned->picture->writePng(owned->options.output);
+    } catch (const std::exception& error) {
+        return helloFail(error.what());
+    }
+    return EXIT_SUCCESS;
 }
 
 int helloFail(const char* message)

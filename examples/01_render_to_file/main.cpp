@@ -4,18 +4,12 @@
 // a library preset or the path of a *.fx.json file. Shows: a headless context, daylight, simulating ahead,
 // reading back.
 #include "fxsdk/fxsdk.h"
-#include "rendering/gl/gl_device.h"
-#include "rendering/gl/gl_read_texture.h"
-#include "rendering/gl/gl_texture.h"
-#include "rendering/image/image.h"
-#include "rendering/platform/gl_context.h"
+#include "offscreen_gl.h"
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace {
 
@@ -27,14 +21,6 @@ void check(FxResult result)
 {
     if (result != FX_OK)
         throw std::runtime_error(fxGetLastErrorMessage());
-}
-
-template <class T>
-T take(fx::base::Result<T> result)
-{
-    if (!result)
-        throw std::runtime_error(result.status().message());
-    return std::move(*result);
 }
 
 FxPresetId load(FxContext* context, const std::string& preset)
@@ -59,7 +45,7 @@ FxViewSettings daylight()
 }
 
 /// From 12 m away and 2 m up, about 53 degrees of height, nothing in the far distance.
-FxFrameDef camera(const fx::render::GlTexture& color)
+FxFrameDef camera(const example::Picture& picture)
 {
     FxFrameDef frame = fxDefaultFrameDef();
     frame.origin[1] = 2.0;
@@ -69,35 +55,21 @@ FxFrameDef camera(const fx::render::GlTexture& color)
     frame.projection[10] = frame.projection[11] = -1.0f; // infinite far plane, near plane at 0.1 m
     frame.projection[14] = -0.2f;
     frame.projection[15] = 0.0f;
-    frame.colorTexture = color.name();
+    frame.colorTexture = picture.color();
     frame.width = kWidth;
     frame.height = kHeight;
     return frame;
 }
 
-void writePng(const std::string& path, const std::vector<float>& rgb)
-{
-    fx::image::Image image{kWidth, kHeight, 3, {}};
-    for (int y = kHeight - 1; y >= 0; --y) // GL's rows begin at the bottom
-        image.pixels.insert(image.pixels.end(), rgb.begin() + y * kWidth * 3,
-                            rgb.begin() + (y + 1) * kWidth * 3);
-    const std::vector<std::byte> png = take(fx::image::writePng(image));
-    std::ofstream file(path, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(png.data()), std::streamsize(png.size()));
-    if (!file.flush())
-        throw std::runtime_error("cannot write " + path);
-}
-
 void run(const std::string& preset, double seconds, const std::string& output)
 {
-    auto gl = take(fx::render::createEglContext({}));
-    auto device = take(fx::render::GlDevice::create(gl->loader(), std::pmr::get_default_resource()));
-    const auto color = take(fx::render::GlTexture::create(*device, kWidth, kHeight, GL_RGBA32F, "picture"));
+    const example::OffscreenGl gl;
+    example::Picture picture(kWidth, kHeight);
     const float sky[4] = {0.30f, 0.38f, 0.50f, 1.0f}; // exposed values
-    device->gl.ClearTexImage(color.name(), 0, GL_RGBA, GL_FLOAT, sky);
+    picture.clear(sky);
 
     FxContextDef contextDef = fxDefaultContextDef();
-    contextDef.gl = {gl->loader().user, gl->loader().getProcAddress};
+    contextDef.gl.getProcAddress = example::findOffscreenFunction;
     FxContext* context = nullptr;
     check(fxCreateContext(&contextDef, &context));
     const FxSceneDef sceneDef = fxDefaultSceneDef();
@@ -113,9 +85,9 @@ void run(const std::string& preset, double seconds, const std::string& output)
     const FxViewSettings settings = daylight();
     FxView* view = nullptr;
     check(fxCreateView(context, scene, &settings, &view));
-    const FxFrameDef frame = camera(color);
+    const FxFrameDef frame = camera(picture);
     check(fxView_Render(view, &frame));
-    writePng(output, fx::render::readTexture(*device, color.name(), kWidth, kHeight, 3));
+    picture.writePng(output);
     check(fxDestroyContext(context));
 }
 

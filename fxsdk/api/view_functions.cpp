@@ -106,6 +106,9 @@ FxViewStatistics gatherStatistics(const FxView& view)
     statistics.particlesThinned = frame.particlesThinned;
     statistics.keptRowBytes = frame.keptRowBytes;
     statistics.sharedRowBytes = frame.sharedRowBytes;
+    statistics.sprites = frame.sprites;
+    statistics.meshes = frame.meshes;
+    statistics.ribbonPieces = frame.ribbonPieces;
     return statistics;
 }
 

@@ -1,9 +1,11 @@
 #include "fxsdk/assets/asset_resolver.h"
 
+#include "foundation/result/nearest_name.h"
 #include "fxsdk/assets/read_file.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <vector>
 
 namespace fx::asset {
 
@@ -88,7 +90,7 @@ base::Result<std::string> AssetResolver::readLibrary(std::string_view name, uint
     std::string file(name.substr(kLibraryPrefix.size()));
     if (file.find('.') == std::string::npos)
         file += kPresetSuffix;
-    std::string known;
+    std::vector<std::string> known;
     for (const base::EmbeddedText& entry : library_) {
         if (entry.name == file)
             return entry.text.size() <= maxBytes ? base::Result<std::string>(std::string(entry.text))
@@ -96,10 +98,13 @@ base::Result<std::string> AssetResolver::readLibrary(std::string_view name, uint
         std::string_view shown = entry.name;
         if (shown.ends_with(kPresetSuffix))
             shown.remove_suffix(kPresetSuffix.size());
-        known.append(" ").append(shown);
+        known.emplace_back(shown);
     }
-    return base::Status(base::Code::NotFound,
-                        "asset \"" + std::string(name) + "\" is not in the library; it holds:" + known);
+    std::string message = "asset \"" + std::string(name) + "\" is not in the library" +
+                          base::didYouMean(name.substr(kLibraryPrefix.size()), known) + "; it holds:";
+    for (const std::string& candidate : known)
+        message += " " + candidate;
+    return base::Status(base::Code::NotFound, std::move(message));
 }
 
 base::Result<std::string> AssetResolver::readHook(const std::string& name, uint64_t maxBytes) const

@@ -123,13 +123,18 @@ void addBenchCommand(CLI::App& app, int& outExitCode)
     CLI::Option* onThreads = bench->add_option("--threads", *threads, "With --plot; 0 for all of the machine")
                                  ->check(CLI::Range(0u, 1024u))
                                  ->needs(drawn);
+    auto most = std::make_shared<uint64_t>(10'000'000);
+    CLI::Option* upTo = bench->add_option("--most", *most, "With --plot; the largest number of particles")
+                            ->check(CLI::Range(uint64_t(1000), uint64_t(10'000'000)))
+                            ->needs(drawn)
+                            ->capture_default_str();
     bench->require_subcommand(0, 1);
-    bench->callback([bench, drawn, plot, threads, &outExitCode] {
+    bench->callback([bench, drawn, plot, threads, most, &outExitCode] {
         if (!bench->get_subcommands().empty())
             return;
         if (drawn->count() == 0)
             throw CLI::RequiredError("A subcommand or --plot");
-        outExitCode = runBenchPlot(*plot, *threads);
+        outExitCode = runBenchPlot(*plot, *threads, *most);
     });
     addBenchMeasurements(*bench, outExitCode);
     addIdle(*bench, outExitCode);
@@ -140,6 +145,7 @@ void addBenchCommand(CLI::App& app, int& outExitCode)
     for (CLI::App* command : bench->get_subcommands({})) {
         command->excludes(drawn);
         command->excludes(onThreads);
+        command->excludes(upTo);
     }
 }
 

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kParticleVariants{"lean", "typical", "heavy"};
 constexpr std::array<std::string_view, 2> kManySmallVariants{"many", "few"};
-constexpr std::array<std::string_view, 6> kSortVariants{
-    "random", "same", "hundredth-moved", "all-nearer", "nearer-and-moved", "standard"};
+constexpr std::array<std::string_view, 7> kSortVariants{
+    "random", "same", "hundredth-moved", "all-nearer", "nearer-and-moved", "radix", "standard"};
 constexpr std::array<std::string_view, 3> kEmitVariants{"point", "sphere", "cone"};
 constexpr std::array<std::string_view, 2> kFrameVariants{"unsorted", "sorted"};
 

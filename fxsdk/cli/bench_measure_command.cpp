@@ -1,6 +1,7 @@
 /// @file bench_measure_command.cpp
 /// fx bench: what particles cost on this machine.
 
+#include "foundation/result/nearest_name.h"
 #include "fxsdk/cli/bench_command.h"
 #include "fxsdk/cli/bench_entry.h"
 #include "fxsdk/cli/calibration.h"
@@ -64,7 +65,9 @@ int runBench(const BenchArguments& arguments)
     const auto& variants = entry->variants;
     const std::string& variant = arguments.settings.variant;
     if (!variant.empty() && std::find(variants.begin(), variants.end(), variant) == variants.end())
-        return refused("--variant: '" + variant + "' is none of this measurement's; see fx bench --help");
+        return refused("--variant: '" + variant + "' is none of this measurement's" +
+                       base::didYouMean(variant, std::vector<std::string>(variants.begin(), variants.end())) +
+                       "; see fx bench --help");
     std::optional<uint64_t> wanted;
     if (!arguments.wantedHash.empty()) {
         wanted = parseHash(arguments.wantedHash);

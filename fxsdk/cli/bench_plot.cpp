@@ -8,9 +8,11 @@
 #include "fxsdk/cli/progress.h"
 #include "fxsdk/cli/svg_chart.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <span>
 #include <vector>
 
 namespace fx::cli {
@@ -34,16 +36,17 @@ struct Line
     std::vector<double> nanoseconds;  ///< the same for one particle
 };
 
-base::Result<std::vector<Line>> measureLines(uint32_t threads)
+base::Result<std::vector<Line>> measureLines(uint32_t threads, uint64_t most)
 {
     const auto variants = findBenchEntry("particles")->variants;
+    const auto counts = std::span(kCounts.begin(), std::ranges::upper_bound(kCounts, most));
     std::vector<Line> lines;
-    Progress bar("size", variants.size() * kCounts.size(), true);
+    Progress bar("size", variants.size() * counts.size(), true);
     uint64_t done = 0;
     for (const std::string_view variant : variants) {
         Line line;
         line.variant = variant;
-        for (const uint64_t count : kCounts) {
+        for (const uint64_t count : counts) {
             BenchSettings settings;
             settings.count = count;
             settings.threads = threads;
@@ -163,7 +166,7 @@ void print(const Line& line)
 
 } // namespace
 
-int runBenchPlot(const std::string& file, uint32_t threads)
+int runBenchPlot(const std::string& file, uint32_t threads, uint64_t most)
 {
     const auto failed = [](const base::Status& status) {
         std::fprintf(stderr, "fx bench: %s\n", status.message().c_str());
@@ -176,7 +179,7 @@ int runBenchPlot(const std::string& file, uint32_t threads)
     }
     if (base::Status status = checkTarget(file); !status)
         return failed(status);
-    const auto lines = measureLines(threads);
+    const auto lines = measureLines(threads, most);
     if (!lines)
         return failed(lines.status());
     const std::string origin =

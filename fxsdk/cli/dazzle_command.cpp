@@ -6,6 +6,7 @@
 #include "fxsdk/cli/dazzle_apply.h"
 #include "fxsdk/cli/exit_code.h"
 #include "fxsdk/cli/json_line.h"
+#include "fxsdk/cli/named_choice.h"
 #include "rendering/exr/exr_encoder.h"
 
 #include <CLI/CLI.hpp>
@@ -122,7 +123,7 @@ void addDazzleCommand(CLI::App& app, int& outExitCode)
         ->add_option(
             "--algorithm", arguments->algorithm,
             "exact: integer sums over the full range; paper8: 256 levels, as published, without its faults")
-        ->check(CLI::IsMember({"exact", "paper8"}))
+        ->check(oneOf({"exact", "paper8"}))
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "One object");
     command->callback([arguments, &outExitCode] { outExitCode = runDazzle(*arguments); });

@@ -12,11 +12,10 @@
 namespace fx::cli {
 namespace {
 
-constexpr int kTiles = 24;           // a side
-constexpr float kTileSize = 2.5f;    // [m]
-constexpr int kFramingMoments = 12;  // looked at between the start and the end
-constexpr double kAboveGround = 1.5; // [m] of what does not stand on the ground
-constexpr double kFramingLimit = 8;  // [s] longest time simulated only to place the camera
+constexpr int kTiles = 24;          // a side
+constexpr float kTileSize = 2.5f;   // [m]
+constexpr int kFramingMoments = 12; // looked at between the start and the end
+constexpr double kFramingLimit = 8; // [s] longest time simulated only to place the camera
 
 void addTile(render::StageMesh& mesh, int i, int j)
 {
@@ -132,8 +131,6 @@ base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input, scen
     scene.warnings = loaded->warnings;
     scene.presets.push_back({input, *text, fromLibrary ? std::string() : input, loaded->effect});
     scene.instances.emplace_back();
-    if (!scene.presets[0].effect->hasGround)
-        scene.instances[0].position.y = kAboveGround;
     addDefaultStage(scene);
     const std::string folder = fromLibrary ? std::string() : preset::folderOf(input);
     const asset::AssetResolver resolver(folder.empty() && !fromLibrary ? "." : folder,

@@ -5,6 +5,7 @@
 #include "fxsdk/cli/exit_code.h"
 #include "fxsdk/cli/interrupt.h"
 #include "fxsdk/cli/json_line.h"
+#include "fxsdk/cli/usage_message.h"
 
 #include <CLI/CLI.hpp>
 
@@ -19,6 +20,7 @@ int run(int argumentCount, char** arguments)
     CLI::App app("fx: explosions, fire, smoke and dust from presets to pictures", "fx");
     app.set_version_flag("--version", "fx " FXSDK_VERSION);
     app.require_subcommand(1);
+    app.failure_message(fx::cli::usageMessage);
     app.footer("Exit codes: 0 done, 1 failed, 2 the command line makes no sense, 130 interrupted.\n"
                "Start with: fx doctor; fx render library:explosion -o explosion.png --time 0.6");
 

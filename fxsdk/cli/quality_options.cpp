@@ -1,6 +1,9 @@
 #include "fxsdk/cli/quality_options.h"
 
+#include "foundation/result/nearest_name.h"
+
 #include <cstdio>
+#include <vector>
 
 namespace fx::cli {
 
@@ -24,9 +27,11 @@ base::Status readClock(const std::string& text, std::optional<StageClock>& outCl
             outClock = clock;
             return {};
         }
+    const std::vector<std::string> known{"auto", "gpu", "wall", "processor"};
     if (text != "auto")
-        return {base::Code::InvalidArgument,
-                "--clock: found '" + text + "'; allowed are auto, gpu, wall and processor"};
+        return {base::Code::InvalidArgument, "--clock: found '" + text +
+                                                 "'; allowed are auto, gpu, wall and processor" +
+                                                 base::didYouMean(text, known)};
     outClock.reset();
     return {};
 }

@@ -1,5 +1,7 @@
 #include "fxsdk/cli/reference_options.h"
 
+#include "fxsdk/cli/named_choice.h"
+
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 
@@ -51,14 +53,14 @@ void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments)
         ->capture_default_str()
         ->group(group);
     command.add_option("--precision", arguments.precision, "Numbers of the integral")
-        ->check(CLI::IsMember({"double", "float"}))
+        ->check(oneOf({"double", "float"}))
         ->capture_default_str()
         ->group(group);
     command
         .add_option(
             "--source", arguments.source,
             "per-blob: each blob emits by its own extinction; product: all extinction times all emission")
-        ->check(CLI::IsMember({"per-blob", "product"}))
+        ->check(oneOf({"per-blob", "product"}))
         ->capture_default_str()
         ->group(group);
     command
@@ -66,7 +68,7 @@ void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments)
             "--scattering", arguments.scattering,
             "Light of the scene that is scattered once. centers: as it arrives at the centers of the blobs; "
             "single: that of sun and glowing gas by shadow rays all along each ray, slow")
-        ->check(CLI::IsMember({"none", "centers", "single"}))
+        ->check(oneOf({"none", "centers", "single"}))
         ->capture_default_str()
         ->group(group);
     command.add_option("--samples", arguments.samples, "A pixel is the mean of N x N rays")

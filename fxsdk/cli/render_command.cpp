@@ -28,7 +28,7 @@ bool endsWith(const std::string& text, const std::string& end)
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// @param io a still of a preset without --time gets the time of the preset's preview
+/// @param io where no option names a time, the still of a preset gets the time of the preset's preview
 base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, RenderPlan& io)
 {
     if (endsWith(arguments.input, ".scene.json"))
@@ -40,7 +40,7 @@ base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, 
     auto scene = sceneOfPreset(arguments.input, &preview);
     if (!scene.ok())
         return scene;
-    if (io.output.isStill() && !arguments.time && preview.time)
+    if (io.hasDefaultTime && preview.time)
         io.frames[0].tick = base::toTicks(*preview.time);
     if (preview.hasCamera)
         return scene;

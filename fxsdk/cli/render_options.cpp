@@ -1,5 +1,7 @@
 #include "fxsdk/cli/render_options.h"
 
+#include "fxsdk/cli/named_choice.h"
+
 #include <CLI/CLI.hpp>
 
 #include <cmath>
@@ -39,8 +41,9 @@ std::optional<std::pair<long, long>> parsePair(const std::string& text, char sep
 /// Frame k shows the k-th of the times. With one file it is a sheet of all of them.
 base::Status planTimes(const RenderArguments& arguments, RenderPlan& plan)
 {
-    if (!arguments.frames.empty())
-        return usage("found both --frames and --times; give one of them");
+    if (!arguments.frames.empty() || arguments.time)
+        return usage(std::string("found both ") + (arguments.time ? "--time" : "--frames") +
+                     " and --times; give one of them");
     if (plan.output.kind == OutputKind::Mp4 || (plan.output.kind == OutputKind::Exr && plan.output.isStill()))
         return usage(
             "--times needs a sequence (-o name.%d.png, -o name.%d.exr), or one PNG (-o name.png) that "
@@ -73,6 +76,7 @@ base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
     if (plan.output.isStill()) {
         if (!arguments.frames.empty())
             return usage("--frames needs a sequence (-o name.%04d.png) or a video (-o name.mp4)");
+        plan.hasDefaultTime = !arguments.time.has_value();
         plan.frames.push_back({0, base::toTicks(arguments.time.value_or(kDefaultTime))});
         return {};
     }
@@ -130,10 +134,10 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
                     "low: homogeneous balls, no detail, no shimmer; medium: with "
                     "shimmer; high: the gas's own kernel and detail; reference: as "
                     "high, simulated at 120 steps a second")
-        ->check(CLI::IsMember({"low", "medium", "high", "reference"}))
+        ->check(oneOf({"low", "medium", "high", "reference"}))
         ->capture_default_str();
     command.add_option("--form", arguments.form, "Billboard form instead of the one that the quality says")
-        ->check(CLI::IsMember({"planar", "constant", "kernel"}));
+        ->check(oneOf({"planar", "constant", "kernel"}));
     command.add_option("--seed", arguments.seed, "Instance k gets the seed N + k instead of the file's")
         ->check(CLI::Validator(
             [](std::string& text) { return text.starts_with('-') ? "must not be negative" : ""; }, "UINT"));
@@ -141,7 +145,7 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
         .add_option("--compute", arguments.compute,
                     "What computes the particles of all emitters instead of what presets say; the GPU does "
                     "where it can, see fx explain")
-        ->check(CLI::IsMember({"cpu", "gpu", "auto"}));
+        ->check(oneOf({"cpu", "gpu", "auto"}));
     command.add_option("--exposure", arguments.exposureEv100, "Exposure [EV100] instead of the scene's")
         ->check(CLI::Range(-20.0, 40.0));
     command.add_flag("--no-dazzle", arguments.noDazzle, "Without glare (EXR never has it)");
@@ -150,7 +154,7 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
         .add_option("--renderer", arguments.renderer,
                     "gl, or reference: the ray integral on the processor, exact and slow, to EXR; draws "
                     "*.blobs.csv too")
-        ->check(CLI::IsMember({"gl", "reference"}))
+        ->check(oneOf({"gl", "reference"}))
         ->capture_default_str();
     command.add_flag(
         "--overlay", arguments.overlay,
@@ -164,7 +168,7 @@ void addEconomyOptions(CLI::App& command, RenderArguments& arguments)
     command
         .add_option("--layer-scale", arguments.layerScale,
                     "Width and height at which particles are drawn, over those of the picture")
-        ->check(CLI::IsMember({"1", "0.5", "0.25"}))
+        ->check(oneOf({"1", "0.5", "0.25"}))
         ->capture_default_str();
     command
         .add_option("--fragment-budget", arguments.fragmentBudget,

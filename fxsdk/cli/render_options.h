@@ -62,7 +62,8 @@ struct RenderPlan
     int width = 0;  ///< [pixel]
     int height = 0; ///< [pixel]
     std::vector<Frame> frames;
-    bool isSheet = false; ///< the frames are the pictures of one file, row by row
+    bool hasDefaultTime = false; ///< the only frame shows a time that the command line does not name
+    bool isSheet = false;        ///< the frames are the pictures of one file, row by row
     double framesPerSecond = 30.0;
     int stepsPerSecond = 60; ///< of the simulation
     uint32_t simulationQuality = FX_QUALITY_DEFAULT;

@@ -1,6 +1,7 @@
 /// @file stability_command.cpp
 /// fx stability: hard cases swept at full size, with maps of the errors.
 
+#include "foundation/result/nearest_name.h"
 #include "fxsdk/cli/accuracy_curve.h"
 #include "fxsdk/cli/atomic_file.h"
 #include "fxsdk/cli/commands.h"
@@ -52,12 +53,15 @@ base::Result<std::vector<StabilityRow>> chosenRows(const std::vector<std::string
                 isChosen[i] = isKnown = true;
         }
         if (!isKnown) {
-            std::string known;
-            for (const StabilityRow& row : stabilityRows())
-                known += " " + std::string(row.id);
-            return base::Status(base::Code::InvalidArgument, "there is no row " + name + "; there are" +
-                                                                 known +
-                                                                 ", and all of a kind as R, B, L, H, DZ");
+            std::string list;
+            std::vector<std::string> known;
+            for (const StabilityRow& row : stabilityRows()) {
+                known.emplace_back(row.id);
+                list += " " + known.back();
+            }
+            return base::Status(base::Code::InvalidArgument,
+                                "there is no row " + name + base::didYouMean(name, known) + "; there are" +
+                                    list + ", and all of a kind as R, B, L, H, DZ");
         }
     }
     std::vector<StabilityRow> rows;

@@ -1,7 +1,7 @@
 #include "fxsdk/cli/verify_options.h"
 
+#include "foundation/result/nearest_name.h"
 #include "fxsdk/cli/machine.h"
-#include "fxsdk/presets/nearest_name.h"
 
 #include <CLI/CLI.hpp>
 
@@ -93,9 +93,7 @@ base::Status checkNumbers(const VerifyArguments& arguments)
 base::Status unknownName(const std::string& what, const std::string& name,
                          const std::vector<std::string>& known)
 {
-    std::string message = "unknown " + what + " '" + name + "'";
-    if (const auto nearest = preset::nearestName(name, known))
-        message += ", did you mean '" + *nearest + "'?";
+    std::string message = "unknown " + what + " '" + name + "'" + base::didYouMean(name, known);
     message += "; there are";
     for (const std::string& candidate : known)
         message += " " + candidate;

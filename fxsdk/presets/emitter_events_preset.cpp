@@ -1,6 +1,6 @@
 #include "fxsdk/presets/emitter_events_preset.h"
 
-#include "fxsdk/presets/nearest_name.h"
+#include "foundation/result/nearest_name.h"
 #include "simulation/emitters/emitter_def.h"
 
 #include <algorithm>
@@ -81,10 +81,9 @@ bool EventLinks::findTarget(const PresetValue& value, uint32_t& out) const
     value.read("emit", name);
     const auto found = std::find(names_.begin(), names_.end(), name);
     if (found == names_.end()) {
-        const std::optional<std::string> near = nearestName(name, names_);
+        const std::string question = base::didYouMean(name, names_);
         value.error("emit", "found \"" + name + "\", which is no emitter of the preset" +
-                                (near && !near->empty() ? "; did you mean \"" + *near + "\"?"
-                                                        : "; needed is the name of one"));
+                                (question.empty() ? "; needed is the name of one" : question));
         return false;
     }
     if (std::count(names_.begin(), names_.end(), name) > 1) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <optional>
 
 namespace fx::preset {
 
@@ -137,10 +138,51 @@ std::string wordAt(std::string_view text, size_t at)
     return word;
 }
 
-bool DocumentBuilder::parse_error(std::size_t position, const std::string&,
+/// Where the token that ends before text[end] begins; `end` where nothing ends there.
+/// @param read what the parser has read of it, which is exact for strings
+size_t tokenBegin(std::string_view text, size_t end, std::string_view read)
+{
+    if (end == 0 || end > text.size())
+        return end;
+    const char last = text[end - 1];
+    if (last == '"')
+        return end - std::min(end, read.size());
+    constexpr std::string_view kOfWords = "0123456789+-.eEabcdfghijklmnopqrstuvwxyz"; // and of numbers
+    if (kOfWords.find(last) == std::string_view::npos)
+        return std::string_view("[]{},:").find(last) != std::string_view::npos ? end - 1 : end;
+    const size_t before = text.find_last_not_of(kOfWords, end - 1);
+    return before == std::string_view::npos ? 0 : before + 1;
+}
+
+/// A comma or colon that is missing, or a comma too many: what to say and where it belongs.
+struct SeparatorFault
+{
+    std::string message;
+    size_t offset;
+};
+
+/// The separator at fault when the token that begins at text[begin] must not follow the one before it. A
+/// parser learns of a missing separator from the next token, which may be lines below the place of the
+/// separator.
+std::optional<SeparatorFault> separatorFault(std::string_view text, size_t begin, bool wantsColon)
+{
+    const size_t before = begin == 0 ? std::string_view::npos : text.find_last_not_of(" \t\r\n", begin - 1);
+    if (before == std::string_view::npos || begin >= text.size())
+        return std::nullopt;
+    const auto isOneOf = [](char c, std::string_view set) { return set.find(c) != std::string_view::npos; };
+    if (isOneOf(text[begin], "]}"))
+        return text[before] == ',' ? std::optional(SeparatorFault{"no value follows this comma", before})
+                                   : std::nullopt;
+    if (isOneOf(text[begin], ",:") || isOneOf(text[before], ",:[{"))
+        return std::nullopt;
+    return SeparatorFault{
+        wantsColon ? "a colon is missing after this name" : "a comma is missing after this value", before};
+}
+
+bool DocumentBuilder::parse_error(std::size_t position, const std::string& token,
                                   const nlohmann::detail::exception& error)
 {
-    const size_t offset = position > text_.size() ? text_.size() : position - std::min<size_t>(position, 1);
+    size_t offset = position > text_.size() ? text_.size() : position - std::min<size_t>(position, 1);
     std::string message =
         error.what(); // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
     for (const std::string_view mark : {"syntax error", "number overflow"})
@@ -151,6 +193,13 @@ bool DocumentBuilder::parse_error(std::size_t position, const std::string&,
     else if (const std::string word = wordAt(text_, offset);
              word == "nan" || word == "inf" || word == "infinity")
         message += "; NaN and Infinity are not numbers in JSON";
+    else if (message.find("unexpected ") != std::string::npos && path_.depth() > 0)
+        if (auto fault =
+                separatorFault(text_, tokenBegin(text_, position, token), message.ends_with("expected ':'")))
+        {
+            message = std::move(fault->message);
+            offset = fault->offset;
+        }
     findings_.errorAtOffset(path_.pointer(), "not valid JSON: " + message, base::Code::Parse, offset);
     return false;
 }

@@ -1,7 +1,7 @@
 #include "fxsdk/presets/schema_explainer.h"
 
+#include "foundation/result/nearest_name.h"
 #include "fxsdk/presets/json_sax.h"
-#include "fxsdk/presets/nearest_name.h"
 #include "fxsdk/techniques.h"
 
 namespace fx::preset {
@@ -127,8 +127,7 @@ std::string guessText(const Json& schema, const Json& value)
     for (const Json& allowed : schema["enum"])
         if (allowed.is_string())
             known.push_back(allowed.get<std::string>());
-    const std::optional<std::string> nearest = nearestName(value.get_ref<const std::string&>(), known);
-    return nearest ? "; did you mean \"" + *nearest + "\"?" : "";
+    return base::didYouMean(value.get_ref<const std::string&>(), known);
 }
 
 std::string unknownMemberText(const std::string& name, const std::vector<std::string>& known)
@@ -138,8 +137,8 @@ std::string unknownMemberText(const std::string& name, const std::vector<std::st
             return "this build lacks \"" + name + "\": it was configured with " +
                    std::string(missing.option) + "=OFF";
     std::string message = "unknown member \"" + name + "\"";
-    if (const std::optional<std::string> nearest = nearestName(name, known))
-        return message + "; did you mean \"" + *nearest + "\"?";
+    if (const std::string question = base::didYouMean(name, known); !question.empty())
+        return message + question;
     message += "; known here:";
     for (const std::string& candidate : known)
         message += " " + candidate;

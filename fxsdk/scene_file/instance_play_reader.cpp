@@ -1,6 +1,6 @@
 #include "fxsdk/scene_file/instance_play_reader.h"
 
-#include "fxsdk/presets/nearest_name.h"
+#include "foundation/result/nearest_name.h"
 
 #include <algorithm>
 #include <sstream>
@@ -126,8 +126,8 @@ void checkTriggers(const PresetValue& value, const InstancePlay& play, std::span
         if (std::find(known.begin(), known.end(), name) != known.end())
             continue;
         std::string message = "found \"" + name + "\", which the preset does not hear";
-        if (const auto nearest = preset::nearestName(name, known))
-            message += "; did you mean \"" + *nearest + "\"?";
+        if (const std::string question = base::didYouMean(name, known); !question.empty())
+            message += question;
         else if (known.empty())
             message += "; give one of its emitters an event with \"on\": \"host\" and this name";
         else {

@@ -2,6 +2,7 @@
 
 #include "foundation/math/bits.h"
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/streak.h"
 #include "rendering/view/snapshot_match.h"
 #include "rendering/view/view_volume.h"
 
@@ -19,7 +20,6 @@ namespace {
 namespace column = base::blob_column;
 namespace constant = base::blob_constant;
 
-constexpr int kMostStreakBlobs = 10;
 constexpr uint32_t kFewestOfAnImpostor = 16; ///< blobs; fewer are cheaper than their picture
 
 float mix(float a, float b, float t)
@@ -174,8 +174,8 @@ private:
         const float grown = std::min({blob.radius / std::sqrt(level_.ramp.mean()), level_.grownPixels * pixel,
                                       blob.radius + level_.swollenPixels * pixel});
         blob.radius = std::max({blob.radius, grown, kLeastPixels * pixel});
-        const float length = glm::length(streak);
-        const int pieces = std::clamp(int(length / blob.radius), 0, kMostStreakBlobs - 1) + 1;
+        const auto [pieces, radius] = base::streakOf(glm::length(streak), blob.radius);
+        blob.radius = radius;
         blob.crossSection /= float(pieces);
         const glm::vec3 head = blob.center;
         for (int k = 0; k < pieces; ++k) {

@@ -64,7 +64,7 @@ struct GatherCounts
 /// Elements are matched by id between the two snapshots and interpolated; one that is only in the newer is
 /// carried back along its velocity, and left out if it was not yet born. Blobs smaller than a pixel are
 /// widened to it with their cross section kept, so that they neither vanish nor flicker; a shutter draws a
-/// moving blob out into several.
+/// moving blob out into a streak, see foundation/snapshot/streak.h.
 ///
 /// @param share of the particles that is appended to `outVisible`, (0, 1]: their ids decide which, so that a
 /// particle does not come and go; they take over the cross section of the others. All cast shadows.

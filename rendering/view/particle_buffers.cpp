@@ -59,10 +59,6 @@ void writeOrder(const ParticleGroup& group, uint32_t* out)
             *out++ = group.looks[row];
         }
         break;
-    case OrderForm::LooksWithin:
-        for (const uint32_t row : group.order)
-            *out++ = row | packSmallLook(group.looks[row]) << 16;
-        break;
     case OrderForm::RowLooks:
         std::memcpy(out, group.looks.data(), group.looks.size_bytes());
         break;

@@ -5,6 +5,7 @@
 #include "rendering/view/blob_shading.h"
 #include "rendering/view/depth_keys.h"
 #include "rendering/view/particle_estimate.h"
+#include "rendering/view/row_thinning.h"
 #include "rendering/view/snapshot_match.h"
 #include "rendering/view/view_volume.h"
 
@@ -119,7 +120,8 @@ void ParticleFrame::build(const ParticleFrameInputs& in)
     batches_.clear();
     streams_.clear();
     gpuOrders_.clear();
-    rows_ = orderedRows_ = thinnedRows_ = 0;
+    drawn_ = {};
+    orderedRows_ = thinnedRows_ = 0;
     fragments_ = {};
     if (!in.snapshots->newer)
         return;
@@ -207,11 +209,12 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
             orderOnGpu(in, place, group, batch);
     }
     uint32_t shownRows = batch.instances;
+    const uint64_t thinnedBefore = thinnedRows_;
     if (!batch.isComputed)
         arrangeRows(in, place, group, batch, stream, shownRows);
     if (shownRows == 0)
         return;
-    rows_ += shownRows;
+    countRows(group, batch, thinnedRows_ - thinnedBefore);
     groups_.push_back(group);
     batches_.push_back(batch);
     if (batch.isSolid)
@@ -221,6 +224,18 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
                                                     in.request->targets.width, in.request->targets.height);
     for (size_t i = 0; i < counts.size(); ++i)
         fragments_[i] += counts[i];
+}
+
+/// @param thinned of them that are left to others
+void ParticleFrame::countRows(const ParticleGroup& group, const ParticleBatch& batch, uint64_t thinned)
+{
+    const bool isRibbon = batch.shape == BatchShape::Ribbon;
+    const uint64_t shown = batch.isComputed
+                               ? batch.instances
+                               : countDrawn(*group.newer, 0, group.newer->count(), isRibbon).pieces - thinned;
+    (isRibbon                          ? drawn_.ribbonPieces
+     : batch.shape == BatchShape::Mesh ? drawn_.meshes
+                                       : drawn_.sprites) += shown;
 }
 
 void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placement& place,
@@ -315,15 +330,13 @@ bool ParticleFrame::thin(const ParticleFrameInputs& in, const base::Placement& p
                     thinnedRows_);
 }
 
-/// The shortest.
+/// The shortest; all keep looks as they are, so that a change of the form changes no picture.
 OrderForm ParticleFrame::formOf(const ParticleGroup& group, base::ParticleOrder mode, uint32_t rows)
 {
-    constexpr uint32_t kMostWithin = 1 << 16;
     if (group.looks.empty())
         return OrderForm::Rows;
-    if (mode == base::ParticleOrder::None && group.order.size() >= rows / 2)
-        return OrderForm::RowLooks;
-    return group.newer->count() <= kMostWithin ? OrderForm::LooksWithin : OrderForm::LooksBeside;
+    return mode == base::ParticleOrder::None && group.order.size() >= rows / 2 ? OrderForm::RowLooks
+                                                                               : OrderForm::LooksBeside;
 }
 
 /// Which rows are drawn, and in which order. Computed ones are neither thinned out nor ordered here.

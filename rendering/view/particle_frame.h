@@ -27,7 +27,6 @@ enum class OrderForm : uint8_t
     All,         ///< nothing is: all rows, as they are
     Rows,        ///< a word each
     LooksBeside, ///< a row and its look, two words
-    LooksWithin, ///< a row in 16 bits, packSmallLook() above it
     RowLooks,    ///< no rows, but the look of each
 };
 
@@ -60,6 +59,14 @@ struct ParticleFrameInputs
     const GroupMerger* merger = nullptr; ///< that made the snapshots; null: they are the scene's
 };
 
+/// What is drawn; of computed groups their capacity.
+struct DrawnCounts
+{
+    uint64_t sprites = 0;
+    uint64_t meshes = 0;
+    uint64_t ribbonPieces = 0; ///< between two points of a strip
+};
+
 /// Owns the orders of one view; they and all memory are kept from frame to frame.
 class ParticleFrame
 {
@@ -78,7 +85,7 @@ public:
     std::span<const GpuOrderJob> gpuOrders() const { return gpuOrders_; }
     /// Batches that do not hide, for DrawRuns.
     std::span<const DrawStream> streams() const { return streams_; }
-    uint64_t rows() const { return rows_; }               ///< of all groups that are drawn
+    const DrawnCounts& drawn() const { return drawn_; }
     uint64_t orderedRows() const { return orderedRows_; } ///< in orders
     uint64_t thinnedRows() const { return thinnedRows_; } ///< left to others by the level of detail
     /// Estimated, of what does not hide.
@@ -98,6 +105,7 @@ private:
               const ParticleBatch& batch, Orderer& orderer);
     static void sortRows(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
                          base::ParticleOrder mode, bool isThinned, Orderer& orderer);
+    void countRows(const ParticleGroup& group, const ParticleBatch& batch, uint64_t thinned);
     void orderOnGpu(const ParticleFrameInputs& in, const base::Placement& place, const ParticleGroup& group,
                     ParticleBatch& batch);
     Orderer& ordererOf(const base::GroupInfo& info);
@@ -110,7 +118,7 @@ private:
     std::pmr::vector<std::unique_ptr<Orderer>> orderers_;
     size_t lastOrderer_ = 0; ///< that ordererOf() found
     uint64_t frame_ = 0;
-    uint64_t rows_ = 0;
+    DrawnCounts drawn_;
     uint64_t orderedRows_ = 0;
     uint64_t thinnedRows_ = 0;
     FragmentCounts fragments_{};

@@ -21,15 +21,11 @@ bool isStrip(RowShape shape)
     return shape == RowShape::Strip || shape == RowShape::SolidStrip;
 }
 
-/// How many rows are drawn without a level of detail, and as how many things of which some have to stay.
-struct Drawn
-{
-    uint32_t pieces = 0, wholes = 0;
-};
+} // namespace
 
-Drawn countDrawn(const base::SnapshotGroup& group, uint32_t first, uint32_t count, bool isRibbon)
+DrawnRows countDrawn(const base::SnapshotGroup& group, uint32_t first, uint32_t count, bool isRibbon)
 {
-    Drawn drawn;
+    DrawnRows drawn;
     if (!isRibbon) {
         const float* radius = group.column(base::particle_column::Radius).data() + first;
         for (uint32_t i = 0; i < count; ++i)
@@ -42,6 +38,8 @@ Drawn countDrawn(const base::SnapshotGroup& group, uint32_t first, uint32_t coun
         (i + 1 < count && strips[i] == strips[i + 1] ? drawn.pieces : drawn.wholes) += 1;
     return drawn;
 }
+
+namespace {
 
 /// The rows of one effect.
 class PartThinning
@@ -105,7 +103,7 @@ private:
 
     const ThinningInputs& in_;
     const RowPart& part_;
-    Drawn drawn_;
+    DrawnRows drawn_;
     float pixelsPerMetre_ = 1.0f;
     LodLevel level_;
 };
@@ -138,16 +136,6 @@ RowLook rowLook(const LodLevel& level, float rank, float pixels, RowShape shape)
     const float size = std::min(1.0f / std::sqrt(mean), most);
     return shape == RowShape::Card ? RowLook{size, weight / (mean * size * size)} // (3)
                                    : RowLook{size * std::sqrt(weight), 1.0f};     // (4)
-}
-
-uint32_t packSmallLook(uint32_t look)
-{ // the shader's smallLook() reads it
-    const glm::vec2 parts = glm::unpackHalf2x16(look);
-    const auto code = [](float value, float perOctave, float one) {
-        const float steps = one + perOctave * std::log2(std::max(value, 1e-6f));
-        return uint32_t(std::clamp(std::round(steps), 0.0f, 255.0f));
-    };
-    return code(parts.x, 32.0f, 128.0f) | code(parts.y, 24.0f, 168.0f) << 8;
 }
 
 bool thinRows(const ThinningInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outLooks,

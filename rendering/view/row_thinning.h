@@ -18,6 +18,14 @@
 
 namespace fx::render {
 
+/// What rows are drawn as without a level of detail.
+struct DrawnRows
+{
+    uint32_t pieces = 0; ///< particles whose radius is above 0, or pieces of strips
+    uint32_t wholes = 0; ///< of which some have to stay: the particles, or the strips
+};
+DrawnRows countDrawn(const base::SnapshotGroup& group, uint32_t first, uint32_t count, bool isRibbon);
+
 /// Rows of a group that came from one effect, which has a level of its own.
 struct RowPart
 {
@@ -67,13 +75,9 @@ struct RowLook
 /// @deviation the limits of growth are those of formula lod-weight; a' is at most 1 where it covers; with (4)
 ///            what grows less than 1 / m covers less, which happens only where bodies overlap many times
 /// @valid     particles without order among each other; additive ones keep their light exactly, on average
-/// @accuracy  factors are rounded to binary16 for drawing
+/// @accuracy  factors are rounded to binary16 for drawing: at most 2^-11 of their value
 /// @tests     tests/rendering/view/test_row_thinning.cpp tests/rendering/view/test_thinned_particles.cpp
 RowLook rowLook(const LodLevel& level, float rank, float pixels, RowShape shape);
-
-/// A look, as thinRows() writes it, in 16 bits: the size in 256 steps of 2.2 % from 1/16 on, above it the
-/// opacity in steps of 3 % from 1/128 on. 1 is kept; others are off by half a step at most, or at an end.
-uint32_t packSmallLook(uint32_t look);
 
 struct ThinningInputs
 {

@@ -16,7 +16,12 @@ FrameStatistics ViewRenderer::Impl::count(int divisor)
     statistics.blobsNonFinite = builder.counts().nonFinite;
     statistics.blobsThinned = builder.counts().thinned;
     std::copy(builder.lodCounts().begin(), builder.lodCounts().end(), statistics.lodGroups);
-    statistics.particles = single.frame.rows() + joined.frame.rows();
+    for (const DrawnCounts& drawn : {single.frame.drawn(), joined.frame.drawn()}) {
+        statistics.sprites += drawn.sprites;
+        statistics.meshes += drawn.meshes;
+        statistics.ribbonPieces += drawn.ribbonPieces;
+    }
+    statistics.particles = statistics.sprites + statistics.meshes + statistics.ribbonPieces;
     for (const ParticleBatch& batch : batches)
         statistics.gpuParticles += batch.isComputed ? batch.instances : 0;
     statistics.particlesOrdered = single.frame.orderedRows() + joined.frame.orderedRows();

@@ -153,7 +153,10 @@ struct FrameStatistics
     uint32_t impostors = 0;               ///< effects drawn as pictures of themselves
     uint32_t impostorsTaken = 0;          ///< pictures taken anew for this frame
     uint32_t lodGroups[4] = {0, 0, 0, 0}; ///< groups of blobs drawn in full; at least half, an eighth; less
-    uint64_t particles = 0;               ///< rows and pieces of ribbons that were drawn
+    uint64_t particles = 0;               ///< sprites, meshes and pieces of ribbons that were drawn
+    uint64_t sprites = 0;                 ///< of them
+    uint64_t meshes = 0;                  ///< of them
+    uint64_t ribbonPieces = 0;            ///< of them
     uint64_t gpuParticles = 0;            ///< of those, rows that the GPU computed
     uint64_t particlesThinned = 0;        ///< left to others by the level of detail
     uint64_t particlesOrdered = 0;        ///< of those drawn, in an order of depth or age

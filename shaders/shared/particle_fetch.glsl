@@ -32,15 +32,7 @@ int rowOfRank(int rank)
     int form = int(strip.z);
     if (form == 2)
         return int(drawOrder[2 * rank]);
-    if (form == 3)
-        return int(drawOrder[rank] & 0xFFFFu);
     return form == 1 ? int(drawOrder[rank]) : rank;
-}
-
-// As rendering/view/row_thinning.cpp packs it.
-vec2 smallLook(uint look)
-{
-    return exp2(vec2((float(look & 255u) - 128.0) / 32.0, (float(look >> 8 & 255u) - 168.0) / 24.0));
 }
 
 // What the level of detail makes of it: factors of its size and of its opacity; 0: it is not drawn.
@@ -49,9 +41,7 @@ vec2 lookOfRank(int rank)
     int form = int(strip.z);
     if (form == 2)
         return unpackHalf2x16(drawOrder[2 * rank + 1]);
-    if (form == 3)
-        return smallLook(drawOrder[rank] >> 16);
-    return form == 4 ? unpackHalf2x16(drawOrder[rank]) : vec2(1.0);
+    return form == 3 ? unpackHalf2x16(drawOrder[rank]) : vec2(1.0);
 }
 float opacityOf(float opacity, vec2 levelLook)
 {

@@ -76,6 +76,42 @@ TEST_F(ViewLod, aFarEffectIsDrawnWithFewerParticlesAndTheSameLight)
     EXPECT_EQ(draw(3.0).lodGroups[0], 2u) << "from near nothing is left out";
 }
 
+TEST_F(ViewLod, spritesMeshesAndPiecesOfRibbonsAreCountedExactly)
+{
+    const auto add = [this](const std::string& more) {
+        FxInstanceDef instance = fxDefaultInstanceDef();
+        instance.preset = fx::test::loadText(context_, R"({"version": 1, "ground": false, "emitters": [{
+            "maxParticles": 400, "shape": "sphere", "size": 0.5, "radius": 0.05, "speed": 0.2, "lifetime": 60,
+            "forces": {"gravity": 0}, "emission": {"rate": 0, "bursts": [{"time": 0, "count": 300}]}, )" +
+                                                           more + "}]}");
+        FxInstanceId id{};
+        EXPECT_EQ(fxScene_CreateInstance(scene_, &instance, &id), FX_OK) << fxGetLastErrorMessage();
+    };
+    setBias(0.0f);
+    EXPECT_EQ(draw(3.0).sprites, 0u);
+    add(R"("appearance": {"kind": "sprite"})");
+    update(3);
+    EXPECT_EQ(draw(3.0).sprites, 300u) << "not the empty rows";
+    EXPECT_EQ(draw(3.0).sprites, 300u) << "of a frame like the last, too";
+    EXPECT_EQ(draw(-3.0).sprites, 0u) << "behind the camera";
+    add(R"("appearance": {"kind": "sprite", "order": "depth", "blend": "alpha"})");
+    add(R"("appearance": {"kind": "mesh", "mesh": "library:debris-chunk.obj"})");
+    update(3);
+    EXPECT_EQ(draw(3.0).sprites, 600u);
+    EXPECT_EQ(draw(3.0).meshes, 300u);
+    EXPECT_EQ(draw(3.0).ribbonPieces, 0u);
+    setBias(64.0f);
+    const FxViewStatistics few = draw(30.0);
+    EXPECT_LT(few.sprites, 600u);
+    EXPECT_EQ(few.sprites + few.meshes + few.particlesThinned, 900u);
+    setBias(0.0f);
+    add(R"("appearance": {"kind": "sprite"}, "trail": {"lifetime": 10})");
+    update(30);
+    const uint64_t pieces = draw(3.0).ribbonPieces;
+    EXPECT_GE(pieces, 300u);
+    EXPECT_EQ(pieces % 300, 0u) << "each particle has the same trail";
+}
+
 TEST_F(ViewLod, isNothingToTheSimulation)
 {
     uint64_t before = hashOf(scene_);

@@ -51,6 +51,35 @@ TEST(JsonParser, buildsTheDocumentThatTheTextDescribes)
     EXPECT_EQ(*document, nlohmann::json::parse(R"({"a":[1,-2.5,"x\u00e9",true,null,{}],"b":{"c":[]}})"));
 }
 
+TEST(JsonParser, aMissingOrSuperfluousSeparatorIsReportedWhereItBelongs)
+{
+    struct Case
+    {
+        const char* text;
+        int line, column;
+        const char* says;
+    };
+    const Case cases[] = {
+        {"{\n  \"a\": 1\n\n\n  \"b\": 2\n}", 2, 8, "a comma is missing after this value"},
+        {"{\"a\": \"x\"\n\"b\": 2}", 1, 9, "a comma is missing after this value"},
+        {"{\"a\": {\"c\": []}\n\"b\": 2}", 1, 15, "a comma is missing after this value"},
+        {"[\n1\n-2]", 2, 1, "a comma is missing after this value"},
+        {"[[1]\n[2]]", 1, 4, "a comma is missing after this value"},
+        {"[true\n\nfalse]", 1, 5, "a comma is missing after this value"},
+        {"{\"a\"\n1}", 1, 4, "a colon is missing after this name"},
+        {"{\"a\": 1,\n}", 1, 8, "no value follows this comma"},
+        {"[1,\n\n]", 1, 3, "no value follows this comma"},
+    };
+    for (const Case& c : cases) {
+        const Diagnostic found = refusal(c.text, Code::Parse);
+        EXPECT_EQ(int(found.line), c.line) << c.text;
+        EXPECT_EQ(int(found.column), c.column) << c.text;
+        EXPECT_NE(found.message.find(c.says), std::string::npos) << c.text << ": " << found.message;
+    }
+    for (const char* other : {"{\"a\": 1, 2}", "[1,, 2]", "{} {}", "[1 : 2]", "{\"a\" }", "[1 x]", "{"})
+        EXPECT_EQ(refusal(other, Code::Parse).message.find("comma is missing"), std::string::npos) << other;
+}
+
 TEST(JsonParser, eachLimitHoldsExactly)
 {
     EXPECT_TRUE(accepts("[[[]]]", small()));

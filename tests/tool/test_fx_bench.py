@@ -16,6 +16,7 @@ class Bench(FxTest):
     def test_all_orders_of_the_same_distances_have_the_same_hash(self):
         found = {row["variant"]: row for row in rows("sort", "--count", "3000", "--steps", "2")}
         self.assertEqual(found["standard"]["hash"], found["random"]["hash"])
+        self.assertEqual(found["radix"]["hash"], found["random"]["hash"])
         self.assertEqual(found["standard"]["hash"], found["same"]["hash"])
         self.assertNotEqual(found["standard"]["hash"], found["hundredth-moved"]["hash"])
         self.assertNotEqual(int(found["standard"]["hash"], 16), 0)
@@ -39,7 +40,7 @@ class Bench(FxTest):
         picture = self.folder / "a.svg"
         for arguments in (["sort", "--threads", "2"], ["frame", "--threads", "2"], ["emit", "--gpu"],
                           ["--threads", "2", "emit"], ["--plot", picture, "emit"], ["--plot", self.folder / "a.png"],
-                          ["--threads", "2"]):
+                          ["--threads", "2"], ["--most", "3000"], ["--plot", picture, "--most", "10"]):
             self.assertEqual(fx("bench", *arguments).code, 2, arguments)
         self.assertEqual(self.names(), [])
 

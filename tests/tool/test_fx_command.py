@@ -73,6 +73,41 @@ class FxCommand(FxTest):
             self.assertIn(member, json.loads(fx("parameters", "--json-schema", kind).out)["properties"])
         self.assertEqual(fx("parameters", "--json-schema", "picture").code, 2)
 
+    def test_parameters_are_found_by_heading_member_and_description(self):
+        def lines(word):
+            found = fx("parameters", word)
+            self.assertEqual(found.code, 0, word)
+            return [line for line in found.out.splitlines() if line]
+
+        by_name = lines("shutter")
+        self.assertTrue(any(line.startswith("| `shutter` |") for line in by_name))
+        self.assertFalse(any(line.startswith("| `maxParticles` |") for line in by_name))
+        for line in by_name: # nothing but members that contain the word, each below its section's heading
+            self.assertTrue(line.startswith(("## ", "| member", "|---")) or "shutter" in line.lower(), line)
+        self.assertTrue(any(line.startswith("| `shutter` |") for line in lines("exposure time"))) # of its description
+        self.assertEqual(by_name, lines("SHUTTER"))
+        missing = fx("parameters", "shuter")
+        self.assertEqual((missing.code, missing.out), (1, ""))
+        self.assertIn("did you mean \"shutter\"?", missing.err)
+
+    def test_a_mistyped_name_gets_the_nearest_one(self):
+        out = self.folder / "a.png"
+        for arguments, meant in ((["rendr"], "render"), (["render", "library:campfire", "-o", out, "--siz", "9x9"], "--size"),
+                                 (["render", "library:campfire", "--ouput=a.png"], "--output"),
+                                 (["render", "library:campfire", "-o", out, "--quality", "hihg"], "high"),
+                                 (["bench", "partcles"], "particles"), (["bench", "sort", "--variant", "randm"], "random"),
+                                 (["bench", "sort", "--stps", "2"], "--steps"), (["accuracy", "furnce"], "furnace"),
+                                 (["verify", "sedv"], "sedov"), (["parameters", "--json-schema", "presett"], "preset"),
+                                 (["stability", "R-010", "-o", self.folder], "R-01"),
+                                 (["calibrate", "-o", self.folder / "c.json", "--clock", "wal"], "wall")):
+            outcome = fx(*arguments)
+            self.assertEqual(outcome.code, 2, arguments)
+            self.assertIn(f"did you mean \"{meant}\"?", outcome.err, arguments)
+        outcome = fx("render", "library:campfir", "-o", out)
+        self.assertEqual(outcome.code, 1)
+        self.assertIn("did you mean \"campfire\"?", outcome.err)
+        self.assertEqual(self.names(), [])
+
     def test_explain_names_the_techniques_whose_members_are_in_use(self):
         emitter = {"maxParticles": 50, "emission": {"rate": 20}, "appearance": {"kind": "sprite"}}
         for more, wanted in (({}, {"sprites and meshes"}),

@@ -11,7 +11,7 @@ import time
 import unittest
 import zlib
 
-from fx_program import FX, FxTest, fx
+from fx_program import FX, LIBRARY, FxTest, fx
 
 SMALL = ("--size", "48x32")
 STATISTICS = {"time", "instances_active", "instances_dormant", "particles", "blobs", "passes", "programs_compiled", "gl_calls",
@@ -85,6 +85,19 @@ class FxRender(FxTest):
         self.assertNotEqual(at_one, picture(', "preview": {"time": 1, "exposureEv100": 10, %s}' % camera))
         self.assertNotEqual(at_one, picture(', "preview": {"time": 1, "instance": {"position": [1, 1, 0]}, %s}' % camera))
 
+    def test_a_preset_stands_where_it_says_with_ground_and_without(self):
+        text = """{"version": 1, %s "emitters": [{"position": [0, 1, 0], "radius": 0.5, "forces": {"gravity": 0}, "lifetime": 9,
+            "emission": {"bursts": [{"time": 0, "count": 1}]}, "appearance": {"kind": "sprite", "lit": 0, "luminance": 5000}}],
+            "preview": {"camera": {"position": [0, 1, 5], "target": [0, 1, 0]}}}"""
+        preset = self.folder / "p.fx.json"
+        pictures = []
+        for ground in ("", '"ground": true,', '"ground": false,'):
+            preset.write_text(text % ground)
+            self.render("p.png", scene=preset)
+            pictures.append((self.folder / "p.png").read_bytes())
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertEqual(pictures[0], pictures[2])
+
     def test_a_still_is_one_png_of_the_size_asked_for(self):
         self.render("a.png")
         self.assertEqual(self.names(), ["a.png"])
@@ -135,9 +148,15 @@ class FxRender(FxTest):
         self.assertEqual(self.names(), ["a.0.png", "a.1.png", "a.2.png"])
         self.render("sheet.png", "--times", "0.1,0.2,0.5")
         self.assertEqual(png_size(self.folder / "sheet.png"), (96, 64))
+        preset = self.folder / "p.fx.json" # whose preview is later than the times
+        preset.write_text(LIBRARY.joinpath("sparks.fx.json").read_text().replace('"version": 1,', """"version": 1,
+            "preview": {"time": 2},""", 1))
+        self.render("two.png", "--times", "0.1,0.2", "--stats", self.folder / "stats.json", scene=preset)
+        shown = [json.loads(line)["time"] for line in (self.folder / "stats.json").read_text().splitlines()]
+        self.assertEqual([round(time, 6) for time in shown], [0.1, 0.2])
         for wrong in ("0.2,0.1", "0.1,", "a", "-1", "0,nan", "0,9999"):
             self.assertEqual(fx("render", "library:sparks", "-o", self.folder / "a.png", f"--times={wrong}").code, 2, wrong)
-        for output, more in (("a.mp4", ()), ("a.exr", ()), ("a.%d.png", ("--frames", "0:1"))):
+        for output, more in (("a.mp4", ()), ("a.exr", ()), ("a.%d.png", ("--frames", "0:1")), ("a.png", ("--time", "1"))):
             self.assertEqual(fx("render", "library:sparks", "-o", self.folder / output, "--times", "0,1", *more).code, 2)
 
     def test_compute_moves_emitters_of_any_preset_with_their_files(self):

@@ -79,8 +79,8 @@ class FxVerify(FxTest):
         self.assertEqual(outcome.err, "") # no progress bar without a terminal
 
     def test_a_misspelt_case_is_told_the_nearest(self):
-        self.check_usage("verify", "sedv", expected="did you mean 'sedov'")
-        self.check_usage("verify", "sedov", "--kernel", "wendland-c3", expected="did you mean 'wendland-c2'")
+        self.check_usage("verify", "sedv", expected="did you mean \"sedov\"")
+        self.check_usage("verify", "sedov", "--kernel", "wendland-c3", expected="did you mean \"wendland-c2\"")
 
     def test_nonsense_is_refused(self):
         for option, value in [("--particles", "many"), ("--particles", "7"), ("--particles", "9999^3"),
@@ -135,7 +135,7 @@ class FxAccuracy(FxTest):
         self.assertTrue(plot.read_text().startswith("<svg") and plot.read_text().endswith("</svg>\n"))
 
     def test_unknown_names_are_refused(self):
-        for arguments, expected in [(["spf"], "did you mean 'sph'"), (["sph", "--scene", "sedof"], "did you mean 'sedov'"),
+        for arguments, expected in [(["spf"], "did you mean \"sph\""), (["sph", "--scene", "sedof"], "did you mean \"sedov\""),
                                     (["sph", "--repeat", "0"], "--repeat"), (["sph", "--particles", "3"], "--particles")]:
             outcome = fx("accuracy", *arguments)
             self.assertEqual((outcome.code, outcome.out), (2, ""))

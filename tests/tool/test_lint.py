@@ -62,6 +62,13 @@ class Lint(unittest.TestCase):
         self.refused("arrows", {"simulation/a.h": "", "foundation/b.h": '#include "simulation/world.h"\n'}, "foundation/b.h:1")
         self.accepted("arrows", {"foundation/b.h": "", "fxsdk/a.h": '#include "rendering/view/view_types.h"\n'})
 
+    def test_examples_include_what_a_host_can(self):
+        public = {"fxsdk/include/fxsdk/fx_view.h": "", "fxsdk/cli/main.h": ""}
+        for line in ('#include "rendering/gl/gl_device.h"', "#include <foundation/time/ticks.h>", '#include "fxsdk/cli/main.h"'):
+            self.refused("examples", public | {"examples/a/main.cpp": line + "\n"}, "examples/a/main.cpp:1")
+        self.accepted("examples", public | {"examples/a/main.cpp": '#include "fxsdk/fx_view.h"\n#include <fxsdk/fx_view.h>\n'
+                                            '#include "own.h"\n#include <GLFW/glfw3.h>\n'})
+
     def test_a_file_that_is_too_long_is_refused(self):
         self.refused("sizes", {"a.cpp": "\n" * 501}, "a.cpp:501")
         self.accepted("sizes", {"a.cpp": "\n" * 500})

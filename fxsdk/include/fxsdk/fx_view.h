@@ -103,7 +103,8 @@ typedef struct FxViewSettings
     float lodBias; ///< [1] 0..256, level of detail: an effect keeps one particle, or piece of a ribbon,
                    ///< for so many pixels of its disc on the picture, at least twelve, which take over the
                    ///< light and the cover of the others without a jump; 1 is hardly to be seen, 16 is; 0
-                   ///< (default): everything is drawn. What is simulated does not depend on it.
+                   ///< (default): everything is drawn. Particles that the GPU computes are always drawn all.
+                   ///< What is simulated does not depend on it.
     float lodImpostorPixels; ///< [pixel] 0..13, an effect whose ball has a smaller radius on the picture is
                              ///< drawn as a picture of itself, which is taken anew ten times a second while
                              ///< it changes, or when it is seen from elsewhere, and fades into the next; not
@@ -188,9 +189,9 @@ static inline FxFrameDef fxDefaultFrameDef(void)
 typedef struct FxViewStatistics
 {
     uint32_t structSize;       ///< set by the caller
-    uint32_t blobs;            ///< particles drawn
-    uint32_t blobsCulled;      ///< particles outside the view
-    uint32_t blobsNonFinite;   ///< particles dropped because a value was not finite
+    uint32_t blobs;            ///< particles of media drawn
+    uint32_t blobsCulled;      ///< particles of media outside the view
+    uint32_t blobsNonFinite;   ///< particles of media dropped because a value was not finite
     uint32_t passes;           ///< passes executed
     uint32_t drawCalls;        ///< draws and dispatches
     uint32_t programsCompiled; ///< during the frame; 0 after fxContext_WarmUp()
@@ -224,6 +225,16 @@ typedef struct FxViewStatistics
                              ///< again, although others of the step were
     uint64_t sharedRowBytes; ///< [byte] of the same that were not written because another instance of the
                              ///< same simulation has them
+
+    /// sprites of effects in view that were drawn, without those that lodBias left to others; of emitters on
+    /// the GPU their capacity, as the CPU does not know how many of them live
+    uint64_t sprites;
+
+    /// meshes, counted as sprites are
+    uint64_t meshes;
+
+    /// pieces of ribbons between two points, counted as sprites are
+    uint64_t ribbonPieces;
 } FxViewStatistics;
 
 /// Pictures that the last frame kept; GL names, 0 when settings.layerOutputs was 0. Fill structSize with
@@ -267,7 +278,7 @@ typedef struct FxQualityChoice
     float weight;                ///< [1] 0..1 about the share of the picture that the technique covers
     float predictedMilliseconds; ///< [ms] of the step in this scene
     uint32_t reserved;           ///< 0
-    char technique[32];          ///< "media", "shimmer", or "other" for all that no setting changes
+    char technique[32];          ///< "media", "shimmer", "dazzle", or "other" for all that no setting changes
     char setting[96];            ///< for people, such as "particles 0.5, kernel, detail on"
 } FxQualityChoice;
 

@@ -1,6 +1,7 @@
 #include "rendering/reference/render/medium_blobs.h"
 
 #include "foundation/math/bits.h"
+#include "foundation/snapshot/streak.h"
 #include "rendering/optics/black_body.h"
 
 #include <glm/common.hpp>
@@ -18,8 +19,6 @@ namespace {
 
 namespace column = base::blob_column;
 namespace constant = base::blob_constant;
-
-constexpr int kMostStreakBlobs = 10;
 
 /// A moment of a group: the newer snapshot's elements, and their places in the older.
 class GroupMoment
@@ -113,10 +112,10 @@ private:
     /// A moving blob is seen along its way while the shutter is open.
     static void appendStreak(const MediumBlob& blob, const glm::dvec3& streak, MediumList& out)
     {
-        const double length = glm::length(streak);
-        const int pieces = int(std::clamp(length / blob.radius, 0.0, double(kMostStreakBlobs - 1))) + 1;
+        const auto [pieces, radius] = base::streakOf(glm::length(streak), blob.radius);
         for (int k = 0; k < pieces; ++k) {
             out.blobs.push_back(blob);
+            out.blobs.back().radius = radius;
             out.blobs.back().crossSection /= pieces;
             out.blobs.back().center -= streak * (double(k) / pieces);
         }

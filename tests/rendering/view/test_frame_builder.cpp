@@ -130,6 +130,25 @@ TEST_F(FrameBuilderTest, aShutterDrawsAFastBlobOutAndKeepsItsMedium)
     EXPECT_LT(blobs.back().center.x, -1.0f);
 }
 
+TEST_F(FrameBuilderTest, aStreakOfAnyLengthHasNoGaps)
+{
+    const auto camera =
+        render::cameraGeometry(render::orthographicView({{0, 0, 20}, {0, 0, 0}}, 1e4f, 1.0f, 0.1f, 100.0f));
+    for (const float speed : {30.0f, 400.0f, 3000.0f, 30'000.0f}) {
+        const auto newer = snapshot(0, {{1, 0.0f, 10.0f, speed}}, 1.0f / 60.0f);
+        base::SnapshotPair pair;
+        pair.newer = &newer;
+        std::pmr::vector<render::GatheredBlob> blobs;
+        std::pmr::vector<render::GridBlob> medium;
+        std::pmr::vector<render::InstanceBlobs> instances;
+        render::gatherBlobs(pair, 1.0, camera, 1 << 14, blobs, medium, instances);
+        for (size_t k = 1; k < blobs.size(); ++k)
+            ASSERT_LE(glm::distance(blobs[k - 1].center, blobs[k].center), 1.001f * blobs[k].radius) << speed;
+        ASSERT_FALSE(blobs.empty());
+        EXPECT_NEAR(-blobs.back().center.x, speed / 60.0f, 1.001f * blobs[0].radius) << speed;
+    }
+}
+
 TEST_F(FrameBuilderTest, aShareOfTheParticlesStandsForAllOfThemAndGrowsByAddition)
 {
     std::vector<Element> elements;

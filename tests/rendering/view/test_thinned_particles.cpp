@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <tuple>
 
 using namespace fx;
 using namespace fx::test;
@@ -82,6 +83,41 @@ TEST_F(ThinnedParticles, spritesOfAnyBlendAndOrderKeepTheirLight)
             set(group, constant::Order, float(order));
             expectSame(snapshot, 0.05, blend == base::ParticleBlend::Alpha ? "alpha" : "additive");
         }
+}
+
+TEST_F(ThinnedParticles, whatIsLeftLooksTheSameHoweverItsRowsAreListed)
+{
+    // More than half of the rows, less than half, and less than half in an order: three ways to tell the
+    // shader.
+    const std::vector<TestParticle> particles = cloud(0.03f, 0.5f);
+    std::vector<TestParticle> among = particles;
+    among.resize(particles.size() + 70'000, TestParticle{{}, 0.0f}); // empty rows change no level
+    auto plain = emptySnapshot();
+    auto sparse = emptySnapshot();
+    auto ordered = emptySnapshot();
+    using Listed = std::tuple<base::FrameSnapshot*, const std::vector<TestParticle>*, base::ParticleOrder>;
+    for (const auto& [snapshot, rows, order] : {Listed(&plain, &particles, base::ParticleOrder::None),
+                                                Listed(&sparse, &among, base::ParticleOrder::None),
+                                                Listed(&ordered, &particles, base::ParticleOrder::Depth)})
+    {
+        auto& group = addParticles(*snapshot, *rows);
+        setBounds(group);
+        set(group, constant::Texture, white_);
+        set(group, constant::Blend, float(base::ParticleBlend::Additive)); // any order gives the same light
+        set(group, constant::Order, float(order));
+    }
+    bool keptMost = false;
+    bool keptFew = false;
+    for (const float bias : {0.8f, 1.0f, 1.3f, 1.7f, 2.2f, 3.0f, 4.0f, 8.0f}) {
+        const double wanted = light(plain, bias);
+        const render::FrameStatistics& s = view_->statistics();
+        keptMost = keptMost || (s.particlesThinned > 0 && s.particles > s.particlesThinned);
+        keptFew = keptFew || s.particles < s.particlesThinned;
+        EXPECT_EQ(s.particles + s.particlesThinned, particles.size()) << bias;
+        EXPECT_NEAR(light(sparse, bias) / wanted, 1.0, 1e-4) << bias;
+        EXPECT_NEAR(light(ordered, bias) / wanted, 1.0, 1e-4) << bias;
+    }
+    EXPECT_TRUE(keptMost && keptFew);
 }
 
 TEST_F(ThinnedParticles, streaksKeepTheirLightAndTheirLength)

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory_resource>
@@ -117,6 +118,26 @@ TEST_F(MediumBlobs, aShutterDrawsABlobOutWithoutAddingMedium)
         sum += blob.crossSection;
     EXPECT_DOUBLE_EQ(sum, 2.0);
     EXPECT_NEAR(list.blobs.back().center.x, -2.25, 1e-6);
+}
+
+TEST_F(MediumBlobs, aStreakOfAnyLengthHasNoGaps)
+{
+    base::SnapshotGroup& group = addGroup(newer_, {1});
+    group.editConstants()[constant::Shutter] = 0.1f;
+    const double radius = mediumOf({&newer_, nullptr}, 1.0).blobs[0].radius;
+    for (const double radii : {0.5, 3.5, 11.0, 40.0, 63.5, 100.0, 1e4, 1e7}) {
+        group.editColumn(column::VelocityX)[0] = float(10.0 * radii * radius); // radii of way in 0.1 s
+        const std::vector<MediumBlob> blobs = mediumOf({&newer_, nullptr}, 1.0).blobs;
+        double sum = blobs[0].crossSection;
+        for (size_t k = 1; k < blobs.size(); ++k) {
+            const double apart = blobs[k - 1].center.x - blobs[k].center.x;
+            ASSERT_LE(apart, blobs[k].radius * (1.0 + 1e-6)) << radii;
+            sum += blobs[k].crossSection;
+        }
+        EXPECT_NEAR(sum, 2.0, 1e-12) << radii;
+        EXPECT_NEAR(-blobs.back().center.x - radii * radius, 0.0, blobs[0].radius * (1.0 + 1e-6)) << radii;
+        EXPECT_NEAR(blobs[0].radius / radius, std::max(radii / 64.0, 1.0), 1e-6 * radii) << radii;
+    }
 }
 
 TEST_F(MediumBlobs, numbersThatAreNotFiniteAreCountedAndLeftOut)

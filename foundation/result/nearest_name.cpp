@@ -1,10 +1,10 @@
-#include "fxsdk/presets/nearest_name.h"
+#include "foundation/result/nearest_name.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 
-namespace fx::preset {
+namespace fx::base {
 
 namespace {
 
@@ -56,4 +56,10 @@ std::optional<std::string> nearestName(std::string_view name, std::span<const st
     return best;
 }
 
-} // namespace fx::preset
+std::string didYouMean(std::string_view name, std::span<const std::string> known)
+{
+    const std::optional<std::string> nearest = nearestName(name, known);
+    return nearest ? "; did you mean \"" + *nearest + "\"?" : "";
+}
+
+} // namespace fx::base

@@ -1,10 +1,10 @@
-#include "fxsdk/presets/nearest_name.h"
+#include "foundation/result/nearest_name.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-using namespace fx::preset;
+using namespace fx::base;
 
 TEST(NearestName, countsInsertionsDeletionsReplacementsAndSwaps)
 {
@@ -34,6 +34,13 @@ TEST(NearestName, proposesTheClosestAndNothingThatIsFar)
     EXPECT_EQ(nearestName("rat", known), "rate");
     EXPECT_EQ(nearestName("temperature", known), std::nullopt);
     EXPECT_EQ(nearestName("", known), std::nullopt);
+}
+
+TEST(NearestName, theQuestionNamesTheNearestAndIsEmptyWithoutOne)
+{
+    const std::vector<std::string> known{"rate", "radius"};
+    EXPECT_EQ(didYouMean("raduis", known), "; did you mean \"radius\"?");
+    EXPECT_EQ(didYouMean("temperature", known), "");
 }
 
 TEST(NearestName, takesNamesOfAnyLength)

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace fx::preset {
+namespace fx::base {
 
 /// Number of insertions, deletions, replacements and swaps of neighbors that turn `a` into `b`, letter case
 /// ignored (restricted Damerau-Levenshtein distance). Of longer names only the first 64 bytes count.
@@ -16,4 +16,7 @@ size_t editDistance(std::string_view a, std::string_view b);
 /// The closest of `known`, or nothing when all differ by more than a third of their letters.
 std::optional<std::string> nearestName(std::string_view name, std::span<const std::string> known);
 
-} // namespace fx::preset
+/// `; did you mean "NAME"?` with the closest of `known`, to end a message with; empty when none is near.
+std::string didYouMean(std::string_view name, std::span<const std::string> known);
+
+} // namespace fx::base

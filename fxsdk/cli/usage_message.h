@@ -1,0 +1,17 @@
+/// @file usage_message.h
+/// What is said about a command line that makes no sense.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+class Error;
+} // namespace CLI
+
+namespace fx::cli {
+
+/// The parser's message, and for each argument that no command takes the nearest subcommand or option.
+std::string usageMessage(const CLI::App* app, const CLI::Error& error);
+
+} // namespace fx::cli
