@@ -70,7 +70,7 @@ base::Status HostTargetCheck::check(const FrameRequest& request)
         if (base::Status status = checkDepth(targets, drawn); !status)
             return status;
     }
-    return checkClipOrigin(request.camera);
+    return checkContext(request.camera);
 }
 
 base::Status HostTargetCheck::checkColor(const HostTargets& targets, Size& outSize)
@@ -175,17 +175,26 @@ base::Status HostTargetCheck::checkAttachment(const HostTargets& targets, Size& 
     return checkRoom(targets, "the color attachment of frame.framebuffer", outSize.width, outSize.height);
 }
 
-/// The origin of clip control is a state of the context, which draws obey; rays follow what the frame says of
-/// it. Its depth mode does not matter to draws.
-base::Status HostTargetCheck::checkClipOrigin(const CameraView& camera)
+/// States of the context that draws obey and a frame does not change. The origin of clip control: rays follow
+/// what the frame says of it; its depth mode does not matter. Transform feedback: it holds the host's program
+/// in use.
+base::Status HostTargetCheck::checkContext(const CameraView& camera)
 {
     GLint origin = GL_LOWER_LEFT;
     device_.gl.GetIntegerv(GL_CLIP_ORIGIN, &origin);
-    if (camera.upperLeftOrigin == (origin == GL_UPPER_LEFT))
-        return {};
-    return refuse(camera.upperLeftOrigin
-                      ? "frame.upperLeftOrigin is 1, but glClipControl says GL_LOWER_LEFT: make them agree"
-                      : "frame.upperLeftOrigin is 0, but glClipControl says GL_UPPER_LEFT: make them agree");
+    if (camera.upperLeftOrigin != (origin == GL_UPPER_LEFT))
+        return refuse(
+            camera.upperLeftOrigin
+                ? "frame.upperLeftOrigin is 1, but glClipControl says GL_LOWER_LEFT: make them agree"
+                : "frame.upperLeftOrigin is 0, but glClipControl says GL_UPPER_LEFT: make them agree");
+    GLint isActive = GL_FALSE;
+    GLint isPaused = GL_FALSE;
+    device_.gl.GetIntegerv(GL_TRANSFORM_FEEDBACK_ACTIVE, &isActive);
+    if (isActive)
+        device_.gl.GetIntegerv(GL_TRANSFORM_FEEDBACK_PAUSED, &isPaused);
+    if (isActive && !isPaused)
+        return refuse("frame: the host's transform feedback is active: end or pause it");
+    return {};
 }
 
 } // namespace fx::render

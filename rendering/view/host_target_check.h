@@ -30,7 +30,7 @@ private:
     base::Status checkFramebuffer(const HostTargets& targets, Size& outSize);
     base::Status checkAttachment(const HostTargets& targets, Size& outSize);
     base::Status checkDepth(const HostTargets& targets, Size drawn);
-    base::Status checkClipOrigin(const CameraView& camera);
+    base::Status checkContext(const CameraView& camera);
     GLint drawBuffer(uint32_t framebuffer);
 
     GlDevice& device_;

@@ -227,6 +227,41 @@ TEST_F(HostTargets, checkingTargetsTakesFewCallsAndNoneWhileNothingIsDrawn)
     }
 }
 
+TEST_F(HostTargets, whileTransformFeedbackRunsNothingIsDrawnWithTheHostsProgram)
+{
+    const fx::render::GlLoader load = gl_->loader();
+#define FX_LOAD(TYPE, name) reinterpret_cast<PFNGL##TYPE##PROC>(load.getProcAddress(load.user, "gl" #name))
+    const char* source =
+        "#version 450 core\nout vec4 caught;\n"
+        "void main() { gl_Position = caught = vec4(float(gl_VertexID) * 4.0 - 1.0, 0.0, 0.0, 1.0); }";
+    const char* varying = "caught";
+    const GLuint shader = host_->gl.CreateShader(GL_VERTEX_SHADER), program = host_->gl.CreateProgram();
+    host_->gl.ShaderSource(shader, 1, &source, nullptr);
+    host_->gl.CompileShader(shader);
+    host_->gl.AttachShader(program, shader);
+    FX_LOAD(TRANSFORMFEEDBACKVARYINGS, TransformFeedbackVaryings)
+    (program, 1, &varying, GL_INTERLEAVED_ATTRIBS);
+    host_->gl.LinkProgram(program);
+    host_->gl.UseProgram(program);
+    host_->gl.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, textures_.makeBuffer());
+    const std::vector<float> before = picture();
+    FX_LOAD(BEGINTRANSFORMFEEDBACK, BeginTransformFeedback)(GL_TRIANGLES);
+    const Outcome running = render(frame());
+    FX_LOAD(PAUSETRANSFORMFEEDBACK, PauseTransformFeedback)();
+    EXPECT_EQ(picture(), before);
+    const Outcome paused = render(frame());
+    FX_LOAD(RESUMETRANSFORMFEEDBACK, ResumeTransformFeedback)();
+    FX_LOAD(ENDTRANSFORMFEEDBACK, EndTransformFeedback)();
+    EXPECT_EQ(running.result, FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_TRUE(has(running, "transform feedback is active: end or pause it")) << running.words;
+    EXPECT_EQ(paused.result, FX_OK) << paused.words;
+    EXPECT_NE(picture(), before);
+    host_->gl.UseProgram(0);
+    host_->gl.DeleteProgram(program);
+    host_->gl.DeleteShader(shader);
+#undef FX_LOAD
+}
+
 TEST_F(HostTargets, clipOriginMustBeWhatTheFrameSays)
 {
     FxFrameDef def = frame();

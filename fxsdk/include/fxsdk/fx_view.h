@@ -302,7 +302,9 @@ FX_API FxResult fxDestroyView(FxView* view);
 FX_API FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings);
 
 /// Draws the scene, as it is between its last two steps, over the host's picture. Textures and framebuffers
-/// are looked at in frames that draw; a frame that draws nothing makes no GL call. [GL thread]
+/// are looked at in frames that draw; a frame that draws nothing makes no GL call. Transform feedback must be
+/// paused or ended, queries of the host that are active count what is drawn, and errors that glGetError would
+/// have told are lost. [GL thread]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member, what was found, and what to do;
 /// also of targets that would be read or drawn to wrongly), FX_ERROR_VERSION, FX_ERROR_GL_FAILED,
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. On failure the picture and the
