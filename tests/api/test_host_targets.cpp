@@ -2,7 +2,10 @@
 #include "tests/api/host_target_fixture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 using HostTargets = fx::test::HostTargetTest;
 using fx::test::ColorFormat;
@@ -34,7 +37,7 @@ std::vector<bool> untouched(const std::vector<float>& overBlack, const std::vect
 
 } // namespace
 
-TEST_F(HostTargets, srgbPixelsThatNoMediumTouchesKeepTheirBits)
+TEST_F(HostTargets, pixelsThatNoMediumTouchesKeepTheirBitsInEveryFormat)
 {
     const size_t values = size_t(kSize * kSize * 4);
     const FxFrameDef def = frame();
@@ -43,17 +46,27 @@ TEST_F(HostTargets, srgbPixelsThatNoMediumTouchesKeepTheirBits)
     const auto count = std::count(kept.begin(), kept.end(), true);
     ASSERT_GT(count, kSize * kSize / 8);
     ASSERT_LT(count, kSize * kSize);
-    const GLuint texture = textures_.make2D(GL_SRGB8_ALPHA8, kSize);
-    write(texture, gradient());
-    const std::vector<float> before = read(texture);
-    FxFrameDef srgb = def;
-    srgb.colorTexture = texture;
-    ASSERT_EQ(render(srgb).result, FX_OK);
-    const std::vector<float> after = read(texture);
-    EXPECT_NE(after, before);
-    for (size_t i = 0; i < values; ++i)
-        ASSERT_TRUE(!kept[i / 4] || after[i] == before[i])
-            << "value " << i << ": " << before[i] << " became " << after[i];
+    for (const ColorFormat& format : fx::test::kColorFormats) {
+        if (format.kind == ColorFormat::Kind::Refused || format.format == GL_RGB9_E5)
+            continue;
+        std::vector<float> background = gradient();
+        for (size_t i = 0; i < values && format.kind == ColorFormat::Kind::Float; i += 5)
+            background[i] = i % 2 == 0 ? -0.0f : std::numeric_limits<float>::infinity();
+        const GLuint texture = textures_.make2D(format.format, kSize);
+        write(texture, background);
+        const std::vector<float> before = read(texture);
+        FxFrameDef over = def;
+        over.colorTexture = texture;
+        ASSERT_EQ(render(over).result, FX_OK) << format.name;
+        const std::vector<float> after = read(texture);
+        EXPECT_NE(std::memcmp(after.data(), before.data(), values * sizeof(float)), 0) << format.name;
+        for (size_t i = 0; i < values; ++i) {
+            if (kept[i / 4]) {
+                ASSERT_EQ(std::bit_cast<uint32_t>(after[i]), std::bit_cast<uint32_t>(before[i]))
+                    << format.name << " value " << i << ": " << before[i] << " became " << after[i];
+            }
+        }
+    }
 }
 
 TEST_F(HostTargets, srgbCodesComeBackWhenAPictureIsReadAndWrittenWhole)
