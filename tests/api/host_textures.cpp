@@ -18,6 +18,7 @@ HostTextures::~HostTextures()
 {
     gl.DeleteFramebuffers(GLsizei(framebuffers_.size()), framebuffers_.data());
     gl.DeleteTextures(GLsizei(textures_.size()), textures_.data());
+    gl.DeleteRenderbuffers(GLsizei(renderbuffers_.size()), renderbuffers_.data());
     gl.DeleteBuffers(GLsizei(buffers_.size()), buffers_.data());
 }
 
@@ -82,6 +83,17 @@ GLuint HostTextures::makeFramebuffer(GLuint color)
     if (color != 0)
         gl.NamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, color, 0);
     return name;
+}
+
+GLuint HostTextures::makeRenderbufferTarget(GLenum format, int size)
+{
+    GLuint name = 0;
+    gl.CreateRenderbuffers(1, &name);
+    renderbuffers_.push_back(name);
+    gl.NamedRenderbufferStorage(name, format, size, size);
+    const GLuint framebuffer = makeFramebuffer(0);
+    gl.NamedFramebufferRenderbuffer(framebuffer, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, name);
+    return framebuffer;
 }
 
 GLuint HostTextures::makeBuffer()

@@ -37,6 +37,10 @@ struct HostGl
     X(PFNGLCREATEBUFFERSPROC, CreateBuffers)                                                                 \
     X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                 \
     X(PFNGLNAMEDBUFFERSTORAGEPROC, NamedBufferStorage)                                                       \
+    X(PFNGLCREATERENDERBUFFERSPROC, CreateRenderbuffers)                                                     \
+    X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                                     \
+    X(PFNGLNAMEDRENDERBUFFERSTORAGEPROC, NamedRenderbufferStorage)                                           \
+    X(PFNGLNAMEDFRAMEBUFFERRENDERBUFFERPROC, NamedFramebufferRenderbuffer)                                   \
     X(PFNGLCREATEFRAMEBUFFERSPROC, CreateFramebuffers)                                                       \
     X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                                                       \
     X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, NamedFramebufferTexture)                                             \
@@ -78,12 +82,14 @@ public:
     GLuint makeMutable(GLenum format, int size);
     /// A framebuffer with one color attachment, the whole texture.
     GLuint makeFramebuffer(GLuint color);
+    /// The same with a renderbuffer.
+    GLuint makeRenderbufferTarget(GLenum format, int size);
     GLuint makeBuffer();
 
     HostGl gl;
 
 private:
-    std::vector<GLuint> textures_, framebuffers_, buffers_;
+    std::vector<GLuint> textures_, framebuffers_, renderbuffers_, buffers_;
 };
 
 } // namespace fx::test

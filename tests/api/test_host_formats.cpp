@@ -73,6 +73,7 @@ protected:
     void addDepthFormats();
     void addDepthTextures();
     void addFramebuffers();
+    void addUnread(const char* given, GLuint framebuffer);
     void addDepth(const std::string& given, GLuint depth, bool isWall = true);
 
     std::ostringstream table_;
@@ -223,6 +224,24 @@ void HostFormats::addDepthTextures()
     addDepth("0", 0, false);
 }
 
+/// Of a framebuffer whose color attachment is no texture that could be read: it is copied into one.
+void HostFormats::addUnread(const char* given, GLuint framebuffer)
+{
+    const auto& gl = textures_.gl;
+    const GLuint copy = textures_.make2D(GL_RGBA32F, kSize);
+    const GLuint picture = textures_.makeFramebuffer(copy);
+    const float gray[4] = {0.25f, 0.25f, 0.25f, 1.0f};
+    gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, gray);
+    const Outcome outcome = render(framebufferFrame(framebuffer));
+    gl.BlitNamedFramebuffer(framebuffer, picture, 0, 0, kSize, kSize, 0, 0, kSize, kSize, GL_COLOR_BUFFER_BIT,
+                            GL_NEAREST);
+    std::vector<float> background;
+    for (int i = 0; i < kSize * kSize; ++i)
+        background.insert(background.end(), gray, gray + 4);
+    EXPECT_EQ(faultOf(kLight, read(copy), reference(frame(), background)), "") << given;
+    add("framebuffer", given, resultOf(outcome));
+}
+
 void HostFormats::addFramebuffers()
 {
     auto& gl = textures_.gl;
@@ -235,20 +254,8 @@ void HostFormats::addFramebuffers()
         add("framebuffer", format.name, resultOf(draw(format, texture, framebufferFrame(framebuffer))));
     }
     const GLuint several = textures_.make(GL_TEXTURE_2D_MULTISAMPLE, GL_RGBA32F, kSize, kSize);
-    const GLuint samples = textures_.makeFramebuffer(several);
-    const GLuint resolved = textures_.make2D(GL_RGBA32F, kSize);
-    const GLuint picture = textures_.makeFramebuffer(resolved);
-    const float gray[4] = {0.25f, 0.25f, 0.25f, 1.0f};
-    gl.ClearNamedFramebufferfv(samples, GL_COLOR, 0, gray);
-    const Outcome outcome = render(framebufferFrame(samples));
-    gl.BlitNamedFramebuffer(samples, picture, 0, 0, kSize, kSize, 0, 0, kSize, kSize, GL_COLOR_BUFFER_BIT,
-                            GL_NEAREST);
-    std::vector<float> background;
-    for (int i = 0; i < kSize * kSize; ++i)
-        background.insert(background.end(), gray, gray + 4);
-    EXPECT_EQ(faultOf(kLight, read(resolved), reference(frame(), background)), "");
-    add("framebuffer", "four samples", resultOf(outcome));
-
+    addUnread("four samples", textures_.makeFramebuffer(several));
+    addUnread("renderbuffer of GL_RGBA32F", textures_.makeRenderbufferTarget(GL_RGBA32F, kSize));
     const auto addPlain = [this](const char* given, GLuint framebuffer) {
         add("framebuffer", given, resultOf(render(framebufferFrame(framebuffer))));
     };
@@ -262,6 +269,8 @@ void HostFormats::addFramebuffers()
     gl.NamedFramebufferDrawBuffer(shut, GL_NONE);
     addPlain("draw buffer is GL_NONE", shut);
     addPlain("smaller than the frame", textures_.makeFramebuffer(textures_.make2D(GL_RGBA32F, kSize / 2)));
+    addPlain("renderbuffer of GL_R16F", textures_.makeRenderbufferTarget(GL_R16F, kSize));
+    addPlain("renderbuffer smaller than the frame", textures_.makeRenderbufferTarget(GL_RGBA16F, kSize / 2));
     addPlain("0 without a window", 0);
 }
 
