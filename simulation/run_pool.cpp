@@ -149,6 +149,10 @@ RunIndex RunPool::copy(RunIndex index)
     run.users = 1;
     run.fresh = from.fresh;
     run.simulated = from.simulated;
+    run.arriving = from.arriving;
+    run.reached = from.reached;
+    run.target = from.target;
+    run.stepLength = from.stepLength;
     run.changes = std::move(changes);
     run.told = std::move(told);
     run.field = from.field;

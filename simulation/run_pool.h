@@ -83,6 +83,17 @@ struct Run
     bool fresh = false;     ///< no step has touched it: another instance may still join
     uint32_t nextFresh = 0; ///< see RunPool
 
+    // A step in hand, see World::proceed(), and a past that is still to be simulated, see World::arrive().
+    bool inStep = false;        ///< some of its sub-steps are complete, or one is in hand
+    bool inPart = false;        ///< a sub-step is in hand
+    bool arriving = false;      ///< local time `reached` is simulated, `target` is where it begins
+    uint32_t stepped = 0; ///< solvers that are through with the sub-step in hand
+    base::Ticks part = 0;       ///< sub-steps of the step that are complete
+    base::Ticks stepTick = 0;   ///< [tick] of the scene at which the step begins
+    base::Ticks stepLength = 0; ///< [tick] of the scene
+    base::Ticks reached = 0;    ///< [tick] local
+    base::Ticks target = 0;     ///< [tick] local
+
     // of one step of the world
     uint64_t visitedIn = 0; ///< number of the last step that had it in its list
     uint64_t dividedIn = 0; ///< number of the last step that had only some of its users

@@ -9,6 +9,7 @@
 #include "foundation/memory/arena.h"
 #include "foundation/snapshot/frame_snapshot.h"
 #include "foundation/tasks/task_runner.h"
+#include "foundation/tasks/work_budget.h"
 #include "foundation/time/ticks.h"
 #include "simulation/catch_up.h"
 #include "simulation/collision/collider.h"
@@ -43,6 +44,7 @@ struct StepCounters
     uint64_t subSteps = 0;
     uint64_t clamped = 0; ///< values limited to keep the state finite
     base::Ticks debt = 0; ///< time that a solver's budget of sub-steps did not cover: it is not simulated
+    uint64_t events = 0;  ///< of particles, once for each rule that may answer
 
     StepCounters& operator+=(const StepCounters& more)
     {
@@ -52,8 +54,21 @@ struct StepCounters
         neighborPairs += more.neighborPairs;
         subSteps += more.subSteps;
         clamped += more.clamped;
+        events += more.events;
         debt += more.debt;
         return *this;
+    }
+    /// What has been done since `before`.
+    StepCounters since(const StepCounters& before) const
+    {
+        return {born - before.born,
+                dropped - before.dropped,
+                particleSteps - before.particleSteps,
+                neighborPairs - before.neighborPairs,
+                subSteps - before.subSteps,
+                clamped - before.clamped,
+                debt - before.debt,
+                events - before.events};
     }
 };
 
@@ -181,7 +196,23 @@ public:
     /// Takes the state of a solver of the same definition and quality; from there on it gives the same bits.
     /// Checks whatever could harm it. After a failure, kept by the reader, the solver may only be destroyed.
     virtual void restore(StateReader& reader) = 0;
+    /// step() within a budget: spends what the step counts, and where nothing is left before its end,
+    /// returns false. Then the same call has to be made again, with an equal context, before any other call
+    /// but the destructor; the bits are those of one step(). Scratch memory may be forgotten between the two.
+    virtual bool proceed(const StepContext& context, base::WorkBudget& work);
+    /// [unit] of base::WorkBudget that what was done in a step counts, for solvers that are not divided.
+    virtual uint64_t workOf(const StepCounters& done) const { return done.particleSteps + done.born; }
+    /// [unit] that it counts once a step to show what there is.
+    virtual uint64_t shownWork() const { return 0; }
 };
+
+inline bool Solver::proceed(const StepContext& context, base::WorkBudget& work)
+{
+    const StepCounters before = *context.counters;
+    step(context);
+    work.spend(workOf(context.counters->since(before)));
+    return true;
+}
 
 /// What decides how far things get.
 struct ReachConditions
@@ -204,6 +235,15 @@ struct BirthReach
     }
 };
 
+/// What is to be expected of a step of a solver.
+struct StepLoad
+{
+    double seconds;    ///< [s] length
+    double births = 0; ///< of emitters: made, those that events cause included
+    double alive = 0;  ///< of emitters, at most their capacity
+    double events = 0; ///< of emitters: of particles, once for each rule that may answer
+};
+
 /// Immutable recipe of a solver; shared by all instances of a preset.
 class SolverDef
 {
@@ -214,7 +254,7 @@ public:
                                            std::pmr::memory_resource* memory) const = 0;
     /// Upper bound on elements alive at once, at medium quality.
     virtual uint32_t capacity() const = 0;
-    /// [byte] of memory that a solver takes from its start on; 0 where that is not told.
+    /// [byte] of memory that a solver takes at the most, at medium quality.
     virtual uint64_t bytes() const { return 0; }
     /// True when its solvers heed StepContext::collider.
     virtual bool collides() const { return false; }
@@ -236,6 +276,8 @@ public:
     {
         return reach(conditions.gravity, conditions.wind, conditions.seconds);
     }
+    /// [unit] of base::WorkBudget, about, that the most expensive step counts, at medium quality.
+    virtual double workOf(const StepLoad& /*load*/) const { return 0.0; }
 };
 
 } // namespace fx::sim

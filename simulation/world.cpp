@@ -1,13 +1,12 @@
 #include "simulation/world.h"
 
 #include "foundation/simd/floating_point_scope.h"
-#include "simulation/placed_contact.h"
+#include "simulation/world_context.h"
 
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace fx::sim {
@@ -47,16 +46,19 @@ Slot World::takeSlot(const InstanceStart& start, RunIndex run)
     if (!free_.empty()) {
         const Slot slot = free_.back();
         free_.pop_back();
-        instances_[slot] = {run, false, start};
+        instances_[slot] = {run, false, false, start};
         return slot;
     }
     free_.reserve(instances_.size() + 1); // remove() must not fail
-    instances_.push_back({run, false, start});
+    leaving_.reserve(instances_.size() + 1);
+    instances_.push_back({run, false, false, start});
     return Slot(instances_.size() - 1);
 }
 
 void World::remove(Slot slot)
 {
+    if (isStepping())
+        return leaving_.push_back(slot); // has room
     if (instances_[slot].hidden)
         --runs_.at(instances_[slot].run).hidden;
     runs_.leave(instances_[slot].run);
@@ -80,6 +82,8 @@ void World::setParameters(Slot slot, const InstanceParameters& parameters)
 
 void World::change(Slot slot, const InstanceStart& start)
 {
+    if (isStepping())
+        return changeAfterStep(slot, start);
     Instance& instance = instances_[slot];
     const RunIndex before = instance.run;
     const RunConditions wanted = conditionsOf(*runs_.at(before).effect, start);
@@ -89,6 +93,8 @@ void World::change(Slot slot, const InstanceStart& start)
         return;
     }
     endRest(before, now_);
+    if (runs_.at(before).users > 1 || !isLagging(runs_.at(before))) // otherwise it hears of it later
+        closeRun(before);
     const uint32_t hiddenBefore = runs_.at(before).hidden;
     instance.run = isLagging(runs_.at(before)) ? changeLater(before, wanted) : runs_.change(before, wanted);
     instance.start = start;
@@ -96,6 +102,36 @@ void World::change(Slot slot, const InstanceStart& start)
         return;
     runs_.at(before).hidden = runs_.at(before).users == 0 ? 0 : hiddenBefore - 1;
     ++runs_.at(instance.run).hidden;
+}
+
+void World::changeAfterStep(Slot slot, const InstanceStart& start)
+{
+    if (!instances_[slot].changed)
+        waiting_.push_back({slot, std::nullopt});
+    instances_[slot].changed = true;
+    instances_[slot].start = start;
+}
+
+void World::makeChanges()
+{
+    size_t made = 0;
+    struct Forgetting // those that were made
+    {
+        std::vector<Waiting>& waiting;
+        size_t& made;
+        ~Forgetting() { waiting.erase(waiting.begin(), waiting.begin() + ptrdiff_t(made)); }
+    } forgetting{waiting_, made};
+    for (; made < waiting_.size(); ++made) {
+        const Waiting& next = waiting_[made];
+        if (next.event) {
+            tell(next.slot, *next.event);
+            continue;
+        }
+        change(next.slot, InstanceStart(instances_[next.slot].start));
+        instances_[next.slot].changed = false;
+    }
+    for (; !leaving_.empty(); leaving_.pop_back())
+        remove(leaving_.back());
 }
 
 /// What an instance is stepped with. It is scaled with everything its preset says, gravity included, so that
@@ -164,59 +200,6 @@ bool World::hasElements(Slot slot) const
 const EffectDef& World::effect(Slot slot) const
 {
     return *runs_.at(instances_[slot].run).effect;
-}
-
-StepCounters World::step(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks)
-{
-    StepCounters counters;
-    if (stepTicks <= 0)
-        return counters;
-    now_ = tick + stepTicks;
-    resting_ = 0;
-    if (active.empty())
-        return counters;
-    const base::FloatingPointScope floatingPoint;
-    ++stepNumber_;
-    crowd_.forget();
-    joining_.clear();
-    divideRuns(active);
-    if (!mayPool_ || pools_.now() != tick || stepTicks > kLongestPoolStep)
-        endPools();
-    const bool isPlanned = stepPlan_.holds(active, pools_.revision());
-    const std::span<const Slot> list = isPlanned ? stepPlan_.others : active;
-    for (size_t k = 0; k < list.size(); ++k)
-        stepSlot(list, k, tick, stepTicks, counters);
-    crowd_.close();
-    stepPools(active, isPlanned, counters);
-    return counters;
-}
-
-void World::stepSlot(std::span<const Slot> list, size_t place, base::Ticks tick, base::Ticks stepTicks,
-                     StepCounters& counters)
-{
-    fetchAhead(list, place);
-    const RunIndex index = instances_[list[place]].run;
-    Run& run = runs_.at(index);
-    if (run.steppedIn == stepNumber_)
-        return;
-    if (run.restUntil >= now_) {
-        ++resting_;
-        return;
-    }
-    run.steppedIn = stepNumber_;
-    if (run.pooled)
-        return; // later, with all others
-    if (run.quietUntil >= now_ && run.simulated == tick)
-        return passQuietly(run, counters);
-    endRest(index, tick);
-    stepRun(index, tick, stepTicks, counters, &crowd_);
-    if (!mayRest_)
-        return;
-    const base::Ticks rest = restOf(run);
-    run.restUntil = rest > now_ ? rest : 0;
-    run.quietUntil = quietOf(run);
-    if (canPool(run))
-        joining_.push_back(index);
 }
 
 /// Asks the memory for what is wanted of those that follow in a list.
@@ -301,81 +284,6 @@ void World::divideRuns(std::span<const Slot> active)
     }
 }
 
-/// Calls body(context, run) with everything but the time filled in.
-template <class F>
-void World::withContext(RunIndex index, StepCounters& counters, F&& body)
-{
-    const Run& run = runs_.at(index);
-    StepContext context{};
-    context.seed = run.conditions.seed;
-    context.gravity = run.conditions.gravity;
-    context.wind = run.conditions.wind;
-    context.groundHeight = run.conditions.groundHeight;
-    std::optional<Collider> collider;
-    PlacedContact contact(contact_, run.conditions.placement, contactFaults_);
-    if (run.conditions.hasContact && contact_.meet) // a paused run may be at a time when there was none
-        context.contactHook = &contact.hook();
-    if (run.conditions.field)
-        collider.emplace(*run.conditions.field, run.conditions.placement);
-    context.collider = collider ? &*collider : nullptr;
-    context.parameters = &run.conditions.parameters;
-    context.placement = run.conditions.placement;
-    context.worldGravity = environment_.gravity;
-    context.worldWind = run.conditions.worldWind;
-    context.effectWind = run.effect->wind;
-    context.tasks = tasks_;
-    context.scratch = &scratch_;
-    context.counters = &counters;
-    context.gpuParticles = gpuParticles_;
-    body(context, run);
-}
-
-/// @param crowd null unless it is closed before anybody looks at the run
-void World::stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters,
-                    EmitterCrowd* crowd)
-{
-    const RunClock clock = runs_.at(index).conditions.clock;
-    if (runs_.at(index).fresh && clock.local > 0)
-        replay(index, 0, clock.toLocal(std::max(tick, clock.scene)), stepTicks, counters);
-    withContext(index, counters, [&](StepContext& context, const Run& run) {
-        const base::Ticks turns = (clock.rate + kNormalRate - 1) / kNormalRate;
-        const base::Ticks parts =
-            std::clamp<base::Ticks>(run.effect->subSteps, 1, 16) * std::max<base::Ticks>(turns, 1);
-        context.crowd = parts == 1 ? crowd : nullptr;
-        for (base::Ticks part = 0; part < parts; ++part) {
-            const base::Ticks from = std::max(tick + stepTicks * part / parts, clock.scene);
-            const base::Ticks to = tick + stepTicks * (part + 1) / parts;
-            if (to <= from)
-                continue;
-            context.hostEvents = hear(index, tick);
-            context.moveShare = float(double(to - from) / double(tick + stepTicks - from));
-            stepLocal(index, context, run, clock.toLocal(from), clock.toLocal(to));
-        }
-    });
-    standStill(runs_.at(index));
-    runs_.at(index).simulated = std::max(tick + stepTicks, clock.scene);
-}
-
-/// Where the instance has been taken while its time stands, it did not pass through.
-void World::standStill(const Run& run)
-{
-    if (run.conditions.clock.rate != 0)
-        return;
-    for (const std::unique_ptr<Solver>& solver : run.solvers)
-        solver->standAt(run.conditions.placement);
-}
-
-/// One step of all solvers.
-void World::stepLocal(RunIndex index, StepContext& context, const Run& run, base::Ticks from, base::Ticks to)
-{
-    context.tick = std::max<base::Ticks>(from, 0);
-    context.stepTicks = to - context.tick;
-    if (context.stepTicks <= 0)
-        return;
-    runs_.touch(index);
-    stepSolvers(run, context);
-}
-
 /// Jumps to scene time `to`. False, and nothing has changed, when a solver cannot.
 bool World::seek(RunIndex index, base::Ticks to, StepCounters& counters)
 {
@@ -416,7 +324,7 @@ void World::passOver(Slot slot, base::Ticks stepTicks)
 {
     const base::FloatingPointScope floatingPoint;
     const RunIndex index = instances_[slot].run;
-    if (!isLagging(runs_.at(index)))
+    if (!isLagging(runs_.at(index)) || runs_.at(index).arriving || runs_.at(index).inStep)
         return;
     runs_.materialize(index);
     const base::Ticks memory = runs_.at(index).memory();
@@ -436,22 +344,6 @@ void World::passOver(Slot slot, base::Ticks stepTicks)
         }
     });
     runs_.at(index).simulated = from;
-}
-
-/// Steps from local time `from` to `to` on the schedule of an instance that is played from 0.
-void World::replay(RunIndex index, base::Ticks from, base::Ticks to, base::Ticks stepTicks,
-                   StepCounters& counters)
-{
-    if (from >= to || jump(index, from, to, counters))
-        return;
-    withContext(index, counters, [&](StepContext& context, const Run& run) {
-        const base::Ticks parts = std::clamp<base::Ticks>(run.effect->subSteps, 1, 16);
-        for (base::Ticks begin = from / stepTicks * stepTicks; begin < to; begin += stepTicks)
-            for (base::Ticks part = 0; part < parts; ++part) {
-                const base::Ticks first = std::max(begin + stepTicks * part / parts, from);
-                stepLocal(index, context, run, first, std::min(begin + stepTicks * (part + 1) / parts, to));
-            }
-    });
 }
 
 void World::publish(std::span<const Slot> active, base::FrameSnapshot& snapshot) const

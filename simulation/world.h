@@ -17,6 +17,7 @@
 #include "simulation/effect_def.h"
 #include "simulation/emitters/emitter_crowd.h"
 #include "simulation/emitters/emitter_pools.h"
+#include "simulation/emitters/event_board.h"
 #include "simulation/run_pool.h"
 
 #include <algorithm>
@@ -82,14 +83,37 @@ public:
     /// True when so much waits to be told to it that it should be caught up.
     bool crowded(Slot slot) const;
     /// Takes a hidden instance towards the present, as if it had never been out of sight unless `policy` says
-    /// otherwise. Strong guarantee for each step.
+    /// otherwise; the past that it begins with, prewarm, first. Strong guarantee for each step.
     /// @param ioBudget [1] particle steps that may be taken; each step costs one more than its particles. The
     ///                 last one may exceed it.
+    /// @param work     ends it as well, also in the middle of a step, with which the next call goes on
     /// @return true when it is at the present, or finished
-    bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget,
-                 StepCounters& counters);
-    /// One step of any length from where the state is to the present, of a hidden instance.
-    void stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counters);
+    bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget, StepCounters& counters,
+                 base::WorkBudget& work);
+    bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget, StepCounters& counters)
+    {
+        base::WorkBudget unlimited;
+        return catchUp(slot, policy, stepTicks, ioBudget, counters, unlimited);
+    }
+    /// One step of any length from where the state is to the present, of a hidden instance; or what is left
+    /// of one that found too little work.
+    void stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work);
+    /// Takes an instance through the past that it begins with, prewarm, before its first step.
+    /// @return whether it is through; otherwise it has to be hidden, and catchUp() goes on
+    bool arrive(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work)
+    {
+        return arrive(instances_[slot].run, now_, stepTicks, work, counters);
+    }
+    /// Ends the step that catchUp() has begun and not ended.
+    void closeStep(Slot slot) { closeRun(instances_[slot].run); }
+    /// True while the past that an instance begins with, or is taken to by seekTo(), is not simulated yet.
+    bool isArriving(Slot slot) const { return runs_.at(instances_[slot].run).arriving; }
+    /// [tick] of local time that is missing of it.
+    base::Ticks missing(Slot slot) const
+    {
+        const Run& run = runs_.at(instances_[slot].run);
+        return run.arriving ? run.target - run.reached : 0;
+    }
     /// Puts the solvers of a paused simulation aside and keeps its state as bytes.
     /// @param mayForget it will be caught up without a trace: those who will be dead by then need not be kept
     /// @return scene time at which another call would free more; the largest number for never
@@ -141,7 +165,14 @@ public:
     void setRate(Slot slot, uint32_t rate);
     /// Takes an instance to local time `to`, as if it had been played to there from its first step on, in
     /// steps of `stepTicks`, under the conditions that hold now; what the host told it is left out.
-    void seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters);
+    /// @return whether it is there; otherwise as arrive()
+    bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
+                base::WorkBudget& work);
+    bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters)
+    {
+        base::WorkBudget unlimited;
+        return seekTo(slot, to, stepTicks, counters, unlimited);
+    }
     base::Ticks localTime(Slot slot) const { return clockOf(slot).toLocal(now_); }
     /// See RunClock; the present one, told or not.
     RunClock clockOf(Slot slot) const;
@@ -160,6 +191,18 @@ public:
     /// slot whose start lies inside the step begins at its own start tick; one that starts later is left
     /// alone.
     StepCounters step(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
+    /// The same in parts: beginStep() once, then proceed() until it says true. The bits are the same. While
+    /// a step is in hand, changes of instances wait for its end, see endStep(), and only those functions may
+    /// be called that change an instance or ask what it is.
+    void beginStep(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
+    /// @param work     one piece at least is done: a sub-step of a solver, or of a gas one of its own
+    /// @param counters gains what was done in the step, when it is complete
+    /// After an exception there is no step in hand.
+    bool proceed(base::WorkBudget& work, StepCounters& counters);
+    bool isStepping() const { return hand_.isOpen; }
+    /// Makes the changes that have waited. After an exception, those that are left wait for the next call.
+    void makeChanges();
+    bool hasChanges() const { return !waiting_.empty() || !leaving_.empty(); }
 
     /// A step of nobody: time passes until `now`.
     void passTime(base::Ticks now)
@@ -195,7 +238,44 @@ private:
     {
         RunIndex run = kNoRun;
         bool hidden = false;
+        bool changed = false; ///< `start` is to hold from the end of the step in hand
         InstanceStart start;
+    };
+
+    /// What an instance is told while a step is in hand.
+    struct Waiting
+    {
+        Slot slot;
+        std::optional<HostEvent> event; ///< none: its start has changed
+    };
+
+    /// A step of which some is still to be done.
+    struct StepInHand
+    {
+        bool isOpen = false;
+        bool isPlanned = false;
+        base::Ticks tick = 0;
+        base::Ticks stepTicks = 0;
+        size_t place = 0; ///< in the list, of the run in hand
+        std::span<const Slot> active;
+        std::span<const Slot> list;           ///< those of them that are in no pool
+        std::vector<Slot> ownActive, ownList; ///< their memory, between two calls
+        StepCounters counters;
+        std::optional<EventBoard> board;    ///< of the sub-step in hand
+        std::span<const HostEvent> heard{}; ///< likewise
+    };
+    /// A step of one run.
+    struct RunStep
+    {
+        base::Ticks tick; ///< scene time
+        base::Ticks stepTicks;
+        EmitterCrowd* crowd = nullptr; ///< null unless it is closed before anybody looks at the run
+        std::optional<EventBoard>* board = nullptr; ///< see stepSolvers()
+    };
+    struct LocalSpan
+    {
+        base::Ticks begin; ///< local time
+        base::Ticks end;
     };
 
     /// What is found anew only when the list or the pools have changed.
@@ -218,8 +298,10 @@ private:
     void planStep(std::span<const Slot> active);
     void publishPools(std::span<const Slot> active, base::FrameSnapshot& snapshot) const;
     void makeRoster(std::span<const Slot> active) const;
-    void stepSlot(std::span<const Slot> list, size_t place, base::Ticks tick, base::Ticks stepTicks,
-                  StepCounters& counters);
+    bool stepSlot(base::WorkBudget& work);
+    void keepStep();
+    void dropStep();
+    void changeAfterStep(Slot slot, const InstanceStart& start);
     void publishSlot(Slot slot, base::FrameSnapshot& snapshot) const;
 
     RunConditions conditionsOf(const EffectDef& effect, const InstanceStart& start) const;
@@ -236,16 +318,21 @@ private:
     void withContext(RunIndex index, StepCounters& counters, F&& body);
     void divideByPlacement();
     void divideRuns(std::span<const Slot> active);
-    void stepSolvers(const Run& run, StepContext& context);
-    void stepLocal(RunIndex index, StepContext& context, const Run& run, base::Ticks from, base::Ticks to);
-    void replay(RunIndex index, base::Ticks from, base::Ticks to, base::Ticks stepTicks,
+    bool stepSolvers(Run& run, StepContext& context, std::optional<EventBoard>* board,
+                     base::WorkBudget& work);
+    bool stepPart(RunIndex index, StepContext& context, const LocalSpan& time,
+                  std::optional<EventBoard>* board, base::WorkBudget& work);
+    bool arrive(RunIndex index, base::Ticks tick, base::Ticks stepTicks, base::WorkBudget& work,
                 StepCounters& counters);
+    void setOut(RunIndex index, const LocalSpan& way, base::Ticks stepTicks, StepCounters& counters);
+    bool replay(RunIndex index, base::WorkBudget& work, StepCounters& counters);
+    bool replayPart(RunIndex index, base::WorkBudget& work, StepCounters& counters);
+    void closeRun(RunIndex index);
     bool jump(RunIndex index, base::Ticks from, base::Ticks to, StepCounters& counters);
     void isolate(Slot slot);
     std::span<const HostEvent> hear(RunIndex index, base::Ticks tick);
     void restoreTold(Run& run, StateReader& reader);
-    void stepRun(RunIndex index, base::Ticks tick, base::Ticks stepTicks, StepCounters& counters,
-                 EmitterCrowd* crowd = nullptr);
+    bool stepRun(RunIndex index, const RunStep& step, base::WorkBudget& work, StepCounters& counters);
     void fetchAhead(std::span<const Slot> active, size_t place) const;
     void passQuietly(Run& run, StepCounters& counters);
     base::Ticks quietOf(Run& run) const;
@@ -270,6 +357,10 @@ private:
     std::vector<Instance> instances_;
     std::vector<Slot> free_;
     Plan stepPlan_;
+    StepInHand hand_;
+    StepCounters closed_;           ///< work of steps that had to be ended, not counted yet
+    std::vector<Waiting> waiting_;  ///< in the order of the calls
+    std::vector<Slot> leaving_;     ///< likewise, removed
     std::vector<RunIndex> joining_; ///< runs that a step has taken to where a pool could go on
     std::vector<RunIndex> left_;    ///< runs that left their pool in a step
     mutable Plan publishPlan_;

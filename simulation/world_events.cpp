@@ -7,25 +7,44 @@
 
 namespace fx::sim {
 
-/// Solvers that tell each other of events share the scratch memory of the step, causes before effects.
-void World::stepSolvers(const Run& run, StepContext& context)
+/// The solvers that are not through yet. Those that tell each other of events share the scratch memory of the
+/// step, causes before effects.
+/// @param ioBoard keeps what they have told while the step waits for another call; null: the scratch memory
+///                is not kept, so they are stepped in one call
+/// @return whether all are through
+bool World::stepSolvers(Run& run, StepContext& context, std::optional<EventBoard>* ioBoard,
+                        base::WorkBudget& work)
 {
     const std::span<const uint32_t> order = run.effect->order;
-    std::optional<EventBoard> board;
-    if (!order.empty())
-        context.board = &board.emplace(scratch_, run.solvers.size());
-    for (uint32_t k = 0; k < run.solvers.size(); ++k) {
-        context.solverIndex = order.empty() ? k : order[k];
-        run.solvers[context.solverIndex]->step(context);
-        if (order.empty())
+    const bool isLinked = !order.empty();
+    std::optional<EventBoard> own;
+    std::optional<EventBoard>& board = ioBoard ? *ioBoard : own;
+    if (isLinked && !board)
+        board.emplace(scratch_, run.solvers.size(),
+                      [&run](size_t solver) { return run.effect->solvers[solver]->capacity(); });
+    context.board = board ? &*board : nullptr;
+    const bool mayWait = !isLinked || ioBoard;
+    base::WorkBudget whole;
+    for (; run.stepped < run.solvers.size(); ++run.stepped) {
+        if (run.stepped > 0 && mayWait && work.isSpent())
+            return false;
+        context.solverIndex = isLinked ? order[run.stepped] : run.stepped;
+        if (!run.solvers[context.solverIndex]->proceed(context, mayWait ? work : whole))
+            return false;
+        if (!isLinked)
             scratch_.reset();
     }
+    work.spend(whole.spent());
     context.board = nullptr;
+    board.reset();
     scratch_.reset();
+    return true;
 }
 
 void World::tell(Slot slot, const HostEvent& event)
 {
+    if (isStepping())
+        return waiting_.push_back({slot, event});
     isolate(slot);
     const RunIndex index = instances_[slot].run;
     runs_.at(index).told.push_back({now_, event});

@@ -45,7 +45,8 @@ void World::retire(Slot slot)
 
 bool World::lags(Slot slot) const
 {
-    return isLagging(runs_.at(instances_[slot].run));
+    const Run& run = runs_.at(instances_[slot].run);
+    return isLagging(run) || run.arriving;
 }
 
 bool World::crowded(Slot slot) const
@@ -75,18 +76,18 @@ RunIndex World::changeLater(RunIndex index, const RunConditions& wanted)
 }
 
 bool World::catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget,
-                    StepCounters& counters)
+                    StepCounters& counters, base::WorkBudget& work)
 {
     const base::FloatingPointScope floatingPoint;
     const RunIndex index = instances_[slot].run;
-    if (!isLagging(runs_.at(index))) {
-        runs_.materialize(index);
-        return true;
-    }
     runs_.materialize(index);
     Run& run = runs_.at(index);
+    if (run.arriving && !replay(index, work, counters))
+        return false;
+    if (!isLagging(run))
+        return true;
     while (run.simulated < now_ && !isFinished(run, run.simulated)) {
-        if (!run.changes.empty() && run.changes.front().tick <= run.simulated) {
+        if (!run.inStep && !run.changes.empty() && run.changes.front().tick <= run.simulated) {
             runs_.touch(index); // its chain is that of the old conditions
             run.conditions = run.changes.front().conditions;
             run.field = std::move(run.changes.front().field);
@@ -99,11 +100,14 @@ bool World::catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& 
             runs_.touch(index);
             run.simulated = target;
         } else if (policy != CatchUp::Analytic || !seek(index, target, counters)) {
-            if (ioBudget == 0)
+            if (ioBudget == 0 || work.isSpent())
                 return false;
             const uint64_t stepsBefore = counters.particleSteps;
-            stepRun(index, run.simulated / stepTicks * stepTicks, stepTicks, counters);
+            const bool isTaken =
+                stepRun(index, {run.simulated / stepTicks * stepTicks, stepTicks}, work, counters);
             ioBudget -= std::min(ioBudget, 1 + counters.particleSteps - stepsBefore);
+            if (!isTaken)
+                return false;
         }
     }
     if (!run.changes.empty()) { // told at the present, or after the end
@@ -115,7 +119,7 @@ bool World::catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& 
     return true;
 }
 
-void World::stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counters)
+void World::stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work)
 {
     const base::FloatingPointScope floatingPoint;
     const RunIndex index = instances_[slot].run;
@@ -123,12 +127,15 @@ void World::stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counter
         return;
     if (!runs_.at(index).changes.empty()) {
         uint64_t unlimited = UINT64_MAX;
-        catchUp(slot, CatchUp::Replay, stepTicks, unlimited, counters);
+        catchUp(slot, CatchUp::Replay, stepTicks, unlimited, counters, work);
         return;
     }
     runs_.materialize(index);
-    if (const Run& run = runs_.at(index); !isFinished(run, run.simulated))
-        stepRun(index, run.simulated, now_ - run.simulated, counters);
+    const Run& run = runs_.at(index);
+    if (run.inStep)
+        stepRun(index, {run.stepTick, run.stepLength}, work, counters);
+    else if (!isFinished(run, run.simulated))
+        stepRun(index, {run.simulated, now_ - run.simulated}, work, counters);
 }
 
 base::Ticks World::release(Slot slot, bool mayForget)
@@ -137,6 +144,8 @@ base::Ticks World::release(Slot slot, bool mayForget)
     const Run& run = runs_.at(index);
     if (!run.isPaused())
         return Run::kNever;
+    closeRun(index);
+    mayForget = mayForget && !run.arriving;
     runs_.release(index, now_, mayForget);
     return mayForget && !run.brief && run.kept && run.forgottenAt > now_ ? run.forgottenAt : Run::kNever;
 }

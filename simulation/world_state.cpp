@@ -116,6 +116,9 @@ RunIndex World::joinRun(RunIndex index, const Entry& entry, StateReader& reader)
 
 void World::swap(World& other) noexcept
 {
+    dropStep();
+    waiting_.clear();
+    leaving_.clear();
     endPools();
     other.endPools();
     runs_.swap(other.runs_);

@@ -12,6 +12,7 @@ void World::isolate(Slot slot)
 {
     RunIndex& index = instances_[slot].run;
     endRest(index, now_);
+    closeRun(index);
     if (runs_.at(index).users == 1)
         return;
     const RunIndex own = runs_.copy(index);
@@ -25,7 +26,10 @@ void World::isolate(Slot slot)
 
 RunClock World::clockOf(Slot slot) const
 {
-    const Run& run = runs_.at(instances_[slot].run);
+    const Instance& instance = instances_[slot];
+    if (instance.changed && instance.start.clock)
+        return *instance.start.clock;
+    const Run& run = runs_.at(instance.run);
     return run.changes.empty() ? run.conditions.clock : run.changes.back().conditions.clock;
 }
 
@@ -40,7 +44,8 @@ void World::setRate(Slot slot, uint32_t rate)
     change(slot, start);
 }
 
-void World::seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters)
+bool World::seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
+                   base::WorkBudget& work)
 {
     const base::FloatingPointScope floatingPoint;
     isolate(slot);
@@ -52,7 +57,9 @@ void World::seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounter
     runs_.materialize(index);
     Run& run = runs_.at(index);
     runs_.touch(index);
-    base::Ticks from = std::max<base::Ticks>(run.conditions.clock.toLocal(run.simulated), 0);
+    base::Ticks from =
+        run.arriving ? run.reached : std::max<base::Ticks>(run.conditions.clock.toLocal(run.simulated), 0);
+    run.arriving = false;
     if (!run.changes.empty()) {
         run.conditions = run.changes.back().conditions;
         run.changes.clear();
@@ -70,12 +77,13 @@ void World::seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounter
                                        reader.status().message());
             from = 0;
         }
-        replay(index, from, to, stepTicks, counters);
+        setOut(index, {from, to}, stepTicks, counters);
     }
     run.conditions.clock = {now_, to, rate};
     instances_[slot].start.clock = run.conditions.clock;
     run.simulated = now_;
     run.field.reset();
+    return !run.arriving || replay(index, work, counters);
 }
 
 } // namespace fx::sim

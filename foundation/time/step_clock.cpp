@@ -23,10 +23,17 @@ StepPlan StepClock::advance(double dt)
     const Ticks whole = Ticks(kept + 0.5);
     remainder_ = kept - double(whole);
     now_ += whole;
-    const int64_t target = now_ / stepTicks_;
-    plan.steps = uint32_t(target - steps_);
-    steps_ = target;
+    const int64_t most = maxFrameTicks_ / stepTicks_ + 1;
+    plan.steps = uint32_t(std::min(now_ / stepTicks_ - steps_, most));
+    steps_ += plan.steps;
     return plan;
+}
+
+Ticks StepClock::forgive(Ticks most)
+{
+    const Ticks excess = std::max<Ticks>(debt() - most, 0) / stepTicks_ * stepTicks_;
+    now_ -= excess;
+    return excess;
 }
 
 } // namespace fx::base

@@ -4,6 +4,7 @@
 
 #include "foundation/time/ticks.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace fx::base {
@@ -35,7 +36,16 @@ public:
     StepClock(Ticks stepTicks, Ticks maxFrameTicks) : stepTicks_(stepTicks), maxFrameTicks_(maxFrameTicks) {}
 
     /// Advances by `dt` [s]. 0 is legal and does nothing; negative, NaN and infinite are refused.
+    /// Takes no more steps at once than the longest dt comes to; what was postponed before comes with them.
     StepPlan advance(double dt);
+    /// The last `steps` of a plan have not been taken: they come again with the next one.
+    void postpone(uint32_t steps) { steps_ -= steps; }
+    /// A step that was postponed has been taken by itself.
+    void takePostponed() { ++steps_; }
+    /// Whole steps of now() that have been postponed.
+    Ticks debt() const { return (now_ / stepTicks_ - steps_) * stepTicks_; }
+    /// Gives up what of the debt exceeds `most`. @return that
+    Ticks forgive(Ticks most);
 
     Ticks now() const { return now_; }                      ///< continuous time
     Ticks simulated() const { return steps_ * stepTicks_; } ///< end of the last step taken
@@ -49,7 +59,11 @@ public:
         remainder_ = state.remainder;
     }
     /// Where now() lies between the last two steps, in [0, 1): 0 shows the older, 1 would show the newer.
-    double interpolation() const { return double(now_ - simulated()) / double(stepTicks_); }
+    /// In debt the newer is shown.
+    double interpolation() const
+    {
+        return std::min(double(now_ - simulated()) / double(stepTicks_), 1.0 - 0x1p-53);
+    }
 
 private:
     Ticks stepTicks_;

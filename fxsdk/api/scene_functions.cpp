@@ -59,6 +59,8 @@ FxSceneStatistics gatherStatistics(const FxScene& object)
     statistics.instancesResting = counters.resting;
     statistics.instancesHidden = counters.hidden;
     statistics.catchUpsSkipped = counters.catchUpsSkipped;
+    statistics.timeDebtTicks = scene.clock().debt();
+    statistics.updateWork = scene.lastUpdate().workUnits;
     return statistics;
 }
 
@@ -101,7 +103,8 @@ FxResult fxCreateScene(FxContext* context, const FxSceneDef* def, FxScene** outS
             known.lockStep != 0,
             known.releaseAfterTicks,
             known.maxCatchUpTicks,
-            known.catchUpSteps};
+            known.catchUpSteps,
+            known.workBudget == 0 ? fx::base::kNoWorkLimit : known.workBudget};
         FxScene* scene =
             std::pmr::polymorphic_allocator<>(&context->memory).new_object<FxScene>(context, options);
         scene->quality = fx::api::toQuality(known.quality, fx::sim::QualityLevel::Medium);
@@ -156,6 +159,17 @@ namespace {
             "or the return value 0 for a free way"};
 }
 
+/// Says when updates begin to leave steps to the next ones.
+void reportDebt(FxScene& scene)
+{
+    const bool isBehind = scene.scene.clock().debt() > 0;
+    if (isBehind && !scene.isBehind)
+        fx::api::logMessage(*scene.context, FX_LOG_WARNING,
+                            "the steps of a scene need more work than FxSceneDef::workBudget allows an "
+                            "update: scene time falls behind, see FxSceneStatistics::timeDebtTicks");
+    scene.isBehind = isBehind;
+}
+
 } // namespace
 
 FxResult fxScene_Update(FxScene* scene, double dtSeconds)
@@ -165,6 +179,7 @@ FxResult fxScene_Update(FxScene* scene, double dtSeconds)
         scene->scene.setGpuParticles(scene->computesOnGpu());
         const bool accepted = scene->scene.update(dtSeconds);
         scene->catchingUp.store(dtSeconds > scene->longestFrame);
+        reportDebt(*scene);
         scene->updateAllocations = scene->context->memory.allocationCount() - before;
         if (!accepted)
             return fx::api::invalid("dtSeconds is negative or not finite");

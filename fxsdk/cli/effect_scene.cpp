@@ -146,6 +146,7 @@ base::Status EffectScene::start(const scene_file::SceneFile& file, const EffectS
     FxSceneDef sceneDef = fxDefaultSceneDef();
     sceneDef.stepTicks = base::kTicksPerSecond / options.stepsPerSecond;
     sceneDef.quality = options.quality;
+    sceneDef.workBudget = 0; // pictures show the moment that they are asked for, however long it takes
     step_ = sceneDef.stepTicks;
     if (base::Status status = toStatus(fxCreateScene(context_, &sceneDef, &scene_)); !status)
         return status;

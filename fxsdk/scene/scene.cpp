@@ -1,15 +1,10 @@
 #include "fxsdk/scene/scene.h"
 
 #include <algorithm>
-#include <chrono>
 #include <new>
 #include <utility>
 
 namespace fx::scene {
-
-namespace {
-constexpr base::Ticks kMostDropped = INT64_MAX; ///< no sum goes beyond it
-}
 
 Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, base::TaskRunner* tasks,
              std::pmr::memory_resource* memory)
@@ -18,7 +13,7 @@ Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, ba
       world_(schema, tasks, memory, options.environment, options.shareInstances),
       instances_(memory, options.maxInstances), dormant_(memory), active_(memory), waking_(memory),
       denied_(memory), coarse_(memory), tree_(memory), alarms_(memory), focus_(memory), candidates_(memory),
-      moved_(memory), ring_(schema, memory), marks_(memory)
+      arrived_(memory), seeks_(memory), moved_(memory), ring_(schema, memory), marks_(memory)
 {
     world_.allowRest(options.culling);
     ring_.beginWrite(0); // so that acquire() always has something to show
@@ -27,9 +22,9 @@ Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, ba
 
 LocalId Scene::add(InstanceSetup setup)
 {
-    const base::Ticks now = clock_.simulated();
+    const base::Ticks now = present();
     setup.startTick = std::max(setup.startTick, now);
-    const bool startsNow = setup.startTick < now + clock_.stepTicks();
+    const bool startsNow = setup.startTick < now + clock_.stepTicks() && !world_.isStepping();
 
     active_.reserve(instances_.count() + size_t(1)); // so that waking cannot fail for lack of a list entry
     Instance instance;
@@ -82,6 +77,7 @@ uint32_t Scene::particles(LocalId id)
 
 base::Status Scene::setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize)
 {
+    completeStep();
     if (!mesh) {
         world_.setField(nullptr);
         return {};
@@ -101,28 +97,14 @@ bool Scene::update(double dt)
         return false;
     }
     if (plan.droppedTicks > 0)
-        counters_.droppedTicks =
-            std::min(counters_.droppedTicks, kMostDropped - plan.droppedTicks) + plan.droppedTicks;
+        countDropped(plan.droppedTicks);
+    work_ = base::WorkBudget(options_.workBudget);
     memoryFailed_ = false; // must not stop the steps that follow: the clock has already counted them
-    if (plan.steps > 0)
-        reconsider(plan);
-    if (sought_)
-        heedSought(plan);
-    for (uint32_t k = 0; k < plan.steps; ++k) {
-        const base::Ticks from = plan.firstStep + base::Ticks(k) * clock_.stepTicks();
-        try {
-            if (!moved_.empty())
-                moveOn(k + 1, plan.steps);
-            step(from);
-            if (k + 2 >= plan.steps)
-                publish(from + clock_.stepTicks(), k + 1 == plan.steps ? clock_.interpolation() : 0.0);
-        } catch (const std::bad_alloc&) {
-            memoryFailed_ = true;
-        }
-    }
-    if (plan.steps > 0 && !moved_.empty())
-        endMoves();
-    if (plan.steps == 0) {
+    if (plan.steps > 0) {
+        takeSteps(plan);
+    } else {
+        if (sought_)
+            heedSought(plan);
         std::lock_guard lock(presentation_);
         show(clock_.simulated(), clock_.interpolation());
     }
@@ -131,35 +113,6 @@ bool Scene::update(double dt)
     if (memoryFailed_)
         throw std::bad_alloc();
     return true;
-}
-
-void Scene::step(base::Ticks from)
-{
-    const base::Ticks to = from + clock_.stepTicks();
-    if (!dormant_.empty())
-        wake(to);
-    if (!alarms_.empty())
-        ringAlarms(to);
-    if (active_.size() > 0) {
-        const auto start = std::chrono::steady_clock::now();
-        const sim::StepCounters work = world_.step(active_.slots(), from, clock_.stepTicks());
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        measureTime(took.count(), work.particleSteps);
-        update_.work += work;
-        counters_.work += work;
-    } else {
-        world_.passTime(to);
-    }
-    if (coarse_.size() > 0 && to / clock_.stepTicks() % sim::kCoarseSteps == 0)
-        for (const sim::Slot slot : coarse_.slots())
-            world_.stepCoarsely(slot, clock_.stepTicks(), counters_.work);
-    ++counters_.steps;
-    if (active_.size() > 0) {
-        retireFinished(to);
-        restOrNot(to);
-    }
-    if (world_.spares() > 0)
-        world_.trimSpares(to - options_.releaseAfter);
 }
 
 void Scene::wake(base::Ticks until)
@@ -189,6 +142,12 @@ void Scene::enterWorld(uint32_t index)
             throw;
         }
         return;
+    }
+    const bool hasPast =
+        instance.setup.clock ? instance.setup.clock->local > 0 : instance.setup.effect->prewarm > 0;
+    if (hasPast) {
+        waking_.reserve(instances_.count()); // where it goes when its past takes long
+        arrived_.push_back(instances_.idAt(index));
     }
     instance.slot = world_.add(instance.setup.effect, startOf(instances_, index));
     instance.state = InstanceState::Active;
@@ -234,6 +193,7 @@ void Scene::finish(uint32_t index)
 
 void Scene::publish(base::Ticks tick, double interpolation)
 {
+    published_ = tick;
     if (active_.size() > 0 && emptyPublications_ > 2) { // the step before is what views interpolate from
         ring_.beginWrite(tick - clock_.stepTicks(), clock_.stepTicks());
         ring_.publish();
@@ -295,10 +255,12 @@ uint32_t Scene::particles() const
 
 uint64_t Scene::stateHash()
 {
-    if (sought_)
+    work_ = base::WorkBudget(options_.workBudget);
+    if (sought_ && !world_.isStepping())
         showSought();
     const Presentation shown = acquire();
-    const uint64_t hash = shown.snapshots.newer->hashAt(clock_.simulated()); // may be published for earlier
+    const uint64_t hash =
+        shown.snapshots.newer->hashAt(published_); // may be written for earlier, with nothing in it
     release(shown.snapshots);
     return hash;
 }

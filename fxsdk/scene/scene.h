@@ -39,7 +39,8 @@ struct SceneOptions
     bool lockStep = false;      ///< what cannot be caught up bit for bit is never out of sight
     base::Ticks releaseAfter = 5 * base::kTicksPerSecond; ///< out of sight, until memory is given back
     base::Ticks maxCatchUp = 30 * base::kTicksPerSecond;  ///< longest absence that is replayed
-    uint64_t catchUpSteps = 200'000; ///< particle steps of an update that may be spent on replays
+    uint64_t catchUpSteps = 200'000;          ///< particle steps of an update that may be spent on replays
+    uint64_t workBudget = base::kNoWorkLimit; ///< [unit] of base::WorkBudget that an update may spend
 };
 
 /// Where an instance is in its life. Dormant, hidden, resting and finished ones are never visited.
@@ -94,6 +95,7 @@ struct UpdateCounters
     uint32_t denied = 0;   ///< in sight, but beyond the budget: now
     base::Ticks catchUpTicks = 0;
     uint64_t catchUpParticleSteps = 0;
+    uint64_t workUnits = 0; ///< see base::WorkBudget, those of catching up included
     sim::StepCounters work;
 };
 
@@ -150,6 +152,9 @@ public:
     LocalId add(InstanceSetup setup);
     bool contains(LocalId id) { return instances_.find(id) != nullptr; }
 
+    // What is changed while a step is in hand, of which a former update has done a part, holds from its end
+    // on.
+
     // The id must name an instance of this scene.
     void remove(LocalId id);
     /// In lock-step the instance is caught up first, so that no camera decides the answer.
@@ -191,13 +196,18 @@ public:
     base::Status setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize);
 
     /// What stands in the way of particles that ask the host; see sim::World::setContact().
-    void setContact(const sim::HostContact& contact) { world_.setContact(contact); }
+    void setContact(const sim::HostContact& contact)
+    {
+        completeStep();
+        world_.setContact(contact);
+    }
     /// Answers of the host since the last call that were none.
     uint64_t takeContactFaults() { return world_.takeContactFaults(); }
     /// See sim::World::setGpuParticles.
     void setGpuParticles(bool onGpu) { world_.setGpuParticles(onGpu); }
 
-    /// Advances by dt [s] and publishes the last two of the steps taken.
+    /// Advances by dt [s] and publishes the last two of the steps taken. Where the budget of work is spent
+    /// before all are complete, the next updates go on, and simulated time is behind.
     /// Throws std::bad_alloc after all steps when memory ran out in one: time has advanced, and what needed
     /// the memory is missing.
     /// @return false when dt was negative or not finite; then only the counter of refusals has changed
@@ -254,6 +264,7 @@ private:
         activation::HiddenTree::Leaf leaf = activation::HiddenTree::kNone;
         bool hasAlarm = false;
         bool wasResting = false;    ///< before it began to wake
+        bool isLate = false;        ///< waking: its past was too much work for the update in which it began
         uint32_t lastParticles = 0; ///< when it was hidden
         ActivationHints hints;
         double reach = 0;                  ///< [m] world
@@ -265,9 +276,31 @@ private:
 
     void wake(base::Ticks until);
     void enterWorld(uint32_t index);
-    void step(base::Ticks from);
+    struct Seek
+    {
+        LocalId id;
+        base::Ticks to; ///< local time
+    };
+    void takeSteps(const base::StepPlan& plan);
+    void prepareSteps(const base::StepPlan& plan);
+    void postpone(uint32_t steps);
+    void countDropped(base::Ticks ticks);
+    void beginStep(base::Ticks from);
+    void endStep(base::Ticks to);
+    bool proceed();
+    bool isShort(uint64_t stepWork) const;
+    base::WorkBudget lateWork() const;
+    void completeStep();
+    void makeChanges();
+    void letArrive();
+    void wait(uint32_t index);
+    /// From when on what is changed now holds.
+    base::Ticks present() const
+    {
+        return clock_.simulated() + (world_.isStepping() ? clock_.stepTicks() : 0);
+    }
     void moveOn(uint32_t step, uint32_t steps);
-    void endMoves();
+    void endMoves(bool isComplete);
     void retireFinished(base::Ticks now);
     void finish(uint32_t index);
 
@@ -288,8 +321,8 @@ private:
     void place(uint32_t index, Reason reason);
     void takeBack(uint32_t index);
     void comeBack(uint32_t index);
-    void catchUpWaking();
-    bool catchUp(uint32_t index, uint64_t& ioBudget);
+    void catchUpWaking(base::WorkBudget& work);
+    bool catchUp(uint32_t index, uint64_t& ioBudget, base::WorkBudget& work);
     void becomePresent(uint32_t index);
     void ringAlarms(base::Ticks until);
     void setAlarm(uint32_t index, base::Ticks tick);
@@ -338,8 +371,13 @@ private:
     activation::FocusSet focus_;
     activation::Budget budget_;
     std::pmr::vector<activation::Candidate> candidates_; ///< scratch
-    std::pmr::vector<LocalId> moved_; ///< instances with InstanceSetup::cameFrom, and perhaps others
-    bool lookAgain_ = false;          ///< something moved, or somebody looks elsewhere
+    std::pmr::vector<LocalId> arrived_; ///< entered the world with a past that is not simulated yet
+    std::pmr::vector<Seek> seeks_;      ///< asked for while a step is in hand
+    base::WorkBudget work_;             ///< of the update
+    uint64_t stepWork_ = 0;             ///< [unit] spent on the step in hand
+    base::Ticks published_ = 0;         ///< scene time of the last publication
+    std::pmr::vector<LocalId> moved_;   ///< instances with InstanceSetup::cameFrom, and perhaps others
+    bool lookAgain_ = false;            ///< something moved, or somebody looks elsewhere
     bool memoryFailed_ = false;
     bool sought_ = false; ///< seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;

@@ -6,6 +6,10 @@
 
 namespace fx::scene {
 
+namespace {
+constexpr uint32_t kWholeWay = 2; ///< steps
+}
+
 /// Before step number `step` of `steps`, from 1 on.
 void Scene::moveOn(uint32_t step, uint32_t steps)
 {
@@ -23,8 +27,12 @@ void Scene::moveOn(uint32_t step, uint32_t steps)
     }
 }
 
-void Scene::endMoves()
+/// @param isComplete all steps of the update have been taken; otherwise the rest of the way is gone in the
+///                   next one
+void Scene::endMoves(bool isComplete)
 {
+    if (!isComplete)
+        moveOn(kWholeWay, kWholeWay);
     for (const LocalId id : moved_)
         if (Instance* instance = instances_.find(id))
             instance->setup.cameFrom.reset();

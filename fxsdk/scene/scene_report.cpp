@@ -13,8 +13,10 @@ constexpr uint64_t kFewestParticleSteps = 64; ///< fewer say more about overhead
 InstanceState Scene::state(LocalId id)
 {
     const uint32_t index = indexOf(id);
-    if (options_.lockStep && instances_.at(index).state >= InstanceState::Waking)
+    if (options_.lockStep && instances_.at(index).state >= InstanceState::Waking) {
+        completeStep();
         settleOne(index, false);
+    }
     const Instance* instance = instances_.find(id); // may have ended and gone
     return instance ? instance->state : InstanceState::Finished;
 }
@@ -32,8 +34,9 @@ Scene::Activity Scene::activity(LocalId id)
     if (instance.state == InstanceState::Active)
         activity.milliseconds = double(activity.particles) * nanosecondsPerParticle() * 1e-6;
     if (instance.state >= InstanceState::Waking && world_.lags(instance.slot))
-        activity.lag =
-            clock_.simulated() - std::max(world_.simulated(instance.slot), instance.setup.startTick);
+        activity.lag = clock_.simulated() -
+                       std::max(world_.simulated(instance.slot), instance.setup.startTick) +
+                       world_.missing(instance.slot);
     return activity;
 }
 

@@ -30,7 +30,7 @@ void Scene::comeBack(uint32_t index)
 }
 
 /// The most significant ones first, as far as the budget of an update goes.
-void Scene::catchUpWaking()
+void Scene::catchUpWaking(base::WorkBudget& work)
 {
     candidates_.clear();
     candidates_.reserve(waking_.size());
@@ -47,7 +47,7 @@ void Scene::catchUpWaking()
     uint64_t left = options_.catchUpSteps;
     for (const activation::Candidate& candidate : candidates_) {
         try {
-            if (catchUp(candidate.key, left))
+            if (catchUp(candidate.key, left, work))
                 becomePresent(candidate.key);
         } catch (const std::bad_alloc&) {
             memoryFailed_ = true; // it is tried again in the next update
@@ -56,30 +56,30 @@ void Scene::catchUpWaking()
 }
 
 /// @return true when it is at the present, or at its end
-bool Scene::catchUp(uint32_t index, uint64_t& ioBudget)
+bool Scene::catchUp(uint32_t index, uint64_t& ioBudget, base::WorkBudget& work)
 {
     const Instance& instance = instances_.at(index);
     const sim::CatchUp policy = instance.wasResting ? sim::CatchUp::Analytic : instance.policy;
     const base::Ticks before = world_.simulated(instance.slot);
-    sim::StepCounters work;
+    sim::StepCounters counters;
     bool done = false;
     if (policy == sim::CatchUp::Analytic || policy == sim::CatchUp::Skip) {
         uint64_t nothing = 0; // a jump, which needs no steps
-        done = world_.catchUp(instance.slot, policy, clock_.stepTicks(), nothing, work);
+        done = world_.catchUp(instance.slot, policy, clock_.stepTicks(), nothing, counters, work);
     }
     if (!done && mayForget(policy))
         world_.passOver(instance.slot, clock_.stepTicks());
     const base::Ticks lag = clock_.simulated() - world_.simulated(instance.slot);
-    if (!done && lag > options_.maxCatchUp && !options_.lockStep) {
+    if (!done && lag > options_.maxCatchUp && !options_.lockStep && !instance.isLate) {
         ++counters_.catchUpsSkipped;
         uint64_t nothing = 0;
-        done = world_.catchUp(instance.slot, sim::CatchUp::Skip, clock_.stepTicks(), nothing, work);
+        done = world_.catchUp(instance.slot, sim::CatchUp::Skip, clock_.stepTicks(), nothing, counters, work);
     }
     if (!done)
-        done = world_.catchUp(instance.slot, policy, clock_.stepTicks(), ioBudget, work);
+        done = world_.catchUp(instance.slot, policy, clock_.stepTicks(), ioBudget, counters, work);
     update_.catchUpTicks += std::max<base::Ticks>(world_.simulated(instance.slot) - before, 0);
-    update_.catchUpParticleSteps += work.particleSteps;
-    counters_.work += work;
+    update_.catchUpParticleSteps += counters.particleSteps;
+    counters_.work += counters;
     return done;
 }
 
@@ -93,6 +93,7 @@ void Scene::becomePresent(uint32_t index)
         finish(index);
         return;
     }
+    instance.isLate = false;
     world_.show(instance.slot);
     if (instance.past)
         instance.past->restart(clock_.simulated());
@@ -111,7 +112,7 @@ void Scene::ringAlarms(base::Ticks until)
         if (instance.state == InstanceState::Resting) {
             comeBack(index);
             uint64_t unlimited = UINT64_MAX;
-            if (catchUp(index, unlimited))
+            if (catchUp(index, unlimited, work_))
                 becomePresent(index);
         } else if (isOver) {
             takeBack(index);
@@ -170,8 +171,11 @@ void Scene::settle(bool alsoInexact)
 void Scene::settleOne(uint32_t index, bool alsoInexact)
 {
     Instance& instance = instances_.at(index);
+    base::WorkBudget whole;
+    if (world_.isArriving(instance.slot)) // no budget decides how much of its past there is
+        world_.arrive(instance.slot, clock_.stepTicks(), counters_.work, whole);
     if (!alsoInexact && !isExact(instance.policy))
-        return;
+        return world_.closeStep(instance.slot);
     if (instance.setup.startTick >= clock_.simulated())
         return world_.materialize(instance.slot);
     uint64_t unlimited = UINT64_MAX;

@@ -225,14 +225,15 @@ void Scene::setParameters(LocalId id, const sim::InstanceParameters& parameters)
 
 void Scene::reconsider(const base::StepPlan& plan)
 {
-    update_ = {};
     if (lookAgain_)
         lookAround();
     if (budget_.any())
         keepBudget();
     if (waking_.size() == 0)
         return;
-    catchUpWaking();
+    base::WorkBudget late = lateWork();
+    catchUpWaking(late);
+    work_.spend(late.spent());
     if (plan.steps == 1 && update_.returned > 0)
         stageReturned(plan.firstStep);
 }

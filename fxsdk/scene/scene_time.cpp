@@ -47,12 +47,21 @@ base::Status Scene::seek(LocalId id, base::Ticks local)
         return {base::Code::InvalidArgument, "the instance has not started yet"};
     if (instance.state == InstanceState::Finished)
         return {base::Code::InvalidArgument, "the instance has ended"};
-    world_.seekTo(instance.slot, local, clock_.stepTicks(), counters_.work);
+    if (world_.isStepping()) {
+        seeks_.push_back({id, local});
+        return {};
+    }
+    waking_.reserve(instances_.count()); // where it goes when the way is long
+    base::WorkBudget work(options_.workBudget);
+    const bool isThere = world_.seekTo(instance.slot, local, clock_.stepTicks(), counters_.work, work);
     instance.setup.clock = world_.clockOf(instance.slot);
     instance.setup.cameFrom.reset(); // it has been where it is now from its first step on
     sought_ = true;
     if (instance.state == InstanceState::Resting || instance.state == InstanceState::Hidden)
         comeBack(indexOf(id));
+    else if (instance.state == InstanceState::Active && !isThere)
+        wait(indexOf(id));
+    instance.isLate = !isThere;
     return {};
 }
 
@@ -60,10 +69,14 @@ base::Status Scene::seek(LocalId id, base::Ticks local)
 /// was published before no time has passed, so that all is shown as it is at this step.
 void Scene::showSought()
 {
-    if (waking_.size() > 0)
-        catchUpWaking(); // who rested
+    if (waking_.size() > 0) { // who rested
+        base::WorkBudget late = lateWork();
+        catchUpWaking(late);
+        work_.spend(late.spent());
+    }
     if (active_.size() > 0 || emptyPublications_ <= 2) {
         const base::Ticks now = clock_.simulated();
+        published_ = now;
         world_.publish(active_.slots(), ring_.beginWrite(now, clock_.stepTicks()));
         emptyPublications_ = 0;
         showsNothing_.store(false, std::memory_order_release);

@@ -152,6 +152,7 @@ struct EmitterDef final : SolverDef
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return maxParticles; }
     uint64_t bytes() const override;
+    double workOf(const StepLoad& load) const override;
     bool collides() const override;
     bool heedsPlacement() const override { return inWorld; }
     /// Motion has a closed form: gravity, linear drag and wind alone.

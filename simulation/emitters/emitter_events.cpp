@@ -16,19 +16,21 @@ constexpr uint32_t kBatch = 4096;               // births that are made at once
 constexpr uint32_t kMinTiles = 4;               // fewer cost less than handing them to another thread
 constexpr uint32_t kMostScheduled = 1u << 16;   // births by the clock in one step
 constexpr uint32_t kMostBirthEvents = 1u << 16; // of particles that are born in one step
-constexpr uint32_t kFewestFed = 4096;
 
 /// How many are born of one event, equal for any partition of time.
 uint32_t drawCount(const StepContext& context, const EventRule& rule, uint32_t number,
                    const ParticleEvent& event)
 {
+    const uint32_t fewest = std::min(rule.fewest, rule.most);
+    if (fewest == rule.most && rule.probability >= 1.0f)
+        return fewest;
     uint64_t key = base::hashWord(event.index, uint64_t(event.tick));
     key = base::hashWord(key, uint64_t(number) << 8 | uint64_t(event.kind));
     const auto u = base::randomUnit4(context.seed, context.solverIndex, key, base::RandomPurpose::Events);
     if (!(u[0] < rule.probability))
         return 0;
-    const uint32_t choices = rule.most - std::min(rule.fewest, rule.most) + 1;
-    return std::min(rule.fewest, rule.most) + std::min(uint32_t(u[1] * float(choices)), choices - 1);
+    const uint32_t choices = rule.most - fewest + 1;
+    return fewest + std::min(uint32_t(u[1] * float(choices)), choices - 1);
 }
 
 } // namespace
@@ -89,11 +91,9 @@ std::span<Birth> EmitterSolver::scheduledBirths(const StepContext& context)
 void EmitterSolver::giveLinkedBirth(const StepContext& context, EventList& out)
 {
     const std::span<const Birth> scheduled = scheduledBirths(context);
-    const auto asked =
-        context.board && def_.fed ? context.board->read(context.solverIndex) : std::span<const EventBirth>{};
-    uint64_t wanted = 0;
-    for (const EventBirth& event : asked)
-        wanted += event.count;
+    const EventRequests requests =
+        context.board && def_.fed ? context.board->read(context.solverIndex) : EventRequests{};
+    const uint64_t wanted = requests.asked;
     const size_t room = size_t(std::min<uint64_t>(wanted, std::max(store_.capacity(), kFewestFed)));
     const std::span<Birth> births = context.scratch->allocate<Birth>(scheduled.size() + room);
     const std::span<Origin> origins = context.scratch->allocate<Origin>(scheduled.size() + room);
@@ -102,7 +102,7 @@ void EmitterSolver::giveLinkedBirth(const StepContext& context, EventList& out)
         births[count] = {store_.next() + count, scheduled[byClock++].tick};
         origins[count++] = {};
     };
-    for (const EventBirth& event : asked) {
+    for (const EventBirth& event : requests.births) {
         while (byClock < scheduled.size() &&
                (scheduled[byClock].tick < event.cause.tick ||
                 (scheduled[byClock].tick == event.cause.tick && event.cause.scheduled)))
@@ -179,25 +179,22 @@ void EmitterSolver::answerEvents(const StepContext& context, std::span<const Eve
     }
     context.counters->dropped += lost;
     dropped_ += lost;
+    context.counters->events += count * def_.events.size();
     if (!context.board)
         return;
     for (uint32_t number = 0; number < def_.events.size(); ++number) {
         const EventRule& rule = def_.events[number];
-        const std::span<EventBirth> births = context.scratch->allocate<EventBirth>(count);
-        size_t size = 0;
         const auto answer = [&](const ParticleEvent& event) {
             if (!interest_.answers(rule, event))
                 return;
             EventBirth birth{event, number, drawCount(context, rule, number, event)};
             birth.cause.velocity *= rule.inheritVelocity;
             birth.cause.color = glm::vec3(1.0f) + rule.inheritColor * (event.color - glm::vec3(1.0f));
-            if (birth.count > 0)
-                births[size++] = birth;
+            context.board->post(rule.target, birth);
         };
         for (const EventList& list : lists)
             std::for_each(list.events().begin(), list.events().end(), answer);
         std::for_each(more.events().begin(), more.events().end(), answer);
-        context.board->post(rule.target, births.first(size));
     }
 }
 

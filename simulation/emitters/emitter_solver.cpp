@@ -67,6 +67,12 @@ uint64_t EmitterDef::bytes() const
     return EmitterSolver::bytesOf(*this, *program.of(*this));
 }
 
+double EmitterDef::workOf(const StepLoad& load) const
+{
+    return load.births * emitter_work::kBirth + load.events * emitter_work::kEvent +
+           load.alive * stepWork(*program.of(*this));
+}
+
 uint64_t EmitterSolver::bytesOf(const EmitterDef& def, const ParticleProgram& program)
 {
     const uint64_t rows = def.maxParticles;
@@ -90,7 +96,7 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                              std::pmr::memory_resource* memory)
     : def_(def), program_(*program), kinds_(kinds), store_(program_, memory), schedule_(def.emission, memory),
       shared_(std::move(program)), interest_(def.events, program_.longestLife), lights_(memory),
-      rowsByBirth_(memory)
+      rowsByBirth_(memory), stepWork_(sim::stepWork(program_)), shownWork_(sim::shownWork(def.look.kind))
 {
     const bool isSmall = store_.capacity() <= kFewRows && !program_.gpu;
     const bool isDrawn = def.look.kind == Appearance::Sprite || def.look.kind == Appearance::Mesh;
@@ -176,8 +182,10 @@ void EmitterSolver::stepHere(const StepContext& context)
     heedConditions(context);
     if (gpu_)
         gpu_->noteStep(context);
-    if (gpu_ && gpu_->isOn())
+    if (gpu_ && gpu_->isOn()) {
+        forgetRefusals();
         return stepOnGpu(context);
+    }
     const base::Ticks end = context.tick + context.stepTicks;
     const uint64_t droppedBefore = dropped_;
     if (isLinked()) {
@@ -210,13 +218,34 @@ void EmitterSolver::giveBirth(const StepContext& context, base::Ticks from, base
                               std::span<Birth> room)
 {
     const BirthWindow window{from, to, double(context.parameters->intensity), context.parameters->emitting};
+    if (to <= fullUntil_) {
+        const uint64_t refused = schedule_.advance(window, {}).total;
+        context.counters->born += refused;
+        refuse(refused, *context.counters);
+        store_.advance(refused);
+        return;
+    }
+    const uint64_t droppedBefore = dropped_;
     uint64_t left = kMostLapsPerStep * std::max(store_.capacity(), kBirthBatch);
     const BirthCount count = schedule_.advance(
         window, room, left, [&](std::span<const Birth> births) { storeBatch(context, births); });
     context.counters->born += count.total;
     context.counters->dropped += count.total - count.stored;
+    noteRefusals(count.stored, dropped_ - droppedBefore);
     dropped_ += count.total - count.stored;
     store_.advance(count.total - count.stored);
+}
+
+/// Once all rows have refused a birth, one after the other, none has room before the first of those who live
+/// in them dies: until then births need only be counted.
+void EmitterSolver::noteRefusals(uint64_t asked, uint64_t refused)
+{
+    fullUntil_ = 0;
+    refusedInRow_ = refused == asked ? refusedInRow_ + refused : 0;
+    if (refusedInRow_ < store_.capacity() || program_.mortal || (gpu_ && gpu_->isOn()))
+        return;
+    refusedInRow_ = 0;
+    fullUntil_ = store_.allLiveUntil();
 }
 
 void EmitterSolver::storeBatch(const StepContext& context, std::span<const Birth> births)
@@ -327,6 +356,7 @@ void EmitterSolver::seek(const StepContext& context, base::Ticks tick)
 
 void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
 {
+    forgetRefusals();
     tasks_ = context.tasks;
     schedule_.passTo(now_);
     key_ = {context.seed, context.solverIndex};
@@ -396,6 +426,7 @@ void EmitterSolver::saveState(StateWriter& writer, bool withRows) const
 
 void EmitterSolver::restore(StateReader& reader)
 {
+    forgetRefusals();
     leavePool();
     now_ = reader.value<base::Ticks>(0, kForever, "an emitter's clock is out of range");
     started_ = reader.flag();

@@ -65,6 +65,16 @@ public:
     bool finished(base::Ticks tick) const override;
     /// Exact but while the GPU computes the particles; then an upper bound.
     uint32_t elementCount() const override;
+    uint64_t workOf(const StepCounters& done) const override
+    {
+        return uint64_t(emitter_work::kBirth * double(done.born - done.dropped) +
+                        emitter_work::kEvent * double(done.events) + stepWork_ * double(done.particleSteps)) +
+               1;
+    }
+    uint64_t shownWork() const override
+    {
+        return pool_ ? 0 : uint64_t(shownWork_ * double(store_.rowsInUse()));
+    }
     bool hasElements() const override;
     /// Where motion has a closed form; backwards while the host has changed nothing since local time 0. While
     /// nobody lives and nobody is born, any emitter can.
@@ -139,6 +149,12 @@ private:
     base::Ticks lifetimeOf(double intensity) const;
     void saveState(StateWriter& writer, bool withRows) const;
     std::span<Birth> birthRoom(const StepContext& context) const;
+    void noteRefusals(uint64_t asked, uint64_t refused);
+    void forgetRefusals()
+    {
+        refusedInRow_ = 0;
+        fullUntil_ = 0;
+    }
     void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to, std::span<Birth> room);
     void storeBatch(const StepContext& context, std::span<const Birth> births);
     void move(const StepContext& context, uint64_t firstIndex = 0, EventRoom* room = nullptr);
@@ -238,6 +254,10 @@ private:
     uint64_t dropped_ = 0;
     base::TaskRunner* tasks_ = nullptr;              ///< of the last step
     mutable std::pmr::vector<uint32_t> rowsByBirth_; ///< room to sort what a medium publishes
+    uint64_t refusedInRow_ = 0; ///< births that found their row taken, one after the other
+    base::Ticks fullUntil_ = 0; ///< local time up to which all rows are surely taken
+    double stepWork_;           ///< [unit] of base::WorkBudget, of a particle in a sub-step
+    double shownWork_;          ///< the same once a step
 };
 
 } // namespace fx::sim

@@ -10,49 +10,80 @@
 
 namespace fx::sim {
 
-/// Lives as long as the scratch memory of the step. Threads: one at a time.
+constexpr uint32_t kFewestFed = 4096; ///< births by events that an emitter of any capacity tries in a step
+
+/// What was left for one emitter.
+struct EventRequests
+{
+    std::span<const EventBirth> births; ///< in the order in which they are answered, those that find room
+    uint64_t asked = 0;                 ///< births, those included that do not
+};
+
+/// Keeps no more of the events that give birth in an emitter than fill its room, the first ones in the order
+/// in which they are answered, however many there are and in whatever order they come: memory and time are
+/// those of the room. Lives as long as the scratch memory of the step. Threads: one at a time.
 class EventBoard
 {
 public:
-    EventBoard(base::Arena& scratch, size_t solvers)
-        : scratch_(scratch), notes_(scratch.allocate<const Note*>(solvers))
+    /// @param capacityOf called with the number of a solver: particles that can be alive in it
+    template <class F>
+    EventBoard(base::Arena& scratch, size_t solvers, F&& capacityOf)
+        : scratch_(&scratch), notes_(scratch.allocate<Note>(solvers))
     {
-        std::fill(notes_.begin(), notes_.end(), nullptr);
+        for (size_t i = 0; i < solvers; ++i)
+            notes_[i] = {{}, 0, 0, 0, std::max(capacityOf(i), kFewestFed)};
     }
 
-    /// @param births stay where they are until the step ends
-    void post(uint32_t target, std::span<const EventBirth> births)
+    void post(uint32_t target, const EventBirth& birth)
     {
-        if (births.empty() || target >= notes_.size())
+        if (target >= notes_.size() || birth.count == 0)
             return;
-        Note* const note = scratch_.allocate<Note>(1).data();
-        *note = {births, notes_[target]};
-        notes_[target] = note;
+        Note& note = notes_[target];
+        note.asked += birth.count;
+        const auto begin = note.kept.begin();
+        if (note.wanted >= note.room && comesBefore(*begin, birth))
+            return;
+        if (note.size == note.kept.size())
+            grow(note);
+        note.kept[note.size++] = birth;
+        note.wanted += birth.count;
+        std::push_heap(note.kept.begin(), note.end(), comesBefore);
+        while (note.wanted - note.kept.front().count >= note.room) { // the others fill the room
+            note.wanted -= note.kept.front().count;
+            std::pop_heap(note.kept.begin(), note.end(), comesBefore);
+            --note.size;
+        }
     }
 
-    /// All that was left for `target`, in the order in which it is answered.
-    std::span<const EventBirth> read(uint32_t target)
+    /// Once, when all have been posted.
+    EventRequests read(uint32_t target)
     {
-        size_t count = 0;
-        for (const Note* note = notes_[target]; note; note = note->next)
-            count += note->births.size();
-        const std::span<EventBirth> all = scratch_.allocate<EventBirth>(count);
-        auto end = all.begin();
-        for (const Note* note = notes_[target]; note; note = note->next)
-            end = std::copy(note->births.begin(), note->births.end(), end);
-        std::make_heap(all.begin(), all.end(), comesBefore); // heap sort: no allocation
-        std::sort_heap(all.begin(), all.end(), comesBefore);
-        return all;
+        Note& note = notes_[target];
+        std::sort_heap(note.kept.begin(), note.end(), comesBefore); // no allocation
+        return {note.kept.first(note.size), note.asked};
     }
 
 private:
     struct Note
     {
-        std::span<const EventBirth> births;
-        const Note* next;
+        std::span<EventBirth> kept; ///< the first `size`: a heap whose front is answered last
+        size_t size;
+        uint64_t wanted; ///< births of those
+        uint64_t asked;  ///< births of all that were posted
+        uint64_t room;   ///< births that are tried
+
+        std::span<EventBirth>::iterator end() const { return kept.begin() + ptrdiff_t(size); }
     };
-    base::Arena& scratch_;
-    std::span<const Note*> notes_;
+    void grow(Note& note)
+    {
+        const std::span<EventBirth> larger =
+            scratch_->allocate<EventBirth>(std::max<size_t>(2 * note.kept.size(), 64));
+        std::copy(note.kept.begin(), note.kept.end(), larger.begin());
+        note.kept = larger;
+    }
+
+    base::Arena* scratch_;
+    std::span<Note> notes_;
 };
 
 } // namespace fx::sim

@@ -33,6 +33,10 @@ enum : size_t
 /// Rows in the order of their numbers.
 struct FragmentStore
 {
+    /// [byte] of a row.
+    static constexpr uint64_t kRowBytes =
+        2 * sizeof(uint32_t) + sizeof(base::Ticks) + fragment_column::Count * sizeof(float);
+
     FragmentStore(std::pmr::memory_resource* memory, size_t capacity);
 
     size_t capacity() const { return number.capacity(); }

@@ -63,6 +63,13 @@ struct TrailDef
     float anisotropy = 0.3f;
 };
 
+/// What fragments and their smoke count in units of base::WorkBudget, see docs/howto/bounded-updates.md.
+namespace fragment_work {
+constexpr double kMoved = 12.0; ///< of each fragment and each blob of smoke in a sub-step
+constexpr double kBirth = 10.0; ///< of each that is left or released
+constexpr double kShown = 6.0;  ///< of each, once a step
+} // namespace fragment_work
+
 /// A burst of fragments at one moment.
 struct FragmentsDef final : SolverDef
 {
@@ -92,6 +99,8 @@ struct FragmentsDef final : SolverDef
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return count + (trail.spacing > 0.0f ? trail.maxBlobs : 0); }
+    uint64_t bytes() const override;
+    double workOf(const StepLoad& load) const override;
     bool collides() const override { return true; }
     float reach(float gravity, float wind, float seconds) const override;
 };

@@ -67,7 +67,7 @@ void FragmentsSolver::publishTrail(const base::GroupInfo& base, base::FrameSnaps
 {
     namespace column = trail_column;
     const TrailDef& def = def_.trail;
-    BlobWriter writer(snapshot, base, kind_, trail_.count, uint32_t(trail_.capacity()));
+    BlobWriter writer(snapshot, base, kind_, trail_.count, uint32_t(trail_.held()));
     writer.constant(constant::Layer) = float(uint32_t(base::MediaLayer::Smoke));
     writer.constant(constant::DetailAmount) = def.detailAmount;
     writer.constant(constant::DetailScale) = def.detailScale;

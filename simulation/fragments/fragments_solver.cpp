@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <numbers>
 
 namespace fx::sim {
@@ -138,6 +139,23 @@ FragmentsSolver::FragmentsSolver(const FragmentsDef& def, base::KindId kind,
       trail_(memory, def.capacity() - def.count)
 {}
 
+uint64_t FragmentsDef::bytes() const
+{
+    return uint64_t(count) * FragmentStore::kRowBytes + TrailStore::bytesOf(capacity() - count);
+}
+
+double FragmentsDef::workOf(const StepLoad&) const
+{
+    return (fragment_work::kMoved + fragment_work::kBirth + fragment_work::kShown) * double(capacity());
+}
+
+uint64_t FragmentsSolver::workOf(const StepCounters& done) const
+{
+    return uint64_t(fragment_work::kMoved * double(done.particleSteps) +
+                    fragment_work::kBirth * double(done.born - done.dropped)) +
+           1;
+}
+
 void FragmentsSolver::step(const StepContext& context)
 {
     const std::span<FragmentWay> ways = context.scratch->allocate<FragmentWay>(fragments_.capacity());
@@ -192,7 +210,14 @@ void FragmentsSolver::fly(const TrailStep& step, base::Ticks begin, std::span<Fr
 
 void FragmentsSolver::makeRoom(const StepContext& context, std::span<FragmentWay> ways)
 {
-    uint32_t room = uint32_t(trail_.capacity()) - trail_.count;
+    uint64_t wanted = trail_.count;
+    for (uint32_t i = 0; i < fragments_.count; ++i)
+        wanted += ways[i].blobs;
+    try {
+        trail_.reserve(size_t(std::min<uint64_t>(wanted, trail_.capacity())));
+    } catch (const std::bad_alloc&) { // what there is no memory for counts as dropped
+    }
+    uint32_t room = uint32_t(trail_.held()) - trail_.count;
     for (uint32_t i = 0; i < fragments_.count; ++i) {
         FragmentWay& way = ways[i];
         way.first = trail_.count;

@@ -22,6 +22,8 @@ public:
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
     bool finished(base::Ticks tick) const override;
     uint32_t elementCount() const override { return fragments_.count + trail_.count; }
+    uint64_t workOf(const StepCounters& done) const override;
+    uint64_t shownWork() const override { return uint64_t(fragment_work::kShown * double(elementCount())); }
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
 

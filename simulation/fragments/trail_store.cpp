@@ -1,12 +1,51 @@
 #include "simulation/fragments/trail_store.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace fx::sim {
 
-TrailStore::TrailStore(std::pmr::memory_resource* memory, size_t capacity)
-    : id(memory, capacity), born(memory, capacity), dies(memory, capacity)
+namespace {
+
+constexpr size_t kUsualRows = 8192;
+
+template <class T>
+base::Column<T> grown(std::pmr::memory_resource* memory, const base::Column<T>& from, size_t count,
+                      size_t rows)
 {
-    for (base::Column<float>& column : attributes)
-        column = base::Column<float>(memory, capacity);
+    base::Column<T> column(memory, rows);
+    std::copy_n(from.data(), count, column.data());
+    return column;
+}
+
+} // namespace
+
+TrailStore::TrailStore(std::pmr::memory_resource* memory, size_t most) : memory_(memory), most_(most)
+{
+    reserve(std::min(most, kUsualRows));
+}
+
+uint64_t TrailStore::bytesOf(size_t rows)
+{
+    return uint64_t(rows) *
+           (sizeof(uint64_t) + 2 * sizeof(base::Ticks) + trail_column::Count * sizeof(float));
+}
+
+void TrailStore::reserve(size_t rows)
+{
+    if (rows <= held())
+        return;
+    const size_t more = std::min(std::max({rows, 2 * held()}), most_);
+    base::Column<uint64_t> ids = grown(memory_, id, count, more);
+    base::Column<base::Ticks> births = grown(memory_, born, count, more);
+    base::Column<base::Ticks> deaths = grown(memory_, dies, count, more);
+    std::array<base::Column<float>, trail_column::Count> values;
+    for (size_t c = 0; c < values.size(); ++c)
+        values[c] = grown(memory_, attributes[c], count, more);
+    std::swap(id, ids);
+    std::swap(born, births);
+    std::swap(dies, deaths);
+    std::swap(attributes, values);
 }
 
 void TrailStore::removeDead(base::Ticks tick)
@@ -40,6 +79,10 @@ void TrailStore::save(StateWriter& writer) const
 void TrailStore::restore(StateReader& reader, base::Ticks now)
 {
     count = reader.value<uint32_t>(0, uint32_t(capacity()), "there is room for less smoke of fragments");
+    reader.require(reader.left() >= bytesOf(count), "smoke of fragments is cut short");
+    if (!reader.ok())
+        count = 0;
+    reserve(count);
     reader.values(id.first(count));
     reader.values(born.first(count));
     reader.values(dies.first(count));

@@ -33,12 +33,20 @@ constexpr uint64_t trailId(uint32_t fragment, uint32_t blob)
     return (uint64_t(fragment) << 24) | (blob & 0xFFFFFFu);
 }
 
-/// Rows in the order in which they were left.
-struct TrailStore
+/// Rows in the order in which they were left. Memory is there for a usual number of them and grows beyond.
+class TrailStore
 {
-    TrailStore(std::pmr::memory_resource* memory, size_t capacity);
+public:
+    /// @param most rows that there may ever be
+    TrailStore(std::pmr::memory_resource* memory, size_t most);
 
-    size_t capacity() const { return id.capacity(); }
+    size_t capacity() const { return most_; }     ///< rows that there may ever be
+    size_t held() const { return id.capacity(); } ///< rows that there is memory for
+    /// Makes sure that there is memory for `rows`, at most capacity(): twice as much as before at the least.
+    /// Strong guarantee.
+    void reserve(size_t rows);
+    /// [byte] of so many rows.
+    static uint64_t bytesOf(size_t rows);
     float* at(size_t column) { return attributes[column].data(); }
     const float* at(size_t column) const { return attributes[column].data(); }
 
@@ -54,6 +62,10 @@ struct TrailStore
     base::Column<base::Ticks> born; ///< local time
     base::Column<base::Ticks> dies; ///< local time
     std::array<base::Column<float>, trail_column::Count> attributes;
+
+private:
+    std::pmr::memory_resource* memory_;
+    size_t most_;
 };
 
 } // namespace fx::sim

@@ -124,6 +124,23 @@ float perLifeOf(float seconds)
     return seconds > 0.0f ? 1.0f / std::clamp(seconds, 1.0f / kNoLife, kLongestLife) : kNoLife;
 }
 
+double stepWork(const ParticleProgram& program)
+{
+    using namespace emitter_work;
+    const EmitterDef& def = program.def;
+    double work = kKept + (def.events.empty() ? 0.0 : kScan);
+    if (!program.ballistic)
+        work += kMoved + kForce * double(program.ops.size());
+    return work + (def.forces.curlStrength > 0.0f ? kOctave * double(def.forces.curlOctaves) : 0.0);
+}
+
+double shownWork(Appearance kind)
+{
+    if (kind == Appearance::None)
+        return 0.0;
+    return kind == Appearance::Medium ? emitter_work::kMedium : emitter_work::kDrawn;
+}
+
 size_t bytesMoved(const ParticleProgram& program)
 {
     size_t bytes = program.brief ? sizeof(uint32_t) : sizeof(base::Ticks);

@@ -90,6 +90,24 @@ struct ParticleProgram
     std::shared_ptr<const base::GpuParticleProgram> gpu; ///< null where only the CPU can compute it
 };
 
+/// What emitters count in units of base::WorkBudget, see docs/howto/bounded-updates.md.
+namespace emitter_work {
+constexpr double kBirth = 3.0;  ///< of each particle that is born
+constexpr double kEvent = 3.0;  ///< of each event, for each rule that may answer it
+constexpr double kKept = 0.25;  ///< of each particle in a sub-step
+constexpr double kMoved = 3.0;  ///< of each particle whose motion is integrated, forces apart
+constexpr double kForce = 1.0;  ///< of each module
+constexpr double kOctave = 2.0; ///< of each octave of turbulence
+constexpr double kScan = 1.0;   ///< of each particle whose events somebody asks for
+constexpr double kMedium = 6.0; ///< of each particle of a medium, once a step: to show it
+constexpr double kDrawn = 0.5;  ///< of each other one that is drawn
+} // namespace emitter_work
+
+/// [unit] of base::WorkBudget that one particle counts in a sub-step.
+double stepWork(const ParticleProgram& program);
+/// The same once a step, for showing it.
+double shownWork(Appearance kind);
+
 /// [byte] that a step and a publication read and write of each row, births left out.
 size_t bytesMoved(const ParticleProgram& program);
 

@@ -3,6 +3,7 @@
 #include "simulation/emitters/birth_schedule.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <type_traits>
 
@@ -127,6 +128,18 @@ void ParticleStore::searchFront(base::Ticks now)
         if (index[row] < oldest && isAlive(row, now))
             oldest = index[row];
     front_ = oldest;
+}
+
+base::Ticks ParticleStore::allLiveUntil() const
+{
+    base::Ticks until = std::numeric_limits<base::Ticks>::max();
+    for (uint32_t row = 0; row < capacity_; ++row) {
+        if (index[row] == kNobody)
+            return 0;
+        const double life = double(base::kTicksPerSecond) / double(value(stored::PerLife, row));
+        until = std::min(until, born[row] + base::Ticks(0.999 * life)); // with more than rounding
+    }
+    return until;
 }
 
 uint32_t ParticleStore::countAlive(base::Ticks now) const

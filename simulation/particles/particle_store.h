@@ -101,6 +101,8 @@ public:
             retireFront(now);
     }
     uint32_t countAlive(base::Ticks now) const;
+    /// [tick] up to which those in all rows surely live; only where nothing but age ends lives.
+    base::Ticks allLiveUntil() const;
     bool isAnyAlive(base::Ticks now) const
     {
         return !empty() && (isAlive(rowOf(front_), now) || countAlive(now) > 0);

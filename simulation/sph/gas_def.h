@@ -53,6 +53,8 @@ struct GasDef final : SolverDef
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return particles; }
+    uint64_t bytes() const override;
+    double workOf(const StepLoad& load) const override;
     bool collides() const override { return true; }
     CatchUp catchUp() const override { return CatchUp::Authoritative; }
 };

@@ -24,8 +24,6 @@ constexpr double kShift = 0.8;         ///< [1] strength of particle-shifting
 constexpr double kLongestShift = 0.06; ///< [1] of a spacing, between two exchanges with the air
 constexpr double kNudge = 1.25; ///< [1] change of the pressure scale that waits for the next evaluation
 
-constexpr double kMostSlices = 64.0; ///< exchanges with the air in a step
-
 void count(const AdvanceReport& report, StepCounters& counters)
 {
     counters.subSteps += report.subSteps;
@@ -64,12 +62,6 @@ void collide(const Collider& collider, const GasView<float>& view, uint32_t i, c
     view.vz[i] = velocity.z;
 }
 
-/// Support of particles with so many neighbors that fill a ball of `radius` evenly.
-double evenSupport(double radius, uint32_t particles, double neighbors)
-{
-    return radius * base::cubeRoot(neighbors / double(particles));
-}
-
 GasDynamicsDef dynamicsOf(const GasDef& def, const ChargePlan& plan, const Quality& quality)
 {
     const uint32_t count = particlesOf(def, quality);
@@ -80,7 +72,7 @@ GasDynamicsDef dynamicsOf(const GasDef& def, const ChargePlan& plan, const Quali
     dynamics.viscosity.alphaMax = std::max(double(def.viscosity), dynamics.viscosity.alphaMin);
     dynamics.viscosity.decay = 0.1;        // soon: rolls are to last
     dynamics.viscosity.conductivity = 0.0; // mixing is entrainment's
-    dynamics.courant = 0.6;
+    dynamics.courant = kGasCourant;
     dynamics.exact = quality.level == QualityLevel::Reference;
     dynamics.volumeChange = 0.5; // a look, not a measurement
     dynamics.maxSubSteps = kMostGasSubSteps;
@@ -96,6 +88,11 @@ GasDynamicsDef dynamicsOf(const GasDef& def, const ChargePlan& plan, const Quali
 
 } // namespace
 
+double evenSupport(double radius, uint32_t particles, double neighbors)
+{
+    return radius * base::cubeRoot(neighbors / double(particles));
+}
+
 std::unique_ptr<Solver> GasDef::create(const base::SnapshotSchema& schema, const Quality& quality,
                                        std::pmr::memory_resource* memory) const
 {
@@ -108,30 +105,64 @@ GasSolver::GasSolver(const GasDef& def, const Quality& quality, base::KindId kin
       plan_(planCharge(*def.material, def.energy, double(def.pressureRatio))),
       thermodynamics_{plan_.gamma, def.material->gasConstant, AmbientAir{}},
       particles_(particlesOf(def, quality)), gas_(dynamicsOf(def, plan_, quality), memory),
-      parcels_(memory, particles_), scratch_(memory, particles_),
+      parcels_(memory, particles_), scratch_(memory, particles_), memory_(memory),
       released_(def.start > 0.0f ? base::toTicks(std::min(double(def.start), 1e9)) : 0)
 {}
 
-void GasSolver::step(const StepContext& context)
+/// @return false when there is nothing to be done in the step
+bool GasSolver::begin(const StepContext& context, base::WorkBudget& work)
 {
+    gas_.abandonAdvance(); // of a step that ended in an exception
+    open_ = {};
     now_ = context.tick + context.stepTicks;
-    if (done_ || now_ <= released_ || (!begun_ && !release(context)))
-        return;
-    const double seconds = base::toSeconds(now_ - std::max(context.tick, released_));
-    std::span<glm::vec3> before;
-    if (context.collider)
-        before = context.scratch->allocate<glm::vec3>(particles_);
-    for (double left = seconds; left > 0.0;) {
-        const double slice = exchange(context, left, seconds / kMostSlices);
-        if (context.collider)
-            rememberPlaces(gas_.view(), before);
-        const base::Result<AdvanceReport> report = gas_.advance(slice, *context.tasks);
+    if (done_ || now_ <= released_)
+        return false;
+    if (!begun_) {
+        if (!release(context))
+            return false;
+        work.spend(uint64_t(particles_) * kGasReleaseWork);
+    }
+    open_.tick = context.tick;
+    open_.seconds = open_.left = base::toSeconds(now_ - std::max(context.tick, released_));
+    return true;
+}
+
+bool GasSolver::proceed(const StepContext& context, base::WorkBudget& work)
+{
+    if (open_.tick != context.tick && !begin(context, work))
+        return true;
+    const std::span<glm::vec3> before = ways(context);
+    while (open_.left > 0.0) {
+        if (open_.slice == 0.0) {
+            if (work.isSpent())
+                return false;
+            open_.slice = exchange(context, open_.left, open_.seconds / kMostGasSlices);
+            work.spend(uint64_t(particles_) * kGasExchangeWork);
+            if (context.collider)
+                rememberPlaces(gas_.view(), before);
+        }
+        const base::Result<AdvanceReport> report = gas_.advance(open_.slice, *context.tasks, work);
+        if (gas_.isAdvancing())
+            return false;
         if (report.ok())
             count(*report, *context.counters);
-        settle(context, float(slice), before);
-        left = slice < left ? left - slice : 0.0;
+        settle(context, float(open_.slice), before);
+        open_.left = open_.slice < open_.left ? open_.left - open_.slice : 0.0;
+        open_.slice = 0.0;
     }
+    open_ = {};
     retireWhenDissolved();
+    return true;
+}
+
+/// Room for the place of each parcel, by id; none without geometry.
+std::span<glm::vec3> GasSolver::ways(const StepContext& context)
+{
+    if (!context.collider)
+        return {};
+    if (ways_.capacity() == 0)
+        ways_ = base::Column<glm::vec3>(memory_, particles_);
+    return ways_.first(particles_);
 }
 
 bool GasSolver::release(const StepContext& context)
@@ -149,11 +180,8 @@ bool GasSolver::release(const StepContext& context)
         return false;
     hottest_ = float(plan.temperature);
     gas_.initialize(*context.tasks);
-    std::span<glm::vec3> before;
-    if (context.collider) { // all ways begin at the charge: none leads through a wall
-        before = context.scratch->allocate<glm::vec3>(particles_);
-        std::fill(before.begin(), before.end(), def_.position);
-    }
+    const std::span<glm::vec3> before = ways(context);
+    std::fill(before.begin(), before.end(), def_.position); // all ways begin there: none leads through a wall
     settle(context, 0.0f, before);
     context.counters->born += particles_;
     return true;

@@ -13,6 +13,16 @@ namespace fx::sim {
 /// Most sub-steps between two exchanges with the air. What they do not cover is not simulated, and reported
 /// as debt.
 constexpr uint32_t kMostGasSubSteps = 400;
+constexpr double kMostGasSlices = 64.0; ///< exchanges with the air in a step
+constexpr double kGasCourant = 0.6;
+
+// [unit] of base::WorkBudget, for each particle
+constexpr uint64_t kGasReleaseWork = 200;
+constexpr uint64_t kGasExchangeWork = 45;
+constexpr uint64_t kGasBytes = 1500; ///< [byte] of each particle, about, lists of neighbors included
+
+/// [m] Support of particles with so many neighbors that fill a ball of `radius` evenly.
+double evenSupport(double radius, uint32_t particles, double neighbors);
 
 /// Gas dynamics between exchanges with the air, which come as often as the cloud moves a third of its size,
 /// and in every step.
@@ -24,7 +34,12 @@ public:
     GasSolver(const GasDef& def, const Quality& quality, base::KindId kind,
               std::pmr::memory_resource* memory);
 
-    void step(const StepContext& context) override;
+    void step(const StepContext& context) override
+    {
+        base::WorkBudget unlimited;
+        proceed(context, unlimited);
+    }
+    bool proceed(const StepContext& context, base::WorkBudget& work) override;
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
     bool finished(base::Ticks) const override { return done_; }
     uint32_t elementCount() const override { return done_ ? 0 : gas_.count(); }
@@ -32,7 +47,17 @@ public:
     void restore(StateReader& reader) override;
 
 private:
+    /// A step that goes on in further calls.
+    struct Open
+    {
+        base::Ticks tick = -1; ///< at which it began; -1 while there is none
+        double seconds = 0;    ///< [s] of all of it
+        double left = 0;       ///< [s] of that, from the beginning of the slice in hand
+        double slice = 0;      ///< [s] of gas dynamics between two exchanges; 0 between slices
+    };
+    bool begin(const StepContext& context, base::WorkBudget& work);
     bool release(const StepContext& context);
+    std::span<glm::vec3> ways(const StepContext& context);
     /// [m/s]
     struct FlowSpeeds
     {
@@ -58,9 +83,12 @@ private:
     GasDynamics<float> gas_;
     GasParcels parcels_;
     base::Column<GasParticle> scratch_; ///< of the release
-    float hottest_ = 0;                 ///< [K] of all parcels at the end of the last step
-    base::Ticks released_;              ///< local time of the release
-    base::Ticks now_ = 0;               ///< end of the last step
+    std::pmr::memory_resource* memory_;
+    base::Column<glm::vec3> ways_; ///< [m] where the way of each parcel began; made when geometry is met
+    Open open_;
+    float hottest_ = 0;    ///< [K] of all parcels at the end of the last step
+    base::Ticks released_; ///< local time of the release
+    base::Ticks now_ = 0;  ///< end of the last step
     bool begun_ = false;
     bool done_ = false;
 };

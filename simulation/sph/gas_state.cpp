@@ -26,6 +26,8 @@ void GasSolver::save(StateWriter& writer) const
 
 void GasSolver::restore(StateReader& reader)
 {
+    gas_.abandonAdvance();
+    open_ = {};
     now_ = reader.value<base::Ticks>(0, INT64_MAX / 4, "a gas's clock is out of range");
     begun_ = reader.flag();
     done_ = reader.flag();

@@ -57,6 +57,10 @@ typedef struct FxSceneDef
     uint32_t catchUpSteps;     ///< particle steps of one update that may be spent on replays, >= 1; default
                                ///< 200,000
     uint32_t reserved;         ///< 0
+    /// Work units that one update may spend, 0 for no limit; default 10,000,000, about 100 ms of one core.
+    /// See fxScene_Update. What it does not cover is done by the next updates, in the same steps with the
+    /// same results.
+    uint64_t workBudget;
 } FxSceneDef;
 
 /// The definition of a scene that steps 60 times a second.
@@ -75,7 +79,8 @@ static inline FxSceneDef fxDefaultSceneDef(void)
                       5 * FX_TICKS_PER_SECOND,
                       30 * FX_TICKS_PER_SECOND,
                       200000,
-                      0};
+                      0,
+                      10000000};
     return def;
 }
 
@@ -228,6 +233,9 @@ typedef struct FxSceneStatistics
     uint32_t instancesHidden;  ///< out of sight
     uint32_t reserved2;        ///< 0
     uint64_t catchUpsSkipped;  ///< absences too long to be replayed: their time was left out
+    int64_t timeDebtTicks;     ///< [tick] steps that are due and found too little work in updates so far; the
+                               ///< next updates take them
+    uint64_t updateWork;       ///< work units that the last update has spent, see FxSceneDef::workBudget
 } FxSceneStatistics;
 
 /// Creates an empty scene at time 0; the calling thread becomes its scene thread. [any]
@@ -304,11 +312,12 @@ FX_API FxResult fxScene_SetInstanceSpeed(FxScene* scene, FxInstanceId instance, 
 /// Takes an instance to a time of its own, forwards or backwards, as if it had been played to there from its
 /// beginning under the wind, intensity and place that it has now: bit for bit, when the time is a whole
 /// number of the scene's steps. Emitters whose motion has a closed form jump there; everything else takes
-/// the steps again, in this call. What fxScene_TriggerEvent told it is left out. Views and snapshots see it
-/// after the next fxScene_Update(), also after one of 0 s: an editor that stands still seeks, updates by 0
-/// and renders. Until time goes on, the whole scene is then shown as it is at its last step. To play
-/// backwards, seek to an earlier time before each frame: where motion has no closed form, each seek takes all
-/// steps from the beginning. [scene thread]
+/// the steps again, in this call as far as FxSceneDef::workBudget goes, and for the rest the instance waits
+/// (FX_INSTANCE_WAKING) through the next updates. What fxScene_TriggerEvent told it is left out. Views and
+/// snapshots see it after the next fxScene_Update(), also after one of 0 s: an editor that stands still
+/// seeks, updates by 0 and renders. Until time goes on, the whole scene is then shown as it is at its last
+/// step. To play backwards, seek to an earlier time before each frame: where motion has no closed form, each
+/// seek takes all steps from the beginning. [scene thread]
 /// @param seconds [s] 0..86400 since its beginning, rounded to a tick
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (not finite, out of range, or the instance has not started or has
 ///         ended), FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
@@ -353,6 +362,18 @@ FX_API FxResult fxScene_SetContactHook(FxScene* scene, const FxContactHook* hook
 
 /// Adds time and takes the steps that are due, then publishes the last two of them for views and hosts.
 /// Allocates nothing once the scene is warm, except when an instance wakes. [scene thread]
+///
+/// An update spends at most FxSceneDef::workBudget, and what the piece of work that exceeds it still takes: a
+/// sub-step of one emitter or one burst of fragments, of one gas a sub-step of its own, and showing a
+/// complete step. Work is counted, not timed, so that equal calls stop at the same place on every machine. A
+/// step that is not complete goes on with the next update; until then views see the last complete one, and
+/// scene time is behind: FxSceneStatistics::timeDebtTicks. Debt beyond maxCatchUpTicks is dropped and counted
+/// as droppedTicks. All steps give the bits that they give without a budget. Prewarm and seeks that the
+/// budget does not cover make their instance wait (FX_INSTANCE_WAKING) while the others go on.
+/// While a step is not complete, transforms, parameters, speeds, triggers, seeks and new instances hold from
+/// its end on, and destroyed instances are no longer shown. fxScene_SaveState, fxScene_GetSimulationHash,
+/// fxScene_SetCollisionMesh and fxScene_SetContactHook complete it first, however long that takes;
+/// fxScene_GetStateHash tells of what was published last.
 /// @param dtSeconds [s] >= 0; 0 takes no step, and shows what fxScene_SeekInstance() has changed; more than
 /// maxFrameTicks is shortened to it and counted
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (negative or not finite: counted, nothing advances),

@@ -41,6 +41,15 @@ struct ListState
     double perStep = 0; ///< [1] `moved` of the last sub-step
 };
 
+/// A call of advance() that goes on in further calls.
+struct Advance
+{
+    bool isOpen = false;
+    double left = 0;  ///< [s] of what was asked for
+    double frame = 0; ///< [s] of the frame that is open; 0 between frames
+    AdvanceReport report;
+};
+
 template <class T>
 struct DynamicsState
 {
@@ -107,6 +116,7 @@ struct DynamicsState
     std::atomic<uint64_t> clamped{0};
     uint64_t pairSum = 0;
     uint64_t searches = 0;
+    Advance advance;
 };
 
 /// Largest and smallest of values that threads offer; the order in which they come does not matter.

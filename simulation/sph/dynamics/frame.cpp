@@ -18,6 +18,13 @@ namespace {
 /// thousand times before they meet the tick; longer times are cut into frames.
 constexpr double kMostSteps = 1 << 20;
 
+/// [unit] of a sub-step: of all particles, of those whose rates are evaluated, and of their ordered pairs.
+uint64_t workOf(uint64_t particles, uint64_t evaluated, uint64_t pairs)
+{
+    return particles * gas_work::kParticle / gas_work::kParts + evaluated * gas_work::kEvaluation +
+           pairs * gas_work::kPair / gas_work::kParts;
+}
+
 /// Particles where they are now, sorted when searches have become slow.
 template <class T>
 void lookAround(DynamicsState<T>& s, base::TaskRunner& tasks)
@@ -135,29 +142,42 @@ void prepare(DynamicsState<T>& s, base::TaskRunner& tasks)
 }
 
 template <class T>
-AdvanceReport runFrames(DynamicsState<T>& s, double seconds, base::TaskRunner& tasks)
+AdvanceReport runFrames(DynamicsState<T>& s, double seconds, base::TaskRunner& tasks, base::WorkBudget& work)
 {
-    AdvanceReport report;
-    s.clamped = 0;
-    s.pairSum = s.searches = 0;
-    if (s.mustRecoverTree)
-        recoverTree(s, tasks);
-    prepare(s, tasks);
-    double left = seconds;
-    while (left > 0 && s.count > 0 && report.subSteps < s.def.maxSubSteps) {
-        const double frame = std::min(left, kMostSteps * shortestStep(s, tasks));
-        openFrame(s, frame, tasks);
+    Advance& advance = s.advance;
+    AdvanceReport& report = advance.report;
+    if (!advance.isOpen) {
+        advance = {true, seconds, 0.0, {}};
+        s.clamped = 0;
+        s.pairSum = s.searches = 0;
+        if (s.mustRecoverTree)
+            recoverTree(s, tasks);
+        prepare(s, tasks);
+        work.spend(workOf(s.count, s.count, s.pairSum));
+    }
+    while (advance.left > 0 && s.count > 0 && report.subSteps < s.def.maxSubSteps) {
+        if (advance.frame == 0.0) {
+            advance.frame = std::min(advance.left, kMostSteps * shortestStep(s, tasks));
+            openFrame(s, advance.frame, tasks);
+        }
         while (s.now < kFrameTicks && report.subSteps < s.def.maxSubSteps) {
+            if (work.isSpent())
+                return report;
             const bool isLast = report.subSteps + 1 == s.def.maxSubSteps;
-            report.particleSteps += subStep(s, isLast, tasks);
+            const uint64_t pairsBefore = s.pairSum;
+            const uint32_t evaluated = subStep(s, isLast, tasks);
+            work.spend(workOf(s.count, evaluated, s.pairSum - pairsBefore));
+            report.particleSteps += evaluated;
             ++report.subSteps;
         }
-        const double done = s.now == kFrameTicks ? frame : double(s.now) * s.tick;
-        left = done == left ? 0.0 : left - done;
+        const double done = s.now == kFrameTicks ? advance.frame : double(s.now) * s.tick;
+        advance.left = done == advance.left ? 0.0 : advance.left - done;
+        advance.frame = 0.0;
         passTime(s, done);
         rest(s);
     }
-    report.debt = s.count > 0 ? left : 0.0;
+    advance.isOpen = false;
+    report.debt = s.count > 0 ? advance.left : 0.0;
     report.seconds = seconds - report.debt;
     report.pairs = s.pairSum;
     report.searches = s.searches;
@@ -167,7 +187,7 @@ AdvanceReport runFrames(DynamicsState<T>& s, double seconds, base::TaskRunner& t
 
 #define FX_INSTANTIATE(T)                                                                                    \
     template void prepare<T>(DynamicsState<T>&, base::TaskRunner&);                                          \
-    template AdvanceReport runFrames<T>(DynamicsState<T>&, double, base::TaskRunner&);
+    template AdvanceReport runFrames<T>(DynamicsState<T>&, double, base::TaskRunner&, base::WorkBudget&);
 FX_INSTANTIATE(float)
 FX_INSTANTIATE(double)
 #undef FX_INSTANTIATE

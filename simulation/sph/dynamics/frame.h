@@ -11,8 +11,10 @@ namespace fx::sim {
 template <class T>
 void prepare(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Steps by `seconds` > 0 within the budget of sub-steps.
+/// Steps by `seconds` > 0 within the budget of sub-steps. Where `work` is spent before, state.advance stays
+/// open, and the next call goes on; the report is that of all calls.
 template <class T>
-AdvanceReport runFrames(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks);
+AdvanceReport runFrames(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks,
+                        base::WorkBudget& work);
 
 } // namespace fx::sim

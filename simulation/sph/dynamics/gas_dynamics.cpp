@@ -74,7 +74,8 @@ void GasDynamics<T>::initialize(base::TaskRunner& tasks)
 }
 
 template <class T>
-base::Result<AdvanceReport> GasDynamics<T>::advance(double seconds, base::TaskRunner& tasks)
+base::Result<AdvanceReport> GasDynamics<T>::advance(double seconds, base::TaskRunner& tasks,
+                                                    base::WorkBudget& work)
 {
     if (!base::isFinite(seconds) || seconds < 0)
         return base::Status(base::Code::InvalidArgument,
@@ -82,7 +83,19 @@ base::Result<AdvanceReport> GasDynamics<T>::advance(double seconds, base::TaskRu
     if (seconds == 0)
         return AdvanceReport{};
     const base::FloatingPointScope floatingPoint;
-    return runFrames(*state_, seconds, tasks);
+    return runFrames(*state_, seconds, tasks, work);
+}
+
+template <class T>
+bool GasDynamics<T>::isAdvancing() const
+{
+    return state_->advance.isOpen;
+}
+
+template <class T>
+void GasDynamics<T>::abandonAdvance()
+{
+    state_->advance = {};
 }
 
 template <class T>

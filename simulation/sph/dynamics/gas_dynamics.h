@@ -10,6 +10,7 @@
 
 #include "foundation/result/status.h"
 #include "foundation/tasks/task_runner.h"
+#include "foundation/tasks/work_budget.h"
 #include "simulation/sph/dynamics/state_equation.h"
 #include "simulation/sph/neighbors/domain.h"
 #include "simulation/sph/pair_loops/sph_kernel.h"
@@ -80,6 +81,14 @@ struct GasDynamicsDef
                          ///< cloud in air that is not simulated, whose surface the density sum sees too thin
 };
 
+/// What sub-steps count, in units of base::WorkBudget.
+namespace gas_work {
+constexpr uint64_t kParts = 16;
+constexpr uint64_t kParticle = 24;   ///< of kParts, for each particle there is: prediction, search
+constexpr uint64_t kEvaluation = 30; ///< for each whose rates are evaluated, pairs apart
+constexpr uint64_t kPair = 12;       ///< of kParts, for each ordered pair
+} // namespace gas_work
+
 /// Sums over all particles, in double, in a fixed order.
 struct GasTotals
 {
@@ -147,7 +156,18 @@ public:
     /// Steps by `seconds`: 0 changes nothing; NaN, infinite and negative values are refused (the state
     /// unchanged). All particles are synchronous afterwards. Results that are not numbers never enter the
     /// state: the particle keeps what it had, and the report counts it.
-    base::Result<AdvanceReport> advance(double seconds, base::TaskRunner& tasks);
+    /// @param work what each sub-step counts is spent of it; where it is spent before the time is over,
+    ///             isAdvancing() is true, and the same call has to be made again, before any other, until it
+    ///             is not. The sub-steps are the same, and the last report is that of all of them.
+    base::Result<AdvanceReport> advance(double seconds, base::TaskRunner& tasks, base::WorkBudget& work);
+    base::Result<AdvanceReport> advance(double seconds, base::TaskRunner& tasks)
+    {
+        base::WorkBudget unlimited;
+        return advance(seconds, tasks, unlimited);
+    }
+    bool isAdvancing() const;
+    /// Leaves the rest of an advance that was begun.
+    void abandonAdvance();
 
     /// Gives particle `id` < count() `joules` of heat: exact at constant density, negative takes heat away
     /// (refused where there is not so much). Its neighborhood wakes up.

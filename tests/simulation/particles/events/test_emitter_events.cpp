@@ -172,23 +172,42 @@ TEST(EventBoard, isReadInTheOrderOfTicks)
 {
     base::HostMemory memory;
     base::Arena arena(&memory);
-    EventBoard board(arena, 2);
+    EventBoard board(arena, 2, [](size_t) { return 1u; });
     const auto at = [](base::Ticks tick, uint32_t rule) {
         EventBirth birth{};
         birth.cause.tick = tick;
         birth.rule = rule;
+        birth.count = 1;
         return birth;
     };
-    const std::array first{at(5, 0), at(1, 0)}, second{at(3, 0), at(1, 1)};
-    board.post(1, first);
-    board.post(1, second);
-    const auto read = board.read(1);
+    for (const EventBirth& birth : {at(5, 0), at(1, 0), at(3, 0), at(1, 1)})
+        board.post(1, birth);
+    const auto read = board.read(1).births;
     ASSERT_EQ(read.size(), 4u);
     EXPECT_EQ(read[0].cause.tick, 1);
     EXPECT_EQ(read[0].rule, 0u);
     EXPECT_EQ(read[1].rule, 1u);
     EXPECT_EQ(read[3].cause.tick, 5);
-    EXPECT_TRUE(board.read(0).empty());
+    EXPECT_TRUE(board.read(0).births.empty());
+}
+
+TEST(EventBoard, keepsTheFirstEventsThatFillTheRoomAndCountsAll)
+{
+    base::HostMemory memory;
+    base::Arena arena(&memory);
+    constexpr uint32_t kRoom = 2 * kFewestFed, kCount = 100, kEvents = 5000;
+    EventBoard board(arena, 1, [](size_t) { return kRoom; });
+    for (uint32_t i = 0; i < kEvents; ++i) {
+        EventBirth birth{};
+        birth.cause.tick = base::Ticks(i * 7919u % kEvents); // each once, in no order
+        birth.count = kCount;
+        board.post(0, birth);
+    }
+    const EventRequests requests = board.read(0);
+    EXPECT_EQ(requests.asked, uint64_t(kEvents) * kCount);
+    ASSERT_EQ(requests.births.size(), (kRoom + kCount - 1) / kCount);
+    for (size_t i = 0; i < requests.births.size(); ++i)
+        EXPECT_EQ(requests.births[i].cause.tick, base::Ticks(i));
 }
 
 TEST(EmitterEvents, aRepeatedAgeHappensAgainAndAgainForAnySteps)

@@ -1,0 +1,196 @@
+// The steps of an update, and what becomes of those that its budget of work does not cover.
+#include "fxsdk/scene/scene.h"
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+
+namespace fx::scene {
+
+namespace {
+constexpr uint64_t kLateShare = 4; ///< of one part in so many of the work of an update, late ones are first
+constexpr base::Ticks kMostDropped = INT64_MAX; ///< no sum goes beyond it
+} // namespace
+
+void Scene::takeSteps(const base::StepPlan& plan)
+{
+    update_ = {};
+    bool isPrepared = false, hasMoved = false;
+    uint32_t taken = 0;
+    for (; taken < plan.steps && !(taken > 0 && work_.isSpent()); ++taken) {
+        const base::Ticks from = plan.firstStep + base::Ticks(taken) * clock_.stepTicks();
+        const bool begins = !world_.isStepping();
+        if (begins && !isPrepared)
+            prepareSteps({plan.steps - taken, from});
+        isPrepared = isPrepared || begins;
+        try {
+            hasMoved = hasMoved || (begins && !moved_.empty());
+            if (begins && !moved_.empty())
+                moveOn(taken + 1, plan.steps);
+            if (begins)
+                beginStep(from);
+            if (!proceed())
+                break;
+            endStep(from + clock_.stepTicks());
+            const bool isLast = taken + 1 == plan.steps;
+            if (taken + 2 >= plan.steps || isShort(stepWork_))
+                publish(from + clock_.stepTicks(), isLast ? clock_.interpolation() : 0.0);
+            makeChanges();
+        } catch (const std::bad_alloc&) {
+            memoryFailed_ = true; // must not stop the steps that follow: the clock has already counted them
+        }
+    }
+    if (hasMoved)
+        endMoves(taken == plan.steps);
+    if (taken < plan.steps)
+        postpone(plan.steps - taken);
+    update_.workUnits = work_.spent();
+}
+
+/// Before the first step that begins in an update.
+void Scene::prepareSteps(const base::StepPlan& plan)
+{
+    reconsider(plan);
+    if (sought_)
+        heedSought(plan);
+}
+
+/// The last steps of the plan found no work left. What is shown is the last that was published.
+void Scene::postpone(uint32_t steps)
+{
+    clock_.postpone(steps);
+    countDropped(clock_.forgive(options_.maxCatchUp));
+    std::lock_guard lock(presentation_);
+    show(published_, clock_.interpolation());
+}
+
+void Scene::countDropped(base::Ticks ticks)
+{
+    counters_.droppedTicks = std::min(counters_.droppedTicks, kMostDropped - ticks) + ticks;
+}
+
+/// What may be spent on those who are late before the steps of the update.
+base::WorkBudget Scene::lateWork() const
+{
+    if (work_.left() == base::kNoWorkLimit)
+        return base::WorkBudget();
+    return base::WorkBudget(work_.left() / kLateShare + 1);
+}
+
+/// Whether the next step may well find too little work to be complete in this update.
+bool Scene::isShort(uint64_t stepWork) const
+{
+    return work_.left() / 2 < stepWork;
+}
+
+void Scene::beginStep(base::Ticks from)
+{
+    const base::Ticks to = from + clock_.stepTicks();
+    stepWork_ = 0;
+    if (!dormant_.empty())
+        wake(to);
+    if (!alarms_.empty())
+        ringAlarms(to);
+    if (!arrived_.empty())
+        letArrive();
+    if (active_.size() > 0)
+        world_.beginStep(active_.slots(), from, clock_.stepTicks());
+    else
+        world_.passTime(to);
+}
+
+/// @return whether the step in hand is complete
+bool Scene::proceed()
+{
+    if (!world_.isStepping())
+        return true;
+    const uint64_t before = work_.spent();
+    sim::StepCounters done;
+    const auto start = std::chrono::steady_clock::now();
+    const bool isComplete = world_.proceed(work_, done);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    const bool isWhole = stepWork_ == 0;
+    stepWork_ += work_.spent() - before;
+    if (isWhole && isComplete)
+        measureTime(took.count(), done.particleSteps);
+    update_.work += done;
+    counters_.work += done;
+    return isComplete;
+}
+
+void Scene::endStep(base::Ticks to)
+{
+    if (coarse_.size() > 0 && to / clock_.stepTicks() % sim::kCoarseSteps == 0)
+        for (const sim::Slot slot : coarse_.slots())
+            world_.stepCoarsely(slot, clock_.stepTicks(), counters_.work, work_);
+    ++counters_.steps;
+    if (active_.size() > 0) {
+        retireFinished(to);
+        restOrNot(to);
+    }
+    if (world_.spares() > 0)
+        world_.trimSpares(to - options_.releaseAfter);
+}
+
+/// What the host has changed while the step was in hand.
+void Scene::makeChanges()
+{
+    if (world_.hasChanges())
+        world_.makeChanges();
+    while (!seeks_.empty()) {
+        const Seek wanted = seeks_.front();
+        seeks_.erase(seeks_.begin());
+        if (contains(wanted.id))
+            static_cast<void>(seek(wanted.id, wanted.to)); // what has ended meanwhile stays where it is
+    }
+}
+
+/// Who begins with a past, prewarm, gets it before the first step; those for whom the work does not suffice
+/// are on their way to the present from then on, while the scene goes on.
+void Scene::letArrive()
+{
+    for (; !arrived_.empty(); arrived_.erase(arrived_.begin())) {
+        if (!contains(arrived_.front()))
+            continue;
+        const uint32_t index = indexOf(arrived_.front());
+        if (instances_.at(index).state != InstanceState::Active)
+            continue;
+        sim::StepCounters done;
+        base::WorkBudget half(work_.left() == base::kNoWorkLimit ? work_.left() : work_.left() / 2);
+        const bool isThere = world_.arrive(instances_.at(index).slot, clock_.stepTicks(), done, half);
+        work_.spend(half.spent());
+        counters_.work += done;
+        if (!isThere)
+            wait(index);
+    }
+}
+
+/// An active instance that is not at the present yet is not shown before it is.
+void Scene::wait(uint32_t index)
+{
+    Instance& instance = instances_.at(index);
+    waking_.reserve(instances_.count());
+    active_.remove(instance.serial);
+    world_.hide(instance.slot);
+    instance.wasResting = false;
+    instance.isLate = true;
+    instance.state = InstanceState::Waking;
+    instance.reason = Reason::CatchingUp;
+    waking_.insert(instance.serial, index, instance.slot);
+}
+
+/// Ends the step in hand, however much work it takes.
+void Scene::completeStep()
+{
+    if (!world_.isStepping())
+        return;
+    work_ = base::WorkBudget();
+    proceed();
+    const base::Ticks to = clock_.simulated() + clock_.stepTicks();
+    endStep(to);
+    clock_.takePostponed();
+    publish(to, clock_.interpolation());
+    makeChanges();
+}
+
+} // namespace fx::scene
