@@ -15,6 +15,14 @@
 
 namespace fx::sim {
 
+/// What an instance is expected to need, at medium quality, with steps of 1/60 s.
+struct EffectCost
+{
+    double stepWork = 0;  ///< [unit] of base::WorkBudget, of the most expensive step
+    double startWork = 0; ///< [unit] of the prewarm
+    uint64_t memory = 0;  ///< [byte] of solvers and snapshots
+};
+
 struct EffectDef
 {
     std::string name;
@@ -30,6 +38,7 @@ struct EffectDef
     /// Where events of one solver's particles give birth in another's: all solvers, causes before effects.
     std::vector<uint32_t> order;
     std::vector<std::string> hostEvents; ///< names of what the host may say
+    EffectCost cost;                     ///< as the preset's loader has estimated it
 
     /// True when the host's geometry changes what it does.
     bool collides() const

@@ -6,6 +6,7 @@
 #include "fxsdk/api/versioned_struct.h"
 #include "fxsdk/presets/preset_loader.h"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,7 @@ using fx::base::Status;
 using fx::preset::LoadedPreset;
 
 constexpr std::string_view kLibraryPrefix = "library:";
+constexpr double kMostWork = 1e18; ///< [unit] that is told
 
 /// The host's asset hook in the form that the resolver asks for.
 int readThroughHook(void* user, const char* name, uint64_t maxBytes,
@@ -178,6 +180,9 @@ FxResult fxGetPresetInfo(FxContext* context, FxPresetId preset, FxPresetInfo* io
         info.solverCount = uint32_t((*effect)->solvers.size());
         info.durationTicks = (*effect)->duration;
         info.capacity = capacityOf(**effect);
+        info.memoryBytes = (*effect)->cost.memory;
+        info.stepWork = uint64_t(std::min((*effect)->cost.stepWork, kMostWork));
+        info.startWork = uint64_t(std::min((*effect)->cost.startWork, kMostWork));
         fx::api::copyText((*effect)->name, info.name, sizeof info.name);
         return fx::api::writeStruct(info, ioInfo, "ioInfo");
     });

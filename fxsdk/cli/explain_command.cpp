@@ -123,6 +123,22 @@ Json emittersOf(const scene_file::SceneFile& file)
     return list;
 }
 
+/// What an instance of each preset is expected to need.
+Json needsOf(const scene_file::SceneFile& file)
+{
+    Json list = Json::array();
+    for (const scene_file::ScenePreset& preset : file.presets) {
+        const sim::EffectCost& cost = preset.effect->cost;
+        list.push_back({{"preset", preset.name},
+                        {"bytes", cost.memory},
+                        {"work_step", cost.stepWork},
+                        {"ms_step", cost.stepWork * base::kSecondsPerUnit * 1e3},
+                        {"work_prewarm", cost.startWork},
+                        {"ms_prewarm", cost.startWork * base::kSecondsPerUnit * 1e3}});
+    }
+    return list;
+}
+
 Json techniquesOf(const scene_file::SceneFile& file, const Json& instances,
                   const std::vector<std::string>& passes)
 {
@@ -161,6 +177,10 @@ void print(const Json& report)
         std::printf("%-24s %-20s %s %9.1f KiB  %s\n", entry["preset"].get<std::string>().c_str(),
                     entry["emitter"].get<std::string>().c_str(), entry["path"].get<std::string>().c_str(),
                     entry["bytes"].get<double>() / 1024.0, entry["why"].get<std::string>().c_str());
+    for (const Json& entry : report["needs"])
+        std::printf("%-24s needs at most %.1f MiB, %.3g ms of a core a step, %.3g ms for its prewarm\n",
+                    entry["preset"].get<std::string>().c_str(), entry["bytes"].get<double>() / (1 << 20),
+                    entry["ms_step"].get<double>(), entry["ms_prewarm"].get<double>());
     for (const Json& entry : report["techniques"])
         std::printf("%-22s %s  passes %s  called by %s\n", entry["technique"].get<std::string>().c_str(),
                     entry["exists"].get<bool>() ? "exists" : "absent", entry["passes"].dump().c_str(),
@@ -197,12 +217,18 @@ base::Status explain(const ExplainOptions& options)
     stats.structSize = sizeof stats;
     if (base::Status status = toStatus(fxScene_GetFrameStats(scene, &stats)); !status)
         return status;
+    FxSceneStatistics statistics = {};
+    statistics.structSize = sizeof statistics;
+    if (base::Status status = toStatus(fxScene_GetStatistics(scene, &statistics)); !status)
+        return status;
     const FrameCounters& counters = (*renderer)->counters();
     const Json instances = instancesOf(*file, scene, options.time);
     const Json report = {{"file", options.input},
                          {"time", options.time},
                          {"instances", instances},
                          {"emitters", emittersOf(*file)},
+                         {"needs", needsOf(*file)},
+                         {"seconds_debt", base::toSeconds(statistics.timeDebtTicks)},
                          {"techniques", techniquesOf(*file, instances, counters.passes)},
                          {"passes", counters.passes},
                          {"level_of_detail", levelsOf(counters.view)},

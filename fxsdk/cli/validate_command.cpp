@@ -32,16 +32,38 @@ nlohmann::json toJson(const preset::Diagnostic& diagnostic)
             {"severity", diagnostic.warning ? "warning" : "error"}};
 }
 
-void printJson(const std::string& file, const std::vector<preset::Diagnostic>& diagnostics, uint64_t bytes,
-               const Machine& machine)
+/// [ms] of one core, about, that so many work units take.
+double millisecondsOf(double units)
+{
+    return units * base::kSecondsPerUnit * 1e3;
+}
+
+void printNeeds(const preset::Needs& needs)
+{
+    std::printf("about %.1f MiB of memory for each instance, %.1f MiB with what is shown of it\n",
+                double(needs.solverBytes) / (1 << 20), double(needs.cost.memory) / (1 << 20));
+    std::printf("about %.3g ms of a core for its most expensive step", millisecondsOf(needs.cost.stepWork));
+    if (needs.cost.startWork > 0)
+        std::printf(", %.3g ms for its prewarm", millisecondsOf(needs.cost.startWork));
+    std::printf("\n");
+}
+
+void printJson(const std::string& file, const std::vector<preset::Diagnostic>& diagnostics,
+               const preset::Needs& needs, const Machine& machine)
 {
     nlohmann::json findings = nlohmann::json::array();
     for (const preset::Diagnostic& diagnostic : diagnostics)
         findings.push_back(toJson(diagnostic));
     const bool valid = !preset::hasErrors(diagnostics);
     nlohmann::json report = {{"file", file}, {"valid", valid}, {"diagnostics", findings}};
-    if (bytes > 0)
-        report["bytes_instance"] = bytes;
+    if (needs.solverBytes > 0) {
+        report["bytes_instance"] = needs.solverBytes;
+        report["bytes_instance_shown"] = needs.cost.memory;
+        report["work_step"] = needs.cost.stepWork;
+        report["ms_step"] = millisecondsOf(needs.cost.stepWork);
+        report["work_prewarm"] = needs.cost.startWork;
+        report["ms_prewarm"] = millisecondsOf(needs.cost.startWork);
+    }
     printJsonLine(withMachine(report, machine));
 }
 
@@ -52,18 +74,18 @@ int runValidate(const ValidateOptions& options)
     for (const std::string& file : options.files) {
         if (interruptRequested())
             return kInterrupted;
-        uint64_t bytes = 0;
-        const std::vector<preset::Diagnostic> diagnostics = preset::validateFile(file, &bytes);
+        preset::Needs needs;
+        const std::vector<preset::Diagnostic> diagnostics = preset::validateFile(file, &needs);
         invalid += preset::hasErrors(diagnostics) ? 1 : 0;
         if (options.json) {
-            printJson(file, diagnostics, bytes, machine);
+            printJson(file, diagnostics, needs, machine);
             continue;
         }
         for (const preset::Diagnostic& diagnostic : diagnostics)
             std::printf("%s%s\n", diagnostic.warning ? "warning: " : "",
                         preset::toString(diagnostic).c_str());
-        if (bytes > 0 && options.files.size() == 1)
-            std::printf("about %.1f MiB of memory for each instance\n", double(bytes) / (1 << 20));
+        if (needs.solverBytes > 0 && options.files.size() == 1)
+            printNeeds(needs);
     }
     if (!options.json && invalid == 0)
         std::printf("%zu %s valid\n", options.files.size(),

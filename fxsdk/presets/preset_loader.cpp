@@ -3,6 +3,7 @@
 #include "embedded/preset_library.h"
 #include "foundation/math/hash.h"
 #include "fxsdk/assets/read_file.h"
+#include "fxsdk/presets/effect_cost.h"
 #include "fxsdk/presets/emitter_advice.h"
 #include "fxsdk/presets/emitter_depth_preset.h"
 #include "fxsdk/presets/emitter_events_preset.h"
@@ -78,6 +79,8 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     warnOfDepthOnCpu(root, *effect);
     if (!findings.hasErrors())
         adviseEmitters(root, *effect);
+    if (!findings.hasErrors())
+        estimateCost(root, *effect);
     if (findings.assets()->contentHash() != 0)
         effect->fingerprint = base::hashWord(effect->fingerprint, findings.assets()->contentHash());
     if (effect->solvers.empty() && !findings.hasErrors())

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fxsdk/presets/diagnostic.h"
+#include "simulation/effect_def.h"
 
 #include <cstdint>
 #include <string>
@@ -10,10 +11,16 @@
 
 namespace fx::preset {
 
+/// What an instance of a preset needs.
+struct Needs
+{
+    uint64_t solverBytes = 0; ///< [byte] that its solvers can take
+    sim::EffectCost cost;
+};
+
 /// Everything that is wrong with the preset (`*.fx.json`) or scene (`*.scene.json`) at `path`; empty when it
 /// is valid. The presets, mesh and image of a scene are checked with it.
-/// @param outBytes receives the bytes that emitters take in each instance of a valid preset, else 0; may be
-/// null
-std::vector<Diagnostic> validateFile(const std::string& path, uint64_t* outBytes = nullptr);
+/// @param outNeeds receives what an instance of a valid preset needs, else nothing; may be null
+std::vector<Diagnostic> validateFile(const std::string& path, Needs* outNeeds = nullptr);
 
 } // namespace fx::preset

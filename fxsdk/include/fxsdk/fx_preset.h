@@ -21,6 +21,10 @@ typedef struct FxPresetInfo
     int64_t durationTicks; ///< [tick] length of the effect's life; 0: until its last particle is gone
     uint64_t capacity;     ///< most particles alive at once in one instance
     char name[64];         ///< UTF-8, zero-terminated; longer names are cut
+    // What an instance is expected to need at medium quality: estimates, for comparing presets.
+    uint64_t memoryBytes; ///< [byte] when all that can live does, what is shown of it included
+    uint64_t stepWork;    ///< work units of its most expensive step of 1/60 s, see FxSceneDef::workBudget
+    uint64_t startWork;   ///< work units of its prewarm
 } FxPresetInfo;
 
 /// Loads a preset from a file of at most 4 MiB. Warnings go to the log. [any]
