@@ -1,4 +1,4 @@
-// bench_work_units [--updates=N]
+// bench_work_units [--updates=N] [--small]
 //
 // How long the work units of base::WorkBudget take, on one thread: presets in which one kind of work
 // dominates, N updates each. Prints one JSON object a kind: units and nanoseconds of processor time an update
@@ -108,9 +108,12 @@ int main(int argc, char** argv)
     int updates = 60;
     for (int i = 1; i < argc; ++i) {
         const std::string_view a = argv[i];
-        if (!a.starts_with("--updates="))
-            fail("usage: bench_work_units [--updates=1..1000]");
-        updates = std::clamp(std::atoi(a.data() + 10), 1, 1000);
+        if (a == "--small")
+            updates = 2;
+        else if (a.starts_with("--updates="))
+            updates = std::clamp(std::atoi(a.data() + 10), 1, 1000);
+        else
+            fail("usage: bench_work_units [--updates=1..1000] [--small]");
     }
     const cli::Machine machine = cli::readMachine();
     for (const Kind& kind : kKinds)

@@ -87,7 +87,7 @@ struct Run
     bool inStep = false;        ///< some of its sub-steps are complete, or one is in hand
     bool inPart = false;        ///< a sub-step is in hand
     bool arriving = false;      ///< local time `reached` is simulated, `target` is where it begins
-    uint32_t stepped = 0; ///< solvers that are through with the sub-step in hand
+    uint32_t stepped = 0;       ///< solvers that are through with the sub-step in hand
     base::Ticks part = 0;       ///< sub-steps of the step that are complete
     base::Ticks stepTick = 0;   ///< [tick] of the scene at which the step begins
     base::Ticks stepLength = 0; ///< [tick] of the scene

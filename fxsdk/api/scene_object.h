@@ -32,7 +32,7 @@ struct FxScene
     double longestFrame;                 ///< [s] that one update makes up for
     std::atomic<bool> catchingUp{false}; ///< the last update had more time to make up for than it may
 
-    bool isBehind = false;               ///< the last update left steps to the next
+    bool isBehind = false; ///< the last update left steps to the next
 
     // Updates for which it counts that a view has computed particles, and that rows were asked for.
     static constexpr uint32_t kRemembered = 240;
