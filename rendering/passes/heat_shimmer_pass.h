@@ -4,22 +4,35 @@
 #include "rendering/frame_graph/frame_graph.h"
 #include "rendering/view/view_types.h"
 
+#include <cstdint>
+#include <span>
+
 namespace fx::render {
 
-inline constexpr ProgramDesc kHeatShimmerProgram{"heat shimmer", "passes/fullscreen.vert.glsl",
+inline constexpr ProgramDesc kHeatShimmerProgram{"heat shimmer", "passes/heat_shimmer.vert.glsl",
                                                  "passes/heat_shimmer.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kHeatShimmerBackProgram{"heat shimmer back", "passes/heat_shimmer.vert.glsl",
+                                                     "passes/present.frag.glsl", nullptr, nullptr};
+
+/// A rectangle of the picture that hot gas may reach. The layout is that of heat_shimmer.vert.glsl.
+struct HotArea
+{
+    uint32_t left, low;   ///< [pixel] the first column and row
+    uint32_t right, high; ///< [pixel] behind the last ones
+};
+static_assert(sizeof(HotArea) == 16);
 
 /// Displaces the composed picture, media included, by what HeatOffsetPass has found.
 ///
-/// reads   color     RGBA32F exposed radiance
-///         distance  [m] along the ray to opaque geometry
+/// reads   distance  [m] along the ray to opaque geometry
 ///         heat      of HeatOffsetPass
-/// writes  color     RGBA32F, bilinear. A pixel keeps its bits where there is no heat or no displacement, and
-/// where a
-///                   texel it would need stands before the gas or is not finite. No texel outside the image
-///                   is read: the displacement fades to 0 over the last settings.maxOffset pixels before the
-///                   border.
-/// Adds nothing when heat is invalid or the settings allow no displacement. Keeps no state.
+/// writes  color     RGBA32F exposed radiance, bilinear. Only pixels of `areas` are drawn: their displaced
+///                   values beside the picture first, and then over it. A pixel keeps its bits where there is
+///                   no heat or no displacement, and where a texel it would need stands before the gas or is
+///                   not finite. No texel outside the image is read: the displacement fades to 0 over the
+///                   last settings.maxOffset pixels before the border.
+/// Adds nothing when heat is invalid, there is no area, or the settings allow no displacement. Keeps no
+/// state.
 class HeatShimmerPass
 {
 public:
@@ -28,7 +41,10 @@ public:
         ResourceId color;
         ResourceId distance;
         ResourceId heat; ///< invalid: nothing is hot
+        std::span<const HotArea>
+            areas; ///< cover every pixel with heat; must stay until the graph has executed
         int width, height;
+        bool upperLeftOrigin; ///< see CameraView
         ShimmerSettings settings;
     };
     struct Outputs

@@ -25,12 +25,12 @@ namespace fx::render {
 namespace {
 
 constexpr const ProgramDesc* kSinglePrograms[] = {
-    &kSceneDistanceProgram, &kLayerResolveProgram,  &kCompositeBlendProgram, &kCompositeProgram,
-    &kOverdrawProgram,      &kHeatOffsetProgram,    &kHeatShimmerProgram,    &kDazzleSumProgram,
-    &kDazzleBudgetProgram,  &kDazzleDealProgram,    &kToneMapProgram,        &kToneMapDitherProgram,
-    &kPresentProgram,       &kLayerDistanceProgram, &kLayerUpsampleProgram,  &kLayerSpreadProgram,
-    &kOverdrawSmallProgram, &kLayerOverProgram,     &kImpostorProgram,       &kImpostorKeepProgram,
-    &kOverlayProgram,
+    &kSceneDistanceProgram, &kLayerResolveProgram,    &kCompositeBlendProgram, &kCompositeProgram,
+    &kOverdrawProgram,      &kHeatOffsetProgram,      &kHeatShimmerProgram,    &kDazzleSumProgram,
+    &kDazzleBudgetProgram,  &kDazzleDealProgram,      &kToneMapProgram,        &kToneMapDitherProgram,
+    &kPresentProgram,       &kLayerDistanceProgram,   &kLayerUpsampleProgram,  &kLayerSpreadProgram,
+    &kOverdrawSmallProgram, &kLayerOverProgram,       &kImpostorProgram,       &kImpostorKeepProgram,
+    &kOverlayProgram,       &kHeatShimmerBackProgram,
 };
 
 } // namespace

@@ -1,31 +1,15 @@
 #include "rendering/view/fragment_estimate.h"
 
+#include "rendering/view/ball_window.h"
 #include "rendering/view/blob_gather.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace fx::render {
 
 namespace {
-
-/// Range of slopes of a ball in the plane of one screen axis and the view axis; as tangentSlopes() of
-/// shaders/shared/blob_quad.glsl.
-std::pair<float, float> tangentSlopes(float c, float depth, float radius)
-{
-    constexpr float kAll = 1e9f;
-    const float l2 = c * c + depth * depth - radius * radius;
-    if (l2 <= 0.0f)
-        return {-kAll, kAll};
-    const float l = std::sqrt(l2);
-    const float lowDepth = depth * l + c * radius;
-    const float highDepth = depth * l - c * radius;
-    return {lowDepth > 0.0f ? (c * l - depth * radius) / lowDepth : -kAll,
-            highDepth > 0.0f ? (c * l + depth * radius) / highDepth : kAll};
-}
 
 /// [pixel] of the window that a blob's rectangle covers along one axis; and before it was cut.
 struct Extent
@@ -35,12 +19,7 @@ struct Extent
 
 Extent extentAlong(const CameraGeometry& camera, int axis, float c, float depth, float radius, float pixels)
 {
-    const auto [low, high] =
-        camera.orthographic ? std::pair(c - radius, c + radius) : tangentSlopes(c, depth, radius);
-    float a = low * camera.clipScale[axis] + camera.clipOffset[axis];
-    float b = high * camera.clipScale[axis] + camera.clipOffset[axis];
-    if (a > b)
-        std::swap(a, b);
+    const auto [a, b] = clipRange(camera, axis, c, depth, radius);
     const float cut = std::clamp(b, -1.0f, 1.0f) - std::clamp(a, -1.0f, 1.0f);
     return {0.5f * pixels * cut, 0.5f * pixels * (b - a)};
 }

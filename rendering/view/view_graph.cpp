@@ -55,7 +55,7 @@ public:
             finish(target_);
             return out_;
         }
-        const bool shimmer = media && in_.anyHeat && settings_.shimmer.strength > 0.0f;
+        const bool shimmer = media && !in_.hotAreas.empty() && settings_.shimmer.strength > 0.0f;
         const bool more = shimmer || settings_.dazzle.enabled || settings_.toneMap || separateTarget_;
         if (media)
             addComposite(picture_, !more);
@@ -286,12 +286,12 @@ private:
     void addShimmer()
     {
         const ResourceId heat =
-            HeatOffsetPass::addTo(graph_, {blobs_, distance_, uint32_t(in_.blobs.size()), in_.anyHeat, width_,
+            HeatOffsetPass::addTo(graph_, {blobs_, distance_, uint32_t(in_.blobs.size()), true, width_,
                                            height_, view_, settings_.shimmer, request_.time})
                 .heat;
-        picture_ =
-            HeatShimmerPass::addTo(graph_, {picture_, distance_, heat, width_, height_, settings_.shimmer})
-                .color;
+        picture_ = HeatShimmerPass::addTo(graph_, {picture_, distance_, heat, in_.hotAreas, width_, height_,
+                                                   request_.camera.upperLeftOrigin, settings_.shimmer})
+                       .color;
     }
 
     void addDazzle()

@@ -6,6 +6,7 @@
 #include "rendering/gpu_particles/gpu_order_pass.h"
 #include "rendering/gpu_particles/gpu_rows_pass.h"
 #include "rendering/passes/blob_instance.h"
+#include "rendering/passes/heat_shimmer_pass.h"
 #include "rendering/passes/impostor_pass.h"
 #include "rendering/passes/particle_batch.h"
 #include "rendering/view/view_types.h"
@@ -22,7 +23,7 @@ struct ViewGraphInputs
     std::span<const BlobInstance> blobs; ///< must stay until the graph has executed, as must the next two
     std::span<ParticleBatch> batches; ///< their GL objects are given; what they are in the graph is filled in
     std::span<const MediaRun> runs;   ///< of blobs and of batches that do not hide
-    bool anyHeat;
+    std::span<const HotArea> hotAreas; ///< where blobs bend light; must stay as well
     bool anyDetail;
     uint32_t dazzleHistory;  ///< GL buffer of sizeof(DazzleHistory); 0 when dazzle is off
     int layerDivisor = 1;    ///< of this frame, >= that of the settings

@@ -10,6 +10,7 @@
 #include "rendering/view/frame_builder.h"
 #include "rendering/view/frame_key.h"
 #include "rendering/view/group_merger.h"
+#include "rendering/view/hot_areas.h"
 #include "rendering/view/host_target_check.h"
 #include "rendering/view/layer_scale_control.h"
 #include "rendering/view/particle_buffers.h"
@@ -24,7 +25,7 @@ namespace fx::render {
 struct ViewRenderer::Impl
 {
     Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory)
-        : device(d), graph(memory), backend(*d, memory), builder(memory),
+        : device(d), graph(memory), backend(*d, memory), builder(memory), hotAreas(memory),
           merger(schema, memory), single{ParticleFrame(memory), ParticleBuffers(*d, memory)},
           joined{ParticleFrame(memory), ParticleBuffers(*d, memory)}, batches(memory), runs(memory),
           streams(memory), stamps(memory), targetCheck(*d), timer(*d)
@@ -58,6 +59,7 @@ struct ViewRenderer::Impl
     FrameGraph graph;
     GlBackend backend;
     FrameBuilder builder;
+    HotAreas hotAreas;
     GroupMerger merger;
     Particles single; ///< groups as they are
     Particles joined; ///< small groups that are drawn alike

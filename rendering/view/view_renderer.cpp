@@ -101,6 +101,10 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
 {
     const CameraGeometry camera = cameraGeometry(request.camera);
     builder.build(snapshots, request, settings, camera, contentOf(now, request.interpolation));
+    if (builder.anyHeat() && settings.shimmer.strength > 0.0f)
+        hotAreas.find(builder.blobs(), request.camera, request.targets.width, request.targets.height);
+    else
+        hotAreas.clear();
     streams.clear();
     batches.clear();
     if (builder.stream().count > 0)
@@ -233,7 +237,7 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     s.graph.begin();
     s.outputs = buildViewGraph(
         s.graph,
-        {&request, &settings_, s.builder.blobs(), s.batches, s.mediaRuns, s.builder.anyHeat(),
+        {&request, &settings_, s.builder.blobs(), s.batches, s.mediaRuns, s.hotAreas.areas(),
          s.builder.anyDetail(), s.dazzleHistory.name(), divisor, s.blobBuffer.name(), s.keptLists,
          s.builder.impostors(), s.keptLists ? std::span<const BlobInstance>() : s.builder.takenBlobs(),
          s.keptLists ? std::span<const uint32_t>() : s.builder.takenTiles(),

@@ -1,11 +1,9 @@
+#include "shared/shimmer_block.glsl"
+
 // The picture seen through hot gas: each pixel is fetched where the gas bends its ray to.
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D sceneDistance; // [m] along the ray, +inf for none
 layout(binding = 2) uniform sampler2D heat;          // as heat_shimmer_offset.frag.glsl writes it
-layout(std140, binding = 0) uniform ShimmerBlock
-{
-    vec4 shimmer; // x: strength [1]; y: largest offset [pixel]
-};
 layout(location = 0) out vec4 color;
 
 bool isFinite(vec4 v)

@@ -51,12 +51,13 @@ inline TechniqueRow shimmerRow()
     return {"heat shimmer",
             emitterMembers(R"("temperature": 1700, "heat": 1)"),
             "billboard layers",
-            {"scene distance", "blob upload", "media", "composite", "heat offset", "heat shimmer", "present"},
-            {"composite", "heat offset", "heat shimmer", "media", "present"},
+            {"scene distance", "blob upload", "media", "composite", "heat offset", "heat shimmer",
+             "heat shimmer back", "present"},
+            {"composite", "heat offset", "heat shimmer", "heat shimmer back", "media", "present"},
             {{"R32F", 1}, {"RGBA32F", 3}},
-            {{"blobs", 1}, {"uniform ring", 1}},
-            {"heat offset", "heat shimmer"},
-            {"heat offset", "heat shimmer"}};
+            {{"blobs", 1}, {"frame buffer", 1}, {"uniform ring", 1}},
+            {"heat offset", "heat shimmer", "heat shimmer back"},
+            {"heat offset", "heat shimmer", "heat shimmer back"}};
 }
 
 inline TechniqueRow trailsRow()

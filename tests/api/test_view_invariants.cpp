@@ -74,9 +74,9 @@ TEST_F(ViewInvariants, aFeatureThatIsSwitchedOffAddsNoPass) // I4
     update(30);
     FxViewSettings all = fxDefaultViewSettings();
     all.toneMap = 1;
-    const Names everything{"scene distance", "blob upload",  "media",      "composite",
-                           "heat offset",    "heat shimmer", "dazzle sum", "dazzle budget",
-                           "dazzle deal",    "tone map",     "present"};
+    const Names everything{
+        "scene distance",    "blob upload", "media",         "composite",   "heat offset", "heat shimmer",
+        "heat shimmer back", "dazzle sum",  "dazzle budget", "dazzle deal", "tone map",    "present"};
     EXPECT_EQ(passesWith(all), everything); // the control: each of them is there when it is on
     const auto without = [&everything](std::vector<std::string> gone) {
         Names left;
@@ -87,7 +87,7 @@ TEST_F(ViewInvariants, aFeatureThatIsSwitchedOffAddsNoPass) // I4
     };
     FxViewSettings settings = all;
     settings.shimmerStrength = 0;
-    EXPECT_EQ(passesWith(settings), without({"heat offset", "heat shimmer"}));
+    EXPECT_EQ(passesWith(settings), without({"heat offset", "heat shimmer", "heat shimmer back"}));
     settings = all;
     settings.dazzle = 0;
     EXPECT_EQ(passesWith(settings), without({"dazzle sum", "dazzle budget", "dazzle deal"}));

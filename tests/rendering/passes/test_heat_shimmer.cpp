@@ -57,14 +57,22 @@ Picture noise(int width, int height, uint64_t seed)
 class HeatShimmer : public test::PostPass
 {
 protected:
+    /// An area that is the whole picture.
+    std::span<const HotArea> wholeOf(int width, int height)
+    {
+        whole_ = {0, 0, uint32_t(width), uint32_t(height)};
+        return {&whole_, 1};
+    }
+
     std::vector<float> shimmer(const Picture& picture, const Picture& heat, std::span<const float> distances,
                                const ShimmerSettings& settings)
     {
         graph_->begin();
         const ResourceId color = import(picture);
         const ResourceId distance = importScalar(picture.width, picture.height, distances);
-        const auto out = HeatShimmerPass::addTo(
-            *graph_, {color, distance, import(heat), picture.width, picture.height, settings});
+        const auto out = HeatShimmerPass::addTo(*graph_, {color, distance, import(heat),
+                                                          wholeOf(picture.width, picture.height),
+                                                          picture.width, picture.height, false, settings});
         EXPECT_NE(out.color.index, color.index);
         execute(out.color);
         return read(out.color);
@@ -76,6 +84,9 @@ protected:
         const std::vector<float> distances(size_t(picture.width) * size_t(picture.height), distance);
         return shimmer(picture, heat, distances, settings);
     }
+
+private:
+    HotArea whole_{};
 };
 
 const float* pixelOf(const std::vector<float>& texels, const Picture& like, int x, int y)
@@ -262,7 +273,8 @@ TEST_F(HeatShimmer, noiseSeenThroughHotBlobsKeepsItsMeanBrightness)
     offset.settings = {.strength = 4.0f, .maxOffset = 30.0f};
     const ResourceId heat = HeatOffsetPass::addTo(*graph_, offset).heat;
     const auto result =
-        HeatShimmerPass::addTo(*graph_, {import(picture), offset.distance, heat, 320, 240, offset.settings});
+        HeatShimmerPass::addTo(*graph_, {import(picture), offset.distance, heat, wholeOf(320, 240), 320, 240,
+                                         false, offset.settings});
     execute(result.color);
     const auto out = read(result.color);
 
@@ -280,14 +292,16 @@ TEST_F(HeatShimmer, noiseSeenThroughHotBlobsKeepsItsMeanBrightness)
 
 TEST(HeatShimmerInTheGraph, isAbsentWithoutHeatOrStrength)
 {
-    const auto adds = [](bool hot, ShimmerSettings settings) {
+    const auto adds = [](bool hot, ShimmerSettings settings, bool anyArea = true) {
+        constexpr HotArea kWhole[] = {{0, 0, 16, 16}};
         FrameGraph graph(std::pmr::new_delete_resource());
         graph.begin();
         const ResourceId color = graph.importTexture({"color", 16, 16, Format::RGBA32F}, 1);
         const ResourceId distance = graph.importTexture({"distance", 16, 16, Format::R32F}, 2);
         const ResourceId heat = graph.importTexture({"heat", 16, 16, Format::RGBA32F}, 3);
-        const auto out =
-            HeatShimmerPass::addTo(graph, {color, distance, hot ? heat : ResourceId{}, 16, 16, settings});
+        const auto out = HeatShimmerPass::addTo(graph, {color, distance, hot ? heat : ResourceId{},
+                                                        std::span(kWhole).first(anyArea ? 1 : 0), 16, 16,
+                                                        false, settings});
         graph.keep(out.color);
         graph.compile();
         RecordingBackend backend(graph);
@@ -301,4 +315,5 @@ TEST(HeatShimmerInTheGraph, isAbsentWithoutHeatOrStrength)
     EXPECT_FALSE(adds(true, {.strength = 0.0f}));
     EXPECT_FALSE(adds(true, {.strength = kNan}));
     EXPECT_FALSE(adds(true, {.maxOffset = 0.0f}));
+    EXPECT_FALSE(adds(true, {}, false));
 }

@@ -13,6 +13,8 @@ using namespace fx::render;
 
 namespace {
 
+constexpr HotArea kAreas[] = {{16, 16, 48, 32}};
+
 class ViewGraphTest : public testing::Test
 {
 protected:
@@ -30,7 +32,14 @@ protected:
         runs_.clear();
         if (blobCount > 0)
             runs_.push_back({MediaRun::kBlobs, 0, uint32_t(blobCount)});
-        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, {}, runs_, heat, false, 7});
+        outputs_ = buildViewGraph(graph_, {&request_,
+                                           &settings_,
+                                           blobs_,
+                                           {},
+                                           runs_,
+                                           heat ? std::span(kAreas) : std::span<const HotArea>(),
+                                           false,
+                                           7});
         graph_.compile();
         EXPECT_TRUE(graph_.status().ok()) << graph_.status().message();
         return {graph_.executedPasses().begin(), graph_.executedPasses().end()};
@@ -112,7 +121,7 @@ TEST_F(ViewGraphTest, smallLayersAreDrawnToBothEndsOfTheDepthAndEnlarged)
     const auto passesOf = [&](uint32_t depth) {
         request_.targets.depth = depth;
         graph_.begin();
-        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, {}, runs_, false, false, 7, 2});
+        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, {}, runs_, {}, false, 7, 2});
         graph_.compile();
         EXPECT_TRUE(graph_.status().ok()) << graph_.status().message();
         return Names(graph_.executedPasses().begin(), graph_.executedPasses().end());
