@@ -13,14 +13,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace fx::sim {
 
 namespace {
 
-constexpr uint32_t kMinRows = 8;    ///< rows of nodes
-constexpr float kShallow = 0.5f;    ///< [cell] least depth of a node that is alone inside of matter
+constexpr uint32_t kMinRows = 2; ///< pairs of pairs of rows of nodes
+constexpr float kShallow = 0.5f; ///< [cell] least depth of a node that is alone inside of matter
+constexpr double kJustBeyond = 1.0 + 1e-9;
 constexpr float kOnSurface = 1e-3f; ///< [cell] a node as near as this is on the surface, not outside
 
 /// Everything that the distances of nodes are computed from.
@@ -48,26 +50,83 @@ double sheetDistance(const FieldSources& from, const glm::dvec3& p, const Triang
     return isFront ? r : std::max(-r, r - 2.0 * double(from.grid.cell)); // (2)
 }
 
-/// The nodes of one row from left to right: each is at most a cell farther than the one before.
-void computeRow(const FieldSources& from, uint32_t y, uint32_t z, float* outValues)
+/// Nodes that are computed together, two along each axis. Beyond the last node of an axis stands that node
+/// again.
+struct NodePacket
+{
+    NodePacket(const DistanceGrid& grid, uint32_t x, uint32_t y, uint32_t z)
+    {
+        const glm::uvec3 last = grid.nodes - 1u;
+        for (uint32_t k = 0; k < kPacketPoints; ++k) {
+            node[k] = glm::min(glm::uvec3(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2)), last);
+            place[k] = grid.place(node[k].x, node[k].y, node[k].z);
+            points.x[k] = place[k].x;
+            points.y[k] = place[k].y;
+            points.z[k] = place[k].z;
+        }
+    }
+    glm::uvec3 node[kPacketPoints];
+    glm::dvec3 place[kPacketPoints]; ///< [m]
+    PointPacket points;
+};
+
+/// What the last packet was nearest to is near the next one too.
+struct Guesses
+{
+    uint32_t solid = 0, sheet = 0; ///< places in the trees
+};
+
+/// Distance of point `k` to the sheets. Where several triangles are equally near and disagree on the side,
+/// the one that the tree finds first decides.
+double sheetDistance(const FieldSources& from, const glm::dvec3& p, const PacketNearest& found, uint32_t k)
+{
+    const TriangleTree::Nearest nearest = from.sheets.at(found.triangle[k], p);
+    const double distance = sheetDistance(from, p, nearest);
+    const uint32_t equals = found.equals[k];
+    bool isSure = equals <= PacketNearest::kMostEquals;
+    for (uint32_t i = 0; isSure && i < equals; ++i) {
+        const uint32_t other = found.equal[k * PacketNearest::kMostEquals + i];
+        isSure = sheetDistance(from, p, from.sheets.at(other, p)) == distance;
+    }
+    return isSure ? distance : sheetDistance(from, p, from.sheets.nearest(p, nearest.distance * kJustBeyond));
+}
+
+void addSheets(const FieldSources& from, const NodePacket& packet, uint32_t& ioGuess, double* ioDistances)
+{
+    PacketNearest found;
+    from.sheets.nearest(packet.points, ioGuess, found);
+    for (uint32_t k = 0; k < kPacketPoints; ++k)
+        ioDistances[k] = std::min(ioDistances[k], sheetDistance(from, packet.place[k], found, k)); // (1)
+    ioGuess = found.triangle[kPacketPoints - 1];
+}
+
+void addSolids(const FieldSources& from, const NodePacket& packet, uint32_t& ioGuess, double* ioDistances)
+{
+    PacketNearest found;
+    from.solids.nearest(packet.points, ioGuess, found);
+    for (uint32_t k = 0; k < kPacketPoints; ++k) {
+        const double s = std::sqrt(found.squared[k]);
+        const bool isInside = from.winding.isInside(packet.place[k].x, packet.node[k].y, packet.node[k].z);
+        ioDistances[k] = std::min(ioDistances[k], isInside ? -s : s); // (1)
+    }
+    ioGuess = found.triangle[kPacketPoints - 1];
+}
+
+/// The nodes of the rows y, y + 1 at z, z + 1.
+void computeRows(const FieldSources& from, uint32_t y, uint32_t z, float* outValues)
 {
     const DistanceGrid& grid = from.grid;
-    const double step = 1.0001 * double(grid.cell);
-    constexpr double kNone = 1e30;
-    double solid = kNone, sheet = kNone;
-    for (uint32_t x = 0; x < grid.nodes.x; ++x) {
-        const glm::dvec3 p = grid.place(x, y, z);
-        double d = kNone;
-        if (!from.sheets.empty()) {
-            const TriangleTree::Nearest nearest = from.sheets.nearest(p, sheet + step);
-            sheet = nearest.distance;
-            d = sheetDistance(from, p, nearest);
-        }
-        if (!from.solids.empty()) {
-            solid = from.solids.nearest(p, solid + step).distance;
-            d = std::min(d, from.winding.isInside(p.x, y, z) ? -solid : solid); // (1)
-        }
-        outValues[x] = float(d);
+    Guesses guesses;
+    for (uint32_t x = 0; x < grid.nodes.x; x += 2) {
+        const NodePacket packet(grid, x, y, z);
+        double distances[kPacketPoints];
+        std::fill_n(distances, kPacketPoints, std::numeric_limits<double>::infinity());
+        if (!from.sheets.empty())
+            addSheets(from, packet, guesses.sheet, distances);
+        if (!from.solids.empty())
+            addSolids(from, packet, guesses.solid, distances);
+        for (uint32_t k = 0; k < kPacketPoints; ++k)
+            outValues[grid.index(packet.node[k].x, packet.node[k].y, packet.node[k].z)] = float(distances[k]);
     }
 }
 
@@ -168,11 +227,11 @@ base::Result<std::shared_ptr<const DistanceField>> DistanceField::build(const Tr
     const auto field = std::allocate_shared<DistanceField>(
         std::pmr::polymorphic_allocator<DistanceField>(memory), mesh.origin, *grid, memory);
     float* const values = field->values_.data();
-    tasks.parallelFor(grid->nodes.y * grid->nodes.z, kMinRows, [&](uint32_t begin, uint32_t end) {
+    const glm::uvec3 pairs = (grid->nodes + 1u) / 2u;
+    tasks.parallelFor(pairs.y * pairs.z, kMinRows, [&](uint32_t begin, uint32_t end) {
         const base::FloatingPointScope floatingPointOfWorker;
         for (uint32_t row = begin; row < end; ++row)
-            computeRow(sources, row % grid->nodes.y, row / grid->nodes.y,
-                       values + size_t(row) * grid->nodes.x);
+            computeRows(sources, row % pairs.y * 2, row / pairs.y * 2, values);
     });
     thicken(surface, *grid, values, memory);
     field->hash_ = field->computeHash();

@@ -58,7 +58,7 @@ constexpr float kFieldErrorCells = 0.8660255f;
 class DistanceField
 {
 public:
-    /// Takes 4 bytes a node, at most 64 MiB, and about 300 bytes a triangle and 16 for each row of nodes that
+    /// Takes 4 bytes a node, at most 64 MiB, and about 360 bytes a triangle and 16 for each row of nodes that
     /// a solid crosses while it works. Equal meshes give equal bits for any number of threads.
     /// Throws std::bad_alloc.
     /// @param cellSize [m] 0: as fine as some four million nodes allow

@@ -12,13 +12,34 @@
 
 namespace fx::sim {
 
+/// Points that are asked for at once: the nearer they lie to each other, the cheaper is each.
+constexpr uint32_t kPacketPoints = 8;
+
+struct PointPacket
+{
+    alignas(64) double x[kPacketPoints]; ///< [m]
+    alignas(64) double y[kPacketPoints];
+    alignas(64) double z[kPacketPoints];
+};
+
+/// What is nearest to each point of a packet.
+struct PacketNearest
+{
+    static constexpr uint32_t kMostEquals = 8;
+
+    alignas(64) double squared[kPacketPoints];   ///< [m2] distance
+    uint32_t triangle[kPacketPoints];            ///< place in the tree of one that is as near
+    uint32_t equals[kPacketPoints];              ///< how many others are exactly as near
+    uint32_t equal[kPacketPoints * kMostEquals]; ///< places of the first of them, point by point
+};
+
 class TriangleTree
 {
 public:
-    /// @param triangles outlive the tree. Throws std::bad_alloc.
+    /// Throws std::bad_alloc.
     TriangleTree(std::span<const Triangle> triangles, std::pmr::memory_resource* memory);
 
-    bool empty() const { return triangles_.empty(); }
+    bool empty() const { return nodes_.empty(); }
     struct Nearest
     {
         double distance;   ///< [m]
@@ -31,18 +52,32 @@ public:
     /// The triangle nearest to `p`; `within` [m] and kNone when none is nearer than that. Any thread.
     Nearest nearest(const glm::dvec3& p, double within) const;
 
-private:
-    struct Node
+    /// The same distances, bit for bit, of eight points, without a limit. Not of a tree without triangles.
+    /// Any thread.
+    /// @param guess place in the tree of a triangle that may be near: the better it is, the faster
+    void nearest(const PointPacket& points, uint32_t guess, PacketNearest& out) const;
+
+    /// What nearest() gives for a triangle at a place in the tree.
+    Nearest at(uint32_t place, const glm::dvec3& p) const;
+
+    struct Box
     {
         glm::vec3 low, high; ///< [m]
-        uint32_t first;      ///< of its triangles in order_ when `count` > 0, else its second child
-        uint32_t count;      ///< triangles of a leaf; 0: children are the next node and `first`
     };
-    uint32_t build(uint32_t begin, uint32_t end);
-    static double squaredDistance(const Node& node, const glm::dvec3& p);
+    struct Node : Box
+    {
+        uint32_t first; ///< place of its triangles when `count` > 0, else its second child
+        uint32_t count; ///< triangles of a leaf; 0: children are the next node and `first`
+    };
+    static constexpr size_t kDeepest = 64; ///< levels; halving 2^22 triangles takes 21
 
-    std::span<const Triangle> triangles_;
-    std::pmr::vector<uint32_t> order_;
+private:
+    uint32_t build(std::span<const Triangle> triangles, uint32_t begin, uint32_t end);
+    static double squaredDistance(const Box& box, const glm::dvec3& p);
+
+    std::pmr::vector<uint32_t> order_;     ///< number of the triangle at each place
+    std::pmr::vector<Triangle> triangles_; ///< by place
+    std::pmr::vector<Box> boxes_;          ///< of triangles, by place
     std::pmr::vector<Node> nodes_;
 };
 

@@ -43,6 +43,35 @@ TEST(DistanceField, aBoxIsAsFarAsItsFormulaSaysWithinTheBound)
     }
 }
 
+TEST(DistanceField, eachNodeIsAsFarAsTheNearestOfAllTriangles)
+{
+    // solids and sheets without matter thinner than a cell; front and back are other tests' matter
+    Soup sheet = sheetMesh(1.0f);
+    for (glm::vec3& p : sheet)
+        p.x -= 1.3f;
+    const Soup soup =
+        joined(joined(sphereMesh(0.6f, 10), boxMesh({0.1f, 0.7f, -0.3f}, {0.9f, 1.2f, 0.4f})), sheet);
+    const auto field = fieldOf(soup, 0.11f);
+    const sim::DistanceGrid& grid = field->grid();
+    for (uint32_t z = 0; z + 1 < grid.nodes.z; ++z)
+        for (uint32_t y = 0; y + 1 < grid.nodes.y; ++y)
+            for (uint32_t x = 0; x + 1 < grid.nodes.x; ++x) {
+                const glm::dvec3 p = grid.place(x, y, z);
+                double nearest = 1e30;
+                for (size_t i = 0; i + 2 < soup.size(); i += 3)
+                    nearest =
+                        std::min(nearest, glm::distance(p, sim::nearestOnTriangle(p, glm::dvec3(soup[i]),
+                                                                                  glm::dvec3(soup[i + 1]),
+                                                                                  glm::dvec3(soup[i + 2]))
+                                                               .point));
+                const double d = double(field->distance(glm::vec3(p)));
+                // nothing is thickened so far away, and behind the sheet are only two cells of matter
+                if (nearest > double(grid.cell) && p.x > -1.29) {
+                    ASSERT_NEAR(std::abs(d), nearest, 2e-6) << x << ", " << y << ", " << z;
+                }
+            }
+}
+
 TEST(DistanceField, besideAFlatWallItIsExact)
 {
     const auto field = fieldOf(boxMesh({-1, -1, -1}, {1, 1, 1}), 0.1f);
