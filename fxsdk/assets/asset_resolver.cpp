@@ -82,7 +82,16 @@ base::Result<std::string> AssetResolver::read(std::string_view name, uint64_t ma
         if (bytes || bytes.status().code() != base::Code::NotFound)
             return bytes;
     }
-    return readFolder(std::string(name), maxBytes);
+    const base::Result<std::string> file = find(std::string(name));
+    return file ? asset::readFile(*file, maxBytes) : file.status();
+}
+
+std::string AssetResolver::fileOf(std::string_view name) const
+{
+    if (hook_.read || name.starts_with(kLibraryPrefix) || !checkAssetName(name))
+        return {};
+    const base::Result<std::string> file = find(std::string(name));
+    return file ? *file : std::string();
 }
 
 base::Result<std::string> AssetResolver::readLibrary(std::string_view name, uint64_t maxBytes) const
@@ -123,7 +132,8 @@ base::Result<std::string> AssetResolver::readHook(const std::string& name, uint6
     return bytes;
 }
 
-base::Result<std::string> AssetResolver::readFolder(const std::string& name, uint64_t maxBytes) const
+/// Where a relative name leads to.
+base::Result<std::string> AssetResolver::find(const std::string& name) const
 {
     if (folder_.empty())
         return base::Status(base::Code::NotFound,
@@ -140,7 +150,7 @@ base::Result<std::string> AssetResolver::readFolder(const std::string& name, uin
                             "asset \"" + name + "\" does not exist in " + folder.string());
     if (!liesBelow(folder, file))
         return refused(name, "a symbolic link leads out of the file's folder");
-    return asset::readFile(file.string(), maxBytes);
+    return file.string();
 }
 
 } // namespace fx::asset

@@ -43,12 +43,16 @@ public:
     /// @return InvalidArgument for a name that is not allowed, NotFound, TooLarge, Io
     base::Result<std::string> read(std::string_view name, uint64_t maxBytes) const;
 
+    /// The file behind `name`, every link followed. Empty when there is none: the name is not allowed or is
+    /// one of the library, nothing is there, or a hook is asked first.
+    std::string fileOf(std::string_view name) const;
+
     const std::string& folder() const { return folder_; }
 
 private:
     base::Result<std::string> readLibrary(std::string_view name, uint64_t maxBytes) const;
     base::Result<std::string> readHook(const std::string& name, uint64_t maxBytes) const;
-    base::Result<std::string> readFolder(const std::string& name, uint64_t maxBytes) const;
+    base::Result<std::string> find(const std::string& name) const;
 
     std::string folder_;
     std::span<const base::EmbeddedText> library_;

@@ -60,10 +60,10 @@ base::Status AtomicFile::write(std::string_view bytes)
     return {};
 }
 
-base::Status AtomicFile::commit()
+base::Status AtomicFile::commit(bool durable)
 {
     // A full disk may show itself only here: on flushing, or on closing (network file systems).
-    if (!temporary_.empty() && fsync(descriptor_) != 0)
+    if (durable && !temporary_.empty() && fsync(descriptor_) != 0)
         return failed("write");
     if (close(std::exchange(descriptor_, -1)) != 0)
         return failed("write");

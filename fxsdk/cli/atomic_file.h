@@ -27,7 +27,9 @@ public:
     /// @return Io naming the file and the system's reason
     base::Status open();
     base::Status write(std::string_view bytes);
-    base::Status commit();
+    /// @param durable waits until the bytes are on the disk: a machine that stops leaves the old file or the
+    ///                new one. Without, what comes after such a stop may be neither
+    base::Status commit(bool durable = true);
 
 private:
     base::Status failed(const char* what) const;

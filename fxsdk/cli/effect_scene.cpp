@@ -2,10 +2,13 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/particle_kind.h"
+#include "fxsdk/api/scene_object.h"
 #include "fxsdk/cli/api_status.h"
+#include "fxsdk/cli/field_cache.h"
 #include "fxsdk/cli/interrupt.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory_resource>
 #include <vector>
 
@@ -158,14 +161,17 @@ base::Status EffectScene::start(const scene_file::SceneFile& file, const EffectS
 
 base::Status EffectScene::addCollisionMesh(const scene_file::SceneFile& file)
 {
-    const std::vector<glm::vec3>& positions = file.mesh.positions;
-    FxCollisionMesh mesh = fxDefaultCollisionMesh();
-    for (int i = 0; i < 3; ++i)
-        mesh.origin[i] = file.mesh.origin[i];
-    mesh.positions = positions.empty() ? nullptr : &positions[0].x;
-    mesh.vertexCount = uint32_t(positions.size());
-    mesh.cellSize = file.meshCellSize;
-    return toStatus(fxScene_SetCollisionMesh(scene_, &mesh));
+    sim::TriangleMesh mesh;
+    mesh.origin = file.mesh.origin;
+    mesh.positions = file.mesh.positions;
+    std::filesystem::path kept;
+    if (!file.meshFile.empty())
+        kept = fieldFileOf(file.meshFile, mesh, file.meshCellSize);
+    auto field = fieldOf(mesh, file.meshCellSize, kept, *context_->tasks, &context_->memory);
+    if (!field)
+        return field.status();
+    scene_->scene.setCollisionField(std::move(*field));
+    return {};
 }
 
 base::Status EffectScene::addInstances(const scene_file::SceneFile& file, const EffectSceneOptions& options)

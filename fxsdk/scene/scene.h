@@ -194,6 +194,11 @@ public:
     /// @param cellSize see sim::DistanceField::build
     /// @return what building the field fails with
     base::Status setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize);
+    /// The same with a field that has been built already.
+    void setCollisionField(std::shared_ptr<const sim::DistanceField> field)
+    {
+        world_.setField(std::move(field));
+    }
 
     /// What stands in the way of particles that ask the host; see sim::World::setContact().
     void setContact(const sim::HostContact& contact)

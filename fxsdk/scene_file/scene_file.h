@@ -54,6 +54,7 @@ struct SceneFile
     render::ViewSettings view; ///< exposure, lighting, shimmer, dazzle, form, tone map, detail
     render::StageBackground background;
     render::StageMesh mesh;    ///< empty when the scene has none
+    std::string meshFile;      ///< where it lies; empty: in the library, or there is none
     bool meshCollides = false; ///< effects collide with it
     float meshCellSize = 0.0f; ///< [m] of the grid that stands for it then; 0: as fine as four million allow
     std::vector<ScenePreset> presets;

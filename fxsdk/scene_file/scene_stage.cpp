@@ -50,6 +50,7 @@ void readSceneMesh(const PresetValue& value, const asset::AssetResolver& resolve
     for (glm::vec3& vertex : mesh->positions)
         vertex = position + scale * vertex;
     scene.mesh = std::move(*mesh);
+    scene.meshFile = resolver.fileOf(name);
 }
 
 void readBackground(const PresetValue& value, const asset::AssetResolver& resolver, Findings& findings,

@@ -212,11 +212,7 @@ base::Result<std::shared_ptr<const DistanceField>> DistanceField::build(const Tr
                                                                         std::pmr::memory_resource* memory)
 {
     const base::FloatingPointScope floatingPoint;
-    if (base::Status status = checkMesh(mesh); !status)
-        return status;
-    if (mesh.triangles() == 0)
-        return base::Status(base::Code::InvalidArgument, "the mesh has no triangles");
-    const base::Result<DistanceGrid> grid = planGrid(boundsOf(mesh), cellSize);
+    const base::Result<DistanceGrid> grid = plan(mesh, cellSize);
     if (!grid)
         return grid.status();
     const MeshSurface surface = sortTriangles(mesh, memory);
@@ -236,6 +232,31 @@ base::Result<std::shared_ptr<const DistanceField>> DistanceField::build(const Tr
     thicken(surface, *grid, values, memory);
     field->hash_ = field->computeHash();
     return std::shared_ptr<const DistanceField>(field);
+}
+
+base::Result<DistanceGrid> DistanceField::plan(const TriangleMesh& mesh, float cellSize)
+{
+    if (base::Status status = checkMesh(mesh); !status)
+        return status;
+    if (mesh.triangles() == 0)
+        return base::Status(base::Code::InvalidArgument, "the mesh has no triangles");
+    return planGrid(boundsOf(mesh), cellSize);
+}
+
+std::shared_ptr<const DistanceField> DistanceField::restore(const glm::dvec3& origin,
+                                                            const DistanceGrid& grid,
+                                                            std::span<const float> values,
+                                                            std::pmr::memory_resource* memory)
+{
+    const float farthest = grid.cell * float(grid.nodes.x + grid.nodes.y + grid.nodes.z);
+    const auto isDistance = [farthest](float d) { return d >= -farthest && d <= farthest; }; // no NaN
+    if (values.size() != grid.count() || !std::all_of(values.begin(), values.end(), isDistance))
+        return nullptr;
+    const auto field = std::allocate_shared<DistanceField>(
+        std::pmr::polymorphic_allocator<DistanceField>(memory), origin, grid, memory);
+    std::copy(values.begin(), values.end(), field->values_.data());
+    field->hash_ = field->computeHash();
+    return field;
 }
 
 uint64_t DistanceField::computeHash() const

@@ -48,17 +48,21 @@
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
+#include <span>
 
 namespace fx::sim {
 
 /// Largest error of a distance between nodes, in cells: half of the diagonal.
 constexpr float kFieldErrorCells = 0.8660255f;
 
+/// Of the values that build() gives: they differ between versions, for equal meshes and cells.
+constexpr uint32_t kFieldVersion = 1;
+
 /// Immutable. Sampling allocates nothing; any thread.
 class DistanceField
 {
 public:
-    /// Takes 4 bytes a node, at most 64 MiB, and about 360 bytes a triangle and 16 for each row of nodes that
+    /// Takes 4 bytes a node, at most 64 MiB, and about 300 bytes a triangle and 16 for each row of nodes that
     /// a solid crosses while it works. Equal meshes give equal bits for any number of threads.
     /// Throws std::bad_alloc.
     /// @param cellSize [m] 0: as fine as some four million nodes allow
@@ -66,6 +70,15 @@ public:
     static base::Result<std::shared_ptr<const DistanceField>> build(const TriangleMesh& mesh, float cellSize,
                                                                     base::TaskRunner& tasks,
                                                                     std::pmr::memory_resource* memory);
+
+    /// The grid that build() takes. @return what build() fails with, but for triangles without an area
+    static base::Result<DistanceGrid> plan(const TriangleMesh& mesh, float cellSize);
+
+    /// The field whose values() these are, one a node. Throws std::bad_alloc.
+    /// @return null when their number is another, or one of them is no distance in the grid
+    static std::shared_ptr<const DistanceField> restore(const glm::dvec3& origin, const DistanceGrid& grid,
+                                                        std::span<const float> values,
+                                                        std::pmr::memory_resource* memory);
 
     /// Use build().
     DistanceField(const glm::dvec3& origin, const DistanceGrid& grid, std::pmr::memory_resource* memory);
@@ -82,6 +95,7 @@ public:
 
     const glm::dvec3& origin() const { return origin_; } ///< [m] world
     const DistanceGrid& grid() const { return grid_; }
+    std::span<const float> values() const { return {values_.data(), grid_.count()}; } ///< [m] at the nodes
     float cell() const { return grid_.cell; }
     /// Of places and distances: what steps with it depend on. Never 0.
     uint64_t hash() const { return hash_; }

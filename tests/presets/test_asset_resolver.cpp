@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
 
 using namespace fx::asset;
 using fx::base::Code;
@@ -46,6 +47,19 @@ TEST(AssetResolver, readsBelowItsFolder)
     EXPECT_EQ(*resolver.read("./sub//b.txt", 100), "B");
     EXPECT_EQ(codeOf(resolver, "c.txt"), int(Code::NotFound));
     EXPECT_EQ(codeOf(resolver, "sub"), int(Code::Io));
+}
+
+TEST(AssetResolver, tellsTheFileBehindANameThatIsOne)
+{
+    const TempFolder folder;
+    folder.write("a.txt", "A");
+    folder.write("inner/x.txt", "X");
+    const AssetResolver resolver(folder.path() + "/inner", kLibrary);
+    EXPECT_EQ(resolver.fileOf("./x.txt"),
+              std::filesystem::canonical(folder.path() + "/inner/x.txt").string());
+    for (const char* name : {"", "missing.txt", "../a.txt", "library:spark", "/etc/passwd"})
+        EXPECT_EQ(resolver.fileOf(name), "") << name;
+    EXPECT_EQ(AssetResolver(folder.path(), kLibrary, {nullptr, readPacked}).fileOf("a.txt"), "");
 }
 
 TEST(AssetResolver, refusesNamesThatLeadOut)

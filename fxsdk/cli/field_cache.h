@@ -1,0 +1,32 @@
+/// @file field_cache.h
+/// Fields of distances that lie beside the meshes they were made from, so that a scene starts at once.
+///
+/// A file holds the field of one mesh, at one place and size, with one size of cells, in the byte order of
+/// the machine. Nothing of it is believed: what it has to be follows from the mesh, a hash of which it names,
+/// and another hash covers its values. Any other file is ignored and replaced; where that cannot be done,
+/// because the folder is not to be written to, say, the field is made anew each time, and nobody is told.
+/// Threads: any. Programs that write one file at once each put a whole file in place.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "simulation/collision/distance_field.h"
+
+#include <filesystem>
+#include <memory>
+#include <memory_resource>
+
+namespace fx::cli {
+
+/// Where the field of a mesh is kept: beside it, by a name that tells sizes of cells apart.
+std::filesystem::path fieldFileOf(const std::filesystem::path& meshFile, const sim::TriangleMesh& mesh,
+                                  float cellSize);
+
+/// The field of a mesh, from `file` or made and written there. Throws std::bad_alloc.
+/// @param file see fieldFileOf(); empty: it is made, and kept nowhere
+/// @return what sim::DistanceField::build() fails with
+base::Result<std::shared_ptr<const sim::DistanceField>> fieldOf(const sim::TriangleMesh& mesh, float cellSize,
+                                                                const std::filesystem::path& file,
+                                                                base::TaskRunner& tasks,
+                                                                std::pmr::memory_resource* memory);
+
+} // namespace fx::cli
