@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 #include <utility>
 
 namespace fx::cli {
@@ -99,7 +98,7 @@ public:
             render::addRgba(image, names[i], layers.media[i].pixels, ExrPrecision::Float);
         render::addPlane(image, "depth.Z", layers.depth.pixels, ExrPrecision::Float);
         render::addPlane(image, "opticalDepth.Y", layers.opticalDepth.pixels, ExrPrecision::Float);
-        const auto bytes = render::encodeExr(image, int(std::thread::hardware_concurrency()));
+        const auto bytes = render::encodeExr(image);
         return bytes.ok() ? writeFileAtomically(target_.frame(number), *bytes) : bytes.status();
     }
 

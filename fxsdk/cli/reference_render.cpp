@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 base::Status writeExr(const std::filesystem::path& path, const render::ReferenceRenderer& renderer, int width,
-                      int height, float whiteLuminance)
+                      int height, float whiteLuminance, uint32_t threads)
 {
     namespace channel = render::reference_channel;
     using render::ExrPrecision;
@@ -37,7 +37,7 @@ base::Status writeExr(const std::filesystem::path& path, const render::Reference
     }
     render::addPlane(image, "depth.Z", renderer.pixels(channel::Depth), ExrPrecision::Float);
     render::addPlane(image, "opticalDepth.Y", renderer.pixels(channel::OpticalDepth), ExrPrecision::Float);
-    const auto bytes = render::encodeExr(image);
+    const auto bytes = render::encodeExr(image, threads);
     return bytes.ok() ? writeFileAtomically(path, *bytes) : bytes.status();
 }
 
@@ -133,7 +133,9 @@ private:
             return status;
         if (base::Status status = renderTiles(renderer, journal); !status)
             return status;
-        if (base::Status status = writeExr(file, renderer, plan_.width, plan_.height, white_); !status)
+        if (base::Status status =
+                writeExr(file, renderer, plan_.width, plan_.height, white_, arguments_.reference.threads);
+            !status)
             return status;
         journal.remove();
         report(moment, frame, renderer.work(),

@@ -17,12 +17,14 @@
 #include <limits>
 #include <new>
 #include <set>
+#include <thread>
 
 namespace fx::render {
 namespace {
 
 constexpr int kMaxSize = 16384;
 constexpr float kHalfMax = 65504.0f;
+constexpr uint32_t kMostThreads = 256;
 
 /// OpenEXR's output into a string; the library seeks back to fill in its table of offsets.
 class MemoryStream final : public Imf::OStream
@@ -142,12 +144,13 @@ void addPlane(ExrImage& image, const std::string& name, std::span<const float> v
     image.channels.push_back({name, values, 0, 1, precision});
 }
 
-base::Result<std::string> encodeExr(const ExrImage& image, int threads)
+base::Result<std::string> encodeExr(const ExrImage& image, uint32_t threads)
 {
     if (base::Status status = check(image); !status)
         return status;
     try {
-        return encode(image, std::max(threads, 1));
+        const uint32_t wanted = threads > 0 ? threads : std::thread::hardware_concurrency();
+        return encode(image, int(std::clamp(wanted, 1u, kMostThreads)));
     } catch (const std::bad_alloc&) {
         return base::Status(base::Code::OutOfMemory, "EXR: out of memory");
     } catch (const std::exception& error) {

@@ -2,12 +2,14 @@
 /// Images with named channels as the bytes of an OpenEXR file (scan lines, ZIP). Write only.
 ///
 /// The bytes are made in memory, so that the caller can put them in place whole or not at all.
-/// Threads: any; one call uses up to `threads` workers of OpenEXR's own pool.
+/// Threads: any; one call uses up to `threads` workers of OpenEXR's own pool. The bytes do not depend on
+/// their number.
 #pragma once
 
 #include "foundation/result/status.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,7 +48,8 @@ void addPlane(ExrImage& image, const std::string& name, std::span<const float> v
               ExrPrecision precision);
 
 /// The file. Primaries are written as Rec. 709. NaN and infinities are kept.
+/// @param threads at most so many work on it, 0: as many as the machine has
 /// @return InvalidArgument (size, a channel that is too short, a repeated name), OutOfMemory, Internal
-base::Result<std::string> encodeExr(const ExrImage& image, int threads = 1);
+base::Result<std::string> encodeExr(const ExrImage& image, uint32_t threads = 0);
 
 } // namespace fx::render

@@ -6,9 +6,11 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfThreading.h>
 
 #include <cmath>
 #include <limits>
+#include <thread>
 
 namespace fx::render {
 namespace {
@@ -54,6 +56,32 @@ TEST(ExrEncoder, floatChannelsComeBackBitForBitInTheirPlaces)
         for (size_t i = 0; i < kPixels; ++i)
             EXPECT_EQ(read[i], rgba[i * 4 + c]) << names[c] << " pixel " << i;
     }
+}
+
+TEST(ExrEncoder, theBytesDoNotDependOnTheNumberOfThreads)
+{
+    constexpr int kSide = 300; // 19 blocks of 16 rows
+    std::vector<float> rgba(size_t(kSide) * kSide * 4);
+    for (size_t i = 0; i < rgba.size(); ++i)
+        rgba[i] = std::sin(0.001f * float(i)) * float(i % 7);
+    ExrImage image{kSide, kSide, {}, 0.0f};
+    addRgba(image, "", rgba, ExrPrecision::Float);
+    addRgba(image, "smoke", rgba, ExrPrecision::Half);
+    const auto one = encodeExr(image, 1);
+    ASSERT_TRUE(one.ok()) << one.status().message();
+    for (const uint32_t threads : {2u, 3u, 8u, 0u, 1u})
+        EXPECT_TRUE(*encodeExr(image, threads) == *one) << threads;
+}
+
+TEST(ExrEncoder, asManyThreadsWorkAsAreAskedFor)
+{
+    const std::vector<float> rgba = testPicture();
+    ExrImage image{kWidth, kHeight, {}, 0.0f};
+    addRgba(image, "", rgba, ExrPrecision::Float);
+    ASSERT_TRUE(encodeExr(image, 3).ok());
+    EXPECT_GE(Imf::globalThreadCount(), 3);
+    ASSERT_TRUE(encodeExr(image).ok()); // all of the machine
+    EXPECT_GE(Imf::globalThreadCount(), int(std::thread::hardware_concurrency()));
 }
 
 TEST(ExrEncoder, halfChannelsAreWithinTheStatedRelativeError)
