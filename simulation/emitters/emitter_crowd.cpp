@@ -2,6 +2,7 @@
 
 #include "simulation/emitters/emitter_solver.h"
 #include "simulation/parallel.h"
+#include "simulation/particles/rows_of_a_task.h"
 
 #include <algorithm>
 
@@ -9,8 +10,7 @@ namespace fx::sim {
 
 namespace {
 
-constexpr size_t kMostBirths = 1024;   // that wait at a time
-constexpr size_t kManyRows = 8 * 1024; // fewer cost less than handing them to other threads
+constexpr size_t kMostBirths = 1024; // that wait at a time
 
 } // namespace
 
@@ -108,14 +108,14 @@ void EmitterCrowd::endPublication()
 void EmitterCrowd::writeParts()
 {
     const auto parts = std::span<LookPart>(parts_).first(partCount_);
-    size_t rows = 0;
+    size_t bytes = 0;
     for (const LookPart& part : parts)
-        rows += part.job.rows.count;
-    if (rows < kManyRows)
+        bytes += part.job.rows.count * bytesMoved(*part.job.program);
+    if (bytes <= kBytesOfATask)
         writeManyLooks(parts);
     else
         parallelRows(
-            *tasks_, uint32_t(parts.size()), uint32_t(kManyRows * parts.size() / (2 * rows)) + 1,
+            *tasks_, uint32_t(parts.size()), uint32_t(kBytesOfATask * parts.size() / bytes) + 1,
             [&](uint32_t begin, uint32_t end) { writeManyLooks(parts.subspan(begin, end - begin)); });
     for (LookPart& part : parts) {
         part.bounds.radius *= part.job.program->corner;

@@ -4,6 +4,7 @@
 #include "simulation/emitters/gpu_replay.h"
 #include "simulation/emitters/look_constants.h"
 #include "simulation/parallel.h"
+#include "simulation/particles/rows_of_a_task.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,7 @@ namespace {
 
 namespace column = base::particle_column;
 
-constexpr uint32_t kChunk = 1024;                                 // rows that are handed to a thread together
-constexpr uint32_t kMinChunks = EmitterSolver::kFewRows / kChunk; // fewer cost less than another thread
+constexpr uint32_t kChunk = 1024;        // rows that are handed to a thread together
 constexpr size_t kBeyondCache = 8 << 20; // [byte] of a group that is not kept in the cache of a core
 
 } // namespace
@@ -47,11 +47,12 @@ namespace {
 LookBounds writeAll(const LookJob& job, const LookColumns& out, base::TaskRunner* tasks)
 {
     const uint32_t chunks = (job.rows.count + kChunk - 1) / kChunk;
-    if (!tasks || chunks <= kMinChunks) // no lock, which would wait for everything that has been written
+    const uint32_t few = rowsOfATask(*job.program, kChunk) / kChunk;
+    if (!tasks || chunks <= few) // no lock, which would wait for everything that has been written
         return writeLooks(job, out, 0, job.rows.count);
     LookBounds bounds;
     std::mutex mutex; // guards bounds, which do not depend on the order of what is added
-    parallelRows(*tasks, chunks, kMinChunks, [&](uint32_t begin, uint32_t end) {
+    parallelRows(*tasks, chunks, few, [&](uint32_t begin, uint32_t end) {
         const LookBounds found = writeLooks(job, out, begin * kChunk, std::min(end * kChunk, job.rows.count));
         const std::lock_guard lock(mutex);
         bounds.add(found);

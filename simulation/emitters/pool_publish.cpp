@@ -4,6 +4,7 @@
 #include "simulation/emitters/look_constants.h"
 #include "simulation/parallel.h"
 #include "simulation/particles/look_kernel.h"
+#include "simulation/particles/rows_of_a_task.h"
 
 #include <algorithm>
 
@@ -12,7 +13,6 @@ namespace fx::sim {
 namespace {
 
 constexpr uint32_t kChunk = 1024;               // rows that are handed to a thread together
-constexpr uint32_t kMinChunks = 8;              // fewer cost less than another thread
 constexpr base::Ticks kEver = int64_t(1) << 60; // members have been moving for longer than anybody lives
 
 uint32_t wholeLines(uint32_t rows)
@@ -29,11 +29,12 @@ void writeRange(const LookJob& job, const LookColumns& out, base::PooledRows::Ra
     if (begin >= end)
         return;
     const uint32_t chunks = (end - begin + kChunk - 1) / kChunk;
-    if (chunks <= kMinChunks) {
+    const uint32_t few = rowsOfATask(*job.program, kChunk) / kChunk;
+    if (chunks <= few) {
         static_cast<void>(writeLooks(job, out, begin, end));
         return;
     }
-    parallelRows(tasks, chunks, kMinChunks, [&](uint32_t first, uint32_t last) {
+    parallelRows(tasks, chunks, few, [&](uint32_t first, uint32_t last) {
         static_cast<void>(writeLooks(job, out, begin + first * kChunk, std::min(begin + last * kChunk, end)));
     });
 }

@@ -1,0 +1,116 @@
+// bench_parallel_loop [--threads=T] [--pause=MS] [--repeats=N] [--small]
+//
+// From how much work on a loop is worth other threads. A loop of two parts is run by one thread and by T, in
+// turn, each time after a pause in which the others fall asleep, as they do between the frames of a game.
+// Prints one JSON object for each amount of work: microseconds of the loop on one thread, and what T threads
+// take of that time; then the least work from which on T threads take less: the break-even. Parts of the
+// simulation's loops over particles carry more than half of it, see simulation/particles/rows_of_a_task.h.
+// --small: three repeats after short pauses, to see that the program works.
+#include "benchmarks/bench_failure.h"
+#include "foundation/tasks/task_runner.h"
+#include "fxsdk/cli/json_line.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace {
+
+using namespace fx;
+using bench::fail;
+using Clock = std::chrono::steady_clock;
+
+struct Options
+{
+    uint32_t threads = 2;
+    int pause = 4; ///< [ms]
+    int repeats = 40;
+};
+
+Options parse(int argc, char** argv)
+{
+    Options options;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view a = argv[i];
+        if (a.starts_with("--threads="))
+            options.threads = uint32_t(std::clamp(std::atoi(a.data() + 10), 2, 256));
+        else if (a.starts_with("--pause="))
+            options.pause = std::clamp(std::atoi(a.data() + 8), 0, 100);
+        else if (a.starts_with("--repeats="))
+            options.repeats = std::clamp(std::atoi(a.data() + 10), 3, 10'000);
+        else if (a == "--small")
+            options.pause = 1, options.repeats = 3;
+        else
+            fail("usage: bench_parallel_loop [--threads=2..256] [--pause=0..100] [--repeats=3..10000] "
+                 "[--small]");
+    }
+    return options;
+}
+
+/// A chain of operations, so that its time follows the number of steps.
+uint64_t work(uint64_t steps, uint64_t x)
+{
+    for (uint64_t i = 0; i < steps; ++i)
+        x = x * 6364136223846793005u + 1442695040888963407u;
+    return x;
+}
+
+double median(std::vector<double> values)
+{
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
+    return values[values.size() / 2];
+}
+
+/// [us] of a loop of two parts with so many steps in all.
+double timeLoop(base::TaskRunner& tasks, uint64_t steps, uint64_t& ioSum)
+{
+    uint64_t sums[2] = {};
+    const auto start = Clock::now();
+    tasks.parallelFor(2, 1, [&](uint32_t begin, uint32_t end) {
+        for (uint32_t part = begin; part < end; ++part)
+            sums[part] = work(steps / 2, part);
+    });
+    const double microseconds = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+    ioSum += sums[0] ^ sums[1];
+    return microseconds;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const Options options = parse(argc, argv);
+    const auto one = base::makeSerialRunner();
+    const auto many = base::makeTbbRunner(options.threads);
+    const cli::Machine machine = cli::readMachine();
+    uint64_t sum = 0;
+    double breakEven = -1;
+    for (uint64_t steps = 1 << 13; steps <= 1 << 20; steps += steps / 2) {
+        std::vector<double> serial, parallel;
+        for (int i = 0; i < options.repeats; ++i) {
+            for (const bool isParallel : {false, true}) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(options.pause));
+                (isParallel ? parallel : serial).push_back(timeLoop(isParallel ? *many : *one, steps, sum));
+            }
+        }
+        const double alone = median(serial), together = median(parallel);
+        if (together >= alone)
+            breakEven = -1;
+        else if (breakEven < 0)
+            breakEven = alone;
+        cli::printJsonLine(cli::withMachine({{"name", "parallel_loop"},
+                                             {"threads", options.threads},
+                                             {"us_one_thread", alone},
+                                             {"us_threads", together},
+                                             {"share", together / alone}},
+                                            machine));
+    }
+    cli::printJsonLine(cli::withMachine(
+        {{"name", "parallel_loop"}, {"variant", "break-even"}, {"us_one_thread", breakEven}}, machine));
+    if (sum == 0)
+        fail("the loops did nothing");
+    return 0;
+}
