@@ -164,7 +164,8 @@ public:
     /// Plays an instance at another rate from now on. As setParameters().
     void setRate(Slot slot, uint32_t rate);
     /// Takes an instance to local time `to`, as if it had been played to there from its first step on, in
-    /// steps of `stepTicks`, under the conditions that hold now; what the host told it is left out.
+    /// steps of `stepTicks`, under the conditions that hold now; what the host told it is left out. Strong
+    /// guarantee.
     /// @return whether it is there; otherwise as arrive()
     bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
                 base::WorkBudget& work);
@@ -329,6 +330,9 @@ private:
     bool replayPart(RunIndex index, base::WorkBudget& work, StepCounters& counters);
     void closeRun(RunIndex index);
     bool jump(RunIndex index, base::Ticks from, base::Ticks to, StepCounters& counters);
+    bool playTo(RunIndex index, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
+                base::WorkBudget& work);
+    static void restoreSolvers(Run& run, const StateBuffer& state);
     void isolate(Slot slot);
     std::span<const HostEvent> hear(RunIndex index, base::Ticks tick);
     void restoreTold(Run& run, StateReader& reader);

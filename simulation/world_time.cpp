@@ -56,34 +56,71 @@ bool World::seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounter
     }
     runs_.materialize(index);
     Run& run = runs_.at(index);
+    StateBuffer solvers(memory_);
+    run.save(solvers);
+    const RunConditions conditions = run.conditions;
+    const LocalSpan way{run.reached, run.target};
+    const base::Ticks stepLength = run.stepLength, simulated = run.simulated;
+    const bool wasArriving = run.arriving, wasFresh = run.fresh;
+    StepCounters done;
+    bool isThere = false;
+    try {
+        isThere = playTo(index, to, stepTicks, done, work);
+    } catch (...) {
+        restoreSolvers(run, solvers);
+        run.conditions = conditions;
+        run.reached = way.begin;
+        run.target = way.end;
+        run.stepLength = stepLength;
+        run.simulated = simulated;
+        run.arriving = wasArriving;
+        run.inPart = false;
+        run.stepped = 0;
+        run.fresh = wasFresh;
+        runs_.welcome(index);
+        throw;
+    }
+    counters += done;
+    run.changes.clear();
+    run.told.clear();
+    run.field.reset();
+    instances_[slot].start.clock = run.conditions.clock;
+    return isThere;
+}
+
+/// Takes the solvers of a run to local time `to`, under the conditions that hold now, as far as the work
+/// goes. After an exception the run is anywhere on the way.
+bool World::playTo(RunIndex index, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
+                   base::WorkBudget& work)
+{
+    Run& run = runs_.at(index);
     runs_.touch(index);
     base::Ticks from =
         run.arriving ? run.reached : std::max<base::Ticks>(run.conditions.clock.toLocal(run.simulated), 0);
     run.arriving = false;
-    if (!run.changes.empty()) {
+    if (!run.changes.empty())
         run.conditions = run.changes.back().conditions;
-        run.changes.clear();
-    }
-    run.told.clear();
     for (const std::unique_ptr<Solver>& solver : run.solvers)
         solver->standAt(run.conditions.placement); // a move that is not stepped yet is not part of the past
-    const uint32_t rate = run.conditions.clock.rate;
     if (!jump(index, from, to, counters)) {
         if (to < from) {
-            StateReader reader(run.pristine->bytes());
-            run.restore(reader);
-            if (!reader.ok())
-                throw std::logic_error("a solver does not take its first state: " +
-                                       reader.status().message());
+            restoreSolvers(run, *run.pristine);
             from = 0;
         }
         setOut(index, {from, to}, stepTicks, counters);
     }
-    run.conditions.clock = {now_, to, rate};
-    instances_[slot].start.clock = run.conditions.clock;
+    run.conditions.clock = {now_, to, run.conditions.clock.rate};
     run.simulated = now_;
-    run.field.reset();
     return !run.arriving || replay(index, work, counters);
+}
+
+/// Gives the solvers of a run a state back that they were in. Takes no memory.
+void World::restoreSolvers(Run& run, const StateBuffer& state)
+{
+    StateReader reader(state.bytes());
+    run.restore(reader);
+    if (!reader.ok() || reader.left() != 0)
+        throw std::logic_error("a solver does not take its own state: " + reader.status().message());
 }
 
 } // namespace fx::sim

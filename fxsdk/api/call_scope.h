@@ -35,19 +35,26 @@ public:
         {
             if (!caller.thread.isCaller())
                 rule_ = rule;
-            else if (!caller.busy_)
+            else if (!caller.busy())
                 entered_ = &caller;
             if (entered_)
-                entered_->busy_ = true;
+                entered_->busy_.store(true, std::memory_order_relaxed);
         }
         ~Scope()
         {
             if (entered_)
-                entered_->busy_ = false;
+                entered_->busy_.store(false, std::memory_order_relaxed);
         }
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
         explicit operator bool() const { return entered_ != nullptr; }
+        /// The object is destroyed next: nothing may enter it any more, and the scope does not touch it
+        /// again.
+        void close()
+        {
+            entered_->close();
+            entered_ = nullptr;
+        }
         base::Status status() const ///< made when it is asked for: every call passes through here
         {
             if (entered_)
@@ -62,11 +69,20 @@ public:
         const char* rule_ = nullptr; ///< that was broken
     };
 
-    /// For the owner's thread or one that is about to become it.
-    bool busy() const { return busy_; }
+    /// Whether a call is inside, as any thread may ask.
+    bool busy() const { return busy_.load(std::memory_order_relaxed); }
+    /// Nothing may enter any more, for the callbacks of a destruction.
+    void close()
+    {
+        closed_.store(true, std::memory_order_relaxed);
+        busy_.store(true, std::memory_order_relaxed);
+    }
+    /// For functions that may be called while others are inside.
+    bool isClosed() const { return closed_.load(std::memory_order_relaxed); }
 
 private:
-    bool busy_ = false; ///< read and written by the owning thread only
+    std::atomic<bool> busy_{false};   ///< written by the owning thread only
+    std::atomic<bool> closed_{false}; ///< likewise
 };
 
 /// An object that many threads use one after the other, and that callbacks must not enter again.
@@ -96,6 +112,13 @@ public:
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
         const base::Status& status() const { return status_; }
+        /// The object is destroyed next: for this thread it stays entered, so that callbacks are refused, and
+        /// the scope does not touch it again.
+        void close()
+        {
+            entered_->mutex_.unlock();
+            entered_ = nullptr;
+        }
 
     private:
         SharedCaller* entered_ = nullptr;

@@ -94,22 +94,29 @@ Status create(const FxContextDef& def, FxContext** outContext)
     return {};
 }
 
-/// Whether the context may be destroyed by this thread now.
-Status checkDestroy(FxContext& context)
+/// Shuts a context for good, with all that is in it, so that no callback of its destruction gets into it.
+/// After a failure it is as open as before.
+Status close(FxContext& context)
 {
     if (context.device && !context.gl.thread.isCaller())
         return {Code::WrongThread, fx::api::kGlThreadRule};
-    const fx::api::SharedCaller::Scope loading(context.loading);
+    fx::api::SharedCaller::Scope loading(context.loading);
     if (!loading.status())
         return loading.status();
-    const fx::api::SharedCaller::Scope tables(context.tables);
+    fx::api::SharedCaller::Scope tables(context.tables);
     if (!tables.status())
         return tables.status();
-    bool isInside = context.gl.thread.isCaller() && context.gl.busy();
+    bool isInside = context.gl.busy();
     for (const FxScene* scene : context.scenes)
-        isInside = isInside || (scene->caller.thread.isCaller() && scene->caller.busy());
-    return isInside ? Status(Code::ReEntrant, "a callback must not destroy the context that is calling it")
-                    : Status();
+        isInside = isInside || scene->caller.busy();
+    if (isInside)
+        return {Code::ReEntrant, "a callback must not destroy the context that is calling it"};
+    loading.close();
+    tables.close();
+    context.gl.close();
+    for (FxScene* scene : context.scenes)
+        scene->caller.close();
+    return {};
 }
 
 } // namespace
@@ -133,7 +140,7 @@ FxResult fxDestroyContext(FxContext* context)
     return fx::api::guarded("fxDestroyContext", fx::api::logOf(context), [&]() -> Status {
         if (!context)
             return {};
-        if (Status status = checkDestroy(*context); !status)
+        if (Status status = close(*context); !status)
             return status;
         destroy(context);
         return {};
@@ -166,6 +173,8 @@ FxResult fxContext_AdoptGlThread(FxContext* context)
             return fx::api::invalid("context is null");
         if (!context->device)
             return {Code::NoGl, "the context was created without getProcAddress"};
+        if (context->gl.busy())
+            return {Code::ReEntrant, "a call is inside a view; adopt the thread when that has returned"};
         context->gl.thread.adopt();
         return {};
     });

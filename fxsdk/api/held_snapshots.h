@@ -52,11 +52,14 @@ public:
     /// Forgets the snapshot and hands out what has to be released. Nothing when the id is stale.
     std::optional<base::SnapshotPair> take(scene::LocalId id)
     {
-        std::lock_guard lock(mutex_);
-        Slot* slot = slotOf(id);
-        if (!slot || !slot->held)
-            return std::nullopt;
-        return std::exchange(slot->held, std::nullopt)->taken;
+        std::optional<Held> gone; // its memory goes back to the host, who may call, after the lock
+        {
+            std::lock_guard lock(mutex_);
+            Slot* slot = slotOf(id);
+            if (slot)
+                gone = std::exchange(slot->held, std::nullopt);
+        }
+        return gone ? std::optional(gone->taken) : std::nullopt;
     }
 
 private:

@@ -119,18 +119,17 @@ FxResult fxDestroyScene(FxScene* scene)
     return fx::api::guarded("fxDestroyScene", fx::api::logOf(scene), [&]() -> Status {
         if (!scene)
             return {};
-        {
-            const fx::api::SingleCaller::Scope scope(scene->caller, fx::api::kSceneThreadRule);
-            if (!scope.status())
-                return scope.status();
-        }
-        const fx::api::SharedCaller::Scope scope(scene->context->tables);
-        if (!scope.status())
-            return scope.status();
+        fx::api::SingleCaller::Scope inside(scene->caller, fx::api::kSceneThreadRule);
+        if (!inside)
+            return inside.status();
+        const fx::api::SharedCaller::Scope tables(scene->context->tables);
+        if (!tables.status())
+            return tables.status();
         if (scene->views.load() != 0)
             return fx::api::invalid("a view still shows the scene; destroy the view first");
         if (scene->held.any())
             return fx::api::invalid("a snapshot of the scene is still held; release it first");
+        inside.close();
         fx::api::destroyScene(scene);
         return {};
     });
@@ -141,8 +140,8 @@ FxResult fxScene_AdoptThread(FxScene* scene)
     return fx::api::guarded("fxScene_AdoptThread", fx::api::logOf(scene), [&]() -> Status {
         if (!scene)
             return fx::api::invalid("scene is null");
-        if (scene->caller.thread.isCaller() && scene->caller.busy())
-            return {Code::ReEntrant, "a callback must not call the scene that is calling it"};
+        if (scene->caller.busy())
+            return {Code::ReEntrant, "a call is inside the scene; adopt it when that has returned"};
         scene->caller.thread.adopt();
         return {};
     });

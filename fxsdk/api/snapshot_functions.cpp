@@ -17,13 +17,21 @@ using fx::base::SnapshotGroup;
 using fx::base::Status;
 using fx::scene::Presentation;
 
+/// The functions here may be called from any thread and from callbacks, but not while the scene is destroyed.
+Status checkOpen(const FxScene* scene)
+{
+    if (!scene)
+        return fx::api::invalid("scene is null");
+    return scene->caller.isClosed() ? Status(Code::ReEntrant, "the scene is being destroyed") : Status();
+}
+
 /// Looks the snapshot up and runs body(presentation). From any thread: what is held does not change.
 template <class F>
 FxResult withSnapshot(const char* function, FxScene* scene, FxSnapshotId id, F&& body)
 {
     return fx::api::guarded(function, fx::api::logOf(scene), [&]() -> Status {
-        if (!scene)
-            return fx::api::invalid("scene is null");
+        if (Status status = checkOpen(scene); !status)
+            return status;
         const auto held = scene->held.find(scene->ids.decode(id.bits, fx::api::kSnapshotIdType));
         if (!held)
             return {Code::StaleId, "snapshot names no snapshot that is held of this scene"};
@@ -94,11 +102,10 @@ FxSnapshotGroup describeGroup(const FxScene& scene, const SnapshotGroup& group, 
 FxResult fxScene_AcquireSnapshot(FxScene* scene, FxSnapshotId* outSnapshot)
 {
     return fx::api::guarded("fxScene_AcquireSnapshot", fx::api::logOf(scene), [&]() -> Status {
-        fx::api::Checks check;
-        check.notNull(scene, "scene");
-        check.notNull(outSnapshot, "outSnapshot");
-        if (!check.status())
-            return check.status();
+        if (Status status = checkOpen(scene); !status)
+            return status;
+        if (!outSnapshot)
+            return fx::api::invalid("outSnapshot is null");
         scene->rowsWanted.store(FxScene::kRemembered);
         const Presentation presentation = scene->scene.acquire();
         fx::scene::LocalId id = 0;
@@ -120,8 +127,8 @@ FxResult fxScene_AcquireSnapshot(FxScene* scene, FxSnapshotId* outSnapshot)
 FxResult fxScene_ReleaseSnapshot(FxScene* scene, FxSnapshotId snapshot)
 {
     return fx::api::guarded("fxScene_ReleaseSnapshot", fx::api::logOf(scene), [&]() -> Status {
-        if (!scene)
-            return fx::api::invalid("scene is null");
+        if (Status status = checkOpen(scene); !status)
+            return status;
         const auto taken = scene->held.take(scene->ids.decode(snapshot.bits, fx::api::kSnapshotIdType));
         if (!taken)
             return {Code::StaleId, "snapshot names no snapshot that is held of this scene"};

@@ -39,11 +39,14 @@ base::Status AtomicFile::open()
     if (!direct)
         temporary_ = temporaryNameFor(target_);
     const std::filesystem::path& name = direct ? target_ : temporary_;
+    if (!direct)
+        entered_ = EndsWithProgram(name.string());
     const int flags = O_WRONLY | O_CLOEXEC | (direct ? 0 : O_CREAT | O_TRUNC);
     descriptor_ = ::open(name.c_str(), flags, 0666);
     if (descriptor_ >= 0)
         return {};
     temporary_.clear();
+    entered_ = {};
     return failed("create");
 }
 
@@ -72,6 +75,7 @@ base::Status AtomicFile::commit(bool durable)
     if (rename(temporary_.c_str(), target_.c_str()) != 0)
         return failed("create");
     temporary_.clear();
+    entered_ = {};
     return {};
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "foundation/result/status.h"
+#include "fxsdk/cli/interrupt.h"
 
 #include <filesystem>
 #include <string>
@@ -36,6 +37,7 @@ private:
 
     std::filesystem::path target_;
     std::filesystem::path temporary_; ///< empty when the target is written directly
+    EndsWithProgram entered_;         ///< the temporary file
     int descriptor_ = -1;
 };
 

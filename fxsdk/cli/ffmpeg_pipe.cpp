@@ -108,13 +108,16 @@ base::Status FfmpegPipe::start(const std::filesystem::path& target, int width, i
         return ioError("cannot open a pipe to ffmpeg");
     target_ = target;
     temporary_ = temporaryNameFor(target);
+    enteredFile_ = EndsWithProgram(temporary_.string());
     const int error =
         spawn(program.string(), argumentsFor("file:" + temporary_.string(), width, height, framesPerSecond),
               ends[0], process_);
     close(ends[0]);
     input_ = ends[1];
-    if (error == 0)
+    if (error == 0) {
+        enteredProcess_ = EndsWithProgram(process_);
         return {};
+    }
     process_ = -1;
     errno = error;
     return ioError("cannot start " + program.string());
@@ -141,6 +144,7 @@ base::Status FfmpegPipe::wait()
             return ioError("cannot wait for ffmpeg");
     }
     process_ = -1;
+    enteredProcess_ = {};
     if (WIFEXITED(state) && WEXITSTATUS(state) == 0)
         return {};
     return {base::Code::Io, "ffmpeg could not write " + target_.string()};
@@ -154,6 +158,7 @@ base::Status FfmpegPipe::finish()
     if (rename(temporary_.c_str(), target_.c_str()) != 0)
         return ioError("cannot create " + target_.string());
     temporary_.clear();
+    enteredFile_ = {};
     return {};
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "foundation/result/status.h"
+#include "fxsdk/cli/interrupt.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -41,6 +42,7 @@ private:
     std::filesystem::path target_;
     std::filesystem::path temporary_;
     pid_t process_ = -1;
+    EndsWithProgram enteredFile_, enteredProcess_;
     int input_ = -1; ///< our end of the pipe
 };
 

@@ -3,10 +3,17 @@
 
 #include "fxsdk/presets/birth_count.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 namespace fx::preset {
+
+namespace {
+
+constexpr double kRoundedDown = 1.0 - 1e-6; // by more than floats are rounded up
+
+} // namespace
 
 void adviseCapacity(const PresetValue& root, const sim::EffectDef& effect)
 {
@@ -16,7 +23,7 @@ void adviseCapacity(const PresetValue& root, const sim::EffectDef& effect)
     BirthCount count(emitters);
     for (size_t i = 0; i < emitters.size(); ++i) {
         const PresetValue element = root.element("emitters", i);
-        const double alive = count.alive(i);
+        const double alive = std::ceil(count.alive(i) * kRoundedDown);
         if (alive > double(emitters[i]->maxParticles))
             element.warning("maxParticles", (emitters[i]->fed ? "about " : "up to ") +
                                                 std::to_string(uint64_t(alive)) + " particles can be alive" +

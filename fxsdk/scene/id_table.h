@@ -5,6 +5,7 @@
 #include "foundation/math/hash.h"
 #include "simulation/state/state_reader.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory_resource>
@@ -27,6 +28,9 @@ constexpr uint32_t indexOf(LocalId id)
 
 /// A table of T. Removed indices are reused first-in first-out, so that an id goes stale as long ago as
 /// possible; an index whose uses are spent is retired, so that no identity ever comes back.
+///
+/// An index takes a few bytes. Values lie densely in an array of their own, which is as long as the largest
+/// number of values at a time, however many indices there are.
 template <class T>
 class IdTable
 {
@@ -34,7 +38,7 @@ public:
     /// @param capacity most values at a time, at most 2^24 - 1
     /// @param lastUse  uses of an index before it is retired, 1..2^24 - 1
     IdTable(std::pmr::memory_resource* memory, uint32_t capacity, uint32_t lastUse = uint32_t(kIdPartMask))
-        : slots_(memory), capacity_(capacity), lastUse_(lastUse)
+        : slots_(memory), values_(memory), freePlaces_(memory), capacity_(capacity), lastUse_(lastUse)
     {}
 
     /// Strong guarantee. @return 0 when the table is full
@@ -42,18 +46,35 @@ public:
     {
         if (count_ == capacity_ || (firstFree_ == kNone && slots_.size() == kIdPartMask))
             return 0;
+        if (freePlaces_.empty())
+            makePlace(); // may throw, as the next may; afterwards nothing does
         if (firstFree_ == kNone) {
-            slots_.emplace_back(); // may throw; afterwards nothing does
+            slots_.emplace_back();
             firstFree_ = lastFree_ = uint32_t(slots_.size() - 1);
         }
         const uint32_t index = firstFree_;
         Slot& slot = slots_[index];
-        firstFree_ = slot.nextFree;
-        slot.value = std::move(value);
-        slot.used = true;
+        firstFree_ = slot.link;
+        take(slot, std::move(value));
         ++slot.use;
-        ++count_;
         return (uint64_t(slot.use) << kIdPartBits) | index;
+    }
+
+    /// Takes the last add() back: the table gives out the same identities in the same order as if it had
+    /// never been called. Nothing may have been added or removed since. Allocates nothing.
+    void cancel(LocalId id)
+    {
+        const uint32_t index = indexOf(id);
+        Slot& slot = slots_[index];
+        drop(slot);
+        if (--slot.use == 0) { // made by that add()
+            slots_.pop_back();
+            return;
+        }
+        slot.link = firstFree_;
+        if (firstFree_ == kNone)
+            lastFree_ = index;
+        firstFree_ = index;
     }
 
     /// Null when the id names nothing here. Valid until the next add() or remove().
@@ -62,7 +83,7 @@ public:
         const uint32_t index = indexOf(id);
         if (index >= slots_.size() || !slots_[index].used || slots_[index].use != id >> kIdPartBits)
             return nullptr;
-        return &slots_[index].value;
+        return &values_[slots_[index].link];
     }
 
     /// The id must name something. Allocates nothing.
@@ -70,22 +91,20 @@ public:
     {
         const uint32_t index = indexOf(id);
         Slot& slot = slots_[index];
-        slot.value = T();
-        slot.used = false;
-        slot.nextFree = kNone;
-        --count_;
+        drop(slot);
+        slot.link = kNone;
         if (slot.use == lastUse_)
             return; // retired
         if (firstFree_ == kNone)
             firstFree_ = index;
         else
-            slots_[lastFree_].nextFree = index;
+            slots_[lastFree_].link = index;
         lastFree_ = index;
     }
 
     /// The value at `index`, which must be in use.
-    T& at(uint32_t index) { return slots_[index].value; }
-    const T& at(uint32_t index) const { return slots_[index].value; }
+    T& at(uint32_t index) { return values_[slots_[index].link]; }
+    const T& at(uint32_t index) const { return values_[slots_[index].link]; }
     LocalId idAt(uint32_t index) const { return (uint64_t(slots_[index].use) << kIdPartBits) | index; }
 
     uint32_t count() const { return count_; }
@@ -96,7 +115,7 @@ public:
     {
         for (uint32_t index = 0; index < slots_.size(); ++index)
             if (slots_[index].used)
-                f(index, slots_[index].value);
+                f(index, values_[slots_[index].link]);
     }
 
     /// Writes which identities are in use and in which order indices will be given out again, and calls
@@ -109,33 +128,39 @@ public:
             writer.value(slot.use);
             writer.flag(slot.used);
             if (slot.used)
-                saveValue(slot.value);
+                saveValue(values_[slot.link]);
         }
-        for (uint32_t index = firstFree_; index != kNone; index = slots_[index].nextFree)
+        for (uint32_t index = firstFree_; index != kNone; index = slots_[index].link)
             writer.value(index);
         writer.value(kNone);
     }
 
-    /// Fills an empty table with identities, values from restoreValue().
+    /// Fills an empty table with identities, values from restoreValue(). The memory it takes grows with the
+    /// bytes that have been read and with the values found, of which there are at most as many as the table
+    /// may hold.
     template <class F>
     void restore(sim::StateReader& reader, F&& restoreValue)
     {
+        constexpr size_t kLeastBytes = sizeof(uint32_t) + sizeof(uint8_t); // of an identity
         const uint32_t size = reader.value<uint32_t>();
-        reader.require(size <= kIdPartMask && size <= reader.left(), "the table of instances is too large");
+        reader.require(size <= kIdPartMask && size <= reader.left() / kLeastBytes,
+                       "the table of instances is too large");
         if (!reader.ok())
             return;
-        slots_.resize(size);
-        for (Slot& slot : slots_) {
-            slot.use = reader.value<uint32_t>(0, lastUse_, "an identity of the state is out of range");
-            slot.used = reader.flag();
-            reader.require(!slot.used || slot.use > 0, "an identity of the state was never given out");
-            if (!slot.used)
-                continue;
-            if (++count_ > capacity_)
+        for (uint32_t index = 0; index < size; ++index) {
+            const uint32_t use =
+                reader.value<uint32_t>(1, lastUse_, "an identity of the state is out of range");
+            const bool isUsed = reader.flag();
+            if (isUsed && count_ == capacity_)
                 reader.fail({base::Code::Capacity, "the state has more instances than the scene allows"});
             if (!reader.ok())
                 return;
-            slot.value = restoreValue();
+            slots_.push_back({use});
+            if (!isUsed)
+                continue;
+            T value = restoreValue();
+            makePlace();
+            take(slots_.back(), std::move(value));
         }
         restoreFreeList(reader);
     }
@@ -144,11 +169,36 @@ private:
     static constexpr uint32_t kNone = ~0u;
     struct Slot
     {
-        T value{};
-        uint32_t use = 0; ///< number of times the index has been given out
-        uint32_t nextFree = kNone;
+        uint32_t use = 0;      ///< number of times the index has been given out
+        uint32_t link = kNone; ///< place of the value while it is used, else the next free index
         bool used = false;
     };
+
+    /// Adds a place for a value. Strong guarantee.
+    void makePlace()
+    {
+        if (freePlaces_.capacity() <= values_.size()) // drop() must not fail
+            freePlaces_.reserve(std::max<size_t>(2 * values_.size(), 4));
+        values_.emplace_back();
+        freePlaces_.push_back(uint32_t(values_.size() - 1));
+    }
+
+    void take(Slot& slot, T value)
+    {
+        slot.link = freePlaces_.back();
+        freePlaces_.pop_back();
+        values_[slot.link] = std::move(value);
+        slot.used = true;
+        ++count_;
+    }
+
+    void drop(Slot& slot)
+    {
+        values_[slot.link] = T();
+        freePlaces_.push_back(slot.link);
+        slot.used = false;
+        --count_;
+    }
 
     void restoreFreeList(sim::StateReader& reader)
     {
@@ -158,19 +208,21 @@ private:
                 return;
             reader.require(index < slots_.size() && !slots_[index].used && slots_[index].use < lastUse_,
                            "an identity is not free");
-            reader.require(!reader.ok() || (slots_[index].nextFree == kNone && index != lastFree_),
+            reader.require(!reader.ok() || (slots_[index].link == kNone && index != lastFree_),
                            "an identity is free twice");
             if (!reader.ok())
                 return;
             if (firstFree_ == kNone)
                 firstFree_ = index;
             else
-                slots_[lastFree_].nextFree = index;
+                slots_[lastFree_].link = index;
             lastFree_ = index;
         }
     }
 
-    std::pmr::vector<Slot> slots_;
+    std::pmr::vector<Slot> slots_; ///< by index
+    std::pmr::vector<T> values_;   ///< by place
+    std::pmr::vector<uint32_t> freePlaces_;
     uint32_t capacity_;
     uint32_t lastUse_;
     uint32_t count_ = 0;

@@ -13,7 +13,8 @@ Scene::Scene(const SceneOptions& options, const base::SnapshotSchema* schema, ba
       world_(schema, tasks, memory, options.environment, options.shareInstances),
       instances_(memory, options.maxInstances), dormant_(memory), active_(memory), waking_(memory),
       denied_(memory), coarse_(memory), tree_(memory), alarms_(memory), focus_(memory), candidates_(memory),
-      arrived_(memory), seeks_(memory), moved_(memory), ring_(schema, memory), marks_(memory)
+      arrived_(memory), seeks_(memory), moved_(memory), ring_(schema, memory), marks_(memory),
+      newMarks_(memory)
 {
     world_.allowRest(options.culling);
     ring_.beginWrite(0); // so that acquire() always has something to show
@@ -43,7 +44,7 @@ LocalId Scene::add(InstanceSetup setup)
         else
             dormant_.add({start, nextSerial_, indexOf(id)});
     } catch (...) {
-        instances_.remove(id);
+        instances_.cancel(id);
         throw;
     }
     ++nextSerial_;

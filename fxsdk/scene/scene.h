@@ -399,6 +399,7 @@ private:
     std::atomic<double> shownTime_{0};     ///< likewise
     std::atomic<bool> showsNothing_{false};
     std::pmr::vector<Mark> marks_;
+    std::pmr::vector<Mark> newMarks_; ///< of the scene thread
     std::atomic<int> marksWanted_{0};
 };
 

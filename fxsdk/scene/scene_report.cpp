@@ -55,18 +55,25 @@ void Scene::measureTime(double seconds, uint64_t particleSteps)
 
 void Scene::leaveMarks()
 {
-    std::lock_guard lock(presentation_);
-    marks_.clear();
+    newMarks_.clear();
     instances_.forEach([this](uint32_t, const Instance& instance) {
         if (instance.state != InstanceState::Finished)
-            marks_.push_back(
+            newMarks_.push_back(
                 {instance.setup.placement.position, instance.reach, instance.state, instance.reason});
     });
+    std::lock_guard lock(presentation_);
+    std::swap(marks_, newMarks_);
 }
 
 void Scene::copyMarks(std::pmr::vector<Mark>& out)
 {
-    std::lock_guard lock(presentation_);
+    std::unique_lock lock(presentation_);
+    while (out.capacity() < marks_.size()) {
+        const size_t count = marks_.size();
+        lock.unlock(); // the host's allocator may call
+        out.reserve(count);
+        lock.lock();
+    }
     out.assign(marks_.begin(), marks_.end());
 }
 

@@ -231,7 +231,8 @@ void Scene::checkRules(sim::StateReader& reader) const
 Scene::Effects Scene::restoreEffects(sim::StateReader& reader, const FindEffect& findEffect) const
 {
     const Effects here = effects();
-    const uint32_t count = reader.value<uint32_t>();
+    const uint32_t count =
+        reader.value<uint32_t>(0, options_.maxInstances, "the state has more effects than instances");
     Effects found;
     for (uint32_t i = 0; i < count && reader.ok(); ++i) {
         const uint64_t fingerprint = reader.value<uint64_t>();

@@ -2,6 +2,7 @@
 
 #include "shaders/shader_library.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -36,6 +37,24 @@ base::Result<std::unique_ptr<GlDevice>> GlDevice::create(const GlLoader& loader,
     if (!loaded)
         return loaded;
     return device;
+}
+
+/// Mesa holds on to the program that was used after a compute program, also when it is deleted, until another
+/// compute program is used.
+GlDevice::~GlDevice()
+{
+    const auto computes = [](const auto& entry) { return entry.first->compute != nullptr; };
+    const auto compute = std::find_if(programs_.begin(), programs_.end(), computes);
+    if (compute == programs_.end())
+        return;
+    GLint host = 0, isDeleted = GL_FALSE;
+    gl.GetIntegerv(GL_CURRENT_PROGRAM, &host);
+    if (host != 0)
+        gl.GetProgramiv(static_cast<GLuint>(host), GL_DELETE_STATUS, &isDeleted);
+    if (isDeleted != GL_FALSE)
+        return; // it lasts only as long as it is used
+    gl.UseProgram(compute->second.name());
+    gl.UseProgram(static_cast<GLuint>(host));
 }
 
 base::Status GlDevice::readLimits()

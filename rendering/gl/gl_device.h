@@ -48,6 +48,7 @@ public:
     /// loader
     static base::Result<std::unique_ptr<GlDevice>> create(const GlLoader& loader,
                                                           std::pmr::memory_resource* memory);
+    ~GlDevice();
     GlDevice(const GlDevice&) = delete;
     GlDevice& operator=(const GlDevice&) = delete;
 

@@ -55,6 +55,7 @@ void GlDrawState::reset(bool encodeSrgb)
     }
     gl.DepthMask(GL_TRUE); // without the test nothing is written
     gl.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    gl.ProvokingVertex(GL_LAST_VERTEX_CONVENTION); // whose flat outputs a triangle has
     gl.DepthRangeIndexed(0, 0.0, 1.0);
     gl.BindVertexArray(vertexArray_.name());
 

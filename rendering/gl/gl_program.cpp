@@ -3,6 +3,7 @@
 #include "rendering/gl/gl_device.h"
 
 #include <array>
+#include <vector>
 
 namespace fx::render {
 
@@ -73,13 +74,17 @@ base::Result<GlProgram> GlProgram::link(GlDevice& device, const char* name,
 {
     GlFunctions& gl = device.gl;
     GlProgram program(device, gl.CreateProgram());
+    std::vector<uint32_t> attached;
     for (const GlStageSource& stage : stages) {
         Shader shader(gl, stage.stage);
         if (base::Status status = shader.compile(name, stage); !status)
             return status;
-        gl.AttachShader(program.name(), shader.name()); // the deleted shader lives until the program goes
+        gl.AttachShader(program.name(), shader.name()); // the deleted shader exists until it is detached
+        attached.push_back(shader.name());
     }
     gl.LinkProgram(program.name());
+    for (const uint32_t shader : attached)
+        gl.DetachShader(program.name(), shader);
     GLint linked = GL_FALSE;
     gl.GetProgramiv(program.name(), GL_LINK_STATUS, &linked);
     if (!linked) {

@@ -123,6 +123,11 @@ void restorePolygonMode(const Gl& gl, GLenum, uint32_t, const Saved& saved)
     gl.PolygonMode(GL_FRONT_AND_BACK, asEnum(saved.integers[0]));
 }
 
+void restoreProvokingVertex(const Gl& gl, GLenum, uint32_t, const Saved& saved)
+{
+    gl.ProvokingVertex(asEnum(saved.integers[0]));
+}
+
 void saveViewport(const Gl& gl, GLenum, uint32_t index, Saved& out)
 {
     GLfloat box[4] = {};
@@ -268,6 +273,7 @@ constexpr GlTouchedState kTable[] = {
     {"GL_DEPTH_FUNC", GL_DEPTH_FUNC, 1, saveInteger, restoreDepthFunction},
     {"GL_DEPTH_WRITEMASK", GL_DEPTH_WRITEMASK, 1, saveInteger, restoreDepthMask},
     {"GL_POLYGON_MODE", GL_POLYGON_MODE, 1, savePolygonMode, restorePolygonMode},
+    {"GL_PROVOKING_VERTEX", GL_PROVOKING_VERTEX, 1, saveInteger, restoreProvokingVertex},
     {"GL_VIEWPORT (viewport 0)", 0, 1, saveViewport, restoreViewport},
     {"GL_DEPTH_RANGE (viewport 0)", 0, 1, saveDepthRange, restoreDepthRange},
 

@@ -174,7 +174,7 @@ struct RibbonStore::Writer
     float endOf(uint32_t first) const
     {
         namespace column = base::ribbon_column;
-        const auto arc = group.column(column::Arc), age = group.column(column::Age);
+        const auto arc = group.editColumn(column::Arc), age = group.editColumn(column::Age);
         for (uint32_t i = count; i-- > first + 1;)
             if (age[i - 1] < life)
                 return age[i] <= life

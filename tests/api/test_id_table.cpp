@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 #include <vector>
 
@@ -62,6 +64,61 @@ TEST(IdTable, anIndexWhoseUsesAreSpentIsRetiredSoThatNoIdComesBack)
         table.remove(id);
         EXPECT_EQ(table.find(id), nullptr);
     }
+}
+
+TEST(IdTable, anAdditionThatIsCancelledWasNever)
+{
+    // of a table that holds 1 and 2, and has had a 3: indices that are free, and none
+    for (const bool hasFree : {false, true}) {
+        const auto make = [hasFree] {
+            IdTable<int> table(std::pmr::get_default_resource(), 10);
+            table.add(1);
+            table.add(2);
+            if (hasFree)
+                table.remove(table.add(3));
+            return table;
+        };
+        IdTable<int> wanted = make(), table = make();
+        for (int i = 0; i < 5; ++i)
+            table.cancel(table.add(9));
+        EXPECT_EQ(table.count(), 2u);
+        for (int i = 0; i < 3; ++i) {
+            const LocalId id = table.add(4 + i);
+            EXPECT_EQ(id, wanted.add(4 + i));
+            EXPECT_EQ(*table.find(id), 4 + i);
+        }
+        fx::sim::StateBuffer one(std::pmr::get_default_resource()), other(std::pmr::get_default_resource());
+        table.save(one, [&](int value) { one.value(value); });
+        wanted.save(other, [&](int value) { other.value(value); });
+        EXPECT_TRUE(std::ranges::equal(one.bytes(), other.bytes()));
+    }
+}
+
+TEST(IdTable, valuesTakeRoomForTheMostAtATime)
+{
+    struct Large
+    {
+        std::array<char, 1 << 16> bytes{};
+    };
+    /// The bytes of a table of so many indices that were all used once, and of which the last is in use.
+    const auto stateOf = [](uint32_t indices) {
+        fx::sim::StateBuffer state(std::pmr::get_default_resource());
+        state.value(indices);
+        for (uint32_t i = 0; i < indices; ++i) {
+            state.value(uint32_t(1));
+            state.flag(i + 1 == indices);
+        }
+        state.value(~0u); // none is free
+        return state;
+    };
+    const fx::sim::StateBuffer state = stateOf(100'000); // 6 GiB of values
+    IdTable<Large> table(std::pmr::get_default_resource(), 2);
+    fx::sim::StateReader reader(state.bytes());
+    table.restore(reader, [] { return Large{}; });
+    EXPECT_TRUE(reader.ok()) << reader.status().message();
+    EXPECT_EQ(table.count(), 1u);
+    EXPECT_NE(table.find((uint64_t(1) << kIdPartBits) | 99'999), nullptr);
+    EXPECT_EQ(indexOf(table.add({})), 100'000u);
 }
 
 TEST(IdTable, theGenerationsOfOneIndexLastForAllTheirTwentyFourBits)

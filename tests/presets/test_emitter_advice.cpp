@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory_resource>
 #include <ostream>
 #include <string>
@@ -202,6 +203,26 @@ TEST(EmitterAdvice, longChainsOfManyRulesAreCountedOnceAnEmitter)
     ASSERT_TRUE(loaded.ok()) << loaded.status().message();
     EXPECT_EQ(loaded->effect->solvers.size(), 64u);
     EXPECT_EQ(loaded->warnings.size(), 64u - 1u); // all but the first have room for too few
+}
+
+TEST(EmitterAdvice, aCapacityIsTooSmallForMoreThanItsOwnNumber)
+{
+    const auto warningsOfCapacity = [](double rate, double lifetime, int capacity) {
+        return load(R"({"maxParticles":)" + std::to_string(capacity) + R"(,"emission":{"rate":)" +
+                    std::to_string(rate) + R"(},"lifetime":)" + std::to_string(lifetime) + "}")
+            ->warnings;
+    };
+    EXPECT_TRUE(warningsOfCapacity(10, 1.1, 11).empty()); // 1.1 is a little more as a float
+    EXPECT_TRUE(warningsOfCapacity(125000, 1.6, 200000).empty());
+    for (const double rate : {3.3, 10.0, 625.0, 40000.0})
+        for (const double lifetime : {0.3, 0.7, 1.1, 1.6, 5.0})
+            for (int less = -1; less <= 2; ++less) {
+                const int capacity = std::max(int(rate * lifetime) - less, 1);
+                for (const Diagnostic& warning : warningsOfCapacity(rate, lifetime, capacity)) {
+                    const std::string text = warning.message.substr(warning.message.find("up to ") + 6);
+                    EXPECT_GT(std::stoi(text), capacity) << warning.message;
+                }
+            }
 }
 
 TEST(EmitterAdvice, repeatedEventsCountNoMoreThanThoseWhoLiveCanCause)

@@ -129,8 +129,9 @@ typedef struct FxMemoryStats
 FX_API FxResult fxCreateContext(const FxContextDef* def, FxContext** outContext);
 
 /// Destroys a context with all that is in it; its pointers and ids are invalid afterwards. Null is allowed
-/// and does nothing. No other call on anything of the context may be in progress. [GL thread when it has GL,
-/// else any]
+/// and does nothing. No other call on anything of the context may be in progress. Callbacks that it makes,
+/// such as to give memory back, must not use what is in the context; they are refused by the context itself.
+/// [GL thread when it has GL, else any]
 /// @return FX_OK, FX_ERROR_WRONG_THREAD or FX_ERROR_RE_ENTRANT (nothing was destroyed)
 FX_API FxResult fxDestroyContext(FxContext* context);
 
@@ -143,7 +144,7 @@ FX_API FxResult fxContext_WarmUp(FxContext* context);
 
 /// Makes the calling thread the GL thread: call it after the OpenGL context has become current there. No GL
 /// call of this context may be in progress on another thread. [any]
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NO_GL
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NO_GL, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxContext_AdoptGlThread(FxContext* context);
 
 /// Reads the counters of the context. [any]

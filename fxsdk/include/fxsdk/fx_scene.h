@@ -319,8 +319,8 @@ FX_API FxResult fxScene_SetInstanceSpeed(FxScene* scene, FxInstanceId instance, 
 /// step. To play backwards, seek to an earlier time before each frame: where motion has no closed form, each
 /// seek takes all steps from the beginning. [scene thread]
 /// @param seconds [s] 0..86400 since its beginning, rounded to a tick
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (not finite, out of range, or the instance has not started or has
-///         ended), FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (out of range, not started, ended), FX_ERROR_STALE_ID,
+/// FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. A failure leaves the scene as it was.
 FX_API FxResult fxScene_SeekInstance(FxScene* scene, FxInstanceId instance, double seconds);
 
 /// Tells an instance that something happened that its preset answers with births: a member of an emitter's

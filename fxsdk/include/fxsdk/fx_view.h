@@ -6,9 +6,9 @@
 /// FxView*; a view owns its textures and the history of its exposure and glare. The host's textures and
 /// framebuffers stay the host's.
 ///
-/// GL state: with saveState = 1 no GL state differs after fxView_Render(). With 0 exactly the states that
-/// fxGetTouchedGlState() names may differ. Clip control is read from the frame's definition and never
-/// changed. Which formats and targets of textures a frame takes: docs/howto/host-targets.md.
+/// GL state: with saveState = 1 no GL state differs after fxView_Render(), with 0 only those that
+/// fxGetTouchedGlState() names. Transform feedback and conditional rendering must not be active. Clip
+/// control is the frame definition's and never changed. Formats of targets: docs/howto/host-targets.md.
 #ifndef FXSDK_FX_VIEW_H
 #define FXSDK_FX_VIEW_H
 

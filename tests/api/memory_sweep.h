@@ -1,0 +1,105 @@
+/// @file memory_sweep.h
+/// A host that refuses memory: the first time it is asked, the second time, and so on.
+#pragma once
+
+#include "fxsdk/fxsdk.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+namespace fx::test {
+
+/// Memory that refuses one request, or that one and all after it.
+class ScarceMemory
+{
+public:
+    FxAllocator hooks() { return {this, &allocate, &release}; }
+
+    /// @param n      the request from now that is refused, 1 for the next; 0 for none
+    /// @param isGone all after it are refused as well
+    void refuse(uint64_t n, bool isGone)
+    {
+        requests_ = 0;
+        refused_ = n;
+        isGone_ = isGone;
+        hasRefused_ = false;
+    }
+    bool hasRefused() const { return hasRefused_; }
+    int64_t blocks() const { return blocks_; } ///< taken and not given back
+
+private:
+    static void* allocate(void* user, size_t size, size_t alignment)
+    {
+        auto& self = *static_cast<ScarceMemory*>(user);
+        const uint64_t request = ++self.requests_;
+        if (self.refused_ > 0 && (request == self.refused_ || (self.isGone_ && request > self.refused_))) {
+            self.hasRefused_ = true;
+            return nullptr;
+        }
+        void* const memory = ::operator new(size, std::align_val_t(alignment), std::nothrow);
+        self.blocks_ += memory ? 1 : 0;
+        return memory;
+    }
+    static void release(void* user, void* memory, size_t, size_t alignment)
+    {
+        --static_cast<ScarceMemory*>(user)->blocks_;
+        ::operator delete(memory, std::align_val_t(alignment));
+    }
+
+    std::atomic<uint64_t> requests_{0};
+    std::atomic<int64_t> blocks_{0};
+    uint64_t refused_ = 0;
+    bool isGone_ = false;
+    std::atomic<bool> hasRefused_{false};
+};
+
+/// The request after `n` that a sweep refuses. With the environment variable FXSDK_EVERY_ALLOCATION each is
+/// refused; without it all of the first 32, and from then on one of every sixteenth part.
+inline uint64_t nextRefused(uint64_t n)
+{
+    static const bool everyOne = std::getenv("FXSDK_EVERY_ALLOCATION") != nullptr;
+    return everyOne ? n + 1 : n + 1 + n / 32 * 2;
+}
+
+/// Calls `action` with one request for memory refused after the other, each both for once and with all that
+/// follow, until it asks for no more. A call that fails says so with FX_ERROR_OUT_OF_MEMORY, and
+/// `isAsBefore` then holds; a refusal that does no harm is allowed. Nothing leaks: what stays after a failure
+/// is room that is kept for the next try, so that failures at the same place soon add nothing.
+/// @return number of failures
+template <class Action, class IsAsBefore>
+uint64_t refuseEach(ScarceMemory& memory, Action&& action, IsAsBefore&& isAsBefore)
+{
+    constexpr uint64_t kMost = 100'000;
+    uint64_t failures = 0;
+    for (uint64_t n = 1; n < kMost; n = nextRefused(n))
+        for (const bool isGone : {false, true}) {
+            constexpr int kMostAttempts = 12;
+            int64_t kept = -1;
+            for (int attempt = 0; attempt < kMostAttempts && memory.blocks() != kept; ++attempt) {
+                kept = memory.blocks();
+                memory.refuse(n, isGone);
+                const FxResult result = action();
+                const bool hasRefused = memory.hasRefused();
+                memory.refuse(0, false);
+                if (result == FX_OK && !hasRefused)
+                    return failures;
+                if (result == FX_OK)
+                    break;
+                ++failures;
+                EXPECT_EQ(result, FX_ERROR_OUT_OF_MEMORY)
+                    << "request " << n << ": " << fxGetLastErrorMessage();
+                EXPECT_TRUE(isAsBefore()) << "request " << n << (isGone ? " and all after it" : "");
+                EXPECT_LT(attempt + 1, kMostAttempts) << "request " << n << ": each failure keeps memory";
+            }
+            if (testing::Test::HasFailure())
+                return failures;
+        }
+    ADD_FAILURE() << "it never stops asking for memory";
+    return failures;
+}
+
+} // namespace fx::test
