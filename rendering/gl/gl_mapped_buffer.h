@@ -33,7 +33,7 @@ public:
     /// What is written here is seen by every draw that follows. To be waited for first.
     std::byte* data() const { return data_; }
 
-    void fence(); ///< draws up to here may read the buffer
+    void fence(); ///< draws up to here may read the buffer; it must have been created
     /// Returns when no draw before the last fence() can read it any more.
     /// @return GlFailed when that does not happen within ten seconds
     base::Status wait();

@@ -116,7 +116,6 @@ base::Status ParticleBuffers::makeResident(const Source& source, const ParticleF
     out = find(source.stamp, false);
     out = out ? out : &*std::ranges::min_element(places_, isUsedEarlier);
     out->stamp = 0;
-    out->isMixed = source.stamp == 0;
     out->hasPools = source.withPools;
     out->groupsBefore.swap(out->groups);
     out->rowsBefore.swap(out->rows);
@@ -237,6 +236,7 @@ base::Status ParticleBuffers::writeOrders(ParticleFrame& frame)
         frame.batches()[i].order = {buffer.name(), {}, offset, orderBytes(frame.groups()[i])};
         end = offset + orderBytes(frame.groups()[i]);
     }
+    drawn_[2] = &buffer;
     uploadedBytes_ += end;
     return {};
 }
@@ -301,6 +301,7 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
 {
     uploadedBytes_ = keptBytes_ = sharedBytes_ = 0;
     jobs_.clear();
+    drawn_ = {};
     if (frame.groups().empty()) {
         idle();
         return {};
@@ -313,6 +314,7 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
     Place* newer = nullptr;
     if (base::Status status = makeTwoResident(snapshots, stamps, frame, older, newer); !status)
         return status;
+    drawn_ = {older ? &older->buffer : nullptr, &newer->buffer};
     if (base::Status status = writeOrders(frame); !status)
         return status;
     for (size_t i = 0; i < frame.groups().size(); ++i) {
@@ -348,6 +350,7 @@ void ParticleBuffers::keep(const ParticleFrame& frame)
 
 void ParticleBuffers::idle()
 {
+    drawn_ = {};
     emitters_.nextFrame();
     states_.nextFrame();
     if (++idleFrames_ != kIdleFrames)
@@ -365,11 +368,9 @@ void ParticleBuffers::idle()
 
 void ParticleBuffers::fence()
 {
-    for (Place& place : places_)
-        if (place.usedFrame == frame_ && (place.stamp != 0 || place.isMixed))
-            place.buffer.fence();
-    if (orders_[frame_ % orders_.size()].name() != 0)
-        orders_[frame_ % orders_.size()].fence();
+    for (GlMappedBuffer* buffer : drawn_)
+        if (buffer)
+            buffer->fence();
 }
 
 } // namespace fx::render

@@ -95,7 +95,6 @@ private:
         uint64_t stamp = 0; ///< of what is there; 0: nothing
         uint64_t usedFrame = 0;
         bool hasPools = false; ///< groups of pools are there, too
-        bool isMixed = false;  ///< of two snapshots, for one frame
         std::pmr::vector<GroupPlace> groups;
         std::pmr::vector<RowStamp> rows;           ///< of all groups
         std::pmr::vector<GroupPlace> groupsBefore; ///< what lay there until now
@@ -152,6 +151,11 @@ private:
     GlDevice& device_;
     std::array<Place, 3> places_;
     std::array<GlMappedBuffer, 3> orders_;
+
+    /// Buffers of places_ and orders_ from which the draws of the current frame read: the older rows, the
+    /// newer rows and the orders. Null where the frame reads none.
+    std::array<GlMappedBuffer*, 3> drawn_{};
+
     GlAssetCache assets_;
     GpuEmitters emitters_;
     GpuStates states_;

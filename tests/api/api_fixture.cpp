@@ -4,15 +4,22 @@
 
 namespace fx::test {
 
+/// Counts down to 1 and stays there: from then on there is none.
+bool HostAllocator::isLeft()
+{
+    uint64_t remaining = remaining_;
+    while (remaining > 1 && !remaining_.compare_exchange_weak(remaining, remaining - 1)) {
+    }
+    return remaining != 1;
+}
+
 void* HostAllocator::allocate(void* user, size_t size, size_t alignment)
 {
     auto& self = *static_cast<HostAllocator*>(user);
-    if (self.remaining_ == 1) {
+    if (!self.isLeft()) {
         self.failed_ = true;
         return nullptr;
     }
-    if (self.remaining_ > 1)
-        --self.remaining_;
     ++self.blocks_;
     self.bytes_ += int64_t(size);
     return ::operator new(size, std::align_val_t(alignment), std::nothrow);

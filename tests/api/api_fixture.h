@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -13,7 +14,7 @@
 
 namespace fx::test {
 
-/// Memory that counts, and that runs out when it is told to.
+/// Memory that counts, and that runs out when it is told to. Hooks are called by several threads at once.
 class HostAllocator
 {
 public:
@@ -29,10 +30,13 @@ private:
     static void* allocate(void* user, size_t size, size_t alignment);
     static void release(void* user, void* memory, size_t size, size_t alignment);
 
-    uint64_t remaining_ = 0;
-    bool failed_ = false;
-    int64_t blocks_ = 0;
-    int64_t bytes_ = 0;
+    bool isLeft();
+
+    std::atomic<uint64_t> remaining_{
+        0}; ///< allocations until the one that fails, itself included; 0: none fails
+    std::atomic<bool> failed_{false};
+    std::atomic<int64_t> blocks_{0};
+    std::atomic<int64_t> bytes_{0};
 };
 
 constexpr double kFrame = 1.0 / 60.0; ///< [s]

@@ -1,10 +1,10 @@
 // The examples run, and what they draw is an effect.
 #include "rendering/image/image.h"
+#include "tests/tool/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -37,20 +37,20 @@ int run(const std::string& command)
 
 TEST(Examples, helloDrawsAnExplosionWithoutAWindow)
 {
-    const std::string output = ::testing::TempDir() + "fx_hello.png";
+    const fx::test::TemporaryFolder folder;
+    const std::string output = (folder / "hello.png").string();
     ASSERT_EQ(run(std::string(FX_HELLO) + " --headless --frames 20 --output " + output), 0);
     EXPECT_GT(contrastOf(output), 0.2f);
-    std::remove(output.c_str());
     EXPECT_NE(run(std::string(FX_HELLO) + " --headless --frames 1 --output /nowhere/hello.png 2> /dev/null"),
               0);
 }
 
 TEST(Examples, aPresetIsRenderedToAFile)
 {
-    const std::string output = ::testing::TempDir() + "fx_render_to_file.png";
+    const fx::test::TemporaryFolder folder;
+    const std::string output = (folder / "file.png").string();
     ASSERT_EQ(run(std::string(FX_RENDER_TO_FILE) + " smoke-column 3 " + output), 0);
     EXPECT_GT(contrastOf(output), 0.05f);
-    std::remove(output.c_str());
     EXPECT_NE(run(std::string(FX_RENDER_TO_FILE) + " volcano 1 " + output + " 2> /dev/null"), 0);
 }
 

@@ -1,4 +1,5 @@
 #include "tests/api/api_fixture.h"
+#include "tests/tool/temporary_folder.h"
 
 #include <cstdio>
 #include <cstring>
@@ -115,7 +116,8 @@ TEST_F(PresetApi, everyLibraryPresetLoadsWithAndWithoutItsPrefix)
 
 TEST_F(PresetApi, aFileIsLoadedAndAMissingOneIsNamed)
 {
-    const std::string path = ::testing::TempDir() + "fx_api_preset.fx.json";
+    const fx::test::TemporaryFolder folder;
+    const std::string path = (folder / "fx_api_preset.fx.json").string();
     std::ofstream(path) << fountainPreset();
     FxPresetId id{};
     EXPECT_EQ(fxLoadPresetFile(context_, path.c_str(), &id), FX_OK) << fxGetLastErrorMessage();

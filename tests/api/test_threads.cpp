@@ -1,6 +1,7 @@
 #include "tests/api/api_fixture.h"
 
 #include <atomic>
+#include <barrier>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -85,6 +86,28 @@ void readSnapshots(FxScene* scene, const std::atomic<bool>& isOver, std::atomic<
 }
 
 } // namespace
+
+TEST(HostAllocator, countsWhatSeveralThreadsTakeAndReleaseAtOnce)
+{
+    constexpr int kThreads = 2, kBlocks = 300'000;
+    fx::test::HostAllocator memory;
+    const FxAllocator hooks = memory.hooks();
+    std::barrier together(kThreads);
+    std::vector<std::thread> threads;
+    for (int t = 0; t < kThreads; ++t)
+        threads.emplace_back([&hooks, &together] {
+            together.arrive_and_wait();
+            for (int i = 0; i < kBlocks; ++i) {
+                void* const kept = hooks.allocate(hooks.user, 16, 16);
+                hooks.release(hooks.user, hooks.allocate(hooks.user, 16, 16), 16, 16);
+                hooks.release(hooks.user, kept, 16, 16);
+            }
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    EXPECT_EQ(memory.blocks(), 0);
+    EXPECT_EQ(memory.bytes(), 0);
+}
 
 TEST_F(ThreadApi, everySceneFunctionRefusesAnotherThread)
 {

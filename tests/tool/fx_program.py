@@ -2,13 +2,16 @@
 import os
 import pathlib
 import resource
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 FX = os.environ.get("FX_PROGRAM", "build/bin/fx")
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LIBRARY = ROOT / "fxsdk/presets/library"
+PATIENCE = 250 # [s] until a program that was told to end counts as hanging; no result depends on it
 
 
 class Outcome:
@@ -32,6 +35,16 @@ def fx(*arguments, cpu_seconds=None, stdout=None, env=None, cwd=None):
         err.seek(0)
         return Outcome(process.returncode, out.read().decode(errors="replace"), err.read().decode(errors="replace"),
                        usage.ru_maxrss * 1024)
+
+
+def wait_until_it_heeds_interrupts(process):
+    """Until the process has installed its handler of SIGINT, however long it takes to start, or has ended."""
+    status = pathlib.Path(f"/proc/{process.pid}/status")
+    while process.poll() is None:
+        caught = [line.split()[1] for line in status.read_text().splitlines() if line.startswith("SigCgt:")]
+        if caught and int(caught[0], 16) >> (signal.SIGINT - 1) & 1:
+            return
+        time.sleep(0.01)
 
 
 class FxTest(unittest.TestCase):

@@ -11,7 +11,7 @@ import time
 import unittest
 
 from exr_planes import read_planes
-from fx_program import FX, FxTest, fx
+from fx_program import FX, PATIENCE, FxTest, fx
 
 HEADER = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb\n"
 VIEW = ("--renderer", "reference", "--view", "0,0,4,0,0,0,40")
@@ -156,13 +156,11 @@ class FxReference(FxTest):
                                 preexec_fn=before_start)
 
     def finish(self, output, *arguments, size="320x240"):
-        self.assertEqual(self.start(output, *arguments, size=size).wait(200), 0)
+        self.assertEqual(self.start(output, *arguments, size=size).wait(PATIENCE), 0)
 
     def wait_for_growth(self, process, path, least):
         """Until the file has so many bytes, or the process has ended."""
-        for _ in range(3000):
-            if process.poll() is not None or (path.exists() and path.stat().st_size >= least):
-                return
+        while process.poll() is None and not (path.exists() and path.stat().st_size >= least):
             time.sleep(0.01)
 
     def kill_at_growth(self, output, growth, limit, size):
@@ -182,7 +180,7 @@ class FxReference(FxTest):
         while size_of() < before + growth and process.poll() is None:
             time.sleep(0.001)
         process.kill()
-        self.assertIn(process.wait(60), (-signal.SIGKILL, -signal.SIGXFSZ))
+        self.assertIn(process.wait(PATIENCE), (-signal.SIGKILL, -signal.SIGXFSZ))
         return size_of()
 
     def test_a_render_that_is_killed_twenty_times_gives_the_same_bits(self):
@@ -206,7 +204,7 @@ class FxReference(FxTest):
         process = self.start("a.exr")
         self.wait_for_growth(process, self.folder / "a.exr.journal", 20_000)
         process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(60), 130)
+        self.assertEqual(process.wait(PATIENCE), 130)
         self.assertEqual(self.names(), ["a.blobs.csv", "a.exr.journal"])
         other = fx("render", self.folder / "a.blobs.csv", "-o", self.folder / "a.exr", *VIEW, "--size", "320x240", "--resume",
                    "--integrator", "paper-1")
@@ -244,7 +242,7 @@ class FxReference(FxTest):
         process = self.start("a.exr")
         self.wait_for_growth(process, journal, 320 * 240 * 22 * 4 * 9 // 10)
         process.send_signal(signal.SIGINT)
-        process.wait(60)
+        process.wait(PATIENCE)
         if process.returncode == 0: # too fast to be caught
             return
         size = (self.folder / "whole.exr").stat().st_size

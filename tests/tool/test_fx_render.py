@@ -11,7 +11,7 @@ import time
 import unittest
 import zlib
 
-from fx_program import FX, LIBRARY, FxTest, fx
+from fx_program import FX, LIBRARY, PATIENCE, FxTest, fx
 
 SMALL = ("--size", "48x32")
 STATISTICS = {"time", "instances_active", "instances_dormant", "particles", "blobs", "passes", "programs_compiled", "gl_calls",
@@ -44,12 +44,10 @@ class FxRender(FxTest):
         """Starts a long job, waits until `ready()`, sends Ctrl-C; returns the exit code."""
         process = subprocess.Popen([FX, "render", "library:explosion", "-o", self.folder / output, "--size", "320x240",
                                     "--frames", "0:5000"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        for _ in range(1200):
-            if ready() or process.poll() is not None:
-                break
+        while not ready() and process.poll() is None:
             time.sleep(0.05)
         process.send_signal(signal.SIGINT)
-        return process.wait(60)
+        return process.wait(PATIENCE)
 
     def test_a_texture_beside_the_preset_is_what_sprites_show(self):
         preset = self.folder / "p.fx.json"

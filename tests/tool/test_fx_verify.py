@@ -4,10 +4,9 @@ import csv
 import json
 import signal
 import subprocess
-import time
 import unittest
 
-from fx_program import FX, FxTest, fx
+from fx_program import FX, PATIENCE, FxTest, fx, wait_until_it_heeds_interrupts
 
 CASES = ["sod", "sedov", "noh", "evrard", "kelvin-helmholtz", "blast-wave"]
 FIELDS = {
@@ -108,9 +107,9 @@ class FxVerify(FxTest):
         path = self.folder / "profile.csv"
         process = subprocess.Popen([FX, "verify", "noh", "--particles", "64^3", "--csv", str(path)],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        time.sleep(1)
+        wait_until_it_heeds_interrupts(process)
         process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=60)
+        _, err = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 130)
         self.assertIn(b"interrupted", err)
         self.assertEqual(self.names(), [])

@@ -1,12 +1,12 @@
 // Every program that a view can need, checked by a compiler that belongs to no driver.
 #include "rendering/passes/programs.h"
 #include "shaders/shader_library.h"
+#include "tests/tool/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -20,16 +20,15 @@ bool isInstalled()
 /// What glslangValidator says of one stage; empty when it has nothing against it.
 std::string complaints(const char* name, const char* defines, const char* stage)
 {
+    const fx::test::TemporaryFolder folder;
     const auto source = fx::shaders::assemble(name, defines ? defines : "");
     if (!source)
         return std::string(name) + " does not exist";
-    const std::string file = (std::filesystem::temp_directory_path() / "fxsdk_program.").string() + stage;
+    const std::string file = (folder / "program.").string() + stage;
     std::ofstream(file) << *source;
     const int code = std::system(("glslangValidator " + file + " > " + file + ".log 2>&1").c_str());
     std::ifstream log(file + ".log");
     const std::string text{std::istreambuf_iterator<char>(log), {}};
-    std::filesystem::remove(file);
-    std::filesystem::remove(file + ".log");
     return code == 0 ? "" : std::string(name) + ": " + text;
 }
 

@@ -165,3 +165,25 @@ TEST_F(KeptRows, ofMergedGroupsThatHaveRestedGoOnFromTheMomentTheyWereSeenLast)
     }
     expectSamePicture();
 }
+
+TEST_F(KeptRows, ofGroupsThatAreGoneForLongAreWrittenAnewAlthoughOthersWereDrawnAllTheTime)
+{
+    constexpr int kLongerThanMemoryIsKept = 320; // [frame]
+    publish({{50, 0.1f}});
+    publish({{50, 0.2f}});
+    (void)showLast(); // a group by itself, mixed of two snapshots
+    uint64_t bytesBefore = 0;
+    for (int frame = 0; frame < kLongerThanMemoryIsKept; ++frame) {
+        snapshots_.clear();
+        publish({{20, 0.01f * float(frame + 1), 0.0, true}, {30, 0.0f, 1.0, true}}); // merged groups only
+        (void)showLast();
+        if (frame == 10)
+            bytesBefore = counts().textureBytes;
+    }
+    EXPECT_LT(counts().textureBytes, bytesBefore) << "memory of the group is given back";
+    publish({{50, 0.3f}});
+    publish({{50, 0.4f}});
+    (void)showLast();
+    EXPECT_EQ(counts().uploadedBytes, 50 * kRowBytes);
+    expectSamePicture();
+}

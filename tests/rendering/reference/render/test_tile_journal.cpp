@@ -23,8 +23,9 @@ class TileJournalTest : public ::testing::Test
 protected:
     void SetUp() override
     {
-        folder_ = std::filesystem::temp_directory_path() / ("fx_journal_" + std::to_string(getpid()));
-        std::filesystem::create_directories(folder_);
+        std::string pattern = (std::filesystem::temp_directory_path() / "fx-journal-XXXXXX").string();
+        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+        folder_ = pattern;
         path_ = (folder_ / "a.exr.journal").string();
     }
     void TearDown() override { std::filesystem::remove_all(folder_); }

@@ -1,0 +1,55 @@
+/// @file host_threads.h
+/// A host's own threads behind FxContextDef::parallelFor. They are compiled with the test, so that the thread
+/// sanitizer knows every order that they make, and only these.
+#pragma once
+
+#include "fxsdk/fx_context.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace fx::test {
+
+/// Loops of any number of callers at once. A caller takes ranges of its own loop, too. Ranges have the least
+/// length that is allowed, and no range waits for another one of its loop.
+class HostThreads
+{
+public:
+    explicit HostThreads(uint32_t helpers); ///< threads beside those that call
+    ~HostThreads();
+    HostThreads(const HostThreads&) = delete;
+    HostThreads& operator=(const HostThreads&) = delete;
+
+    FxParallelFor hook() { return {this, &run}; }
+    uint64_t loops() const { return loopCount_; }
+    uint64_t rangesOfHelpers() const { return rangesOfHelpers_; }
+
+private:
+    struct Loop
+    {
+        FxLoopBody body;
+        void* argument;
+        uint64_t count;
+        uint64_t batch;
+        std::atomic<uint64_t> next{0}; ///< begin of the next range
+        uint32_t helpers = 0;          ///< inside; guarded by mutex_
+    };
+    static void run(void* user, uint32_t count, uint32_t minBatch, FxLoopBody body, void* argument);
+    static uint64_t takeRanges(Loop& loop); ///< @return how many
+    void help();
+    Loop* openLoop() const;
+
+    std::mutex mutex_; ///< guards the members up to the threads
+    std::condition_variable changed_;
+    std::vector<Loop*> loops_;
+    bool isOver_ = false;
+    std::vector<std::thread> threads_;
+    std::atomic<uint64_t> loopCount_{0};
+    std::atomic<uint64_t> rangesOfHelpers_{0};
+};
+
+} // namespace fx::test

@@ -1,0 +1,48 @@
+/// @file scene_script.h
+/// The calls of a host on one scene, the same in every run: instances come, go, move, jump in time and out of
+/// sight, and states are saved and restored. What the scene comes to must not depend on what other threads
+/// do.
+#pragma once
+
+#include "fxsdk/fxsdk.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace fx::test {
+
+class SceneScript
+{
+public:
+    /// Creates a scene that belongs to the calling thread, with its first instances.
+    /// @param number scripts of different numbers do different things
+    SceneScript(FxContext* context, uint32_t number);
+
+    FxScene* scene() const { return scene_; }
+    void play(int frames);
+    uint64_t stateHash() const;      ///< of what is to be seen
+    uint64_t simulationHash() const; ///< of all that decides what later steps give
+
+private:
+    static constexpr size_t kMostInstances = 10;
+
+    void add(FxPresetId preset);
+    void addAndUnload();
+    void removeOldest();
+    void change(FxInstanceId instance);
+    void look() const;
+    void saveAndRestore();
+
+    FxContext* context_;
+    FxScene* scene_ = nullptr;
+    uint32_t number_;
+    std::array<FxPresetId, 6> presets_{};
+    std::vector<FxInstanceId> instances_;
+    std::vector<std::byte> state_;
+    uint64_t nextSeed_ = 0;
+    int frame_ = 0;
+};
+
+} // namespace fx::test
