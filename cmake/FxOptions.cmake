@@ -6,6 +6,7 @@ option(FXSDK_BUILD_TOOLS "Build the fx command and the modules only it needs (EX
 option(FXSDK_GPU_PARTICLES "Compute particles of emitters that ask for it on the GPU" ON)
 option(FXSDK_WERROR "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})
 set(FXSDK_SANITIZE "" CACHE STRING "Sanitizers to build with, as given to -fsanitize= (address,undefined or thread)")
+option(FXSDK_BUILD_FUZZERS "Build tests/fuzz with libFuzzer, which only Clang has; otherwise they replay their corpora" OFF)
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
@@ -45,4 +46,10 @@ if(FXSDK_SANITIZE)
         $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # false in std::regex and std::function once instrumented
     target_compile_definitions(fx_flags INTERFACE _GLIBCXX_ASSERTIONS)
     target_link_options(fx_flags INTERFACE -fsanitize=${FXSDK_SANITIZE})
+endif()
+if(FXSDK_BUILD_FUZZERS)
+    if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+        message(FATAL_ERROR "FXSDK_BUILD_FUZZERS needs Clang: add -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++")
+    endif()
+    target_compile_options(fx_flags INTERFACE -fsanitize=fuzzer-no-link) # counts which branches an input takes
 endif()

@@ -36,8 +36,8 @@ void logLastError(const FxLog& log, FxResult code) noexcept
     try {
         log.write(log.user, FX_LOG_ERROR, code, copy.data());
     } catch (...) { // a host written in C++ may throw; it must not unwind through C
-        lastMessage = copy;
     }
+    lastMessage = copy; // the message belongs to the call that returns `code`
 }
 
 } // namespace fx::api

@@ -1,5 +1,7 @@
 #include "fxsdk/cli/dazzle_image.h"
 
+#include "fxsdk/cli/exr_header.h"
+
 #include <OpenEXR/Iex.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -8,6 +10,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <new>
 
 namespace fx::cli {
@@ -87,6 +90,9 @@ base::Result<DazzleImage> readDazzleImage(const std::string& path)
     if (error)
         return failed(base::Code::Io, path, error.message());
     try {
+        std::ifstream header(path, std::ios::binary);
+        if (const base::Status status = checkExrAttributes(header, bytes); !status)
+            return failed(status.code(), path, status.message());
         return readPlanes(path, bytes);
     } catch (const std::bad_alloc&) {
         return failed(base::Code::OutOfMemory, path, "not enough memory");

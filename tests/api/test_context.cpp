@@ -17,6 +17,12 @@ void collectErrors(void*, FxLogLevel level, FxResult code, const char*)
         loggedErrors.push_back(code);
 }
 
+/// Fails within the log of another failure.
+void failAgain(void* user, FxLogLevel, FxResult, const char*)
+{
+    static_cast<void>(fxScene_Update(static_cast<FxScene*>(user), 0.0));
+}
+
 void* noGlFunction(void*, const char*)
 {
     return nullptr;
@@ -133,6 +139,17 @@ TEST_F(ContextApi, theCountersTellWhatThereIs)
     EXPECT_EQ(stats.views, 0u);
     EXPECT_GT(stats.bytesInUse, 0u);
     EXPECT_GT(stats.allocationCount, 0u);
+}
+
+TEST(Log, aCallbackThatFailsLeavesTheMessageOfTheCallThatIsReported)
+{
+    FxContextDef def = fxDefaultContextDef();
+    def.log.write = &failAgain; // updates no scene
+    FxContext* context = nullptr;
+    ASSERT_EQ(fxCreateContext(&def, &context), FX_OK);
+    EXPECT_EQ(fxUnloadPreset(context, FxPresetId{5}), FX_ERROR_STALE_ID);
+    EXPECT_EQ(std::strncmp(fxGetLastErrorMessage(), "fxUnloadPreset: ", 16), 0) << fxGetLastErrorMessage();
+    EXPECT_EQ(fxDestroyContext(context), FX_OK);
 }
 
 TEST(Log, aFailureIsReportedToTheHostOfTheObject)

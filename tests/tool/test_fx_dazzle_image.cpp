@@ -171,6 +171,23 @@ TEST_F(DazzleFile, picturesBeyondTheLimitsAreRefusedBeforeTheyAreRead)
     EXPECT_EQ(readDazzleImage(path("large.exr")).status().code(), base::Code::TooLarge);
 }
 
+TEST_F(DazzleFile, anAttributeThatIsLongerThanTheFileIsRefusedBeforeMemoryIsTaken)
+{
+    const std::string whole = written("a.exr", {{"R", ramp(3)}});
+    std::ifstream file(whole, std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    const std::string type("chromaticities\0chromaticities\0", 30);
+    const size_t size = bytes.find(type) + type.size();
+    ASSERT_EQ(bytes[size], 32); // eight floats
+    bytes[size + 3] = 0x69;     // 1.7 GiB
+    std::ofstream(path("long.exr"), std::ios::binary) << bytes;
+    const auto image = readDazzleImage(path("long.exr"));
+    EXPECT_EQ(int(image.status().code()), int(base::Code::Parse));
+    EXPECT_NE(image.status().message().find("\"chromaticities\" says that it has 1761607712 bytes"),
+              std::string::npos)
+        << image.status().message();
+}
+
 TEST_F(DazzleFile, everyTruncationAndNonsenseIsRefusedAndNamesTheFile)
 {
     const std::string whole = written("a.exr", {{"R", ramp(3)}});

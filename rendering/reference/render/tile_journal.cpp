@@ -168,9 +168,10 @@ base::Status TileJournal::resume(const Restore& restore)
 base::Status TileJournal::append(uint32_t tile, std::span<const float> values)
 {
     const RecordHead head{tile, uint32_t(values.size()), checksumOf(key_, tile, values)};
-    std::vector<char> bytes(sizeof head + values.size_bytes());
+    std::vector<char> bytes(sizeof head);
     std::memcpy(bytes.data(), &head, sizeof head);
-    std::memcpy(bytes.data() + sizeof head, values.data(), values.size_bytes());
+    const char* const begin = reinterpret_cast<const char*>(values.data());
+    bytes.insert(bytes.end(), begin, begin + values.size_bytes());
     const std::lock_guard lock(mutex_);
     if (isBroken_)
         return {base::Code::Io, "cannot write " + path_};

@@ -1,0 +1,131 @@
+/// @file calls_player.h
+/// Plays bytes as a recording of calls of the C API: three contexts with scenes, instances, snapshots and
+/// views, whose callbacks make further calls of the recording.
+///
+/// Each call takes 32 bytes: two choose the function, the others its objects and arguments, valid and invalid
+/// ones alike; zeros mean what hosts do most. Arguments whose cost is documented and without bound (steps of
+/// one update, cells of a mesh) stay small.
+#pragma once
+
+#include "fxsdk/fxsdk.h"
+#include "tests/fuzz/fuzz_host.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace fx::fuzz {
+
+/// What views draw into; made once for all inputs. Nothing without GL.
+struct GlHost
+{
+    FxGlLoader loader{};
+    uint32_t color = 0, depth = 0; ///< GL names of textures
+    int32_t size = 0;              ///< [pixel]
+};
+
+/// The host's own OpenGL; without FX_FUZZ_WITH_GL there is none.
+const GlHost& glHost();
+
+struct PlayedScene
+{
+    FxScene* scene = nullptr;
+    std::vector<FxInstanceId> instances; ///< stale ones too
+    std::vector<FxSnapshotId> snapshots; ///< released ones too
+};
+
+struct PlayedContext
+{
+    FuzzHost host; ///< outlives the context
+    FxContext* context = nullptr;
+    bool hasGl = false;
+    std::vector<FxPresetId> presets; ///< unloaded ones too
+    std::array<PlayedScene, 2> scenes;
+    std::array<FxView*, 2> views{};
+};
+
+class CallsPlayer
+{
+public:
+    explicit CallsPlayer(std::span<const uint8_t> recording);
+    CallsPlayer(const CallsPlayer&) = delete;
+    CallsPlayer& operator=(const CallsPlayer&) = delete;
+
+    /// All calls, then destroys what is left and checks that no memory is held.
+    void play();
+
+private:
+    using Call = void (CallsPlayer::*)();
+    static std::span<const Call> callsOfContexts();
+    static std::span<const Call> callsOfScenes();
+    static std::span<const Call> callsOfViews();
+
+    void playOne();
+    void intrude();
+    void forget(const void* memory, size_t size);
+    void destroyAll(PlayedContext& played);
+
+    /// Mostly the first.
+    PlayedContext& anyContext() { return contexts_[input_.one(4) ? 1 + input_.below(2) : 0]; }
+    PlayedScene& sceneOf(PlayedContext& played) { return played.scenes[input_.one(4) ? 1 : 0]; }
+    FxView*& viewOf(PlayedContext& played) { return played.views[input_.one(4) ? 1 : 0]; }
+    PlayedScene& anyScene() { return sceneOf(anyContext()); }
+    FxView* anyView() { return viewOf(anyContext()); }
+    FxPresetId anyPreset(const PlayedContext& played);
+    FxInstanceId anyInstance(const PlayedScene& played);
+    FxSnapshotId anySnapshot(const PlayedScene& played);
+    double number(double most);
+    float floatNumber(double most) { return float(number(most)); }
+    uint32_t structSize(size_t size); ///< mostly the right one
+    /// A struct that a call fills.
+    template <class Struct>
+    Struct sized()
+    {
+        Struct result{};
+        result.structSize = structSize(sizeof result);
+        return result;
+    }
+
+    // calls_player.cpp
+    void createContext();
+    void destroyContext();
+    void failAllocations();
+    void loadPreset();
+    void unloadPreset();
+    void readContext();
+    // calls_scene.cpp
+    void createScene();
+    void destroyScene();
+    void createInstance();
+    void destroyInstance();
+    void updateScene();
+    void changeInstance();
+    void seekInstance();
+    void triggerEvent();
+    void setCollisionMesh();
+    void setContactHook();
+    void setFocus();
+    void setActivation();
+    void readScene();
+    void saveAndRestore();
+    void takeSnapshot();
+    void readSnapshot();
+    void releaseSnapshot();
+    // calls_view.cpp
+    void createView();
+    void destroyView();
+    void setSettings();
+    void render();
+    void readView();
+    void setCalibration();
+    FxViewSettings anySettings();
+
+    InputReader recording_; ///< calls to come
+    InputReader input_;     ///< arguments of this call
+    std::array<PlayedContext, 3> contexts_;
+    int depth_ = 0;          ///< of calls within callbacks
+    uint32_t calls_ = 0;     ///< made so far
+    uint32_t intruders_ = 0; ///< callbacks that will still make a call
+};
+
+} // namespace fx::fuzz
