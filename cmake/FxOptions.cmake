@@ -53,3 +53,5 @@ if(FXSDK_BUILD_FUZZERS)
     endif()
     target_compile_options(fx_flags INTERFACE -fsanitize=fuzzer-no-link) # counts which branches an input takes
 endif()
+
+set(FX_TEST_TIMEOUT 1800) # [s] ends a test that hangs; on a machine that is busy otherwise none comes near it

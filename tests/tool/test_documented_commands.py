@@ -92,7 +92,7 @@ class Workplace:
         line = command if isinstance(command, str) else shlex.join(map(str, command))
         path = f"{self.root / 'build/bin'}:{os.environ['PATH']}"
         ran = subprocess.run(["bash", "-c", line], cwd=self.root, env=os.environ | {"PATH": path}, text=True,
-                             capture_output=True, timeout=300)
+                             capture_output=True, timeout=1500)
         return ran.returncode, ran.stdout + ran.stderr
 
 
