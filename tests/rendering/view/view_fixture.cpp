@@ -38,11 +38,6 @@ void ViewTest::SetUp()
 void ViewTest::TearDown()
 {
     EXPECT_EQ(messages_ ? messages_->serious() : 0u, 0u) << messages_->first();
-    color_.reset();
-    depth_.reset();
-    view_.reset();
-    messages_.reset();
-    device_.reset();
 }
 
 base::FrameSnapshot ViewTest::snapshotOf(const std::vector<TestBlob>& blobs, const glm::dvec3& placement)

@@ -62,6 +62,7 @@ protected:
     Picture render(const base::FrameSnapshot& snapshot, const render::CameraView& camera);
     Picture read(uint32_t texture, int channels = 4);
 
+    // Destroyed from last to first, after the members of derived fixtures, which own objects of the device.
     base::SnapshotSchema schema_;
     std::unique_ptr<render::GlContext> context_;
     std::unique_ptr<render::GlDevice> device_;
