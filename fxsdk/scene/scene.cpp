@@ -90,32 +90,6 @@ base::Status Scene::setCollisionMesh(const sim::TriangleMesh* mesh, float cellSi
     return field.status();
 }
 
-bool Scene::update(double dt)
-{
-    const base::StepPlan plan = clock_.advance(dt);
-    if (plan.refused) {
-        ++counters_.refusedUpdates;
-        return false;
-    }
-    if (plan.droppedTicks > 0)
-        countDropped(plan.droppedTicks);
-    work_ = base::WorkBudget(options_.workBudget);
-    memoryFailed_ = false; // must not stop the steps that follow: the clock has already counted them
-    if (plan.steps > 0) {
-        takeSteps(plan);
-    } else {
-        if (sought_)
-            heedSought(plan);
-        std::lock_guard lock(presentation_);
-        show(clock_.simulated(), clock_.interpolation());
-    }
-    if (marksWanted_.load(std::memory_order_relaxed) > 0)
-        leaveMarks();
-    if (memoryFailed_)
-        throw std::bad_alloc();
-    return true;
-}
-
 void Scene::wake(base::Ticks until)
 {
     while (!dormant_.empty() && dormant_.earliest().start < until) {

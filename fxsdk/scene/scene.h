@@ -286,13 +286,13 @@ private:
         LocalId id;
         base::Ticks to; ///< local time
     };
-    void takeSteps(const base::StepPlan& plan);
+    inline void takeSteps(const base::StepPlan& plan);
     void prepareSteps(const base::StepPlan& plan);
     void postpone(uint32_t steps);
     void countDropped(base::Ticks ticks);
-    void beginStep(base::Ticks from);
-    void endStep(base::Ticks to);
-    bool proceed();
+    inline void beginStep(base::Ticks from);
+    inline void endStep(base::Ticks to);
+    inline bool proceed();
     bool isShort(uint64_t stepWork) const;
     base::WorkBudget lateWork() const;
     void completeStep();

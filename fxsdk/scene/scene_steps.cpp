@@ -12,7 +12,33 @@ constexpr uint64_t kLateShare = 4; ///< of one part in so many of the work of an
 constexpr base::Ticks kMostDropped = INT64_MAX; ///< no sum goes beyond it
 } // namespace
 
-void Scene::takeSteps(const base::StepPlan& plan)
+bool Scene::update(double dt)
+{
+    const base::StepPlan plan = clock_.advance(dt);
+    if (plan.refused) {
+        ++counters_.refusedUpdates;
+        return false;
+    }
+    if (plan.droppedTicks > 0)
+        countDropped(plan.droppedTicks);
+    work_ = base::WorkBudget(options_.workBudget);
+    memoryFailed_ = false; // must not stop the steps that follow: the clock has already counted them
+    if (plan.steps > 0) {
+        takeSteps(plan);
+    } else {
+        if (sought_)
+            heedSought(plan);
+        std::lock_guard lock(presentation_);
+        show(clock_.simulated(), clock_.interpolation());
+    }
+    if (marksWanted_.load(std::memory_order_relaxed) > 0)
+        leaveMarks();
+    if (memoryFailed_)
+        throw std::bad_alloc();
+    return true;
+}
+
+[[gnu::always_inline]] inline void Scene::takeSteps(const base::StepPlan& plan)
 {
     update_ = {};
     bool isPrepared = false, hasMoved = false;
@@ -35,7 +61,8 @@ void Scene::takeSteps(const base::StepPlan& plan)
             const bool isLast = taken + 1 == plan.steps;
             if (taken + 2 >= plan.steps || isShort(stepWork_))
                 publish(from + clock_.stepTicks(), isLast ? clock_.interpolation() : 0.0);
-            makeChanges();
+            if (world_.hasChanges() || !seeks_.empty())
+                makeChanges();
         } catch (const std::bad_alloc&) {
             memoryFailed_ = true; // must not stop the steps that follow: the clock has already counted them
         }
@@ -83,7 +110,7 @@ bool Scene::isShort(uint64_t stepWork) const
     return work_.left() / 2 < stepWork;
 }
 
-void Scene::beginStep(base::Ticks from)
+[[gnu::always_inline]] inline void Scene::beginStep(base::Ticks from)
 {
     const base::Ticks to = from + clock_.stepTicks();
     stepWork_ = 0;
@@ -100,7 +127,7 @@ void Scene::beginStep(base::Ticks from)
 }
 
 /// @return whether the step in hand is complete
-bool Scene::proceed()
+[[gnu::always_inline]] inline bool Scene::proceed()
 {
     if (!world_.isStepping())
         return true;
@@ -118,7 +145,7 @@ bool Scene::proceed()
     return isComplete;
 }
 
-void Scene::endStep(base::Ticks to)
+[[gnu::always_inline]] inline void Scene::endStep(base::Ticks to)
 {
     if (coarse_.size() > 0 && to / clock_.stepTicks() % sim::kCoarseSteps == 0)
         for (const sim::Slot slot : coarse_.slots())
