@@ -8,6 +8,7 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -90,8 +91,11 @@ base::Result<DazzleImage> readDazzleImage(const std::string& path)
     if (error)
         return failed(base::Code::Io, path, error.message());
     try {
-        std::ifstream header(path, std::ios::binary);
-        if (const base::Status status = checkExrAttributes(header, bytes); !status)
+        std::string beginning(std::min(bytes, kMostHeaderBytes), '\0');
+        std::ifstream file(path, std::ios::binary);
+        file.read(beginning.data(), std::streamsize(beginning.size()));
+        beginning.resize(size_t(file.gcount()));
+        if (const base::Status status = checkExrAttributes(beginning, bytes); !status)
             return failed(status.code(), path, status.message());
         return readPlanes(path, bytes);
     } catch (const std::bad_alloc&) {

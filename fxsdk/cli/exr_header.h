@@ -6,13 +6,17 @@
 #include "foundation/result/status.h"
 
 #include <cstdint>
-#include <istream>
+#include <string_view>
 
 namespace fx::cli {
 
-/// Whether every attribute ends within the file. A file that is no OpenEXR file is left to the library.
+constexpr uint64_t kMostHeaderBytes = uint64_t(4) << 20; ///< of all parts
+
+/// Whether every attribute ends within the file and is as long as its type asks for. A file that is no
+/// OpenEXR file is left to the library.
+/// @param beginning of the file, kMostHeaderBytes or all of it
 /// @param fileBytes [byte] of the whole file
-/// @return Parse naming the attribute
-base::Status checkExrAttributes(std::istream& file, uint64_t fileBytes);
+/// @return Parse naming the attribute; TooLarge for longer headers
+base::Status checkExrAttributes(std::string_view beginning, uint64_t fileBytes);
 
 } // namespace fx::cli

@@ -188,6 +188,21 @@ TEST_F(DazzleFile, anAttributeThatIsLongerThanTheFileIsRefusedBeforeMemoryIsTake
         << image.status().message();
 }
 
+TEST_F(DazzleFile, anAttributeThatIsNotAsLongAsItsTypeIsRefused)
+{
+    const std::string whole = written("a.exr", {{"R", ramp(3)}});
+    std::ifstream file(whole, std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    const std::string type("dataWindow\0box2i\0", 17); // 16 bytes are read, whatever the file says
+    bytes[bytes.find(type) + type.size()] = 12;
+    std::ofstream(path("short.exr"), std::ios::binary) << bytes;
+    const auto image = readDazzleImage(path("short.exr"));
+    EXPECT_EQ(int(image.status().code()), int(base::Code::Parse));
+    EXPECT_NE(image.status().message().find("\"dataWindow\" of type \"box2i\" cannot have 12 bytes"),
+              std::string::npos)
+        << image.status().message();
+}
+
 TEST_F(DazzleFile, everyTruncationAndNonsenseIsRefusedAndNamesTheFile)
 {
     const std::string whole = written("a.exr", {{"R", ramp(3)}});
