@@ -15,6 +15,7 @@ namespace {
 constexpr uint64_t kLargestRatio = 1032; ///< deflate cannot shrink more
 constexpr size_t kMostFileBytes = size_t(1) << 30;
 constexpr size_t kPaletteBytes = 3 * 256;
+constexpr size_t kChunkBytes = 12; ///< of length, name and sum
 constexpr uint8_t kSignature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 constexpr uint8_t kPaletteType = 3;
 
@@ -89,10 +90,10 @@ public:
             return damaged("the signature is missing; is it really a PNG file?");
         bool ended = false;
         for (size_t at = 8; !ended;) {
-            if (file_.size() - at < 12)
+            if (file_.size() - at < kChunkBytes)
                 return damaged("the file ends too early");
             const size_t length = big32(&file_[at]);
-            if (length > file_.size() - at - 12)
+            if (length > file_.size() - at - kChunkBytes)
                 return damaged("a chunk is longer than the file");
             const std::span<const uint8_t> named = file_.subspan(at + 4, length + 4);
             if (crc32(named) != big32(&file_[at + 8 + length]))
@@ -101,29 +102,49 @@ public:
             if (base::Status status = checkChunk(name, at, named.subspan(4)); !status)
                 return status;
             ended = name == "IEND";
-            at += length + 12;
+            at += length + kChunkBytes;
         }
         return {};
     }
 
     const Header& header() const { return header_; }
+    bool mustBeChanged() const { return header_.colorType == kPaletteType || !emptyAt_.empty(); }
 
-    /// The file, and the palette filled up to 256 colors: stb_image takes texels that name no color of it
-    /// from memory that it has not written.
-    std::vector<uint8_t> withWholePalette() const
+    /// The file as stb_image reads it right: with a palette of 256 colors, since it takes texels that name no
+    /// color of a shorter one from memory that it has not written; and without empty chunks before the
+    /// picture's data, of which it would copy nothing to nowhere.
+    std::vector<uint8_t> changed() const
     {
-        std::vector<uint8_t> copy(file_.begin(), file_.end());
-        const size_t length = paletteAt_ ? big32(&file_[paletteAt_]) : kPaletteBytes;
-        if (length >= kPaletteBytes)
-            return copy;
-        const auto end = std::ptrdiff_t(paletteAt_ + 8 + length);
-        copy.insert(copy.begin() + end, kPaletteBytes - length, uint8_t(0));
-        copy[paletteAt_ + 2] = uint8_t(kPaletteBytes >> 8); // the sum is wrong now, which stb_image ignores
-        copy[paletteAt_ + 3] = uint8_t(kPaletteBytes & 255);
+        std::vector<uint8_t> copy;
+        copy.reserve(file_.size() + kPaletteBytes);
+        size_t from = 0, paletteAt = paletteAt_;
+        const auto append = [&](size_t end) {
+            copy.insert(copy.end(), file_.begin() + std::ptrdiff_t(from),
+                        file_.begin() + std::ptrdiff_t(end));
+        };
+        for (const size_t at : emptyAt_) {
+            append(at);
+            from = at + kChunkBytes;
+            if (at < paletteAt_)
+                paletteAt -= kChunkBytes;
+        }
+        append(file_.size());
+        fillPalette(copy, paletteAt);
         return copy;
     }
 
 private:
+    static void fillPalette(std::vector<uint8_t>& file, size_t at)
+    {
+        const size_t length = at ? big32(&file[at]) : kPaletteBytes;
+        if (length >= kPaletteBytes)
+            return;
+        const auto end = std::ptrdiff_t(at + 8 + length);
+        file.insert(file.begin() + end, kPaletteBytes - length, uint8_t(0));
+        file[at + 2] = uint8_t(kPaletteBytes >> 8); // the sum is wrong now, which stb_image ignores
+        file[at + 3] = uint8_t(kPaletteBytes & 255);
+    }
+
     base::Status checkChunk(std::string_view name, size_t at, std::span<const uint8_t> data)
     {
         if ((at == 8) != (name == "IHDR"))
@@ -134,7 +155,11 @@ private:
             if (paletteAt_ != 0 || data.size() % 3 != 0 || data.empty())
                 return damaged("the palette has a wrong size or comes twice");
             paletteAt_ = at;
-        } else if (!(name[0] & 0x20) && name != "IDAT" && name != "IEND") {
+        } else if (name == "IDAT") {
+            hasData_ = hasData_ || !data.empty();
+            if (!hasData_)
+                emptyAt_.push_back(at);
+        } else if (!(name[0] & 0x20) && name != "IEND") {
             return damaged("an unknown chunk is needed to understand it");
         }
         return {};
@@ -143,6 +168,9 @@ private:
     std::span<const uint8_t> file_;
     Header header_;
     size_t paletteAt_ = 0; ///< place of its length; 0: there is none
+    std::vector<size_t>
+        emptyAt_; ///< places of chunks of data that are empty and have none with data before them
+    bool hasData_ = false;
 };
 
 } // namespace
@@ -160,8 +188,8 @@ base::Result<PngPicture> readPng(std::span<const uint8_t> file)
     // The packed data and the unpacked, each in a block that grows by doubling.
     const size_t mostBytes = 2 * file.size() + 2 * (texels * (isDeep ? 8 : 4) + 2 * header.height) + 65'536;
     std::vector<uint8_t> copy;
-    if (header.colorType == kPaletteType)
-        copy = chunks.withWholePalette();
+    if (chunks.mustBeChanged())
+        copy = chunks.changed();
     auto rgba =
         unpackPng(copy.empty() ? file : copy, isDeep, int(header.width), int(header.height), mostBytes);
     if (!rgba)

@@ -228,6 +228,35 @@ Bytes onePaletteTexel(uint8_t index)
     return out;
 }
 
+/// The picture's data after `count` chunks of data that are empty, which the standard allows.
+Bytes afterEmptyChunks(Bytes file, size_t count)
+{
+    Bytes empty;
+    for (size_t i = 0; i < count; ++i)
+        addChunk(empty, "IDAT", {});
+    constexpr std::array<uint8_t, 4> kName{'I', 'D', 'A', 'T'};
+    const auto name = std::search(file.begin(), file.end(), kName.begin(), kName.end());
+    file.insert(name - 4, empty.begin(), empty.end());
+    return file;
+}
+
+TEST(PngReader, emptyChunksBeforeTheDataChangeNothing)
+{
+    for (const Bytes& file :
+         {noisePng({8, 6, false, false}, 5, 3, 1), onePaletteTexel(0), onePaletteTexel(200)})
+        for (const size_t count : {1u, 3u})
+            EXPECT_EQ(asset::readPng(afterEmptyChunks(file, count))->rgba, asset::readPng(file)->rgba);
+}
+
+TEST(PngReader, aPictureWithoutDataIsRefused)
+{
+    Bytes file{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+    addChunk(file, "IHDR", {0, 0, 0, 1, 0, 0, 0, 1, 8, 0, 0, 0, 0});
+    addChunk(file, "IDAT", {});
+    addChunk(file, "IEND", {});
+    EXPECT_EQ(int(asset::readPng(file).status().code()), int(base::Code::Parse));
+}
+
 TEST(PngReader, aColorThatThePaletteLacksIsBlack)
 {
     EXPECT_EQ(asset::readPng(onePaletteTexel(0))->rgba, (Bytes{10, 20, 30, 255}));
