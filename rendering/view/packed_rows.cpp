@@ -150,7 +150,7 @@ void mixTile(PackedTile& io, const PackedTile& older, float share, float seconds
         const bool isUpside = older.qx[i] * io.qx[i] + older.qy[i] * io.qy[i] + older.qz[i] * io.qz[i] +
                                   older.qw[i] * io.qw[i] <
                               0.0f;
-        io.flip[i] = both & isUpside ? -1.0f : 1.0f;
+        io.flip[i] = (both & isUpside) ? -1.0f : 1.0f;
     }
     for (float* q : {io.qx, io.qy, io.qz, io.qw})
         for (uint32_t i = 0; i < count; ++i)
