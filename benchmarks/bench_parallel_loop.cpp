@@ -2,9 +2,10 @@
 //
 // From how much work on a loop is worth other threads. A loop of two parts is run by one thread and by T, in
 // turn, each time after a pause in which the others fall asleep, as they do between the frames of a game.
-// Prints one JSON object for each amount of work: microseconds of the loop on one thread, and what T threads
-// take of that time; then the least work from which on T threads take less: the break-even. Parts of the
-// simulation's loops over particles carry more than half of it, see simulation/particles/rows_of_a_task.h.
+// Prints one JSON object for each amount of work, 10 us to 30 ms: microseconds of the loop on one thread, and
+// what T threads take of that time; then what offering the loop cost where it brought nothing, the least
+// amount of work, and the amount from which on T threads take less: the break-even, -1 if there is none. See
+// simulation/particles/rows_of_a_task.h.
 // --small: three repeats after short pauses, to see that the program works.
 #include "benchmarks/bench_failure.h"
 #include "foundation/tasks/task_runner.h"
@@ -22,6 +23,9 @@ namespace {
 using namespace fx;
 using bench::fail;
 using Clock = std::chrono::steady_clock;
+
+constexpr uint64_t kLeastSteps = 1 << 13; // about 10 us
+constexpr uint64_t kMostSteps = 1 << 25;  // about 30 ms
 
 struct Options
 {
@@ -87,8 +91,8 @@ int main(int argc, char** argv)
     const auto many = base::makeTbbRunner(options.threads);
     const cli::Machine machine = cli::readMachine();
     uint64_t sum = 0;
-    double breakEven = -1;
-    for (uint64_t steps = 1 << 13; steps <= 1 << 20; steps += steps / 2) {
+    double breakEven = -1, offer = 0;
+    for (uint64_t steps = kLeastSteps; steps <= kMostSteps; steps += steps / 2) {
         std::vector<double> serial, parallel;
         for (int i = 0; i < options.repeats; ++i) {
             for (const bool isParallel : {false, true}) {
@@ -97,6 +101,8 @@ int main(int argc, char** argv)
             }
         }
         const double alone = median(serial), together = median(parallel);
+        if (steps == kLeastSteps)
+            offer = together - alone;
         if (together >= alone)
             breakEven = -1;
         else if (breakEven < 0)
@@ -108,8 +114,11 @@ int main(int argc, char** argv)
                                              {"share", together / alone}},
                                             machine));
     }
-    cli::printJsonLine(cli::withMachine(
-        {{"name", "parallel_loop"}, {"variant", "break-even"}, {"us_one_thread", breakEven}}, machine));
+    cli::printJsonLine(cli::withMachine({{"name", "parallel_loop"},
+                                         {"variant", "break-even"},
+                                         {"us_offer", offer},
+                                         {"us_one_thread", breakEven}},
+                                        machine));
     if (sum == 0)
         fail("the loops did nothing");
     return 0;

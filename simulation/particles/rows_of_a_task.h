@@ -1,11 +1,14 @@
 /// @file rows_of_a_task.h
 /// How many rows of particles are worth another thread.
 ///
-/// To offer a loop to threads that have fallen asleep takes the caller 20 to 40 us, whether they come or not
-/// (`bench_parallel_loop` measures it, and with it from how much work on two threads win: 60 to 80 us). A
-/// publication moves about 30 bytes a nanosecond and core (`fx bench particles --threads 1`: 44 bytes in
-/// 1.4 ns for lean particles, 120 in 4.3 ns for typical ones). So a loop is cut where its parts move at least
-/// half of what takes 100 us.
+/// Offering a loop to threads that have fallen asleep takes the caller 10 to 40 us, whether they come or not
+/// (`bench_parallel_loop`). When they come is the system's choice. Threads that are awake win from 50 to 70
+/// us of work on. A virtual machine with two cores wakes a thread on the caller's core and moves it to the
+/// other one much later: there two threads won from 2 ms on after pauses of 1 ms, from 6 ms on after pauses
+/// of 4 ms. No size is right on both. A loop is cut where its parts move at least half of what takes 100 us:
+/// threads that come halve it, and threads that do not come make it dearer by a fifth (the same benchmark). A
+/// publication moves about 30 bytes a nanosecond and core (`fx bench particles --threads 1`: 44 bytes in 1.4
+/// ns for lean particles, 120 in 4.3 ns for typical ones).
 #pragma once
 
 #include "simulation/particles/particle_program.h"
