@@ -80,6 +80,8 @@ base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
         plan.frames.push_back({0, base::toTicks(arguments.time.value_or(kDefaultTime))});
         return {};
     }
+    if (arguments.time)
+        return usage("--time needs one PNG or EXR; for a sequence or a video give --frames or --times");
     std::pair<long, long> range{0, std::lround(2.0 * arguments.framesPerSecond) - 1};
     if (!arguments.frames.empty()) {
         const auto parsed = parsePair(arguments.frames, ':');

@@ -54,6 +54,17 @@ TEST(RenderOptions, twoSecondsAreTheDefaultOfASequence)
     EXPECT_EQ(planRender(argumentsFor("a.mp4"))->frames.size(), 60u);
 }
 
+TEST(RenderOptions, oneMomentAndASequenceAreRefusedTogether)
+{
+    for (const char* output : {"a.%d.png", "a.%d.exr", "a.mp4"}) {
+        RenderArguments arguments = argumentsFor(output);
+        arguments.time = 1.0;
+        const auto plan = planRender(arguments);
+        ASSERT_FALSE(plan.ok()) << output;
+        EXPECT_NE(plan.status().message().find("--frames or --times"), std::string::npos);
+    }
+}
+
 TEST(RenderOptions, numbersThatMakeNoSenseAreRefused)
 {
     for (const char* size :
