@@ -208,7 +208,8 @@ public:
     /// A step of nobody: time passes until `now`.
     void passTime(base::Ticks now)
     {
-        endPools();
+        if (!pools_.empty())
+            endPools();
         now_ = now;
         resting_ = 0;
     }

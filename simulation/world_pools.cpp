@@ -42,8 +42,7 @@ void World::leavePool(RunIndex index)
 
 void World::endPools()
 {
-    if (!pools_.empty())
-        pools_.forEach([this](EmitterSolver&, uint32_t user) { leavePool(user); });
+    pools_.forEach([this](EmitterSolver&, uint32_t user) { leavePool(user); });
 }
 
 /// @param isPlanned members are those of the step before

@@ -44,6 +44,7 @@ public:
     void takePostponed() { ++steps_; }
     /// Whole steps of now() that have been postponed.
     Ticks debt() const { return (now_ / stepTicks_ - steps_) * stepTicks_; }
+    bool isBehind() const { return now_ - simulated() >= stepTicks_; } ///< debt() is not 0
     /// Gives up what of the debt exceeds `most`. @return that
     Ticks forgive(Ticks most);
 

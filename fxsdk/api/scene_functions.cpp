@@ -161,7 +161,7 @@ namespace {
 /// Says when updates begin to leave steps to the next ones.
 void reportDebt(FxScene& scene)
 {
-    const bool isBehind = scene.scene.clock().debt() > 0;
+    const bool isBehind = scene.scene.clock().isBehind();
     if (isBehind && !scene.isBehind)
         fx::api::logMessage(*scene.context, FX_LOG_WARNING,
                             "the steps of a scene need more work than FxSceneDef::workBudget allows an "

@@ -44,7 +44,7 @@ namespace fx::cli {
 namespace {
 
 constexpr int kFrames = 100;
-constexpr double kMostIdle = 600;  ///< instructions of an empty scene at rest
+constexpr double kMostIdle = 500;  ///< instructions of an empty scene at rest
 constexpr double kMostGrowth = 10; ///< instructions that many instances add to a thousand
 constexpr uint32_t kFew = 1000;
 

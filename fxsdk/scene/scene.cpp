@@ -169,13 +169,14 @@ void Scene::finish(uint32_t index)
 void Scene::publish(base::Ticks tick, double interpolation)
 {
     published_ = tick;
-    if (active_.size() > 0 && emptyPublications_ > 2) { // the step before is what views interpolate from
+    if (active_.size() > 0 && emptyPublications_ > kMostEmpty)
+    { // the step before is what views interpolate from
         ring_.beginWrite(tick - clock_.stepTicks(), clock_.stepTicks());
         ring_.publish();
     }
     emptyPublications_ = active_.size() > 0 ? 0 : emptyPublications_ + 1;
-    if (emptyPublications_ > 2) { // what is shown, and what was before it, is as empty as this would be
-        emptyPublications_ = 3;
+    if (emptyPublications_ > kMostEmpty) { // what is shown, and what was before it, is as empty as this
+        emptyPublications_ = kMostEmpty + 1;
         showsNothing_.store(true, std::memory_order_release);
         return show(tick, interpolation);
     }

@@ -287,6 +287,8 @@ private:
         base::Ticks to; ///< local time
     };
     inline void takeSteps(const base::StepPlan& plan);
+    inline bool isAtRest(base::Ticks until) const;
+    inline void passSteps(uint32_t steps);
     void prepareSteps(const base::StepPlan& plan);
     void postpone(uint32_t steps);
     void countDropped(base::Ticks ticks);
@@ -386,7 +388,8 @@ private:
     bool memoryFailed_ = false;
     bool sought_ = false; ///< seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;
-    uint32_t emptyPublications_ = 0; ///< one after the other
+    static constexpr uint32_t kMostEmpty = 2; ///< publications with nothing in them; more change nothing
+    uint32_t emptyPublications_ = 0;          ///< one after the other, counted up to kMostEmpty + 1
     uint32_t hidden_ = 0;
     uint32_t resting_ = 0;
     double measuredNanoseconds_ = 100; ///< [ns] of a particle's step; a guess until something is stepped

@@ -41,6 +41,8 @@ bool Scene::update(double dt)
 [[gnu::always_inline]] inline void Scene::takeSteps(const base::StepPlan& plan)
 {
     update_ = {};
+    if (isAtRest(clock_.simulated()))
+        return passSteps(plan.steps);
     bool isPrepared = false, hasMoved = false;
     uint32_t taken = 0;
     for (; taken < plan.steps && !(taken > 0 && work_.isSpent()); ++taken) {
@@ -72,6 +74,28 @@ bool Scene::update(double dt)
     if (taken < plan.steps)
         postpone(plan.steps - taken);
     update_.workUnits = work_.spent();
+}
+
+/// Whether steps that end by `until` have nothing to do and nothing to show.
+[[gnu::always_inline]] inline bool Scene::isAtRest(base::Ticks until) const
+{
+    const auto isDue = [until](const activation::WakeQueue& queue) {
+        return !queue.empty() && queue.earliest().start <= until;
+    };
+    const bool isEmpty = active_.size() == 0 && waking_.size() == 0 && denied_.size() == 0 &&
+                         coarse_.size() == 0 && arrived_.empty() && world_.spares() == 0;
+    const bool isAsked = lookAgain_ || sought_ || !moved_.empty() || !seeks_.empty() || world_.hasChanges();
+    return emptyPublications_ > kMostEmpty && isEmpty && !isAsked && !world_.isStepping() &&
+           !isDue(dormant_) && !isDue(alarms_);
+}
+
+/// The steps of a scene at rest, all at once.
+[[gnu::always_inline]] inline void Scene::passSteps(uint32_t steps)
+{
+    counters_.steps += steps;
+    published_ = clock_.simulated();
+    world_.passTime(published_);
+    show(published_, clock_.interpolation());
 }
 
 /// Before the first step that begins in an update.

@@ -31,7 +31,7 @@ public:
 
     /// Changes with every member that comes or goes.
     uint64_t revision() const { return revision_; }
-    bool empty() const { return members() == 0; }
+    bool empty() const { return pools_.empty() || members() == 0; }
     uint32_t members() const;
     base::Ticks now() const { return now_; } ///< end of the last step
     /// Publishes all pools that have members.
