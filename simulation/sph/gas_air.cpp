@@ -27,7 +27,21 @@ GasAir::GasAir(const GasDef& def, const StepContext& step, const ThermalFlow& th
     : def_(def), wind_(step.wind), noise_(makeNoise(def, step)), thermal_(thermal)
 {}
 
-glm::vec3 GasAir::velocity(const glm::vec3& position, float temperature) const
+void GasAir::Turbulence::evaluate(const GasAir& air, const GasView<float>& gas, uint32_t first,
+                                  uint32_t count)
+{
+    if (!air.noise_.active())
+        return;
+    const float* const from[3] = {gas.x, gas.y, gas.z};
+    for (uint32_t a = 0; a < 3; ++a) {
+        std::copy_n(from[a] + first, count, position_[a]);
+        std::fill_n(velocity_[a], kMost, -0.0f); // to which a sum adds nothing, not even a sign
+    }
+    air.noise_.addTo({position_[0], position_[1], position_[2]}, {velocity_[0], velocity_[1], velocity_[2]},
+                     count);
+}
+
+glm::vec3 GasAir::velocity(const glm::vec3& position, float temperature, const glm::vec3& turbulence) const
 {
     glm::vec3 air = wind_;
     if (thermal_.active())
@@ -36,7 +50,7 @@ glm::vec3 GasAir::velocity(const glm::vec3& position, float temperature) const
         return air;
     const float excess = (temperature - kAirTemperature) / (kFlameTemperature - kAirTemperature);
     const float fade = 0.3f + 0.7f * std::sqrt(std::clamp(excess, 0.0f, 1.0f));
-    return air + fade * noise_.velocity(position);
+    return air + fade * turbulence;
 }
 
 double GasThermodynamics::densityRatio(const FireParcel& parcel) const

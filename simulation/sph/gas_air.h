@@ -7,6 +7,7 @@
 #include "simulation/combustion/fire_parcel.h"
 #include "simulation/motion/curl_noise.h"
 #include "simulation/solver.h"
+#include "simulation/sph/dynamics/gas_dynamics.h"
 #include "simulation/sph/gas_def.h"
 #include "simulation/sph/thermal_flow.h"
 
@@ -20,8 +21,24 @@ class GasAir
 public:
     GasAir(const GasDef& def, const StepContext& step, const ThermalFlow& thermal);
 
+    /// Turbulence at the full strength of flames, of several places at once: a vector of them takes little
+    /// more time than one.
+    class Turbulence
+    {
+    public:
+        static constexpr uint32_t kMost = 64; ///< places
+
+        /// At the places [first, first + count) of the gas.
+        void evaluate(const GasAir& air, const GasView<float>& gas, uint32_t first, uint32_t count);
+        glm::vec3 at(uint32_t k) const { return {velocity_[0][k], velocity_[1][k], velocity_[2][k]}; }
+
+    private:
+        alignas(64) float position_[3][kMost] = {}; ///< [m]
+        alignas(64) float velocity_[3][kMost];      ///< [m/s]
+    };
+
     /// [m/s] at `position`, around gas of that temperature [K]: turbulence fades as the gas cools.
-    glm::vec3 velocity(const glm::vec3& position, float temperature) const;
+    glm::vec3 velocity(const glm::vec3& position, float temperature, const glm::vec3& turbulence) const;
     const ThermalFlow& thermal() const { return thermal_; }
 
 private:

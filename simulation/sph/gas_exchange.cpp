@@ -51,40 +51,51 @@ glm::vec3 buoyancyOf(const GasExchange& exchange, float tau)
     return exchange.step.gravity * (-exchange.def.buoyancy * (1.0f - tau) / (tau + 0.5f)); // (4)
 }
 
+/// The particle at the place `i`.
+void exchangeOne(const GasExchange& exchange, const GasView<float>& gas, GasParcels& parcels, float seconds,
+                 uint32_t i, const glm::vec3& turbulence)
+{
+    const GasThermodynamics& thermo = exchange.thermodynamics;
+    const uint32_t id = gas.id[i];
+    FireParcel& parcel = parcels.fire[id];
+    const float exposure = gas.exposure[i];
+    const float openness = std::min(exposure / kOuterLayer, 1.0f); // (0)
+    const glm::vec3 position(gas.x[i], gas.y[i], gas.z[i]);
+    glm::vec3 velocity(gas.vx[i], gas.vy[i], gas.vz[i]);
+    const glm::vec3 air = exchange.air.velocity(position, float(parcel.temperature), turbulence);
+    const float speed = glm::length(velocity - air);
+
+    const double entrainment = entrainmentOf(exchange, parcel, parcels.vigor[id], openness, speed,
+                                             double(gas.density[i]), double(seconds));
+    const double before = parcel.mixing;
+    parcel = burn(exchange, parcel, double(gas.mass[i]), entrainment, double(exposure), double(seconds));
+    const float kept = float(before / parcel.mixing);
+    velocity = kept * velocity + (1.0f - kept) * air; // (3)
+    gas.mass[i] = float(parcel.ownMass * parcel.mixing);
+    gas.entropy[i] = float(thermo.entropy(parcel));
+
+    const float tau = float(thermo.densityRatio(parcel));
+    const float ahead = 3.0f * speed / (tau * exchange.air.thermal().radius);
+    const float rate =
+        (exchange.def.drag + exchange.def.braking * ahead) * (kInnerDrag + (1.0f - kInnerDrag) * exposure);
+    const DragStep drag = makeDragStep(double(rate), double(seconds));
+    velocity = drag.decay * velocity + drag.share * air + drag.gain * buoyancyOf(exchange, tau); // (5)
+    gas.vx[i] = velocity.x;
+    gas.vy[i] = velocity.y;
+    gas.vz[i] = velocity.z;
+}
+
 } // namespace
 
 void exchangeWithAir(const GasExchange& exchange, const GasView<float>& gas, GasParcels& parcels,
                      float seconds, uint32_t begin, uint32_t end)
 {
-    const GasThermodynamics& thermo = exchange.thermodynamics;
-    for (uint32_t i = begin; i < end; ++i) {
-        const uint32_t id = gas.id[i];
-        FireParcel& parcel = parcels.fire[id];
-        const float exposure = gas.exposure[i];
-        const float openness = std::min(exposure / kOuterLayer, 1.0f); // (0)
-        const glm::vec3 position(gas.x[i], gas.y[i], gas.z[i]);
-        glm::vec3 velocity(gas.vx[i], gas.vy[i], gas.vz[i]);
-        const glm::vec3 air = exchange.air.velocity(position, float(parcel.temperature));
-        const float speed = glm::length(velocity - air);
-
-        const double entrainment = entrainmentOf(exchange, parcel, parcels.vigor[id], openness, speed,
-                                                 double(gas.density[i]), double(seconds));
-        const double before = parcel.mixing;
-        parcel = burn(exchange, parcel, double(gas.mass[i]), entrainment, double(exposure), double(seconds));
-        const float kept = float(before / parcel.mixing);
-        velocity = kept * velocity + (1.0f - kept) * air; // (3)
-        gas.mass[i] = float(parcel.ownMass * parcel.mixing);
-        gas.entropy[i] = float(thermo.entropy(parcel));
-
-        const float tau = float(thermo.densityRatio(parcel));
-        const float ahead = 3.0f * speed / (tau * exchange.air.thermal().radius);
-        const float rate = (exchange.def.drag + exchange.def.braking * ahead) *
-                           (kInnerDrag + (1.0f - kInnerDrag) * exposure);
-        const DragStep drag = makeDragStep(double(rate), double(seconds));
-        velocity = drag.decay * velocity + drag.share * air + drag.gain * buoyancyOf(exchange, tau); // (5)
-        gas.vx[i] = velocity.x;
-        gas.vy[i] = velocity.y;
-        gas.vz[i] = velocity.z;
+    GasAir::Turbulence turbulence;
+    for (uint32_t first = begin; first < end; first += GasAir::Turbulence::kMost) {
+        const uint32_t count = std::min(end - first, GasAir::Turbulence::kMost);
+        turbulence.evaluate(exchange.air, gas, first, count);
+        for (uint32_t k = 0; k < count; ++k)
+            exchangeOne(exchange, gas, parcels, seconds, first + k, turbulence.at(k));
     }
 }
 

@@ -1,10 +1,13 @@
 #include "simulation/sph/gas_air.h"
 
+#include "foundation/memory/host_memory.h"
 #include "simulation/sph/dynamics/state_equation.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 using namespace fx::sim;
 
@@ -16,6 +19,11 @@ FireParcel parcelOf(double temperature, double mixing)
     parcel.temperature = temperature;
     parcel.mixing = mixing;
     return parcel;
+}
+
+StepContext stepIn(const glm::vec3& wind)
+{
+    return {12345, 1000, 3, 0, glm::vec3(0.0f), wind, 0.0f, nullptr, nullptr, nullptr, nullptr, nullptr};
 }
 
 } // namespace
@@ -55,4 +63,46 @@ TEST(GasThermodynamics, muchAirMakesItsGasConstantThatOfAir)
     EXPECT_DOUBLE_EQ(thermo.gasConstant(1.0), 83.0);
     EXPECT_NEAR(thermo.gasConstant(1e6), kAirGasConstant, 1e-3);
     EXPECT_NEAR(thermo.gasConstant(2.0), 0.5 * (83.0 + kAirGasConstant), 1e-9); // half of each, by mass
+}
+
+TEST(GasAir, turbulenceOfManyPlacesIsThatOfEachAloneBitForBit)
+{
+    using Turbulence = GasAir::Turbulence;
+    const GasDef def;
+    const StepContext step = stepIn(glm::vec3(0.0f));
+    const GasAir air(def, step, ThermalFlow{});
+    fx::base::HostMemory memory;
+    GasDynamicsDef dynamics;
+    dynamics.capacity = Turbulence::kMost + 9;
+    GasDynamics<float> gas(dynamics, &memory);
+    std::vector<GasParticle> particles(dynamics.capacity);
+    for (size_t i = 0; i < particles.size(); ++i)
+        particles[i] = {glm::dvec3(0.37 * double(i) - 9.0, 0.1 * double(i), 0.7), {}, 1.0, 1.0};
+    ASSERT_TRUE(gas.add(particles).ok());
+    Turbulence many, one;
+    float fastest = 0;
+    for (const uint32_t count : {1u, 5u, 16u, 17u, Turbulence::kMost})
+        for (const uint32_t first : {0u, 3u, 9u}) {
+            many.evaluate(air, gas.view(), first, count);
+            for (uint32_t k = 0; k < count; ++k) {
+                one.evaluate(air, gas.view(), first + k, 1);
+                EXPECT_EQ(many.at(k), one.at(0)) << first << "+" << k << " of " << count;
+                fastest = std::max(fastest, std::abs(many.at(k).y));
+            }
+        }
+    EXPECT_GT(fastest, 1.0f);
+}
+
+TEST(GasAir, turbulenceFadesAsTheGasCoolsAndIsOffWithoutStrength)
+{
+    GasDef def;
+    def.curlStrength = 0.0f;
+    const StepContext step = stepIn(glm::vec3(1.0f, 2.0f, 3.0f));
+    const glm::vec3 gust(5.0f, 0.0f, 0.0f);
+    const GasAir calm(def, step, ThermalFlow{});
+    EXPECT_EQ(calm.velocity({}, 2000.0f, gust), step.wind); // switched off
+    def.curlStrength = 2.5f;
+    const GasAir rough(def, step, ThermalFlow{});
+    EXPECT_EQ(rough.velocity({}, 2000.0f, gust), step.wind + gust);
+    EXPECT_EQ(rough.velocity({}, 100.0f, gust), step.wind + 0.3f * gust); // cold gas is stirred less
 }
