@@ -24,6 +24,8 @@ function(fx_embed_texts)
                 -P "${FX_EMBED_SCRIPT}"
         DEPENDS ${inputs} "${FX_EMBED_SCRIPT}"
         COMMENT "Embedding ${ARG_HEADER}" VERBATIM)
+    # Texts may be longer than the 65536 characters that the standard asks of compilers; Clang warns of it.
+    set_source_files_properties("${source}" PROPERTIES COMPILE_OPTIONS $<$<CXX_COMPILER_ID:Clang>:-Wno-overlength-strings>)
     target_sources(${ARG_TARGET} PRIVATE "${source}" "${header}")
     target_include_directories(${ARG_TARGET} PRIVATE "${folder}")
 endfunction()

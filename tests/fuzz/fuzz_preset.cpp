@@ -8,8 +8,10 @@ namespace fx::fuzz {
 
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;    ///< [s]
+constexpr double kFrame = 1.0 / 60.0; ///< [s]
+constexpr int kFrames = 4;
 constexpr uint64_t kMostCapacity = 4096; ///< particles of a preset that is played
+constexpr uint64_t kMostWork = 40'000;   ///< work units of playing it, a fraction of a second in a slow build
 
 /// State hash after some frames with the loops of the host cut and ordered in one way.
 uint64_t play(std::string_view text, bool reversesLoops)
@@ -28,7 +30,7 @@ uint64_t play(std::string_view text, bool reversesLoops)
     FxInstanceId id{};
     require(checked(fxScene_CreateInstance(scene, &instance, &id)) == FX_OK, "a loaded preset can be placed",
             fxGetLastErrorMessage());
-    for (int frame = 0; frame < 4; ++frame)
+    for (int frame = 0; frame < kFrames; ++frame)
         require(checked(fxScene_Update(scene, kFrame)) == FX_OK, "a placed preset can be updated");
     uint64_t hash = 0;
     require(checked(fxScene_GetStateHash(scene, &hash)) == FX_OK, "a state has a hash");
@@ -37,13 +39,14 @@ uint64_t play(std::string_view text, bool reversesLoops)
     return hash;
 }
 
-/// Whether the preset says how much of it to play; a heavy one takes longer than an input may.
+/// Whether the preset is played; a heavy one takes longer than an input may.
 bool isLight(FxContext* context, FxPresetId preset)
 {
     FxPresetInfo info{};
     info.structSize = sizeof info;
     require(checked(fxGetPresetInfo(context, preset, &info)) == FX_OK, "a loaded preset has properties");
-    return info.capacity <= kMostCapacity && info.solverCount <= 8;
+    return info.capacity <= kMostCapacity && info.solverCount <= 8 && info.startWork <= kMostWork &&
+           info.stepWork <= (kMostWork - info.startWork) / kFrames;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """fx accuracy of the techniques that need no gas: what they promise, the files they write, what they refuse."""
 import json
+import os
 import shutil
 import unittest
 
@@ -48,6 +49,7 @@ class FxAccuracyOfLight(FxTest):
             self.assertGreater(names["paper-1"]["error_p99"], factor * names["gauss-5"]["error_p99"])
 
     @unittest.skipUnless(shutil.which("valgrind"), "valgrind is missing")
+    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "valgrind cannot run programs with the address sanitizer")
     def test_instructions_are_counted_where_valgrind_is_there(self):
         names = by_setting(lines_of("ray-integral", "--scene", "tau-1", "--repeat", "1", "--json"))
         self.assertIn(names["paper-1"]["instructions_by"], ("perf", "callgrind"))
