@@ -344,6 +344,8 @@ std::vector<sim::Slot> Scene::slotsBySerial() const
 void Scene::take(Restored& state)
 {
     const base::Ticks simulated = state.clock.steps * options_.stepTicks;
+    if (world_.isPublishing()) // one snapshot at a time
+        completeStep();
     state.world.publish(state.active.slots(), ring_.beginWrite(simulated, options_.stepTicks));
     clock_.restore(state.clock);
     counters_ = state.counters;
