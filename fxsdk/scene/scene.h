@@ -352,7 +352,8 @@ private:
     static sim::InstanceStart startOf(const IdTable<Instance>& instances, uint32_t index);
 
     using Effects = std::vector<std::shared_ptr<const sim::EffectDef>>;
-    Effects effects() const; ///< each once, in the order of first use
+    Effects effects() const; ///< each content once, in the order of first use
+    static size_t placeOf(const Effects& effects, const sim::EffectDef& wanted);
     void saveRules(sim::StateWriter& writer) const;
     void saveInstances(sim::StateWriter& writer) const;
     void checkRules(sim::StateReader& reader) const;
