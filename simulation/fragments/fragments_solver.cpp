@@ -145,9 +145,12 @@ uint64_t FragmentsDef::bytes() const
            TrailStore::bytesOf(capacity() - count);
 }
 
-double FragmentsDef::workOf(const StepLoad&) const
+/// All that there is room for moves and is shown; of the smoke, what dies is left anew.
+double FragmentsDef::workOf(const StepLoad& load) const
 {
-    return (fragment_work::kMoved + fragment_work::kBirth + fragment_work::kShown) * double(capacity());
+    const double left = std::min(load.seconds / std::max(double(trail.lifetime.min), 1e-3), 1.0);
+    return (fragment_work::kMoved + fragment_work::kBirth * left + fragment_work::kShown) *
+           double(capacity());
 }
 
 bool FragmentsSolver::proceed(const StepContext& context, base::WorkBudget& work)
