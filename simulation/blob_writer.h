@@ -33,24 +33,39 @@ public:
         info.kind = kind;
         info.count = count;
     }
+    /// Goes on with a group that another writer has begun.
+    BlobWriter(base::SnapshotGroup& group, float secondsBack)
+        : group_(group), count_(group.info().count), secondsBack_(secondsBack)
+    {}
 
+    uint32_t count() const { return count_; }
     float* column(size_t index) { return group_.editColumn(index).data(); }
     uint64_t* ids() { return group_.editIds().data(); }
     float& constant(size_t index) { return group_.editConstants()[index]; }
-    void copy(size_t index, const float* values) { std::copy_n(values, count_, column(index)); }
-    void fill(size_t index, float value) { std::fill_n(column(index), count_, value); }
+    void copy(size_t index, const float* values) { copy(index, values, 0, count_); }
+    void fill(size_t index, float value) { fill(index, value, 0, count_); }
+    /// The same in the rows [begin, end).
+    void copy(size_t index, const float* values, uint32_t begin, uint32_t end)
+    {
+        std::copy(values + begin, values + end, column(index) + begin);
+    }
+    void fill(size_t index, float value, uint32_t begin, uint32_t end)
+    {
+        std::fill(column(index) + begin, column(index) + end, value);
+    }
 
-    /// Bounds from what has been written: of the balls, drawn out along their way while the shutter is open,
-    /// and at any moment since the snapshot before, where those are who were not in it. Ages do not tell who
-    /// that was: they count time of the instance, which may run faster.
-    void closeBounds()
+    void closeBounds() { addBounds(0, count_); } ///< of all rows
+    /// The bounds gain the rows [begin, end), which have been written: the balls, drawn out along their way
+    /// while the shutter is open, and at any moment since the snapshot before, where those are who were not
+    /// in it. Ages do not tell who that was: they count time of the instance, which may run faster.
+    void addBounds(uint32_t begin, uint32_t end)
     {
         namespace blob = base::blob_column;
         const float* radius = column(blob::Radius);
         const float* age = column(blob::Age);
         const float shutter = constant(base::blob_constant::Shutter);
-        base::Bounds bounds;
-        for (uint32_t i = 0; i < count_; ++i) {
+        base::Bounds bounds = group_.info().bounds;
+        for (uint32_t i = begin; i < end; ++i) {
             const glm::vec3 position = vector(blob::PositionX, i);
             const glm::vec3 velocity = vector(blob::VelocityX, i);
             const float widest = shutter > 0.0f

@@ -5,6 +5,7 @@
 
 #include "foundation/math/geometry.h"
 #include "simulation/effect_def.h"
+#include "simulation/emitters/event_board.h"
 #include "simulation/run_clock.h"
 
 #include <array>
@@ -37,6 +38,17 @@ struct RunConditions
     /// Bit for bit.
     bool equals(const RunConditions& other) const;
     uint64_t hash() const;
+};
+
+/// A sub-step of solvers that tell each other of events, of a run that is not stepped with the others: what
+/// they have told stays while the sub-step waits for another call.
+struct LinkedPart
+{
+    explicit LinkedPart(std::pmr::memory_resource* memory) : scratch(memory) {}
+
+    base::Arena scratch;
+    std::optional<EventBoard> board;
+    std::span<const HostEvent> heard{}; ///< in `scratch`
 };
 
 /// The solvers of one effect and what they are told.
@@ -84,15 +96,16 @@ struct Run
     uint32_t nextFresh = 0; ///< see RunPool
 
     // A step in hand, see World::proceed(), and a past that is still to be simulated, see World::arrive().
-    bool inStep = false;        ///< some of its sub-steps are complete, or one is in hand
-    bool inPart = false;        ///< a sub-step is in hand
-    bool arriving = false;      ///< local time `reached` is simulated, `target` is where it begins
-    uint32_t stepped = 0;       ///< solvers that are through with the sub-step in hand
-    base::Ticks part = 0;       ///< sub-steps of the step that are complete
-    base::Ticks stepTick = 0;   ///< [tick] of the scene at which the step begins
-    base::Ticks stepLength = 0; ///< [tick] of the scene
-    base::Ticks reached = 0;    ///< [tick] local
-    base::Ticks target = 0;     ///< [tick] local
+    bool inStep = false;                  ///< some of its sub-steps are complete, or one is in hand
+    bool inPart = false;                  ///< a sub-step is in hand
+    bool arriving = false;                ///< local time `reached` is simulated, `target` is where it begins
+    uint32_t stepped = 0;                 ///< solvers that are through with the sub-step in hand
+    base::Ticks part = 0;                 ///< sub-steps of the step that are complete
+    base::Ticks stepTick = 0;             ///< [tick] of the scene at which the step begins
+    base::Ticks stepLength = 0;           ///< [tick] of the scene
+    base::Ticks reached = 0;              ///< [tick] local
+    base::Ticks target = 0;               ///< [tick] local
+    std::unique_ptr<LinkedPart> linked{}; ///< while it is on its way to the present by itself
 
     // of one step of the world
     uint64_t visitedIn = 0; ///< number of the last step that had it in its list

@@ -132,6 +132,18 @@ struct StepContext
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };
 
+/// How far the publication of one solver has come. What its members mean is the solver's own.
+struct PublicationPlace
+{
+    uint32_t group = 0;    ///< of those that it publishes
+    uint32_t part = 0;     ///< of the way to that group
+    uint32_t row = 0;      ///< of that part
+    uint32_t count = 0;    ///< elements that are found or written
+    bool isSorted = true;  ///< they are in their order
+    base::Bounds bounds{}; ///< of those that are written
+    float radius = 0;      ///< [m] likewise the largest
+};
+
 /// The changing state of one emitter, one gas, ... of one instance.
 class Solver
 {
@@ -202,8 +214,19 @@ public:
     virtual bool proceed(const StepContext& context, base::WorkBudget& work);
     /// [unit] of base::WorkBudget that what was done in a step counts, for solvers that are not divided.
     virtual uint64_t workOf(const StepCounters& done) const { return done.particleSteps + done.born; }
-    /// [unit] that it counts once a step to show what there is.
+    /// [unit] that it counts to publish what there is, for solvers whose publication is not divided.
     virtual uint64_t shownWork() const { return 0; }
+    /// publish() within a budget: spends what it counts, and where nothing is left before its end, returns
+    /// false. Then the same call has to be made again before any other call of the solver, and before another
+    /// group is added to `snapshot`; the bits are those of publish().
+    /// @param ioPlace as it is made for the first call; then as the call before has left it
+    virtual bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                                    PublicationPlace& /*ioPlace*/, base::WorkBudget& work) const
+    {
+        publish(base, snapshot);
+        work.spend(shownWork());
+        return true;
+    }
 };
 
 inline bool Solver::proceed(const StepContext& context, base::WorkBudget& work)

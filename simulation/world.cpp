@@ -46,12 +46,12 @@ Slot World::takeSlot(const InstanceStart& start, RunIndex run)
     if (!free_.empty()) {
         const Slot slot = free_.back();
         free_.pop_back();
-        instances_[slot] = {run, false, false, start};
+        instances_[slot] = {run, false, 0, start};
         return slot;
     }
     free_.reserve(instances_.size() + 1); // remove() must not fail
     leaving_.reserve(instances_.size() + 1);
-    instances_.push_back({run, false, false, start});
+    instances_.push_back({run, false, 0, start});
     return Slot(instances_.size() - 1);
 }
 
@@ -68,14 +68,14 @@ void World::remove(Slot slot)
 
 void World::setPlacement(Slot slot, const base::Placement& placement)
 {
-    InstanceStart start = instances_[slot].start;
+    InstanceStart start = wantedOf(slot);
     start.placement = placement;
     change(slot, start);
 }
 
 void World::setParameters(Slot slot, const InstanceParameters& parameters)
 {
-    InstanceStart start = instances_[slot].start;
+    InstanceStart start = wantedOf(slot);
     start.parameters = parameters;
     change(slot, start);
 }
@@ -106,10 +106,14 @@ void World::change(Slot slot, const InstanceStart& start)
 
 void World::changeAfterStep(Slot slot, const InstanceStart& start)
 {
-    if (!instances_[slot].changed)
-        waiting_.push_back({slot, std::nullopt});
-    instances_[slot].changed = true;
-    instances_[slot].start = start;
+    Instance& instance = instances_[slot];
+    if (instance.wanted > 0) {
+        wanted_[instance.wanted - 1] = start;
+        return;
+    }
+    wanted_.push_back(start);
+    waiting_.push_back({slot, std::nullopt}); // where that fails, nobody knows of the other
+    instance.wanted = uint32_t(wanted_.size());
 }
 
 void World::makeChanges()
@@ -123,13 +127,16 @@ void World::makeChanges()
     } forgetting{waiting_, made};
     for (; made < waiting_.size(); ++made) {
         const Waiting& next = waiting_[made];
+        if (instances_[next.slot].run == kNoRun)
+            continue; // it has ended with the step
         if (next.event) {
             tell(next.slot, *next.event);
             continue;
         }
-        change(next.slot, InstanceStart(instances_[next.slot].start));
-        instances_[next.slot].changed = false;
+        change(next.slot, wantedOf(next.slot));
+        instances_[next.slot].wanted = 0;
     }
+    wanted_.clear();
     for (; !leaving_.empty(); leaving_.pop_back())
         remove(leaving_.back());
 }
@@ -344,38 +351,6 @@ void World::passOver(Slot slot, base::Ticks stepTicks)
         }
     });
     runs_.at(index).simulated = from;
-}
-
-void World::publish(std::span<const Slot> active, base::FrameSnapshot& snapshot) const
-{
-    const base::FloatingPointScope floatingPoint;
-    crowd_.beginPublication(snapshot, tasks_);
-    if (!pools_.empty()) {
-        publishPools(active, snapshot);
-    } else {
-        for (size_t k = 0; k < active.size(); ++k) {
-            fetchAhead(active, k);
-            publishSlot(active[k], snapshot);
-        }
-        crowd_.endPublication();
-    }
-}
-
-void World::publishSlot(Slot slot, base::FrameSnapshot& snapshot) const
-{
-    const Instance& instance = instances_[slot];
-    const Run& run = runs_.at(instance.run);
-    base::GroupInfo info;
-    info.instance = instance.start.instance;
-    info.placement = instance.start.placement;
-    const auto publishOne = [&](const Solver& solver) {
-        if (!solver.joinPublication(info, snapshot, crowd_))
-            solver.publish(info, snapshot);
-    };
-    if (run.only)
-        return publishOne(*run.only);
-    for (; info.solver < run.solvers.size(); ++info.solver)
-        publishOne(*run.solvers[info.solver]);
 }
 
 } // namespace fx::sim

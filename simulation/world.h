@@ -200,7 +200,9 @@ public:
     /// @param counters gains what was done in the step, when it is complete
     /// After an exception there is no step in hand.
     bool proceed(base::WorkBudget& work, StepCounters& counters);
-    bool isStepping() const { return hand_.isOpen; }
+    /// Whether there is a step in hand: one that is not complete, or that is being published.
+    bool isStepping() const { return hand_.isOpen || publication_.isOpen; }
+    bool isPublishing() const { return publication_.isOpen; }
     /// Makes the changes that have waited. After an exception, those that are left wait for the next call.
     void makeChanges();
     bool hasChanges() const { return !waiting_.empty() || !leaving_.empty(); }
@@ -215,7 +217,13 @@ public:
     }
 
     /// Writes the groups of each slot of `active`, in the order of the list.
-    void publish(std::span<const Slot> active, base::FrameSnapshot& snapshot) const;
+    void publish(std::span<const Slot> active, base::FrameSnapshot& snapshot);
+    /// The same in parts: beginPublication() once, then proceedPublication() until it says true. The bits are
+    /// the same. Meanwhile as with a step in hand; nobody else may write to `snapshot`.
+    void beginPublication(std::span<const Slot> active, base::FrameSnapshot& snapshot);
+    /// After an exception there is no publication in hand.
+    bool proceedPublication(base::WorkBudget& work);
+    void dropPublication() { publication_.isOpen = false; } ///< what is written of the snapshot is useless
 
     /// Hash of the states behind `slots`; the same for shared and unshared ones.
     uint64_t hash(std::span<const Slot> slots) const;
@@ -240,7 +248,7 @@ private:
     {
         RunIndex run = kNoRun;
         bool hidden = false;
-        bool changed = false; ///< `start` is to hold from the end of the step in hand
+        uint32_t wanted = 0; ///< place in wanted_, from 1 on, of what `start` is to be; 0: it stays
         InstanceStart start;
     };
 
@@ -248,7 +256,7 @@ private:
     struct Waiting
     {
         Slot slot;
-        std::optional<HostEvent> event; ///< none: its start has changed
+        std::optional<HostEvent> event; ///< none: its start is to be what is wanted
     };
 
     /// A step of which some is still to be done.
@@ -266,13 +274,25 @@ private:
         std::optional<EventBoard> board;    ///< of the sub-step in hand
         std::span<const HostEvent> heard{}; ///< likewise
     };
+    /// A publication of which some is still to be written.
+    struct PublicationInHand
+    {
+        bool isOpen = false;
+        bool hasPools = false;
+        size_t place = 0; ///< in the list, of the slot in hand
+        std::span<const Slot> list;
+        std::vector<Slot> own; ///< its memory, between two calls
+        uint32_t solver = 0;   ///< of that slot
+        PublicationPlace part; ///< of that solver
+        base::FrameSnapshot* snapshot = nullptr;
+    };
     /// A step of one run.
     struct RunStep
     {
         base::Ticks tick; ///< scene time
         base::Ticks stepTicks;
         EmitterCrowd* crowd = nullptr; ///< null unless it is closed before anybody looks at the run
-        std::optional<EventBoard>* board = nullptr; ///< see stepSolvers()
+        std::optional<EventBoard>* board = nullptr; ///< null: the run has its own, see linkedPartOf()
     };
     struct LocalSpan
     {
@@ -298,13 +318,20 @@ private:
     void stepPools(std::span<const Slot> active, bool isPlanned, StepCounters& counters);
     void joinPools();
     void planStep(std::span<const Slot> active);
-    void publishPools(std::span<const Slot> active, base::FrameSnapshot& snapshot) const;
-    void makeRoster(std::span<const Slot> active) const;
+    void planPublication(std::span<const Slot> active);
+    void makeRoster(std::span<const Slot> active);
+    bool publishSlots(base::WorkBudget& work);
     bool stepSlot(base::WorkBudget& work);
     void keepStep();
     void dropStep();
     void changeAfterStep(Slot slot, const InstanceStart& start);
-    void publishSlot(Slot slot, base::FrameSnapshot& snapshot) const;
+    /// What the host has made of it, also where that waits for the end of the step in hand.
+    const InstanceStart& wantedOf(Slot slot) const
+    {
+        const Instance& instance = instances_[slot];
+        return instance.wanted > 0 ? wanted_[instance.wanted - 1] : instance.start;
+    }
+    bool publishSlot(Slot slot, base::WorkBudget& work);
 
     RunConditions conditionsOf(const EffectDef& effect, const InstanceStart& start) const;
     Slot takeSlot(const InstanceStart& start, RunIndex run);
@@ -320,10 +347,11 @@ private:
     void withContext(RunIndex index, StepCounters& counters, F&& body);
     void divideByPlacement();
     void divideRuns(std::span<const Slot> active);
-    bool stepSolvers(Run& run, StepContext& context, std::optional<EventBoard>* board,
+    bool stepSolvers(Run& run, StepContext& context, std::optional<EventBoard>& ioBoard,
                      base::WorkBudget& work);
     bool stepPart(RunIndex index, StepContext& context, const LocalSpan& time,
-                  std::optional<EventBoard>* board, base::WorkBudget& work);
+                  std::optional<EventBoard>& ioBoard, base::WorkBudget& work);
+    LinkedPart* linkedPartOf(Run& run);
     bool arrive(RunIndex index, base::Ticks tick, base::Ticks stepTicks, base::WorkBudget& work,
                 StepCounters& counters);
     void setOut(RunIndex index, const LocalSpan& way, base::Ticks stepTicks, StepCounters& counters);
@@ -335,7 +363,7 @@ private:
                 base::WorkBudget& work);
     static void restoreSolvers(Run& run, const StateBuffer& state);
     void isolate(Slot slot);
-    std::span<const HostEvent> hear(RunIndex index, base::Ticks tick);
+    std::span<const HostEvent> hear(RunIndex index, base::Ticks tick, base::Arena& scratch);
     void restoreTold(Run& run, StateReader& reader);
     bool stepRun(RunIndex index, const RunStep& step, base::WorkBudget& work, StepCounters& counters);
     void fetchAhead(std::span<const Slot> active, size_t place) const;
@@ -356,25 +384,28 @@ private:
     std::pmr::memory_resource* memory_;
     bool share_;
     base::Arena scratch_;
-    mutable EmitterCrowd crowd_; ///< of the step or the publication in hand; empty otherwise
-    EmitterPools pools_;         ///< before the runs, whose solvers are in them
+    EmitterCrowd crowd_; ///< of the step or the publication in hand; empty otherwise
+    EmitterPools pools_; ///< before the runs, whose solvers are in them
     RunPool runs_;
     std::vector<Instance> instances_;
     std::vector<Slot> free_;
     Plan stepPlan_;
     StepInHand hand_;
-    StepCounters closed_;           ///< work of steps that had to be ended, not counted yet
-    std::vector<Waiting> waiting_;  ///< in the order of the calls
-    std::vector<Slot> leaving_;     ///< likewise, removed
-    std::vector<RunIndex> joining_; ///< runs that a step has taken to where a pool could go on
-    std::vector<RunIndex> left_;    ///< runs that left their pool in a step
-    mutable Plan publishPlan_;
-    mutable uint64_t placed_ = 0; ///< of publishPlan_: see moves_
-    uint64_t moves_ = 1;          ///< goes up when an instance whose run is in a pool has been moved
-    mutable std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_; ///< snapshots hold some of them
-    mutable std::shared_ptr<base::GroupRoster> roster_;                  ///< of the last publication
-    mutable std::vector<uint32_t> ends_;                                 ///< see FrameSnapshot::setRoster()
+    PublicationInHand publication_;
+    StepCounters closed_;               ///< work of steps that had to be ended, not counted yet
+    std::vector<Waiting> waiting_;      ///< in the order of the calls
+    std::vector<InstanceStart> wanted_; ///< from the end of the step in hand on
+    std::vector<Slot> leaving_;         ///< likewise, removed
+    std::vector<RunIndex> joining_;     ///< runs that a step has taken to where a pool could go on
+    std::vector<RunIndex> left_;        ///< runs that left their pool in a step
+    Plan publishPlan_;
+    uint64_t placed_ = 0; ///< of publishPlan_: see moves_
+    uint64_t moves_ = 1;  ///< goes up when an instance whose run is in a pool has been moved
+    std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_; ///< snapshots hold some of them
+    std::shared_ptr<base::GroupRoster> roster_;                  ///< of the last publication
+    std::vector<uint32_t> ends_;                                 ///< see FrameSnapshot::setRoster()
     uint64_t stepNumber_ = 0;
+    uint64_t boards_ = 0; ///< so many EventBoards have been made
     base::Ticks now_ = 0; ///< end of the last step
     uint32_t resting_ = 0;
     bool mayRest_ = true;

@@ -8,37 +8,41 @@
 namespace fx::sim {
 
 /// The solvers that are not through yet. Those that tell each other of events share the scratch memory of the
-/// step, causes before effects.
-/// @param ioBoard keeps what they have told while the step waits for another call; null: the scratch memory
-///                is not kept, so they are stepped in one call
+/// sub-step, causes before effects.
+/// @param ioBoard what they have told, which stays with the scratch memory while the sub-step waits
 /// @return whether all are through
-bool World::stepSolvers(Run& run, StepContext& context, std::optional<EventBoard>* ioBoard,
+bool World::stepSolvers(Run& run, StepContext& context, std::optional<EventBoard>& ioBoard,
                         base::WorkBudget& work)
 {
     const std::span<const uint32_t> order = run.effect->order;
     const bool isLinked = !order.empty();
-    std::optional<EventBoard> own;
-    std::optional<EventBoard>& board = ioBoard ? *ioBoard : own;
-    if (isLinked && !board)
-        board.emplace(scratch_, run.solvers.size(),
-                      [&run](size_t solver) { return run.effect->solvers[solver]->capacity(); });
-    context.board = board ? &*board : nullptr;
-    const bool mayWait = !isLinked || ioBoard;
-    base::WorkBudget whole;
-    for (; run.stepped < run.solvers.size(); ++run.stepped) {
-        if (run.stepped > 0 && mayWait && work.isSpent())
+    if (isLinked && !ioBoard)
+        ioBoard.emplace(*context.scratch, ++boards_, run.solvers.size(),
+                        [&run](size_t solver) { return run.effect->solvers[solver]->capacity(); });
+    context.board = ioBoard ? &*ioBoard : nullptr;
+    while (run.stepped < run.solvers.size()) {
+        if (run.stepped > 0 && work.isSpent())
             return false;
         context.solverIndex = isLinked ? order[run.stepped] : run.stepped;
-        if (!run.solvers[context.solverIndex]->proceed(context, mayWait ? work : whole))
+        if (!run.solvers[context.solverIndex]->proceed(context, work))
             return false;
+        ++run.stepped; // whatever fails from here on
         if (!isLinked)
-            scratch_.reset();
+            context.scratch->reset();
     }
-    work.spend(whole.spent());
     context.board = nullptr;
-    board.reset();
-    scratch_.reset();
+    ioBoard.reset();
+    context.scratch->reset();
     return true;
+}
+
+/// Where solvers of a run that is not stepped with the others tell each other of events; null where they do
+/// not.
+LinkedPart* World::linkedPartOf(Run& run)
+{
+    if (!run.effect->order.empty() && !run.linked)
+        run.linked = std::make_unique<LinkedPart>(memory_);
+    return run.linked.get();
 }
 
 void World::tell(Slot slot, const HostEvent& event)
@@ -51,8 +55,8 @@ void World::tell(Slot slot, const HostEvent& event)
     runs_.touch(index); // nobody may join it any more
 }
 
-/// What the run, at scene time `tick`, has been told and has not heard; in scratch memory.
-std::span<const HostEvent> World::hear(RunIndex index, base::Ticks tick)
+/// What the run, at scene time `tick`, has been told and has not heard.
+std::span<const HostEvent> World::hear(RunIndex index, base::Ticks tick, base::Arena& scratch)
 {
     Run& run = runs_.at(index);
     if (run.told.empty())
@@ -60,7 +64,7 @@ std::span<const HostEvent> World::hear(RunIndex index, base::Ticks tick)
     const base::Ticks until = std::max(tick, run.conditions.clock.scene);
     const auto end = std::find_if(run.told.begin(), run.told.end(),
                                   [until](const Run::Told& told) { return told.tick > until; });
-    const std::span<HostEvent> heard = scratch_.allocate<HostEvent>(size_t(end - run.told.begin()));
+    const std::span<HostEvent> heard = scratch.allocate<HostEvent>(size_t(end - run.told.begin()));
     std::transform(run.told.begin(), end, heard.begin(), [](const Run::Told& told) { return told.event; });
     run.told.erase(run.told.begin(), end);
     return heard;

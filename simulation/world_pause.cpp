@@ -116,6 +116,7 @@ bool World::catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& 
         run.changes.clear();
     }
     run.field.reset();
+    run.linked.reset();
     return true;
 }
 

@@ -88,7 +88,8 @@ void World::planStep(std::span<const Slot> active)
     stepPlan_.revision = pools_.revision();
 }
 
-void World::publishPools(std::span<const Slot> active, base::FrameSnapshot& snapshot) const
+/// What is published of whom, where there are pools.
+void World::planPublication(std::span<const Slot> active)
 {
     const bool isPlanned = publishPlan_.holds(active, pools_.revision());
     if (!isPlanned || placed_ != moves_)
@@ -96,18 +97,10 @@ void World::publishPools(std::span<const Slot> active, base::FrameSnapshot& snap
     if (!isPlanned)
         roster_->shape = nextShape();
     ends_.clear();
-    for (size_t k = 0; k < publishPlan_.others.size(); ++k) {
-        fetchAhead(publishPlan_.others, k);
-        publishSlot(publishPlan_.others[k], snapshot);
-        ends_.push_back(uint32_t(snapshot.addedCount()));
-    }
-    crowd_.endPublication();
-    pools_.publish(schema_->find(base::kParticleKind.name), *tasks_, snapshot);
-    snapshot.setRoster(roster_, ends_);
 }
 
 /// Where the instances stand whose emitters are in pools.
-void World::makeRoster(std::span<const Slot> active) const
+void World::makeRoster(std::span<const Slot> active)
 {
     const auto isFree = [](const auto& roster) { return roster.use_count() == 1; };
     const uint64_t shape = roster_ ? roster_->shape : 0;

@@ -117,7 +117,9 @@ RunIndex World::joinRun(RunIndex index, const Entry& entry, StateReader& reader)
 void World::swap(World& other) noexcept
 {
     dropStep();
+    dropPublication();
     waiting_.clear();
+    wanted_.clear();
     leaving_.clear();
     endPools();
     other.endPools();

@@ -164,6 +164,12 @@ bool World::stepRun(RunIndex index, const RunStep& step, base::WorkBudget& work,
         const base::Ticks turns = (clock.rate + kNormalRate - 1) / kNormalRate;
         const base::Ticks parts = partsOf(*run.effect) * std::max<base::Ticks>(turns, 1);
         context.crowd = parts == 1 ? step.crowd : nullptr;
+        LinkedPart* const own = step.board ? nullptr : linkedPartOf(run);
+        std::optional<EventBoard> none; // of solvers that tell nobody
+        std::optional<EventBoard>& board = own ? own->board : step.board ? *step.board : none;
+        std::span<const HostEvent>& heard = own ? own->heard : hand_.heard;
+        if (own)
+            context.scratch = &own->scratch;
         for (; run.part < parts; ++run.part) {
             const base::Ticks from = std::max(step.tick + step.stepTicks * run.part / parts, clock.scene);
             const base::Ticks to = step.tick + step.stepTicks * (run.part + 1) / parts;
@@ -174,11 +180,11 @@ bool World::stepRun(RunIndex index, const RunStep& step, base::WorkBudget& work,
                     isComplete = false;
                     return;
                 }
-                hand_.heard = hear(index, step.tick);
+                heard = hear(index, step.tick, *context.scratch);
             }
-            context.hostEvents = hand_.heard;
+            context.hostEvents = heard;
             context.moveShare = float(double(to - from) / double(step.tick + step.stepTicks - from));
-            isComplete = stepPart(index, context, {clock.toLocal(from), clock.toLocal(to)}, step.board, work);
+            isComplete = stepPart(index, context, {clock.toLocal(from), clock.toLocal(to)}, board, work);
             if (!isComplete)
                 return;
         }
@@ -187,8 +193,6 @@ bool World::stepRun(RunIndex index, const RunStep& step, base::WorkBudget& work,
         return false;
     Run& run = runs_.at(index);
     run.inStep = false;
-    for (const std::unique_ptr<Solver>& solver : run.solvers)
-        work.spend(solver->shownWork());
     standStill(run);
     run.simulated = std::max(step.tick + step.stepTicks, run.conditions.clock.scene);
     return true;
@@ -204,9 +208,9 @@ void World::standStill(const Run& run)
 }
 
 /// One sub-step of all solvers, or the rest of the one in hand.
-/// @param board see stepSolvers()
+/// @param ioBoard see stepSolvers()
 bool World::stepPart(RunIndex index, StepContext& context, const LocalSpan& time,
-                     std::optional<EventBoard>* board, base::WorkBudget& work)
+                     std::optional<EventBoard>& ioBoard, base::WorkBudget& work)
 {
     context.tick = std::max<base::Ticks>(time.begin, 0);
     context.stepTicks = time.end - context.tick;
@@ -218,7 +222,7 @@ bool World::stepPart(RunIndex index, StepContext& context, const LocalSpan& time
         run.inPart = true;
         run.stepped = 0;
     }
-    if (!stepSolvers(run, context, board, work))
+    if (!stepSolvers(run, context, ioBoard, work))
         return false;
     run.inPart = false;
     return true;
@@ -259,6 +263,7 @@ bool World::replay(RunIndex index, base::WorkBudget& work, StepCounters& counter
             return false;
     }
     run.arriving = false;
+    run.linked.reset();
     return true;
 }
 
@@ -273,7 +278,11 @@ bool World::replayPart(RunIndex index, base::WorkBudget& work, StepCounters& cou
         while (begin + run.stepLength * part / parts <= run.reached)
             ++part;
         const base::Ticks end = std::min(begin + run.stepLength * part / parts, run.target);
-        isComplete = stepPart(index, context, {run.reached, end}, nullptr, work);
+        LinkedPart* const own = linkedPartOf(run);
+        std::optional<EventBoard> none; // of solvers that tell nobody
+        if (own)
+            context.scratch = &own->scratch;
+        isComplete = stepPart(index, context, {run.reached, end}, own ? own->board : none, work);
         if (isComplete)
             run.reached = end;
     });

@@ -26,16 +26,15 @@ void World::isolate(Slot slot)
 
 RunClock World::clockOf(Slot slot) const
 {
-    const Instance& instance = instances_[slot];
-    if (instance.changed && instance.start.clock)
-        return *instance.start.clock;
-    const Run& run = runs_.at(instance.run);
+    if (instances_[slot].wanted > 0 && wantedOf(slot).clock)
+        return *wantedOf(slot).clock;
+    const Run& run = runs_.at(instances_[slot].run);
     return run.changes.empty() ? run.conditions.clock : run.changes.back().conditions.clock;
 }
 
 void World::setRate(Slot slot, uint32_t rate)
 {
-    InstanceStart start = instances_[slot].start;
+    InstanceStart start = wantedOf(slot);
     RunClock clock = clockOf(slot);
     if (now_ > clock.scene)
         clock = {now_, clock.toLocal(now_), rate};
@@ -77,6 +76,7 @@ bool World::seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounter
         run.inPart = false;
         run.stepped = 0;
         run.fresh = wasFresh;
+        run.linked.reset();
         runs_.welcome(index);
         throw;
     }

@@ -94,8 +94,11 @@ SnapshotGroup& FrameSnapshot::findGroup(KindId kind, size_t capacity, ColumnSet 
         if (groups_[i].fits(desc, capacity, present) &&
             (best == groups_.size() || groups_[i].bytes() < groups_[best].bytes()))
             best = i;
-    if (best == groups_.size())
-        groups_.emplace_back(memory_);
+    if (best == groups_.size()) {
+        SnapshotGroup added(memory_);
+        added.prepare(*schema_, kind, capacity, present); // nothing stays of it when memory runs out
+        groups_.push_back(std::move(added));
+    }
     if (best != groupCount_)
         std::swap(groups_[groupCount_], groups_[best]);
     SnapshotGroup& group = groups_[groupCount_];

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace fx::base {
@@ -30,6 +31,12 @@ public:
     }
     bool isSpent() const { return left_ == 0; }
     uint64_t left() const { return left_; }
+    /// How many of `most` things that count `each` units are begun before nothing is left.
+    uint32_t affords(double each, uint32_t most) const
+    {
+        const double things = std::ceil(double(left_) / each);
+        return things < double(most) ? uint32_t(things) : most;
+    }
     uint64_t spent() const { return spent_; }
 
 private:

@@ -73,12 +73,21 @@ Loads loadsOf(const std::vector<const sim::EmitterDef*>& emitters, const std::ve
     return loads;
 }
 
+/// [unit] of a particle, once a step.
+double shownWork(const sim::EmitterDef& emitter)
+{
+    double work = sim::shownWork(emitter.look.kind);
+    if (emitter.trail.lifetime > 0.0f)
+        work += sim::emitter_work::kPoint * double(emitter.trail.maxPoints);
+    return work + (emitter.light.given ? sim::emitter_work::kLight : 0.0);
+}
+
 Share shareOf(const sim::EmitterDef& emitter, const sim::StepLoad& load, double subSteps)
 {
     Share share;
     const sim::StepLoad births{load.seconds, load.births}, events{load.seconds, 0, 0, load.events};
     const double all = emitter.workOf(load);
-    share.work = all * subSteps + load.alive * sim::shownWork(emitter.look.kind);
+    share.work = all * subSteps + load.alive * shownWork(emitter);
     share.workMember = "maxParticles";
     if (emitter.workOf(births) > 0.5 * all)
         share.workMember = emitter.fed                 ? "events"

@@ -166,9 +166,10 @@ void Scene::finish(uint32_t index)
     ++counters_.finished;
 }
 
-void Scene::publish(base::Ticks tick, double interpolation)
+/// Publishes the step that ends at `tick` if there is nothing to be seen; otherwise its publication is in
+/// hand.
+void Scene::beginPublication(base::Ticks tick, double interpolation)
 {
-    published_ = tick;
     if (active_.size() > 0 && emptyPublications_ > kMostEmpty)
     { // the step before is what views interpolate from
         ring_.beginWrite(tick - clock_.stepTicks(), clock_.stepTicks());
@@ -176,23 +177,43 @@ void Scene::publish(base::Ticks tick, double interpolation)
     }
     emptyPublications_ = active_.size() > 0 ? 0 : emptyPublications_ + 1;
     if (emptyPublications_ > kMostEmpty) { // what is shown, and what was before it, is as empty as this
+        published_ = tick;
         emptyPublications_ = kMostEmpty + 1;
         showsNothing_.store(true, std::memory_order_release);
         return show(tick, interpolation);
     }
+    shownWork_ = 0;
+    world_.beginPublication(active_.slots(), ring_.beginWrite(tick, clock_.stepTicks()));
+}
+
+/// Writes the publication in hand as far as the work goes. Readers see it once it is complete.
+/// @return whether it is
+bool Scene::proceedPublication(base::Ticks tick, double interpolation)
+{
+    const uint64_t before = work_.spent();
+    const bool isWritten = world_.proceedPublication(work_);
+    shownWork_ += work_.spent() - before;
+    if (!isWritten)
+        return false;
+    published_ = tick;
     showsNothing_.store(false, std::memory_order_release);
-    base::FrameSnapshot& snapshot = ring_.beginWrite(tick, clock_.stepTicks());
-    world_.publish(active_.slots(), snapshot);
     std::lock_guard lock(presentation_);
     ring_.publish();
     show(tick, interpolation);
+    return true;
 }
 
-/// Those who have come back were not in the last publication, from which views interpolate: it is made again.
+/// Those who have come back were not in the last publication, from which views interpolate: it is made again,
+/// unless that takes too much work.
 void Scene::stageReturned(base::Ticks tick)
 {
     try {
-        world_.publish(active_.slots(), ring_.beginWrite(tick, clock_.stepTicks()));
+        base::WorkBudget share = lateWork();
+        world_.beginPublication(active_.slots(), ring_.beginWrite(tick, clock_.stepTicks()));
+        const bool isWritten = world_.proceedPublication(share);
+        work_.spend(share.spent());
+        if (!isWritten)
+            return world_.dropPublication(); // they appear a step later
         ring_.stageOlder();
         emptyPublications_ = 0;
     } catch (const std::bad_alloc&) {

@@ -153,7 +153,7 @@ public:
     bool contains(LocalId id) { return instances_.find(id) != nullptr; }
 
     // What is changed while a step is in hand, of which a former update has done a part, holds from its end
-    // on.
+    // on; a step ends when it is published.
 
     // The id must name an instance of this scene.
     void remove(LocalId id);
@@ -295,7 +295,7 @@ private:
     inline void beginStep(base::Ticks from);
     inline void endStep(base::Ticks to);
     inline bool proceed();
-    bool isShort(uint64_t stepWork) const;
+    bool isShort() const;
     base::WorkBudget lateWork() const;
     void completeStep();
     void makeChanges();
@@ -342,7 +342,8 @@ private:
     void measureTime(double seconds, uint64_t particleSteps);
     void leaveMarks();
 
-    void publish(base::Ticks tick, double interpolation);
+    void beginPublication(base::Ticks tick, double interpolation);
+    bool proceedPublication(base::Ticks tick, double interpolation);
     void stageReturned(base::Ticks tick);
     void showSought();
     void heedSought(const base::StepPlan& plan);
@@ -351,7 +352,8 @@ private:
     static sim::InstanceStart startOf(const IdTable<Instance>& instances, uint32_t index);
 
     using Effects = std::vector<std::shared_ptr<const sim::EffectDef>>;
-    Effects effects() const; ///< each once, in the order of first use
+    Effects effects() const; ///< each content once, in the order of first use
+    static size_t placeOf(const Effects& effects, const sim::EffectDef& wanted);
     void saveRules(sim::StateWriter& writer) const;
     void saveInstances(sim::StateWriter& writer) const;
     void checkRules(sim::StateReader& reader) const;
@@ -382,6 +384,7 @@ private:
     std::pmr::vector<Seek> seeks_;      ///< asked for while a step is in hand
     base::WorkBudget work_;             ///< of the update
     uint64_t stepWork_ = 0;             ///< [unit] spent on the step in hand
+    uint64_t shownWork_ = 0;            ///< [unit] spent on the publication in hand, or the last one
     base::Ticks published_ = 0;         ///< scene time of the last publication
     std::pmr::vector<LocalId> moved_;   ///< instances with InstanceSetup::cameFrom, and perhaps others
     bool lookAgain_ = false;            ///< something moved, or somebody looks elsewhere

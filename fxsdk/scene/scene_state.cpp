@@ -136,11 +136,21 @@ struct Scene::Restored
     sim::World world;
 };
 
+/// Where the effect is, or one of the same content: a preset may have been loaded twice.
+size_t Scene::placeOf(const Effects& effects, const sim::EffectDef& wanted)
+{
+    const auto isIt = [&wanted](const std::shared_ptr<const sim::EffectDef>& effect) {
+        return effect.get() == &wanted ||
+               (wanted.fingerprint != 0 && effect->fingerprint == wanted.fingerprint);
+    };
+    return size_t(std::find_if(effects.begin(), effects.end(), isIt) - effects.begin());
+}
+
 Scene::Effects Scene::effects() const
 {
     Effects found;
     instances_.forEach([&](uint32_t, const Instance& instance) {
-        if (std::find(found.begin(), found.end(), instance.setup.effect) == found.end())
+        if (placeOf(found, *instance.setup.effect) == found.size())
             found.push_back(instance.setup.effect);
     });
     return found;
@@ -164,8 +174,7 @@ void Scene::saveInstances(sim::StateWriter& writer) const
         writer.value(effect->fingerprint);
     writer.value(nextSerial_);
     instances_.save(writer, [&](const Instance& instance) {
-        const auto at = std::find(used.begin(), used.end(), instance.setup.effect);
-        writer.value(uint32_t(at - used.begin()));
+        writer.value(uint32_t(placeOf(used, *instance.setup.effect)));
         writer.value(instance.serial);
         const bool isInWorld =
             instance.state != InstanceState::Dormant && instance.state != InstanceState::Finished;
@@ -344,6 +353,8 @@ std::vector<sim::Slot> Scene::slotsBySerial() const
 void Scene::take(Restored& state)
 {
     const base::Ticks simulated = state.clock.steps * options_.stepTicks;
+    if (world_.isPublishing()) // one snapshot at a time
+        completeStep();
     state.world.publish(state.active.slots(), ring_.beginWrite(simulated, options_.stepTicks));
     clock_.restore(state.clock);
     counters_ = state.counters;

@@ -57,12 +57,17 @@ bool Scene::update(double dt)
                 moveOn(taken + 1, plan.steps);
             if (begins)
                 beginStep(from);
-            if (!proceed())
+            const base::Ticks to = from + clock_.stepTicks();
+            const double moment = taken + 1 == plan.steps ? clock_.interpolation() : 0.0;
+            if (!world_.isPublishing()) {
+                if (!proceed())
+                    break;
+                endStep(to);
+                if (taken + 2 >= plan.steps || isShort())
+                    beginPublication(to, moment);
+            }
+            if (world_.isPublishing() && !proceedPublication(to, moment))
                 break;
-            endStep(from + clock_.stepTicks());
-            const bool isLast = taken + 1 == plan.steps;
-            if (taken + 2 >= plan.steps || isShort(stepWork_))
-                publish(from + clock_.stepTicks(), isLast ? clock_.interpolation() : 0.0);
             if (world_.hasChanges() || !seeks_.empty())
                 makeChanges();
         } catch (const std::bad_alloc&) {
@@ -101,9 +106,13 @@ bool Scene::update(double dt)
 /// Before the first step that begins in an update.
 void Scene::prepareSteps(const base::StepPlan& plan)
 {
-    reconsider(plan);
-    if (sought_)
-        heedSought(plan);
+    try {
+        reconsider(plan);
+        if (sought_)
+            heedSought(plan);
+    } catch (const std::bad_alloc&) {
+        memoryFailed_ = true; // must not stop the steps; what is left of it is tried again
+    }
 }
 
 /// The last steps of the plan found no work left. What is shown is the last that was published.
@@ -129,9 +138,9 @@ base::WorkBudget Scene::lateWork() const
 }
 
 /// Whether the next step may well find too little work to be complete in this update.
-bool Scene::isShort(uint64_t stepWork) const
+bool Scene::isShort() const
 {
-    return work_.left() / 2 < stepWork;
+    return work_.left() / 2 < stepWork_ + shownWork_;
 }
 
 [[gnu::always_inline]] inline void Scene::beginStep(base::Ticks from)
@@ -236,11 +245,17 @@ void Scene::completeStep()
     if (!world_.isStepping())
         return;
     work_ = base::WorkBudget();
-    proceed();
     const base::Ticks to = clock_.simulated() + clock_.stepTicks();
-    endStep(to);
+    const bool isComplete = world_.isPublishing();
+    if (!isComplete) {
+        proceed();
+        endStep(to);
+    }
     clock_.takePostponed();
-    publish(to, clock_.interpolation());
+    if (!isComplete)
+        beginPublication(to, clock_.interpolation());
+    if (world_.isPublishing())
+        proceedPublication(to, clock_.interpolation());
     makeChanges();
 }
 

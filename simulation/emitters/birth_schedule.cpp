@@ -75,6 +75,15 @@ struct BirthSchedule::Writer
         nextIndex += births;
         count.total += births;
     }
+    /// Births that may still be stored in this call, of those for which there is any use.
+    uint64_t left() const { return outlet.wanted - std::min(outlet.wanted, count.stored); }
+    /// True when the call is to end: those that come would be stored.
+    bool isFull() const { return left() == 0 && count.stored < outlet.most; }
+    /// How many of `births` are added now: all, if those that are too many need not be stored.
+    uint64_t share(uint64_t births) const
+    {
+        return outlet.most - count.stored <= left() ? births : std::min(births, left());
+    }
     void flush()
     {
         if (outlet.take && waiting > 0)
@@ -201,13 +210,20 @@ BirthSchedule::Piece BirthSchedule::pieceAt(Ticks tick, Ticks end, const BirthWi
     return {tick, std::min(to, end), rateAt(segment) + slope * (tick - from), slope}; // (5)
 }
 
-void BirthSchedule::giveRate(Ticks from, Ticks to, const BirthWindow& window, Writer& writer)
+/// @return where it ended: at `to`, or before it when as many are born as are wanted
+Ticks BirthSchedule::giveRate(Ticks from, Ticks to, const BirthWindow& window, Writer& writer)
 {
     const WideInt one = particle();
-    while (from < to) {
-        const Piece piece = pieceAt(from, to, window);
-        const WideInt sum = piece.sum(piece.end - piece.begin);
-        const uint64_t due = uint64_t(ceilDivide(progress_ + sum, one));
+    while (from < to && !writer.isFull()) {
+        Piece piece = pieceAt(from, to, window);
+        WideInt sum = piece.sum(piece.end - piece.begin);
+        uint64_t due = uint64_t(ceilDivide(progress_ + sum, one));
+        if (const uint64_t share = writer.share(due); share < due) {
+            const Ticks part = Ticks(WideInt(piece.end - piece.begin) * WideInt(share) / WideInt(due));
+            piece.end = piece.begin + std::max<Ticks>(part, 1);
+            sum = piece.sum(piece.end - piece.begin);
+            due = uint64_t(ceilDivide(progress_ + sum, one));
+        }
         const WideInt before = progress_;
         if (due > 0 && piece.slope == 0) {
             if (log_)
@@ -225,6 +241,26 @@ void BirthSchedule::giveRate(Ticks from, Ticks to, const BirthWindow& window, Wr
         progress_ += sum - WideInt(due) * one;
         from = piece.end;
     }
+    return from;
+}
+
+/// @return whether all births of the cycle are given
+bool BirthSchedule::giveBurst(ScheduledBurst& burst, const BirthWindow& window, Writer& writer)
+{
+    if (window.emitting && happens(burst)) {
+        const Ticks tick = burst.nextTick();
+        const uint32_t count = scaledCount(burst.count, window.intensity);
+        const uint64_t share = writer.share(count - burst.given);
+        if (log_ && burst.given == 0)
+            log_->addBurst(nextIndex_, count, tick);
+        writer.add(share, [&] { return tick; });
+        burst.given += uint32_t(share);
+        if (burst.given < count)
+            return false;
+    }
+    burst.given = 0;
+    ++burst.next;
+    return true;
 }
 
 /// The burst whose next cycle comes first, before `end`; null when there is none.
@@ -248,7 +284,8 @@ bool BirthSchedule::happens(const ScheduledBurst& burst) const
 
 BirthCount BirthSchedule::advance(const BirthWindow& window, std::span<Birth> out)
 {
-    return advanceTo(window, {out, out.size(), nullptr, nullptr});
+    Ticks end;
+    return advanceTo(window, {out, out.size(), nullptr, nullptr}, end);
 }
 
 /// True when nobody is born in the window, which is remembered.
@@ -281,30 +318,33 @@ void BirthSchedule::findQuiet(const BirthWindow& window)
     quiet_ = {window.end, window.end, until, window.intensity, window.emitting, rate};
 }
 
-BirthCount BirthSchedule::advanceTo(const BirthWindow& window, const Outlet& outlet)
+BirthCount BirthSchedule::advanceTo(const BirthWindow& window, const Outlet& outlet, Ticks& outReached)
 {
+    outReached = window.end;
     if (staysQuiet(window))
         return {};
     endQuiet();
     Ticks at = std::clamp(start_, window.begin, window.end);
     const Ticks end = std::clamp(end_, at, window.end);
     Writer writer{outlet, nextIndex_};
+    bool isThrough = true; // with what is before `end`, or before the burst in hand
     while (ScheduledBurst* const burst = nextBurst(window.end)) {
         const Ticks tick = burst->nextTick();
         const Ticks until = std::clamp(tick, at, end);
-        giveRate(at, until, window, writer);
-        at = until;
-        if (window.emitting && happens(*burst)) {
-            const uint32_t count = scaledCount(burst->count, window.intensity);
-            if (log_)
-                log_->addBurst(nextIndex_, count, tick);
-            writer.add(count, [&] { return tick; });
-        }
-        ++burst->next;
+        at = giveRate(at, until, window, writer);
+        isThrough = at == until;
+        if (isThrough && giveBurst(*burst, window, writer))
+            continue;
+        outReached = isThrough ? tick : at;
+        isThrough = false;
+        break;
     }
-    giveRate(at, end, window, writer);
+    if (isThrough)
+        at = giveRate(at, end, window, writer);
+    if (isThrough && at < end)
+        outReached = at;
     writer.flush();
-    findQuiet(window);
+    findQuiet({window.begin, outReached, window.intensity, window.emitting});
     return writer.count;
 }
 

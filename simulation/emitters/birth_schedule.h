@@ -118,7 +118,20 @@ public:
         const auto call = [](void* user, std::span<const Birth> births) {
             (*static_cast<std::remove_reference_t<Take>*>(user))(births);
         };
-        return advanceTo(window, {room, most, call, &take});
+        base::Ticks end;
+        return advanceTo(window, {room, most, call, &take}, end);
+    }
+    /// The same as far as `wanted` of them go or a little farther, at least one.
+    /// @param outReached where the next window has to begin: its end, or before it, also in the middle of
+    ///                   what is born at one tick
+    template <class Take>
+    BirthCount advance(const BirthWindow& window, std::span<Birth> room, uint64_t most, uint64_t wanted,
+                       base::Ticks& outReached, Take&& take)
+    {
+        const auto call = [](void* user, std::span<const Birth> births) {
+            (*static_cast<std::remove_reference_t<Take>*>(user))(births);
+        };
+        return advanceTo(window, {room, most, call, &take, wanted}, outReached);
     }
     /// Nobody is born before this local time, as long as the last window's conditions go on; 0 when that is
     /// not known. Windows up to it may be left out.
@@ -152,7 +165,8 @@ private:
         uint64_t cycles;
         uint32_t count;
         float probability;
-        uint64_t next = 0; ///< cycle
+        uint64_t next = 0;  ///< cycle
+        uint32_t given = 0; ///< births of it
 
         base::Ticks nextTick() const
         {
@@ -176,6 +190,7 @@ private:
         uint64_t most;                                    ///< births that are wanted
         void (*take)(void* user, std::span<const Birth>); ///< null: they stay in `room`
         void* user;
+        uint64_t wanted = UINT64_MAX; ///< births after which it may end before the window does
     };
     struct Writer;
 
@@ -190,13 +205,14 @@ private:
         WideInt rate = 0; ///< q
     };
 
-    BirthCount advanceTo(const BirthWindow& window, const Outlet& outlet);
+    BirthCount advanceTo(const BirthWindow& window, const Outlet& outlet, base::Ticks& outReached);
     bool staysQuiet(const BirthWindow& window);
     void endQuiet();
     void findQuiet(const BirthWindow& window);
     WideInt particle() const; ///< D
     Piece pieceAt(base::Ticks tick, base::Ticks end, const BirthWindow& window) const;
-    void giveRate(base::Ticks from, base::Ticks to, const BirthWindow& window, Writer& writer);
+    base::Ticks giveRate(base::Ticks from, base::Ticks to, const BirthWindow& window, Writer& writer);
+    bool giveBurst(ScheduledBurst& burst, const BirthWindow& window, Writer& writer);
     ScheduledBurst* nextBurst(base::Ticks end);
     bool happens(const ScheduledBurst& burst) const;
 

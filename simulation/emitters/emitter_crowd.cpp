@@ -94,23 +94,27 @@ void EmitterCrowd::forget()
 void EmitterCrowd::beginPublication(base::FrameSnapshot& snapshot, base::TaskRunner* tasks)
 {
     partCount_ = 0;
+    rows_ = 0;
     snapshot_ = &snapshot;
     tasks_ = tasks;
 }
 
-void EmitterCrowd::endPublication()
+uint64_t EmitterCrowd::endPublication()
 {
     writeParts();
     snapshot_ = nullptr;
     tasks_ = nullptr;
+    return uint64_t(emitter_work::kDrawn * double(rows_));
 }
 
 void EmitterCrowd::writeParts()
 {
     const auto parts = std::span<LookPart>(parts_).first(partCount_);
     size_t bytes = 0;
-    for (const LookPart& part : parts)
+    for (const LookPart& part : parts) {
         bytes += part.job.rows.count * bytesMoved(*part.job.program);
+        rows_ += part.job.rows.count;
+    }
     if (bytes <= kBytesOfATask)
         writeManyLooks(parts);
     else

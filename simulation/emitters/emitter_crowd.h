@@ -47,7 +47,8 @@ public:
         part.group = snapshot_->groupCount() - 1;
         return part.job;
     }
-    void endPublication();
+    /// @return [unit] of base::WorkBudget that it counts
+    uint64_t endPublication();
 
 private:
     /// Whose a birth is.
@@ -71,6 +72,7 @@ private:
     static constexpr size_t kMostParts = 64; ///< with what they read they stay in the caches near the core
     std::array<LookPart, kMostParts> parts_;
     size_t partCount_ = 0;
+    uint64_t rows_ = 0; ///< of the publication
     base::FrameSnapshot* snapshot_ = nullptr;
     base::TaskRunner* tasks_ = nullptr;
 };

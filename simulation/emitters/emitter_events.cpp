@@ -7,6 +7,7 @@
 #include "simulation/parallel.h"
 
 #include <algorithm>
+#include <new>
 
 namespace fx::sim {
 
@@ -35,41 +36,106 @@ uint32_t drawCount(const StepContext& context, const EventRule& rule, uint32_t n
 
 } // namespace
 
+/// What a step with events keeps in scratch memory.
+struct EmitterSolver::Linked
+{
+    EventRoom old;       ///< what happened to those who lived before
+    EventRoom young;     ///< to those who were born in the step
+    EventList births;    ///< births, and then all that is new
+    uint64_t firstNew;   ///< index of the first who is born in the step
+    uint32_t number = 0; ///< of the rule that is answered
+    size_t answered = 0; ///< events of the list in hand
+    bool isOpen = false; ///< births have begun
+    // Births by the clock and by events, in the order of their ticks. At one tick, those that an event of it
+    // caused come before those that the clock gives.
+    std::span<const Birth> scheduled{};
+    EventRequests requests{};
+    uint64_t room = 0;    ///< births by events that are tried
+    uint64_t fed = 0;     ///< those that have been
+    size_t byClock = 0;   ///< births by the clock that have been
+    size_t event = 0;     ///< of the requests
+    uint32_t ofEvent = 0; ///< births that it has had
+};
+
+/// Whether the step that `context` is about is in hand, with the scratch memory that it keeps.
+bool EmitterSolver::isOpen(const StepContext& context) const
+{
+    const bool isKept = !open_.linked || (context.board && context.board->number() == open_.board);
+    return open_.tick == context.tick && isKept;
+}
+
 EventScan EmitterSolver::scanOf(const StepContext& context) const
 {
     return {interest_,           store_,       lookJob(),
             context.solverIndex, context.tick, context.tick + context.stepTicks};
 }
 
-/// Those that lived before are looked at first: a birth may take the row of one that dies in this step.
-void EmitterSolver::stepWithEvents(const StepContext& context)
+void EmitterSolver::openLinked(const StepContext& context)
 {
-    const RowWindow rows = store_.window();
     const bool asks = !def_.events.empty();
-    EventRoom old(*context.scratch, asks ? rows.count : 0, interest_.mostOfOne());
-    if (!program_.ballistic) {
-        move(context, 0, asks ? &old : nullptr);
-    } else if (asks) {
-        const EventScan scan = scanOf(context);
-        parallelRows(*context.tasks, uint32_t(old.lists().size()), kMinTiles,
-                     [&](uint32_t begin, uint32_t end) {
-                         for (uint32_t tile = begin; tile < end; ++tile)
-                             scan.scanTile(tile * kTileRows, old.of(tile * kTileRows));
-                     });
+    Linked* const linked = context.scratch->allocate<Linked>(1).data();
+    open_.board = context.board ? context.board->number() : 0;
+    open_.linked = new (linked) Linked{
+        EventRoom(*context.scratch, asks ? store_.window().count : 0, interest_.mostOfOne()),
+        EventRoom(*context.scratch, 0, 1),
+        EventList(context.scratch->allocate<ParticleEvent>(asks ? kMostBirthEvents : 0)), store_.next()};
+}
+
+/// Those that lived before are looked at first: a birth may take the row of one that dies in this step.
+/// @return whether the step is complete
+bool EmitterSolver::stepWithEvents(const StepContext& context, base::WorkBudget& work)
+{
+    if (!open_.linked)
+        openLinked(context);
+    Linked& linked = *open_.linked;
+    const bool asks = !def_.events.empty();
+    const auto goTo = [this](StepPart part) {
+        open_.part = part;
+        open_.row = 0;
+    };
+    if (open_.part == StepPart::Old) {
+        if (!(program_.ballistic ? scanOld(context, work)
+                                 : move(context, work, 0, asks ? &linked.old : nullptr)))
+            return false;
+        goTo(StepPart::Births);
     }
-    const uint64_t firstNew = store_.next();
-    EventList births(context.scratch->allocate<ParticleEvent>(asks ? kMostBirthEvents : 0));
-    giveLinkedBirth(context, births);
-    EventRoom young(*context.scratch, asks && !program_.ballistic ? store_.window().count : 0,
-                    interest_.mostOfOne());
-    if (!program_.ballistic && store_.next() > firstNew)
-        move(context, firstNew, asks ? &young : nullptr);
-    if (!asks)
-        return;
-    hearHost(context, births);
-    for (const EventList& list : young.lists())
-        births.append(list);
-    answerEvents(context, old.lists(), births);
+    if (open_.part == StepPart::Births) {
+        if (!giveLinkedBirth(context, work))
+            return false;
+        goTo(StepPart::Young);
+        const uint32_t first = store_.rowOf(linked.firstNew);
+        if (store_.next() - linked.firstNew < store_.capacity() && first < store_.rowOf(store_.next()))
+            open_.row = first / kTileRows * kTileRows; // they are in no row before it
+    }
+    if (open_.part == StepPart::Young) {
+        if (asks && !program_.ballistic && linked.young.lists().empty())
+            linked.young = EventRoom(*context.scratch, store_.window().count, interest_.mostOfOne());
+        const bool areMoved = program_.ballistic || store_.next() == linked.firstNew ||
+                              move(context, work, linked.firstNew, asks ? &linked.young : nullptr);
+        if (!areMoved)
+            return false;
+        if (asks)
+            hearHost(context, linked.births);
+        for (const EventList& list : linked.young.lists())
+            linked.births.append(list);
+        goTo(StepPart::Answer);
+    }
+    return !asks || answerEvents(context, work);
+}
+
+bool EmitterSolver::scanOld(const StepContext& context, base::WorkBudget& work)
+{
+    const std::span<const EventList> lists = open_.linked->old.lists();
+    const uint32_t first = open_.row / kTileRows, left = uint32_t(lists.size()) - first;
+    const uint32_t tiles = work.affords(stepWork_ * kTileRows, left);
+    const EventScan scan = scanOf(context);
+    parallelRows(*context.tasks, tiles, kMinTiles, [&](uint32_t begin, uint32_t end) {
+        for (uint32_t tile = first + begin; tile < first + end; ++tile)
+            scan.scanTile(tile * kTileRows, open_.linked->old.of(tile * kTileRows));
+    });
+    work.spend(uint64_t(stepWork_ * double(tiles) * kTileRows));
+    open_.row += tiles * kTileRows;
+    return tiles == left;
 }
 
 std::span<Birth> EmitterSolver::scheduledBirths(const StepContext& context)
@@ -86,44 +152,73 @@ std::span<Birth> EmitterSolver::scheduledBirths(const StepContext& context)
     return room.first(count.stored);
 }
 
-/// Births by the clock and by events, in the order of their ticks. At one tick, those that an event of it
-/// caused come before those that the clock gives.
-void EmitterSolver::giveLinkedBirth(const StepContext& context, EventList& out)
+/// @return whether all are born
+bool EmitterSolver::giveLinkedBirth(const StepContext& context, base::WorkBudget& work)
 {
-    const std::span<const Birth> scheduled = scheduledBirths(context);
-    const EventRequests requests =
-        context.board && def_.fed ? context.board->read(context.solverIndex) : EventRequests{};
-    const uint64_t wanted = requests.asked;
-    const size_t room = size_t(std::min<uint64_t>(wanted, std::max(store_.capacity(), kFewestFed)));
-    const std::span<Birth> births = context.scratch->allocate<Birth>(scheduled.size() + room);
-    const std::span<Origin> origins = context.scratch->allocate<Origin>(scheduled.size() + room);
-    size_t count = 0, byClock = 0, fed = 0;
+    Linked& linked = *open_.linked;
+    const bool isFed = context.board && def_.fed;
+    if (isFed && !linked.isOpen && !context.board->order(context.solverIndex, work))
+        return false;
+    if (!linked.isOpen) {
+        linked.scheduled = scheduledBirths(context);
+        if (isFed)
+            linked.requests = context.board->read(context.solverIndex);
+        const uint64_t wanted = linked.requests.asked;
+        linked.room = std::min<uint64_t>(wanted, std::max(store_.capacity(), kFewestFed));
+        context.counters->born += wanted;
+        linked.isOpen = true;
+    }
+    const size_t batch = std::min(kBatch, store_.capacity());
+    const std::span<Birth> births = context.scratch->allocate<Birth>(batch);
+    const std::span<Origin> origins = context.scratch->allocate<Origin>(batch);
+    while (!work.isSpent()) {
+        const size_t count = nextBatch(births, origins);
+        if (count > 0)
+            storeLinked(context, births.first(count), origins.first(count), linked.births);
+        work.spend(uint64_t(emitter_work::kBirth * double(count)));
+        if (count == batch)
+            continue;
+        const uint64_t lost = linked.requests.asked - linked.fed;
+        context.counters->dropped += lost;
+        dropped_ += lost;
+        store_.advance(lost);
+        return true;
+    }
+    return false;
+}
+
+/// The next births. @return how many; fewer than there is room for at the end
+size_t EmitterSolver::nextBatch(std::span<Birth> births, std::span<Origin> origins)
+{
+    Linked& linked = *open_.linked;
+    size_t count = 0;
     const auto addClock = [&] {
-        births[count] = {store_.next() + count, scheduled[byClock++].tick};
+        births[count] = {store_.next() + count, linked.scheduled[linked.byClock++].tick};
         origins[count++] = {};
     };
-    for (const EventBirth& event : requests.births) {
-        while (byClock < scheduled.size() &&
-               (scheduled[byClock].tick < event.cause.tick ||
-                (scheduled[byClock].tick == event.cause.tick && event.cause.scheduled)))
+    const auto clockIsBefore = [&](const ParticleEvent& cause) {
+        const base::Ticks tick = linked.scheduled[linked.byClock].tick;
+        return tick < cause.tick || (tick == cause.tick && cause.scheduled);
+    };
+    while (count < births.size() && linked.event < linked.requests.births.size()) {
+        const EventBirth& event = linked.requests.births[linked.event];
+        if (linked.ofEvent == 0 && linked.byClock < linked.scheduled.size() && clockIsBefore(event.cause)) {
             addClock();
-        for (uint32_t k = 0; k < event.count && fed < room; ++k, ++fed) {
+        } else if (linked.ofEvent < event.count && linked.fed < linked.room) {
             births[count] = {store_.next() + count, event.cause.tick};
             origins[count++] = {event.cause.position, event.cause.velocity, event.cause.color,
                                 !event.cause.scheduled, false};
+            ++linked.ofEvent;
+            ++linked.fed;
+        } else {
+            linked.ofEvent = 0;
+            ++linked.event;
         }
     }
-    while (byClock < scheduled.size())
+    while (count < births.size() && linked.event == linked.requests.births.size() &&
+           linked.byClock < linked.scheduled.size())
         addClock();
-    context.counters->born += wanted;
-    context.counters->dropped += wanted - fed;
-    dropped_ += wanted - fed;
-    const size_t batch = std::min(kBatch, store_.capacity());
-    for (size_t begin = 0; begin < count; begin += batch) {
-        const size_t size = std::min(batch, count - begin);
-        storeLinked(context, births.subspan(begin, size), origins.subspan(begin, size), out);
-    }
-    store_.advance(wanted - fed);
+    return count;
 }
 
 /// One batch, which has no row twice.
@@ -167,34 +262,41 @@ void EmitterSolver::hearHost(const StepContext& context, EventList& out)
         }
 }
 
-/// Leaves on the board what the rules make of the events.
-void EmitterSolver::answerEvents(const StepContext& context, std::span<const EventList> lists,
-                                 const EventList& more)
+/// What the rules make of all events. @return whether all are answered
+bool EmitterSolver::answerEvents(const StepContext& context, base::WorkBudget& work)
 {
-    size_t count = more.events().size();
-    uint64_t lost = more.dropped();
-    for (const EventList& list : lists) {
-        count += list.events().size();
-        lost += list.dropped();
-    }
-    context.counters->dropped += lost;
-    dropped_ += lost;
-    context.counters->events += count * def_.events.size();
-    if (!context.board)
-        return;
-    for (uint32_t number = 0; number < def_.events.size(); ++number) {
-        const EventRule& rule = def_.events[number];
-        const auto answer = [&](const ParticleEvent& event) {
-            if (!interest_.answers(rule, event))
-                return;
-            EventBirth birth{event, number, drawCount(context, rule, number, event)};
+    Linked& linked = *open_.linked;
+    const std::span<const EventList> lists = linked.old.lists();
+    for (; linked.number < def_.events.size(); ++linked.number, open_.row = 0)
+        for (; open_.row <= lists.size(); ++open_.row) {
+            if (work.isSpent())
+                return false;
+            const EventList& list = open_.row < lists.size() ? lists[open_.row] : linked.births;
+            answerList(context, list);
+            work.spend(uint64_t(emitter_work::kEvent * double(list.events().size())));
+            linked.answered = 0;
+            if (linked.number > 0)
+                continue;
+            context.counters->dropped += list.dropped();
+            dropped_ += list.dropped();
+        }
+    return true;
+}
+
+/// Leaves on the board what the rule in hand makes of a list.
+void EmitterSolver::answerList(const StepContext& context, const EventList& list)
+{
+    Linked& linked = *open_.linked;
+    const EventRule& rule = def_.events[linked.number];
+    for (; linked.answered < list.events().size(); ++linked.answered) {
+        const ParticleEvent& event = list.events()[linked.answered];
+        if (context.board && interest_.answers(rule, event)) {
+            EventBirth birth{event, linked.number, drawCount(context, rule, linked.number, event)};
             birth.cause.velocity *= rule.inheritVelocity;
             birth.cause.color = glm::vec3(1.0f) + rule.inheritColor * (event.color - glm::vec3(1.0f));
             context.board->post(rule.target, birth);
-        };
-        for (const EventList& list : lists)
-            std::for_each(list.events().begin(), list.events().end(), answer);
-        std::for_each(more.events().begin(), more.events().end(), answer);
+        }
+        ++context.counters->events;
     }
 }
 

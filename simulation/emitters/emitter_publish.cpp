@@ -43,17 +43,19 @@ LookColumns columnsOf(base::SnapshotGroup& group)
 
 namespace {
 
-/// All rows of the window, spread over threads where there are many.
-LookBounds writeAll(const LookJob& job, const LookColumns& out, base::TaskRunner* tasks)
+/// Rows [begin, end) of the window, spread over threads where there are many.
+LookBounds writeAll(const LookJob& job, const LookColumns& out, uint32_t begin, uint32_t end,
+                    base::TaskRunner* tasks)
 {
-    const uint32_t chunks = (job.rows.count + kChunk - 1) / kChunk;
+    const uint32_t chunks = (end - begin + kChunk - 1) / kChunk;
     const uint32_t few = rowsOfATask(*job.program, kChunk) / kChunk;
     if (!tasks || chunks <= few) // no lock, which would wait for everything that has been written
-        return writeLooks(job, out, 0, job.rows.count);
+        return writeLooks(job, out, begin, end);
     LookBounds bounds;
     std::mutex mutex; // guards bounds, which do not depend on the order of what is added
-    parallelRows(*tasks, chunks, few, [&](uint32_t begin, uint32_t end) {
-        const LookBounds found = writeLooks(job, out, begin * kChunk, std::min(end * kChunk, job.rows.count));
+    parallelRows(*tasks, chunks, few, [&](uint32_t first, uint32_t last) {
+        const LookBounds found =
+            writeLooks(job, out, begin + first * kChunk, std::min(begin + last * kChunk, end));
         const std::lock_guard lock(mutex);
         bounds.add(found);
     });
@@ -95,12 +97,6 @@ void writeConstants(const EmitterDef& def, const EmitterLook& look, float arcPer
 
 namespace {
 
-struct GroupPlace
-{
-    base::KindId kind;
-    const base::GroupInfo& base;
-};
-
 /// A group of particles, without what is in its columns.
 base::SnapshotGroup& addRows(const ParticleProgram& program, uint32_t capacity, uint32_t rows,
                              const GroupPlace& place, base::FrameSnapshot& snapshot)
@@ -126,44 +122,69 @@ LookJob EmitterSolver::lookJob() const
     return job;
 }
 
-void EmitterSolver::publish(const base::GroupInfo& instance, base::FrameSnapshot& snapshot) const
+bool EmitterSolver::proceedPublication(const base::GroupInfo& instance, base::FrameSnapshot& snapshot,
+                                       PublicationPlace& place, base::WorkBudget& work) const
 {
     catchUpWithPool();
     base::GroupInfo base = instance;
     if (space_ && started_)
         base.placement = space_->home();
-    if (def_.look.kind == Appearance::Medium)
-        publishMedium(base, snapshot);
-    else if (def_.look.kind != Appearance::None)
-        publishParticles(base, snapshot);
-    if (trails_)
-        publishTrails(base, snapshot);
-    if (def_.light.given)
-        publishLights(base, snapshot);
+    constexpr uint32_t kGroups = 3;
+    for (; place.group < kGroups; place = {place.group + 1})
+        if (!publishGroup(base, snapshot, place, work))
+            return false;
+    return true;
 }
 
-void publishRows(const LookJob& job, base::KindId kind, const base::GroupInfo& base, base::TaskRunner* tasks,
-                 base::FrameSnapshot& snapshot)
+bool EmitterSolver::publishGroup(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                                 PublicationPlace& place, base::WorkBudget& work) const
 {
-    base::SnapshotGroup& group =
-        addRows(*job.program, job.store->capacity(), job.rows.count, {kind, base}, snapshot);
+    if (place.group == 1)
+        return !trails_ || publishTrails(base, snapshot, place, work);
+    if (place.group == 2)
+        return !def_.light.given || publishLights(base, snapshot, place, work);
+    if (def_.look.kind == Appearance::Medium)
+        return publishMedium(base, snapshot, place, work);
+    return def_.look.kind == Appearance::None || publishParticles(base, snapshot, place, work);
+}
+
+bool publishRows(const LookJob& job, const GroupPlace& group, base::TaskRunner* tasks,
+                 base::FrameSnapshot& snapshot, PublicationPlace& place, base::WorkBudget& work)
+{
+    if (place.part == 0)
+        addRows(*job.program, job.store->capacity(), job.rows.count, group, snapshot);
+    place.part = 1;
+    base::SnapshotGroup& to = snapshot.editGroup(snapshot.addedCount() - 1);
     LookJob timed = job;
     timed.secondsBack = snapshot.secondsBack();
-    LookBounds bounds = writeAll(timed, columnsOf(group), tasks);
+    const uint32_t chunks = (job.rows.count - place.row + kChunk - 1) / kChunk;
+    const uint32_t end =
+        std::min(place.row + kChunk * work.affords(emitter_work::kDrawn * kChunk, chunks), job.rows.count);
+    LookBounds bounds{place.bounds.min, place.bounds.max, place.radius};
+    bounds.add(writeAll(timed, columnsOf(to), place.row, end, tasks));
+    work.spend(uint64_t(emitter_work::kDrawn * double(end - place.row)));
+    place.row = end;
+    place.bounds = {bounds.low, bounds.high};
+    place.radius = bounds.radius;
+    if (end < job.rows.count)
+        return false;
     bounds.radius *= job.program->corner;
-    group.editInfo().bounds = bounds.box();
+    to.editInfo().bounds = bounds.box();
+    return true;
 }
 
-void EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+bool EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                                     PublicationPlace& place, base::WorkBudget& work) const
 {
     if (kinds_.particle == base::kNoKind)
-        return;
+        return true;
     if (gpu_ && gpu_->isOn()) {
         base::GroupInfo info = base;
         info.isCosmetic = true;
-        return gpu_->publish(info, kinds_.gpuParticle, key_, now_, snapshot);
+        gpu_->publish(info, kinds_.gpuParticle, key_, now_, snapshot);
+        return true;
     }
-    publishRows(lookJob(), kinds_.particle, base, tasks_, snapshot);
+    return publishRows(lookJob(), {kinds_.particle, base}, tasks_, snapshot, place, work);
 }
 
 bool EmitterSolver::joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,

@@ -69,8 +69,9 @@ uint64_t EmitterDef::bytes() const
 
 double EmitterDef::workOf(const StepLoad& load) const
 {
+    const double followed = trail.lifetime > 0.0f ? emitter_work::kTrail : 0.0;
     return load.births * emitter_work::kBirth + load.events * emitter_work::kEvent +
-           load.alive * stepWork(*program.of(*this));
+           load.alive * (stepWork(*program.of(*this)) + followed);
 }
 
 uint64_t EmitterSolver::bytesOf(const EmitterDef& def, const ParticleProgram& program)
@@ -96,7 +97,7 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                              std::pmr::memory_resource* memory)
     : def_(def), program_(*program), kinds_(kinds), store_(program_, memory), schedule_(def.emission, memory),
       shared_(std::move(program)), interest_(def.events, program_.longestLife), lights_(memory),
-      rowsByBirth_(memory), stepWork_(sim::stepWork(program_)), shownWork_(sim::shownWork(def.look.kind))
+      rowsByBirth_(memory), stepWork_(sim::stepWork(program_))
 {
     const bool isSmall = store_.capacity() <= kFewRows && !program_.gpu;
     const bool isDrawn = def.look.kind == Appearance::Sprite || def.look.kind == Appearance::Mesh;
@@ -107,6 +108,7 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
     poolable_ = isPoolable();
     if (def.trail.lifetime > 0.0f)
         trails_.emplace(def.trail, store_.capacity(), memory);
+    isDivided_ = isLinked() || trails_ || store_.capacity() > kFewRows;
     if (def.inWorld)
         space_.emplace();
     if (def.light.given)
@@ -153,21 +155,47 @@ void EmitterSolver::heedConditions(const StepContext& context)
     conditions_ = conditions;
 }
 
-void EmitterSolver::step(const StepContext& context)
+bool EmitterSolver::goOn(const StepContext& context, base::WorkBudget& work)
 {
-    leavePool();
+    const bool begins = !isOpen(context);
+    if (begins)
+        leavePool();
     if (!space_)
-        return stepHere(context);
-    if (!started_)
+        return goOnHere(context, work);
+    if (begins && !started_)
         space_->begin(context.placement);
-    else if (context.tick != now_) // nobody knows the way of the time that was left out
+    else if (begins && context.tick != now_) // nobody knows the way of the time that was left out
         space_->jumpTo(context.placement);
-    space_->moveTo(context.placement, context.moveShare);
-    inHome(context, [this](const StepContext& home) { stepHere(home); });
+    if (begins)
+        space_->moveTo(context.placement, context.moveShare);
+    return inHome(context, [&](const StepContext& home) { return goOnHere(home, work); });
 }
 
 /// In the space of the particles.
-void EmitterSolver::stepHere(const StepContext& context)
+bool EmitterSolver::goOnHere(const StepContext& context, base::WorkBudget& work)
+{
+    if (!isOpen(context))
+        openStep(context);
+    if (gpu_ && gpu_->isOn()) {
+        open_.tick = -1;
+        forgetRefusals();
+        stepOnGpu(context);
+        return true;
+    }
+    if (open_.part != StepPart::Follow) {
+        if (!(isLinked() ? stepWithEvents(context, work) : stepAlone(context, work)))
+            return false;
+        now_ = context.tick + context.stepTicks;
+        open_.part = StepPart::Follow;
+        open_.row = 0;
+    }
+    if (trails_ && !trails_->follow(lookJob(), {context.tick, now_}, open_.row, work))
+        return false;
+    closeStep(context);
+    return true;
+}
+
+void EmitterSolver::openStep(const StepContext& context)
 {
     schedule_.passTo(now_);
     tasks_ = context.tasks;
@@ -182,25 +210,36 @@ void EmitterSolver::stepHere(const StepContext& context)
     heedConditions(context);
     if (gpu_)
         gpu_->noteStep(context);
-    if (gpu_ && gpu_->isOn()) {
-        forgetRefusals();
-        return stepOnGpu(context);
-    }
-    const base::Ticks end = context.tick + context.stepTicks;
-    const uint64_t droppedBefore = dropped_;
-    if (isLinked()) {
-        stepWithEvents(context);
-    } else {
-        giveBirth(context, context.tick, end, birthRoom(context));
-        if (!program_.ballistic)
-            move(context);
-    }
-    now_ = end;
-    if (trails_)
-        trails_->follow(lookJob(), context.tick, end);
+    open_ = {};
+    openBirths(context.tick);
+    open_.isWanted = isWanted;
+    open_.droppedBefore = dropped_;
+    open_.tick = context.tick;
+}
+
+void EmitterSolver::closeStep(const StepContext& context)
+{
+    open_.tick = -1;
     if (!context.crowd || !context.crowd->waitsFor(*this))
         endStep(*context.counters);
-    offerToGpu(droppedBefore, isWanted);
+    offerToGpu(open_.droppedBefore, open_.isWanted);
+}
+
+bool EmitterSolver::stepAlone(const StepContext& context, base::WorkBudget& work)
+{
+    if (open_.part != StepPart::Move) {
+        if (!giveBirth(context, context.tick + context.stepTicks, birthRoom(context), work))
+            return false;
+        open_.part = StepPart::Move;
+        open_.row = 0;
+    }
+    if (!program_.ballistic)
+        return move(context, work);
+    const uint32_t left = store_.rowsInUse() - open_.row; // all that there is to do for them is to count
+    const uint32_t rows = work.affords(stepWork_, left);
+    work.spend(uint64_t(stepWork_ * double(rows)));
+    open_.row += rows;
+    return rows == left;
 }
 
 /// Whether births wait for those of others.
@@ -214,34 +253,56 @@ std::span<Birth> EmitterSolver::birthRoom(const StepContext& context) const
     return context.scratch->allocate<Birth>(std::min(kBirthBatch, store_.capacity()));
 }
 
-void EmitterSolver::giveBirth(const StepContext& context, base::Ticks from, base::Ticks to,
-                              std::span<Birth> room)
+void EmitterSolver::openBirths(base::Ticks from)
 {
-    const BirthWindow window{from, to, double(context.parameters->intensity), context.parameters->emitting};
-    if (to <= fullUntil_) {
-        const uint64_t refused = schedule_.advance(window, {}).total;
+    open_.reached = from;
+    open_.left = kMostLapsPerStep * std::max(store_.capacity(), kBirthBatch);
+    open_.asked = open_.refused = 0;
+}
+
+/// Those who are born from open_.reached to `to`. @return whether all are
+bool EmitterSolver::giveBirth(const StepContext& context, base::Ticks to, std::span<Birth> room,
+                              base::WorkBudget& work)
+{
+    const auto windowFrom = [&](base::Ticks from) {
+        return BirthWindow{from, to, double(context.parameters->intensity), context.parameters->emitting};
+    };
+    if (to <= fullUntil_ && open_.asked == 0) {
+        const uint64_t refused = schedule_.advance(windowFrom(open_.reached), {}).total;
         context.counters->born += refused;
         refuse(refused, *context.counters);
         store_.advance(refused);
-        return;
+        open_.reached = to;
+        return true;
     }
-    const uint64_t droppedBefore = dropped_;
-    uint64_t left = kMostLapsPerStep * std::max(store_.capacity(), kBirthBatch);
-    const BirthCount count = schedule_.advance(
-        window, room, left, [&](std::span<const Birth> births) { storeBatch(context, births); });
-    context.counters->born += count.total;
-    context.counters->dropped += count.total - count.stored;
-    noteRefusals(count.stored, dropped_ - droppedBefore);
-    dropped_ += count.total - count.stored;
-    store_.advance(count.total - count.stored);
+    while (open_.reached < to) {
+        if (work.isSpent())
+            return false;
+        const uint64_t droppedBefore = dropped_;
+        const uint32_t wanted = std::max(work.affords(emitter_work::kBirth, UINT32_MAX), kBirthBatch);
+        const BirthCount count =
+            schedule_.advance(windowFrom(open_.reached), room, open_.left, wanted, open_.reached,
+                              [&](std::span<const Birth> births) { storeBatch(context, births); });
+        context.counters->born += count.total;
+        context.counters->dropped += count.total - count.stored;
+        open_.left -= count.stored;
+        open_.asked += count.stored;
+        open_.refused += dropped_ - droppedBefore;
+        dropped_ += count.total - count.stored;
+        store_.advance(count.total - count.stored);
+        if (isDivided_)
+            work.spend(uint64_t(emitter_work::kBirth * double(count.stored)));
+    }
+    noteRefusals();
+    return true;
 }
 
 /// Once all rows have refused a birth, one after the other, none has room before the first of those who live
 /// in them dies: until then births need only be counted.
-void EmitterSolver::noteRefusals(uint64_t asked, uint64_t refused)
+void EmitterSolver::noteRefusals()
 {
     fullUntil_ = 0;
-    refusedInRow_ = refused == asked ? refusedInRow_ + refused : 0;
+    refusedInRow_ = open_.refused == open_.asked ? refusedInRow_ + open_.refused : 0;
     if (refusedInRow_ < store_.capacity() || program_.mortal || (gpu_ && gpu_->isOn()))
         return;
     refusedInRow_ = 0;
@@ -270,18 +331,27 @@ void EmitterSolver::storeBatch(const StepContext& context, std::span<const Birth
 
 /// @param firstIndex only particles from it on move @param room receives what happens to them; null: nobody
 /// asks
-void EmitterSolver::move(const StepContext& context, uint64_t firstIndex, EventRoom* room)
+/// @return whether all have moved, those of the rows before open_.row among them
+bool EmitterSolver::move(const StepContext& context, base::WorkBudget& work, uint64_t firstIndex,
+                         EventRoom* room)
 {
-    TileStep step(program_, context);
-    std::optional<EventWatch> watch;
-    if (room)
-        step.watchBy(&watch.emplace(def_, interest_, store_, *room));
-    step.onlyFrom(firstIndex);
     const RowWindow rows = store_.window();
-    const uint32_t tiles = (rows.count + kTileRows - 1) / kTileRows;
-    parallelRows(*context.tasks, tiles, kMinSteppedTiles, [&](uint32_t begin, uint32_t end) {
-        step.run(store_, begin * kTileRows, std::min(end * kTileRows, rows.count));
-    });
+    const uint32_t left = (rows.count - open_.row + kTileRows - 1) / kTileRows;
+    const uint32_t tiles = work.affords(stepWork_ * kTileRows, left);
+    if (tiles > 0) {
+        TileStep step(program_, context);
+        std::optional<EventWatch> watch;
+        if (room)
+            step.watchBy(&watch.emplace(def_, interest_, store_, *room));
+        step.onlyFrom(firstIndex);
+        parallelRows(*context.tasks, tiles, kMinSteppedTiles, [&](uint32_t begin, uint32_t end) {
+            step.run(store_, open_.row + begin * kTileRows,
+                     std::min(open_.row + end * kTileRows, rows.count));
+        });
+        work.spend(uint64_t(stepWork_ * double(tiles) * kTileRows));
+    }
+    open_.row += tiles * kTileRows;
+    return tiles == left;
 }
 
 bool EmitterSolver::finished(base::Ticks tick) const
@@ -387,63 +457,15 @@ void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
     }
     const base::Ticks part =
         restsUntil(from) >= tick ? tick - from : base::kTicksPerSecond / 60; // a rest is one window
-    for (const std::span<Birth> room = birthRoom(context); from < tick; from += part)
-        giveBirth(context, from, std::min(from + part, tick), room);
+    open_ = {};
+    base::WorkBudget unlimited;
+    for (const std::span<Birth> room = birthRoom(context); from < tick; from += part) {
+        openBirths(from);
+        giveBirth(context, std::min(from + part, tick), room, unlimited);
+    }
     now_ = tick;
     store_.retire(now_);
     offerToGpu(droppedBefore, false);
-}
-
-void EmitterSolver::save(StateWriter& writer) const
-{
-    saveState(writer, true);
-}
-
-void EmitterSolver::saveState(StateWriter& writer, bool withRows) const
-{
-    catchUpWithPool();
-    writer.value(now_);
-    writer.flag(started_);
-    writer.value(motionBegin_);
-    writer.vector(conditions_.pull);
-    writer.value(conditions_.intensity);
-    writer.flag(conditions_.emitting);
-    writer.flag(varied_);
-    if (interest_.in(EventKind::Host))
-        writer.value(hostEvents_);
-    schedule_.save(writer, now_);
-    if (!withRows)
-        store_.saveEmpty(writer);
-    else if (gpu_ && gpu_->isOn())
-        saveFromGpu(writer);
-    else
-        store_.save(writer, now_);
-    if (space_)
-        space_->save(writer);
-    if (trails_)
-        trails_->save(writer);
-}
-
-void EmitterSolver::restore(StateReader& reader)
-{
-    forgetRefusals();
-    leavePool();
-    now_ = reader.value<base::Ticks>(0, kForever, "an emitter's clock is out of range");
-    started_ = reader.flag();
-    motionBegin_ = reader.value<base::Ticks>(0, now_, "an emitter's clock is out of range");
-    conditions_.pull = reader.vector();
-    conditions_.intensity = reader.value<float>();
-    conditions_.emitting = reader.flag();
-    varied_ = reader.flag();
-    if (interest_.in(EventKind::Host))
-        hostEvents_ = reader.value<uint64_t>();
-    schedule_.restore(reader);
-    store_.restore(reader, now_);
-    listenAgain();
-    if (space_)
-        space_->restore(reader);
-    if (trails_)
-        trails_->restore(reader);
 }
 
 } // namespace fx::sim

@@ -40,7 +40,17 @@ public:
             pool_->forget(member_);
     }
 
-    void step(const StepContext& context) override;
+    void step(const StepContext& context) override
+    {
+        base::WorkBudget unlimited;
+        goOn(context, unlimited);
+    }
+    /// Small emitters are not divided.
+    bool proceed(const StepContext& context, base::WorkBudget& work) override
+    {
+        const bool isKept = context.board || !isLinked(); // what it keeps in scratch memory
+        return isDivided_ && isKept ? goOn(context, work) : Solver::proceed(context, work);
+    }
     void standAt(const base::Placement& placement) override
     {
         if (space_ && started_)
@@ -59,7 +69,14 @@ public:
         endStep(counters);
     }
     /// Spread over the threads of the last step; before it on the calling thread.
-    void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
+    void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override
+    {
+        PublicationPlace whole;
+        base::WorkBudget unlimited;
+        proceedPublication(base, snapshot, whole, unlimited);
+    }
+    bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                            PublicationPlace& place, base::WorkBudget& work) const override;
     bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                          EmitterCrowd& crowd) const override;
     bool finished(base::Ticks tick) const override;
@@ -70,10 +87,6 @@ public:
         return uint64_t(emitter_work::kBirth * double(done.born - done.dropped) +
                         emitter_work::kEvent * double(done.events) + stepWork_ * double(done.particleSteps)) +
                1;
-    }
-    uint64_t shownWork() const override
-    {
-        return pool_ ? 0 : uint64_t(shownWork_ * double(store_.rowsInUse()));
     }
     bool hasElements() const override;
     /// Where motion has a closed form; backwards while the host has changed nothing since local time 0. While
@@ -124,7 +137,38 @@ public:
 private:
     EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                   std::shared_ptr<const ParticleProgram> program, std::pmr::memory_resource* memory);
+    /// A step of which some is still to be done.
+    enum class StepPart : uint8_t
+    {
+        Old, ///< what happens to those who lived before, where somebody asks; they move
+        Births,
+        Young,  ///< who was born moves
+        Move,   ///< all move, where nobody asks
+        Answer, ///< what happened gives birth elsewhere
+        Follow, ///< trails
+    };
+    struct Linked;
+    struct OpenStep
+    {
+        base::Ticks tick = -1;   ///< at which it begins; -1: there is none
+        base::Ticks reached = 0; ///< local time up to which all are born
+        StepPart part = StepPart::Old;
+        bool isWanted = false; ///< on the GPU
+        uint32_t row = 0;      ///< of the part
+        uint64_t left = 0;     ///< births that may still be stored
+        uint64_t asked = 0;    ///< births that asked for a row
+        uint64_t refused = 0;  ///< that found it taken
+        uint64_t droppedBefore = 0;
+        Linked* linked = nullptr; ///< in scratch memory, where there are events
+        uint64_t board = 0;       ///< number of the EventBoard beside which that lies
+    };
+    bool isOpen(const StepContext& context) const;
     void begin(const StepContext& context);
+    bool goOn(const StepContext& context, base::WorkBudget& work);
+    bool goOnHere(const StepContext& context, base::WorkBudget& work);
+    void openStep(const StepContext& context);
+    void closeStep(const StepContext& context);
+    bool stepAlone(const StepContext& context, base::WorkBudget& work);
     bool joins(const StepContext& context) const;
     bool isPoolable() const;
     /// What is asked of it is answered by its own state, which a pool may have run ahead of.
@@ -133,7 +177,6 @@ private:
         if (pool_)
             pool_->write(member_);
     }
-    void stepHere(const StepContext& context);
     struct Conditions
     {
         glm::vec3 pull{0.0f}; ///< [m/s2] see LookJob
@@ -149,15 +192,17 @@ private:
     base::Ticks lifetimeOf(double intensity) const;
     void saveState(StateWriter& writer, bool withRows) const;
     std::span<Birth> birthRoom(const StepContext& context) const;
-    void noteRefusals(uint64_t asked, uint64_t refused);
+    void noteRefusals();
     void forgetRefusals()
     {
         refusedInRow_ = 0;
         fullUntil_ = 0;
     }
-    void giveBirth(const StepContext& context, base::Ticks from, base::Ticks to, std::span<Birth> room);
+    void openBirths(base::Ticks from);
+    bool giveBirth(const StepContext& context, base::Ticks to, std::span<Birth> room, base::WorkBudget& work);
     void storeBatch(const StepContext& context, std::span<const Birth> births);
-    void move(const StepContext& context, uint64_t firstIndex = 0, EventRoom* room = nullptr);
+    bool move(const StepContext& context, base::WorkBudget& work, uint64_t firstIndex = 0,
+              EventRoom* room = nullptr);
     // where the GPU may compute
     void offerToGpu(uint64_t droppedBefore, bool isWanted);
     void stepOnGpu(const StepContext& context);
@@ -192,12 +237,16 @@ private:
     void carryBirths(const StepContext& context, std::span<const Birth> births);
     void carryBirth(const StepContext& context, const Birth& birth, uint32_t row, bool byClock);
     bool isLinked() const { return def_.fed || !def_.events.empty(); }
-    void stepWithEvents(const StepContext& context);
-    void giveLinkedBirth(const StepContext& context, EventList& out);
+    bool stepWithEvents(const StepContext& context, base::WorkBudget& work);
+    void openLinked(const StepContext& context);
+    bool scanOld(const StepContext& context, base::WorkBudget& work);
+    bool giveLinkedBirth(const StepContext& context, base::WorkBudget& work);
+    size_t nextBatch(std::span<Birth> births, std::span<Origin> origins);
     std::span<Birth> scheduledBirths(const StepContext& context);
     void storeLinked(const StepContext& context, std::span<const Birth> births,
                      std::span<const Origin> origins, EventList& out);
-    void answerEvents(const StepContext& context, std::span<const EventList> lists, const EventList& more);
+    bool answerEvents(const StepContext& context, base::WorkBudget& work);
+    void answerList(const StepContext& context, const EventList& list);
     void hearHost(const StepContext& context, EventList& out);
     EventScan scanOf(const StepContext& context) const;
     bool neverDrops(double intensity) const;
@@ -211,9 +260,14 @@ private:
         job.motionBegin = motionBegin_;
         job.pull = conditions_.pull;
     }
-    void publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
-    void publishTrails(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
-    void publishLights(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
+    bool publishGroup(const base::GroupInfo& base, base::FrameSnapshot& snapshot, PublicationPlace& place,
+                      base::WorkBudget& work) const;
+    bool publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot, PublicationPlace& place,
+                          base::WorkBudget& work) const;
+    bool publishTrails(const base::GroupInfo& base, base::FrameSnapshot& snapshot, PublicationPlace& place,
+                       base::WorkBudget& work) const;
+    bool publishLights(const base::GroupInfo& base, base::FrameSnapshot& snapshot, PublicationPlace& place,
+                       base::WorkBudget& work) const;
     struct Light
     {
         glm::vec3 position{0.0f};
@@ -222,9 +276,12 @@ private:
         float sum = 0; ///< what decides which are kept
     };
     Light lightOf(uint32_t row, uint32_t i, const MotionTile& motion) const;
-    uint32_t findLights() const;
-    uint32_t sortLiving() const;
-    void publishMedium(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
+    bool findLights(PublicationPlace& place, base::WorkBudget& work) const;
+    bool sortLiving(PublicationPlace& place, base::WorkBudget& work) const;
+    void collectLiving(PublicationPlace& place, base::WorkBudget& work) const;
+    bool publishMedium(const base::GroupInfo& base, base::FrameSnapshot& snapshot, PublicationPlace& place,
+                       base::WorkBudget& work) const;
+    void writeMedium(uint32_t solver, uint32_t begin, uint32_t end, class BlobWriter& writer) const;
 
     // What every step and publication of a small emitter reads stands together.
     const EmitterDef& def_;
@@ -254,10 +311,11 @@ private:
     uint64_t dropped_ = 0;
     base::TaskRunner* tasks_ = nullptr;              ///< of the last step
     mutable std::pmr::vector<uint32_t> rowsByBirth_; ///< room to sort what a medium publishes
+    OpenStep open_;
+    bool isDivided_;            ///< its steps are, see proceed()
     uint64_t refusedInRow_ = 0; ///< births that found their row taken, one after the other
     base::Ticks fullUntil_ = 0; ///< local time up to which all rows are surely taken
     double stepWork_;           ///< [unit] of base::WorkBudget, of a particle in a sub-step
-    double shownWork_;          ///< the same once a step
 };
 
 } // namespace fx::sim

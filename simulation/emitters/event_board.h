@@ -3,6 +3,7 @@
 #pragma once
 
 #include "foundation/memory/arena.h"
+#include "foundation/tasks/work_budget.h"
 #include "simulation/emitters/event_rule.h"
 
 #include <algorithm>
@@ -25,26 +26,29 @@ struct EventRequests
 class EventBoard
 {
 public:
+    /// @param number     another one for each board of a world
     /// @param capacityOf called with the number of a solver: particles that can be alive in it
     template <class F>
-    EventBoard(base::Arena& scratch, size_t solvers, F&& capacityOf)
-        : scratch_(&scratch), notes_(scratch.allocate<Note>(solvers))
+    EventBoard(base::Arena& scratch, uint64_t number, size_t solvers, F&& capacityOf)
+        : scratch_(&scratch), number_(number), notes_(scratch.allocate<Note>(solvers))
     {
         for (size_t i = 0; i < solvers; ++i)
-            notes_[i] = {{}, 0, 0, 0, std::max(capacityOf(i), kFewestFed)};
+            notes_[i] = {{}, 0, 0, 0, 0, std::max(capacityOf(i), kFewestFed)};
     }
 
+    uint64_t number() const { return number_; }
+    /// Strong guarantee.
     void post(uint32_t target, const EventBirth& birth)
     {
         if (target >= notes_.size() || birth.count == 0)
             return;
         Note& note = notes_[target];
-        note.asked += birth.count;
-        const auto begin = note.kept.begin();
-        if (note.wanted >= note.room && comesBefore(*begin, birth))
-            return;
-        if (note.size == note.kept.size())
+        const bool isKept = note.wanted < note.room || !comesBefore(note.kept.front(), birth);
+        if (isKept && note.size == note.kept.size())
             grow(note);
+        note.asked += birth.count;
+        if (!isKept)
+            return;
         note.kept[note.size++] = birth;
         note.wanted += birth.count;
         std::push_heap(note.kept.begin(), note.end(), comesBefore);
@@ -55,11 +59,23 @@ public:
         }
     }
 
-    /// Once, when all have been posted.
-    EventRequests read(uint32_t target)
+    /// Puts what was left for `target` in order, when all have been posted, as far as the work goes.
+    /// @return whether it is
+    bool order(uint32_t target, base::WorkBudget& work)
     {
         Note& note = notes_[target];
-        std::sort_heap(note.kept.begin(), note.end(), comesBefore); // no allocation
+        for (; note.ordered < note.size; ++note.ordered) {
+            if (work.isSpent())
+                return false;
+            std::pop_heap(note.kept.begin(), note.end() - ptrdiff_t(note.ordered), comesBefore);
+            work.spend(kOrdered);
+        }
+        return true;
+    }
+    /// After order().
+    EventRequests read(uint32_t target) const
+    {
+        const Note& note = notes_[target];
         return {note.kept.first(note.size), note.asked};
     }
 
@@ -68,12 +84,14 @@ private:
     {
         std::span<EventBirth> kept; ///< the first `size`: a heap whose front is answered last
         size_t size;
+        size_t ordered;  ///< of those, at the end, that are in the place in which they are answered
         uint64_t wanted; ///< births of those
         uint64_t asked;  ///< births of all that were posted
         uint64_t room;   ///< births that are tried
 
         std::span<EventBirth>::iterator end() const { return kept.begin() + ptrdiff_t(size); }
     };
+    static constexpr uint64_t kOrdered = 2; ///< [unit] of base::WorkBudget, of each
     void grow(Note& note)
     {
         const std::span<EventBirth> larger =
@@ -83,6 +101,7 @@ private:
     }
 
     base::Arena* scratch_;
+    uint64_t number_;
     std::span<Note> notes_;
 };
 

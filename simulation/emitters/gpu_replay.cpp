@@ -129,7 +129,10 @@ void replayGroup(const ParticleProgram& program, const base::SnapshotGroup& grou
         steps};
     const LookJob job =
         program.ballistic ? replayBirths(program, input, store) : replaySteps(program, input, store);
-    publishRows(job, out.schema().find(base::kParticleKind.name), group.info(), nullptr, out);
+    PublicationPlace whole;
+    base::WorkBudget unlimited;
+    publishRows(job, {out.schema().find(base::kParticleKind.name), group.info()}, nullptr, out, whole,
+                unlimited);
 }
 
 } // namespace fx::sim

@@ -64,10 +64,17 @@ void restartMotion(const LookJob& job, ParticleStore& store);
 /// As base::GpuParticleProgram::replay.
 void replayGroup(const ParticleProgram& program, const base::SnapshotGroup& group, base::FrameSnapshot& out);
 
-/// Publishes rows as a group of the kind `kind`, which is that of particles.
+/// Whose group is published, and of which kind.
+struct GroupPlace
+{
+    base::KindId kind;
+    const base::GroupInfo& base;
+};
+
+/// Publishes rows as a group of the kind of particles, as Solver::proceedPublication().
 /// @param tasks null: on the calling thread
-void publishRows(const LookJob& job, base::KindId kind, const base::GroupInfo& base, base::TaskRunner* tasks,
-                 base::FrameSnapshot& snapshot);
+bool publishRows(const LookJob& job, const GroupPlace& group, base::TaskRunner* tasks,
+                 base::FrameSnapshot& snapshot, PublicationPlace& place, base::WorkBudget& work);
 
 /// What is drawn within lives of at most `seconds` stays in this box, whatever is drawn at random.
 /// @param low, high   [m/s2] between these are the pulls, component by component

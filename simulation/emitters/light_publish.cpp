@@ -10,17 +10,22 @@ namespace {
 constexpr float kPi = 3.14159265f;
 }
 
-void EmitterSolver::publishTrails(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+bool EmitterSolver::publishTrails(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                                  PublicationPlace& place, base::WorkBudget& work) const
 {
     if (kinds_.ribbon == base::kNoKind)
-        return;
-    base::SnapshotGroup& group = snapshot.addGroup(kinds_.ribbon, trails_->mostPoints());
-    group.editInfo() = base;
-    group.editInfo().kind = kinds_.ribbon;
-    writeConstants(def_, def_.trail.look, def_.trail.arcPerTile, group.editConstants());
-    group.editConstants()[base::particle_constant::Edge] = def_.trail.edge;
-    group.editConstants()[base::particle_constant::TailAge] = def_.trail.lifetime;
-    group.editInfo().count = trails_->publish(now_, base::toTicks(double(snapshot.secondsBack())), group);
+        return true;
+    if (place.part == 0) {
+        base::SnapshotGroup& group = snapshot.addGroup(kinds_.ribbon, trails_->mostPoints());
+        group.editInfo() = base;
+        group.editInfo().kind = kinds_.ribbon;
+        writeConstants(def_, def_.trail.look, def_.trail.arcPerTile, group.editConstants());
+        group.editConstants()[base::particle_constant::Edge] = def_.trail.edge;
+        group.editConstants()[base::particle_constant::TailAge] = def_.trail.lifetime;
+    }
+    place.part = 1;
+    return trails_->publish(now_, base::toTicks(double(snapshot.secondsBack())),
+                            snapshot.editGroup(snapshot.addedCount() - 1), place, work);
 }
 
 /// A sprite emits its luminance from its projected area; a medium from the smaller of that and its cross
@@ -46,33 +51,38 @@ EmitterSolver::Light EmitterSolver::lightOf(uint32_t row, uint32_t i, const Moti
     return light;
 }
 
-/// Fills lights_ with all particles that shine, by row. @return how many
-uint32_t EmitterSolver::findLights() const
+/// Fills lights_ with all particles that shine, by row. @return whether all are found
+bool EmitterSolver::findLights(PublicationPlace& place, base::WorkBudget& work) const
 {
     const LookJob job = lookJob();
-    uint32_t count = 0;
     MotionTile motion;
-    for (uint32_t first = 0; first < job.rows.count; first += kTileRows) {
-        const uint32_t rows = std::min(job.rows.count - first, kTileRows);
-        readMotion(job, first, rows, motion);
+    for (; place.row < job.rows.count; place.row += kTileRows) {
+        if (work.isSpent())
+            return false;
+        const uint32_t rows = std::min(job.rows.count - place.row, kTileRows);
+        readMotion(job, place.row, rows, motion);
         for (uint32_t i = 0; i < rows; ++i) {
-            const uint32_t row = first + i;
+            const uint32_t row = place.row + i;
             const bool outside = row >= job.rows.gapBegin && row < job.rows.gapEnd;
             if (outside || !store_.isAlive(row, now_))
                 continue;
             const Light light = lightOf(row, i, motion);
             if (light.sum > 0.0f)
-                lights_[count++] = light;
+                lights_[place.count++] = light;
         }
+        work.spend(uint64_t(emitter_work::kLight * double(rows)));
     }
-    return count;
+    return true;
 }
 
-void EmitterSolver::publishLights(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+bool EmitterSolver::publishLights(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                                  PublicationPlace& place, base::WorkBudget& work) const
 {
     if (kinds_.light == base::kNoKind)
-        return;
-    uint32_t count = findLights();
+        return true;
+    if (!findLights(place, work))
+        return false;
+    uint32_t count = place.count;
     const auto end = lights_.begin() + count;
     if (def_.light.merged && count > 1) {
         Light all;
@@ -108,6 +118,7 @@ void EmitterSolver::publishLights(const base::GroupInfo& base, base::FrameSnapsh
         }
     for (uint32_t i = 0; i < count; ++i)
         info.bounds.add(lights_[i].position, 0.0f);
+    return true;
 }
 
 } // namespace fx::sim

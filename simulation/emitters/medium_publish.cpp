@@ -10,6 +10,8 @@ namespace {
 
 namespace blob = base::blob_column;
 
+constexpr uint64_t kSifted = 8; // [unit] of base::WorkBudget, of one that goes to its place in a heap
+
 void writeConstants(const EmitterDef& def, BlobWriter& writer)
 {
     writer.constant(base::blob_constant::Layer) = float(uint32_t(def.layer));
@@ -57,56 +59,120 @@ private:
     BlobWriter& writer_;
 };
 
-} // namespace
-
-/// Rows in order of birth index: the ring from its oldest on; only where births were dropped out of order.
-uint32_t EmitterSolver::sortLiving() const
+/// Moves the index in the heap's place `place` of `count` down to where none below it is larger.
+template <class Older>
+void siftDown(std::span<uint32_t> heap, uint32_t place, uint32_t count, Older&& older)
 {
-    const RowWindow rows = store_.window();
-    uint32_t count = 0;
-    bool ascending = true;
-    const auto take = [&](uint32_t begin, uint32_t end) {
-        for (uint32_t row = begin; row < end; ++row) {
-            if (!store_.isAlive(row, now_))
-                continue;
-            ascending =
-                ascending && (count == 0 || store_.index[rowsByBirth_[count - 1]] < store_.index[row]);
-            rowsByBirth_[count++] = row;
-        }
-    };
-    const uint32_t first = store_.empty() ? 0 : store_.rowOf(store_.front());
-    take(first, rows.count);
-    take(0, std::min(first, rows.gapBegin));
-    if (!ascending) { // in place: indices differ, so that there is one order
-        const auto older = [this](uint32_t a, uint32_t b) { return store_.index[a] < store_.index[b]; };
-        std::make_heap(rowsByBirth_.begin(), rowsByBirth_.begin() + count, older);
-        std::sort_heap(rowsByBirth_.begin(), rowsByBirth_.begin() + count, older);
+    for (uint32_t child; (child = 2 * place + 1) < count; place = child) {
+        if (child + 1 < count && older(heap[child], heap[child + 1]))
+            ++child;
+        if (!older(heap[place], heap[child]))
+            return;
+        std::swap(heap[place], heap[child]);
     }
-    return count;
 }
 
-void EmitterSolver::publishMedium(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+// Parts of a medium's publication.
+enum : uint32_t
+{
+    kCollect,
+    kHeapify,
+    kSort,
+    kOpen,
+    kWrite,
+};
+
+} // namespace
+
+/// Living rows in order of birth index: the ring from its oldest on; only where births were dropped out of
+/// order. @return whether all are in order
+bool EmitterSolver::sortLiving(PublicationPlace& place, base::WorkBudget& work) const
+{
+    const auto older = [this](uint32_t a, uint32_t b) { return store_.index[a] < store_.index[b]; };
+    const std::span<uint32_t> rows(rowsByBirth_);
+    if (place.part == kCollect) {
+        collectLiving(place, work);
+        if (place.row < store_.rowsInUse())
+            return false;
+        place.part = place.isSorted ? kOpen : kHeapify;
+        place.row = place.count / 2;
+    }
+    for (; place.part == kHeapify && place.row > 0; work.spend(kSifted)) {
+        if (work.isSpent())
+            return false;
+        siftDown(rows, --place.row, place.count, older);
+    }
+    if (place.part == kHeapify) {
+        place.part = kSort;
+        place.row = place.count;
+    }
+    for (; place.part == kSort && place.row > 1; work.spend(kSifted)) {
+        if (work.isSpent())
+            return false;
+        std::swap(rows[0], rows[--place.row]);
+        siftDown(rows, 0, place.row, older);
+    }
+    if (place.part == kSort)
+        place.part = kOpen;
+    return true;
+}
+
+void EmitterSolver::collectLiving(PublicationPlace& place, base::WorkBudget& work) const
+{
+    const uint32_t first = store_.empty() ? 0 : store_.rowOf(store_.front());
+    const uint32_t rows = work.affords(emitter_work::kListed, store_.rowsInUse() - place.row);
+    uint32_t row = uint32_t((uint64_t(first) + place.row) % store_.capacity());
+    for (uint32_t k = 0; k < rows; ++k, row = row + 1 == store_.capacity() ? 0 : row + 1) {
+        if (!store_.isAlive(row, now_))
+            continue;
+        place.isSorted = place.isSorted && (place.count == 0 ||
+                                            store_.index[rowsByBirth_[place.count - 1]] < store_.index[row]);
+        rowsByBirth_[place.count++] = row;
+    }
+    place.row += rows;
+    work.spend(uint64_t(emitter_work::kListed * double(rows)));
+}
+
+/// @return whether it is complete
+bool EmitterSolver::publishMedium(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                                  PublicationPlace& place, base::WorkBudget& work) const
 {
     if (kinds_.blob == base::kNoKind)
-        return;
-    const uint32_t count = sortLiving();
-    BlobWriter writer(snapshot, base, kinds_.blob, count, store_.capacity());
-    writeConstants(def_, writer);
-    writer.fill(blob::FireShare, def_.fireShare);
+        return true;
+    if (place.part < kOpen && !sortLiving(place, work))
+        return false;
+    if (place.part == kOpen) {
+        BlobWriter writer(snapshot, base, kinds_.blob, place.count, store_.capacity());
+        writeConstants(def_, writer);
+        place.row = 0;
+        place.part = kWrite;
+    }
+    BlobWriter writer(snapshot.editGroup(snapshot.addedCount() - 1), snapshot.secondsBack());
+    const uint32_t rows = work.affords(emitter_work::kMedium, place.count - place.row);
+    writeMedium(base.solver, place.row, place.row + rows, writer);
+    place.row += rows;
+    work.spend(uint64_t(emitter_work::kMedium * double(rows)));
+    return place.row == place.count;
+}
+
+/// The elements [begin, end) of the group.
+void EmitterSolver::writeMedium(uint32_t solver, uint32_t begin, uint32_t end, BlobWriter& writer) const
+{
+    writer.fill(blob::FireShare, def_.fireShare, begin, end);
     const LookJob job = lookJob();
     const MediumTile tile(def_, store_, writer);
     MotionTile motion;
     uint32_t first = 1; // row that the tile in hand begins with; rows begin at multiples, so none is in hand
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = begin; i < end; ++i) {
         const uint32_t row = rowsByBirth_[i];
-        if (const uint32_t begin = row / kTileRows * kTileRows; begin != first) {
-            readMotion(job, begin, std::min(job.rows.count - begin, kTileRows), motion);
-            first = begin;
+        if (const uint32_t start = row / kTileRows * kTileRows; start != first) {
+            readMotion(job, start, std::min(job.rows.count - start, kTileRows), motion);
+            first = start;
         }
         tile.write(row, motion, row - first, i);
-        writer.ids()[i] = blobId(base.solver, store_.index[row]);
+        writer.ids()[i] = blobId(solver, store_.index[row]);
     }
-    writer.closeBounds();
+    writer.addBounds(begin, end);
 }
 
 } // namespace fx::sim

@@ -49,23 +49,29 @@ void RibbonStore::clear()
     count_ = 0;
 }
 
-void RibbonStore::follow(const LookJob& job, base::Ticks begin, base::Ticks end)
+bool RibbonStore::follow(const LookJob& job, const Span& step, uint32_t& ioRow, base::WorkBudget& work)
 {
     const ParticleStore& store = *job.store;
     const uint32_t used = uint32_t(std::min<uint64_t>(store.next(), rows_));
-    count_ = 0;
-    for (uint32_t row = 0; row < used; ++row) {
-        Trail& trail = trails_[row];
-        const uint64_t index = store.index[row];
-        if (index != kNobody && index != trail.index && store.born[row] >= begin && store.born[row] <= end)
-            this->begin(job, row);
+    if (ioRow == 0)
+        count_ = 0;
+    for (; ioRow < used; ++ioRow) {
+        if (work.isSpent())
+            return false;
+        Trail& trail = trails_[ioRow];
+        const uint64_t index = store.index[ioRow];
+        if (index != kNobody && index != trail.index && store.born[ioRow] >= step.begin &&
+            store.born[ioRow] <= step.end)
+            begin(job, ioRow);
         if (trail.count == 0)
             continue;
         if (!trail.ended)
-            followRow(job, row, begin, end);
-        forget(row, end);
+            followRow(job, ioRow, step);
+        forget(ioRow, step.end);
         count_ += trail.count > 0 ? 1u : 0u;
+        work.spend(uint64_t(emitter_work::kTrail));
     }
+    return true;
 }
 
 /// The first point lies where the particle is born; when its motion is integrated it has moved since.
@@ -96,11 +102,12 @@ void RibbonStore::keep(uint32_t row, const Point& point)
     ++trail.count;
 }
 
-void RibbonStore::followRow(const LookJob& job, uint32_t row, base::Ticks begin, base::Ticks end)
+void RibbonStore::followRow(const LookJob& job, uint32_t row, const Span& step)
 {
+    const base::Ticks end = step.end;
     Trail& trail = trails_[row];
     const ParticleStore& store = *job.store;
-    const base::Ticks from = std::max(begin, store.born[row]);
+    const base::Ticks from = std::max(step.begin, store.born[row]);
     base::Ticks until = end;
     if (!store.isAlive(row, end)) {
         trail.ended = true;
@@ -206,11 +213,20 @@ struct RibbonStore::Writer
     }
 };
 
-uint32_t RibbonStore::publish(base::Ticks now, base::Ticks past, base::SnapshotGroup& group) const
+bool RibbonStore::publish(base::Ticks now, base::Ticks past, base::SnapshotGroup& group,
+                          PublicationPlace& ioPlace, base::WorkBudget& work) const
 {
-    Writer out{def_, group, 1.0 / double(lifetime_), now, float(double(lifetime_) * kSecondsPerTick)};
+    Writer out{def_,
+               group,
+               1.0 / double(lifetime_),
+               now,
+               float(double(lifetime_) * kSecondsPerTick),
+               ioPlace.count,
+               ioPlace.bounds};
     const base::Ticks shown = lifetime_ + std::clamp<base::Ticks>(past, 0, kPast);
-    for (uint32_t row = 0; row < rows_ && count_ > 0; ++row) {
+    for (uint32_t& row = ioPlace.row; row < rows_ && count_ > 0; ++row) {
+        if (work.isSpent())
+            return false;
         const Trail& trail = trails_[row];
         if (trail.count == 0 || now - trail.head.tick >= shown)
             continue;
@@ -236,9 +252,13 @@ uint32_t RibbonStore::publish(base::Ticks now, base::Ticks past, base::SnapshotG
             younger = &point;
         }
         out.finish(begin, trail.tint);
+        work.spend(uint64_t(emitter_work::kPoint * double(out.count - begin)));
+        ioPlace.count = out.count;
+        ioPlace.bounds = out.bounds;
     }
+    group.editInfo().count = out.count;
     group.editInfo().bounds = out.bounds;
-    return out.count;
+    return true;
 }
 
 void RibbonStore::save(StateWriter& writer) const
@@ -265,7 +285,20 @@ void RibbonStore::save(StateWriter& writer) const
     }
 }
 
-void RibbonStore::restore(StateReader& reader)
+/// Of who lives, the points are known whose ticks have passed, by (1): there is no other number of the next.
+void RibbonStore::checkRow(StateReader& reader, const ParticleStore& store, uint32_t row,
+                           base::Ticks now) const
+{
+    const Trail& trail = trails_[row];
+    reader.require(trail.head.tick <= now, "a trail is of the future");
+    if (trail.ended || !reader.ok())
+        return;
+    reader.require(store.index[row] == trail.index, "a trail is of no particle");
+    const base::Ticks age = trail.head.tick - store.born[row];
+    reader.require(age >= 0 && trail.next == uint64_t(age / interval_) + 1, "a trail is out of range");
+}
+
+void RibbonStore::restore(StateReader& reader, const ParticleStore& store, base::Ticks now)
 {
     clear();
     const uint32_t count = reader.value<uint32_t>(0, rows_, "an emitter has room for fewer trails");
@@ -285,12 +318,13 @@ void RibbonStore::restore(StateReader& reader)
         trail = Trail{};
         trail.index = reader.value<uint64_t>();
         const uint32_t points = reader.value<uint32_t>(1, def_.maxPoints, "a trail has too many points");
-        trail.next = reader.value<uint64_t>(0, uint64_t(1) << 40, "a trail is out of range");
+        trail.next = reader.value<uint64_t>();
         trail.ended = reader.flag();
         trail.tint = reader.vector();
         trail.head = get();
         for (uint32_t k = 0; k < points && reader.ok(); ++k)
             keep(row, get());
+        checkRow(reader, store, row, now);
     }
     count_ = reader.ok() ? count : 0;
 }

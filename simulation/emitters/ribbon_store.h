@@ -55,19 +55,28 @@ public:
         return size_t(rows) * (sizeof(Trail) + size_t(def.maxPoints) * sizeof(Point));
     }
 
-    /// Takes the points of a step, after which the particles are as `job` says.
-    void follow(const LookJob& job, base::Ticks begin, base::Ticks end);
+    /// A stretch of local time.
+    struct Span
+    {
+        base::Ticks begin;
+        base::Ticks end;
+    };
+    /// Takes the points of a step, after which the particles are as `job` says, as far as the work goes.
+    /// @param ioRow of the particle that is next, 0 at first @return whether all have been followed
+    bool follow(const LookJob& job, const Span& step, uint32_t& ioRow, base::WorkBudget& work);
     bool empty() const { return count_ == 0; }
     /// Most rows that publish() writes.
     size_t mostPoints() const { return size_t(rows_) * (def_.maxPoints + 1); }
-    /// Writes all trails as they are at `now`. @return rows written
+    /// Writes all trails as they are at `now`, as Solver::proceedPublication().
     /// @param past [tick] before `now` for which the tails are to be known as well; about that much longer
     /// they are
-    uint32_t publish(base::Ticks now, base::Ticks past, base::SnapshotGroup& group) const;
+    bool publish(base::Ticks now, base::Ticks past, base::SnapshotGroup& group, PublicationPlace& ioPlace,
+                 base::WorkBudget& work) const;
     void clear();
 
     void save(StateWriter& writer) const;
-    void restore(StateReader& reader);
+    /// @param store of the particles, restored  @param now [tick] local time of the state
+    void restore(StateReader& reader, const ParticleStore& store, base::Ticks now);
 
 private:
     struct Point
@@ -91,7 +100,8 @@ private:
         return points_[size_t(row) * def_.maxPoints + (trails_[row].first + k) % def_.maxPoints];
     }
     void begin(const LookJob& job, uint32_t row);
-    void followRow(const LookJob& job, uint32_t row, base::Ticks begin, base::Ticks end);
+    void followRow(const LookJob& job, uint32_t row, const Span& step);
+    void checkRow(StateReader& reader, const ParticleStore& store, uint32_t row, base::Ticks now) const;
     void keep(uint32_t row, const Point& point);
     void forget(uint32_t row, base::Ticks now);
     struct Writer;

@@ -65,9 +65,9 @@ struct TrailDef
 
 /// What fragments and their smoke count in units of base::WorkBudget, see docs/howto/bounded-updates.md.
 namespace fragment_work {
-constexpr double kMoved = 12.0; ///< of each fragment and each blob of smoke in a sub-step
-constexpr double kBirth = 10.0; ///< of each that is left or released
-constexpr double kShown = 6.0;  ///< of each, once a step
+constexpr double kMoved = 24.0; ///< of each fragment and each blob of smoke in a sub-step
+constexpr double kBirth = 20.0; ///< of each that is left or released
+constexpr double kShown = 11.0; ///< of each, once a step
 } // namespace fragment_work
 
 /// A burst of fragments at one moment.

@@ -26,12 +26,23 @@ float fireShare(float temperature)
 
 } // namespace
 
-void FragmentsSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+bool FragmentsSolver::proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                                         PublicationPlace& place, base::WorkBudget& work) const
 {
     if (kind_ == base::kNoKind)
-        return;
-    publishFragments(base, snapshot);
-    publishTrail(base, snapshot);
+        return true;
+    if (place.group == 0) {
+        publishFragments(base, snapshot);
+        work.spend(uint64_t(fragment_work::kShown * double(fragments_.count)));
+        openTrail(base, snapshot);
+        place.group = 1;
+    }
+    BlobWriter writer(snapshot.editGroup(snapshot.addedCount() - 1), snapshot.secondsBack());
+    const uint32_t rows = work.affords(fragment_work::kShown, writer.count() - place.row);
+    writeTrail(base.solver, place.row, place.row + rows, writer);
+    work.spend(uint64_t(fragment_work::kShown * double(rows)));
+    place.row += rows;
+    return place.row == writer.count();
 }
 
 void FragmentsSolver::publishFragments(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
@@ -63,9 +74,9 @@ void FragmentsSolver::publishFragments(const base::GroupInfo& base, base::FrameS
     writer.closeBounds();
 }
 
-void FragmentsSolver::publishTrail(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
+/// Its group, without what is in the columns.
+void FragmentsSolver::openTrail(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const
 {
-    namespace column = trail_column;
     const TrailDef& def = def_.trail;
     BlobWriter writer(snapshot, base, kind_, trail_.count, uint32_t(trail_.held()));
     writer.constant(constant::Layer) = float(uint32_t(base::MediaLayer::Smoke));
@@ -73,12 +84,19 @@ void FragmentsSolver::publishTrail(const base::GroupInfo& base, base::FrameSnaps
     writer.constant(constant::DetailScale) = def.detailScale;
     writer.constant(constant::Anisotropy) = def.anisotropy;
     writer.constant(constant::Shutter) = 0.0f;
+}
+
+/// The rows [begin, end).
+void FragmentsSolver::writeTrail(uint32_t solver, uint32_t begin, uint32_t end, BlobWriter& writer) const
+{
+    namespace column = trail_column;
+    const TrailDef& def = def_.trail;
     for (size_t k = 0; k < 3; ++k) {
-        writer.copy(blob::PositionX + k, trail_.at(column::X + k));
-        writer.copy(blob::VelocityX + k, trail_.at(column::VelocityX + k));
-        writer.fill(blob::EmissionR + k, 0.0f);
+        writer.copy(blob::PositionX + k, trail_.at(column::X + k), begin, end);
+        writer.copy(blob::VelocityX + k, trail_.at(column::VelocityX + k), begin, end);
+        writer.fill(blob::EmissionR + k, 0.0f, begin, end);
     }
-    for (uint32_t i = 0; i < trail_.count; ++i) {
+    for (uint32_t i = begin; i < end; ++i) {
         const float age = float(base::toSeconds(now_ - trail_.born[i]));
         const float life = float(base::toSeconds(trail_.dies[i] - trail_.born[i]));
         const SmokeLook look = smokeLook(def, trail_.at(column::Radius)[i], age, life);
@@ -91,9 +109,9 @@ void FragmentsSolver::publishTrail(const base::GroupInfo& base, base::FrameSnaps
         writer.column(blob::Age)[i] = age;
         for (size_t k = 0; k < 3; ++k)
             writer.column(blob::AlbedoR + k)[i] = albedo[k];
-        writer.ids()[i] = blobId(base.solver, kTrail | trail_.id[i]);
+        writer.ids()[i] = blobId(solver, kTrail | trail_.id[i]);
     }
-    writer.closeBounds();
+    writer.addBounds(begin, end);
 }
 
 } // namespace fx::sim

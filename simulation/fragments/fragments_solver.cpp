@@ -136,42 +136,87 @@ std::unique_ptr<Solver> FragmentsDef::create(const base::SnapshotSchema& schema,
 FragmentsSolver::FragmentsSolver(const FragmentsDef& def, base::KindId kind,
                                  std::pmr::memory_resource* memory)
     : def_(def), kind_(kind), start_(boundedTicks(def.start)), fragments_(memory, def.count),
-      trail_(memory, def.capacity() - def.count)
+      trail_(memory, def.capacity() - def.count), ways_(memory, def.count)
 {}
 
 uint64_t FragmentsDef::bytes() const
 {
-    return uint64_t(count) * FragmentStore::kRowBytes + TrailStore::bytesOf(capacity() - count);
+    return uint64_t(count) * (FragmentStore::kRowBytes + sizeof(FragmentWay)) +
+           TrailStore::bytesOf(capacity() - count);
 }
 
-double FragmentsDef::workOf(const StepLoad&) const
+/// All that there is room for moves and is shown; of the smoke, what dies is left anew.
+double FragmentsDef::workOf(const StepLoad& load) const
 {
-    return (fragment_work::kMoved + fragment_work::kBirth + fragment_work::kShown) * double(capacity());
+    const double left = std::min(load.seconds / std::max(double(trail.lifetime.min), 1e-3), 1.0);
+    return (fragment_work::kMoved + fragment_work::kBirth * left + fragment_work::kShown) *
+           double(capacity());
 }
 
-uint64_t FragmentsSolver::workOf(const StepCounters& done) const
+bool FragmentsSolver::proceed(const StepContext& context, base::WorkBudget& work)
 {
-    return uint64_t(fragment_work::kMoved * double(done.particleSteps) +
-                    fragment_work::kBirth * double(done.born - done.dropped)) +
-           1;
-}
-
-void FragmentsSolver::step(const StepContext& context)
-{
-    const std::span<FragmentWay> ways = context.scratch->allocate<FragmentWay>(fragments_.capacity());
     const TrailStep step(def_, context);
-    parallelRows(*context.tasks, trail_.count, kMinBlobs,
-                 [&](uint32_t begin, uint32_t end) { moveSmoke(step, trail_, begin, end); });
-    context.counters->particleSteps += trail_.count;
-    trail_.removeDead(step.end);
-
+    if (open_.tick != context.tick) {
+        open_ = {};
+        open_.tick = context.tick;
+    }
     const base::Ticks begin = std::max(context.tick, start_);
-    if (!released_ && start_ < step.end)
-        release(context);
-    fly(step, begin, ways);
+    if (!open_.hasFlown) {
+        if (!moveAll(step, work))
+            return false;
+        trail_.removeDead(step.end);
+        if (!released_ && start_ < step.end)
+            release(context);
+        fly(step, begin);
+        work.spend(uint64_t(fragment_work::kMoved * double(fragments_.count)));
+    }
+    if (!leaveAll(step, begin, work))
+        return false;
+    for (uint32_t i = 0; i < fragments_.count; ++i)
+        fragments_.trailed[i] += ways_[i].blobs;
     fragments_.removeDead(step.end);
     trail_.removeDead(step.end);
     now_ = step.end;
+    open_.tick = -1;
+    return true;
+}
+
+/// The smoke that was there before. @return whether all of it has moved
+bool FragmentsSolver::moveAll(const TrailStep& step, base::WorkBudget& work)
+{
+    const uint32_t first = open_.row, left = trail_.count - first;
+    const uint32_t rows = work.affords(fragment_work::kMoved, left);
+    parallelRows(*step.step.tasks, rows, kMinBlobs,
+                 [&](uint32_t begin, uint32_t end) { moveSmoke(step, trail_, first + begin, first + end); });
+    step.step.counters->particleSteps += rows;
+    work.spend(uint64_t(fragment_work::kMoved * double(rows)));
+    open_.row += rows;
+    return rows == left;
+}
+
+/// The smoke that is left in the step. @return whether all of it is there
+bool FragmentsSolver::leaveAll(const TrailStep& step, base::Ticks begin, base::WorkBudget& work)
+{
+    const uint32_t first = open_.row, left = trail_.count - first;
+    const uint32_t rows = work.affords(fragment_work::kBirth, left);
+    parallelRows(*step.step.tasks, rows, kMinBlobs,
+                 [&](uint32_t from, uint32_t to) { leaveRows(step, begin, first + from, first + to); });
+    work.spend(uint64_t(fragment_work::kBirth * double(rows)));
+    open_.row += rows;
+    return rows == left;
+}
+
+/// Rows of smoke that follow each other, whichever fragments leave them.
+void FragmentsSolver::leaveRows(const TrailStep& step, base::Ticks begin, uint32_t first, uint32_t last)
+{
+    const std::span<const FragmentWay> ways = ways_.first(fragments_.count);
+    const auto after = std::upper_bound(ways.begin(), ways.end(), first,
+                                        [](uint32_t row, const FragmentWay& way) { return row < way.first; });
+    for (uint32_t i = uint32_t(after - ways.begin()) - 1; i < fragments_.count && first < last; ++i) {
+        const uint32_t end = std::min(ways[i].first + ways[i].stored, last);
+        leaveSmoke(step, fragments_, i, ways[i], begin, {first, end}, trail_);
+        first = std::max(first, end);
+    }
 }
 
 void FragmentsSolver::release(const StepContext& context)
@@ -191,35 +236,32 @@ void FragmentsSolver::release(const StepContext& context)
     });
 }
 
-void FragmentsSolver::fly(const TrailStep& step, base::Ticks begin, std::span<FragmentWay> ways)
+void FragmentsSolver::fly(const TrailStep& step, base::Ticks begin)
 {
     const float seconds = float(base::toSeconds(step.end - begin));
     parallelRows(*step.step.tasks, fragments_.count, kMinFlights, [&](uint32_t first, uint32_t last) {
         for (uint32_t i = first; i < last; ++i)
-            ways[i] = flyFragment(step, fragments_, i, seconds);
+            ways_[i] = flyFragment(step, fragments_, i, seconds);
     });
     step.step.counters->particleSteps += fragments_.count;
-    makeRoom(step.step, ways);
-    parallelRows(*step.step.tasks, fragments_.count, kMinFlights, [&](uint32_t first, uint32_t last) {
-        for (uint32_t i = first; i < last; ++i) {
-            leaveSmoke(step, fragments_, i, ways[i], begin, trail_);
-            fragments_.trailed[i] += ways[i].blobs;
-        }
-    });
+    open_.row = trail_.count;
+    makeRoom(step.step);
+    open_.hasFlown = true;
 }
 
-void FragmentsSolver::makeRoom(const StepContext& context, std::span<FragmentWay> ways)
+/// Gives each fragment the rows of the smoke that it leaves.
+void FragmentsSolver::makeRoom(const StepContext& context)
 {
+    const std::span<FragmentWay> ways = ways_.first(fragments_.count);
     uint64_t wanted = trail_.count;
-    for (uint32_t i = 0; i < fragments_.count; ++i)
-        wanted += ways[i].blobs;
+    for (const FragmentWay& way : ways)
+        wanted += way.blobs;
     try {
         trail_.reserve(size_t(std::min<uint64_t>(wanted, trail_.capacity())));
     } catch (const std::bad_alloc&) { // what there is no memory for counts as dropped
     }
     uint32_t room = uint32_t(trail_.held()) - trail_.count;
-    for (uint32_t i = 0; i < fragments_.count; ++i) {
-        FragmentWay& way = ways[i];
+    for (FragmentWay& way : ways) {
         way.first = trail_.count;
         way.stored = std::min(way.blobs, room);
         trail_.count += way.stored;
@@ -244,6 +286,7 @@ void FragmentsSolver::save(StateWriter& writer) const
 
 void FragmentsSolver::restore(StateReader& reader)
 {
+    open_ = {};
     now_ = reader.value<base::Ticks>(0, kForever, "the clock of fragments is out of range");
     released_ = reader.flag();
     fragments_.restore(reader);

@@ -18,27 +18,50 @@ public:
     /// @param kind of the groups it publishes: first the fragments, then their smoke
     FragmentsSolver(const FragmentsDef& def, base::KindId kind, std::pmr::memory_resource* memory);
 
-    void step(const StepContext& context) override;
-    void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
+    void step(const StepContext& context) override
+    {
+        base::WorkBudget unlimited;
+        proceed(context, unlimited);
+    }
+    bool proceed(const StepContext& context, base::WorkBudget& work) override;
+    void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override
+    {
+        PublicationPlace whole;
+        base::WorkBudget unlimited;
+        proceedPublication(base, snapshot, whole, unlimited);
+    }
+    bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                            PublicationPlace& place, base::WorkBudget& work) const override;
     bool finished(base::Ticks tick) const override;
     uint32_t elementCount() const override { return fragments_.count + trail_.count; }
-    uint64_t workOf(const StepCounters& done) const override;
-    uint64_t shownWork() const override { return uint64_t(fragment_work::kShown * double(elementCount())); }
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
 
 private:
+    /// A step of which some is still to be done.
+    struct OpenStep
+    {
+        base::Ticks tick = -1; ///< at which it begins; -1: there is none
+        bool hasFlown = false; ///< the fragments are at its end; smoke is still to be left
+        uint32_t row = 0;      ///< of the smoke that is next: to move, or to be left
+    };
+    bool moveAll(const TrailStep& step, base::WorkBudget& work);
+    bool leaveAll(const TrailStep& step, base::Ticks begin, base::WorkBudget& work);
+    void leaveRows(const TrailStep& step, base::Ticks begin, uint32_t first, uint32_t last);
     void release(const StepContext& context);
-    void fly(const TrailStep& step, base::Ticks begin, std::span<FragmentWay> ways);
-    void makeRoom(const StepContext& context, std::span<FragmentWay> ways);
+    void fly(const TrailStep& step, base::Ticks begin);
+    void makeRoom(const StepContext& context);
     void publishFragments(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
-    void publishTrail(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
+    void openTrail(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const;
+    void writeTrail(uint32_t solver, uint32_t begin, uint32_t end, class BlobWriter& writer) const;
 
     const FragmentsDef& def_;
     base::KindId kind_;
     base::Ticks start_;
     FragmentStore fragments_;
     TrailStore trail_;
+    base::Column<FragmentWay> ways_; ///< of the fragments, in the step in hand
+    OpenStep open_;
     base::Ticks now_ = 0; ///< end of the last step
     bool released_ = false;
 };

@@ -71,14 +71,14 @@ uint32_t blobsAlong(float length, float due, float spacing)
 }
 
 void leaveSmoke(const TrailStep& s, const FragmentStore& fragments, uint32_t row, const FragmentWay& way,
-                base::Ticks begin, TrailStore& trail)
+                base::Ticks begin, const SmokeRows& rows, TrailStore& trail)
 {
     const TrailDef& def = s.def.trail;
     const float thickness = std::sqrt(fragments.at(fragment_column::Size)[row] / s.def.size.max);
     const float heat = (fragments.at(fragment_column::Temperature)[row] - def.coldest) /
                        std::max(fragments.at(fragment_column::Hottest)[row] - def.coldest, 1.0f);
-    for (uint32_t j = 0; j < way.stored; ++j) {
-        const uint32_t i = way.first + j;
+    for (uint32_t i = rows.begin; i < rows.end; ++i) {
+        const uint32_t j = i - way.first;
         const uint64_t id = trailId(fragments.number[row], fragments.trailed[row] + j);
         const std::array<float, 4> u =
             base::randomUnit4(s.step.seed, s.step.solverIndex, id, RandomPurpose::Gas);

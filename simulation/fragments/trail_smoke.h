@@ -68,10 +68,17 @@ struct FragmentWay
 /// n of (2): how many blobs a way leaves.
 uint32_t blobsAlong(float length, float due, float spacing);
 
-/// Fills the rows of the smoke that fragment `row` leaves on `way`, as they are at the end of the step.
+/// Rows that follow each other.
+struct SmokeRows
+{
+    uint32_t begin;
+    uint32_t end;
+};
+
+/// Fills `rows` of the smoke that fragment `row` leaves on `way`, as they are at the end of the step.
 /// @param begin local time at which the way begins
 void leaveSmoke(const TrailStep& step, const FragmentStore& fragments, uint32_t row, const FragmentWay& way,
-                base::Ticks begin, TrailStore& trail);
+                base::Ticks begin, const SmokeRows& rows, TrailStore& trail);
 
 /// Moves the rows [begin, end) through the whole step.
 void moveSmoke(const TrailStep& step, TrailStore& trail, uint32_t begin, uint32_t end);

@@ -138,7 +138,7 @@ double shownWork(Appearance kind)
 {
     if (kind == Appearance::None)
         return 0.0;
-    return kind == Appearance::Medium ? emitter_work::kMedium : emitter_work::kDrawn;
+    return kind == Appearance::Medium ? emitter_work::kListed + emitter_work::kMedium : emitter_work::kDrawn;
 }
 
 size_t bytesMoved(const ParticleProgram& program)

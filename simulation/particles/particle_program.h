@@ -99,8 +99,12 @@ constexpr double kMoved = 3.0;  ///< of each particle whose motion is integrated
 constexpr double kForce = 1.0;  ///< of each module
 constexpr double kOctave = 2.0; ///< of each octave of turbulence
 constexpr double kScan = 1.0;   ///< of each particle whose events somebody asks for
-constexpr double kMedium = 6.0; ///< of each particle of a medium, once a step: to show it
+constexpr double kListed = 0.5; ///< of each particle of a medium, once a step: to find it
+constexpr double kMedium = 5.5; ///< and to show it
 constexpr double kDrawn = 0.5;  ///< of each other one that is drawn
+constexpr double kTrail = 8.0;  ///< of each particle with a trail in a sub-step
+constexpr double kPoint = 3.0;  ///< of each point of a trail, once a step
+constexpr double kLight = 3.0;  ///< of each particle that sheds light, once a step
 } // namespace emitter_work
 
 /// [unit] of base::WorkBudget that one particle counts in a sub-step.

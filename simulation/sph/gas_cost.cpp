@@ -41,7 +41,8 @@ double GasDef::workOf(const StepLoad& load) const
         count * double(quality.neighbors) * double(gas_work::kPair) / double(gas_work::kParts);
     const double one =
         count * (double(gas_work::kParticle) / double(gas_work::kParts) + double(gas_work::kEvaluation));
-    return slices * count * double(kGasExchangeWork) + kActiveShare * subSteps * (one + pairs);
+    return count * (slices * double(kGasExchangeWork) + double(kGasShownWork)) +
+           kActiveShare * subSteps * (one + pairs);
 }
 
 } // namespace fx::sim

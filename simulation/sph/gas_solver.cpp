@@ -109,6 +109,13 @@ GasSolver::GasSolver(const GasDef& def, const Quality& quality, base::KindId kin
       released_(def.start > 0.0f ? base::toTicks(std::min(double(def.start), 1e9)) : 0)
 {}
 
+/// Whether the step releases the gas, and what that counts is better spent in the next update.
+bool GasSolver::waitsForRelease(const StepContext& context, const base::WorkBudget& work) const
+{
+    const bool isDue = !begun_ && !done_ && context.tick + context.stepTicks > released_;
+    return isDue && work.spent() > 0 && work.left() < particles_ * kGasReleaseWork;
+}
+
 /// @return false when there is nothing to be done in the step
 bool GasSolver::begin(const StepContext& context, base::WorkBudget& work)
 {
@@ -129,6 +136,8 @@ bool GasSolver::begin(const StepContext& context, base::WorkBudget& work)
 
 bool GasSolver::proceed(const StepContext& context, base::WorkBudget& work)
 {
+    if (open_.tick != context.tick && waitsForRelease(context, work))
+        return false;
     if (open_.tick != context.tick && !begin(context, work))
         return true;
     const std::span<glm::vec3> before = ways(context);
@@ -140,6 +149,8 @@ bool GasSolver::proceed(const StepContext& context, base::WorkBudget& work)
             work.spend(uint64_t(particles_) * kGasExchangeWork);
             if (context.collider)
                 rememberPlaces(gas_.view(), before);
+            if (work.isSpent())
+                return false;
         }
         const base::Result<AdvanceReport> report = gas_.advance(open_.slice, *context.tasks, work);
         if (gas_.isAdvancing())

@@ -18,7 +18,8 @@ constexpr double kGasCourant = 0.6;
 
 // [unit] of base::WorkBudget, for each particle
 constexpr uint64_t kGasReleaseWork = 200;
-constexpr uint64_t kGasExchangeWork = 45;
+constexpr uint64_t kGasExchangeWork = 80;
+constexpr uint64_t kGasShownWork = 12;
 constexpr uint64_t kGasBytes = 1500; ///< [byte] of each particle, about, lists of neighbors included
 
 /// [m] Support of particles with so many neighbors that fill a ball of `radius` evenly.
@@ -41,6 +42,7 @@ public:
     }
     bool proceed(const StepContext& context, base::WorkBudget& work) override;
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
+    uint64_t shownWork() const override { return kGasShownWork * elementCount(); }
     bool finished(base::Ticks) const override { return done_; }
     uint32_t elementCount() const override { return done_ ? 0 : gas_.count(); }
     void save(StateWriter& writer) const override;
@@ -55,6 +57,7 @@ private:
         double left = 0;       ///< [s] of that, from the beginning of the slice in hand
         double slice = 0;      ///< [s] of gas dynamics between two exchanges; 0 between slices
     };
+    bool waitsForRelease(const StepContext& context, const base::WorkBudget& work) const;
     bool begin(const StepContext& context, base::WorkBudget& work);
     bool release(const StepContext& context);
     std::span<glm::vec3> ways(const StepContext& context);

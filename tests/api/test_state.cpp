@@ -105,6 +105,22 @@ TEST_F(StateApi, restoredTrailsHashAsWhenTheyWereSaved)
     EXPECT_EQ(hash(), shown);
 }
 
+TEST_F(StateApi, aPresetThatIsLoadedTwiceIsOneToAState)
+{
+    FxInstanceDef def = instanceDef();
+    FxInstanceId id{};
+    for (int i = 0; i < 2; ++i) {
+        def.preset = loadText(context_, smallBlastPreset());
+        ASSERT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK);
+    }
+    play(10);
+    const uint64_t before = simulationHash();
+    const std::vector<std::byte> state = savedState();
+    ASSERT_EQ(restore(state), FX_OK);
+    EXPECT_EQ(simulationHash(), before);
+    EXPECT_EQ(savedState(), state);
+}
+
 TEST_F(StateApi, anotherSceneOfTheSamePresetsContinuesTheSame)
 {
     play(30);

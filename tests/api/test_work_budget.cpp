@@ -1,221 +1,26 @@
 // An update does no more work than it is granted; what is left is done later, with the same results.
-#include "tests/api/api_fixture.h"
+#include "tests/api/budget_host.h"
 
-#include <map>
-#include <ostream>
+#include <utility>
 
-using fx::test::kFrame;
-using fx::test::loadText;
+using namespace fx::test;
 
 namespace {
 
-/// A preset of much work, in small.
-struct Heavy
-{
-    const char* name;
-    const char* preset;
-    uint64_t piece;  ///< [unit] no less than its largest piece of work that is not divided, and showing it
-    uint64_t budget; ///< [unit] less than its steps take
-    bool needsGas = false;
-};
-
-void PrintTo(const Heavy& heavy, std::ostream* out)
-{
-    *out << heavy.name;
-}
-
-/// `count` elements of a list, of which each is `element` with its number in the place of every '#'.
-std::string listOf(int count, const std::string& element)
+/// Six emitters in eight sub-steps, which take several updates of kBusyBudget.
+std::string busyPreset()
 {
     std::string list;
-    for (int i = 0; i < count; ++i)
-        for (const char c : (i > 0 ? "," : "") + element)
-            list += c == '#' ? std::to_string(i) : std::string(1, c);
-    return "[" + list + "]";
+    for (int i = 0; i < 6; ++i)
+        list += std::string(i > 0 ? "," : "") + R"({"name":"e)" + std::to_string(i) +
+                R"(","maxParticles":2000,"lifetime":0.3,"radius":0.1,"emission":{"rate":20000},
+                   "forces":{"curlStrength":1,"curlOctaves":4,"drag":1}})";
+    return R"({"version":1,"duration":20,"subSteps":8,"emitters":[)" + list + "]}";
 }
 
-/// Each particle that is born in one of them causes births in the next.
-std::string fanOf(int emitters)
-{
-    std::string list;
-    for (int i = 0; i < emitters; ++i) {
-        const std::string number = std::to_string(i), next = std::to_string(i + 1);
-        list += std::string(i > 0 ? "," : "") + R"({"name":"e)" + number +
-                R"(","maxParticles":2000,"lifetime":0.05,"radius":0.1)";
-        list += i == 0 ? R"(,"emission":{"rate":600})" : "";
-        list +=
-            i + 1 < emitters ? R"(,"events":[{"on":"birth","emit":"e)" + next + R"(","count":4096}]})" : "}";
-    }
-    return "[" + list + "]";
-}
-
-std::string presetOf(const Heavy& heavy)
-{
-    const std::string name = heavy.name;
-    std::string parts;
-    if (name == "fan")
-        parts = R"("emitters":)" + fanOf(8);
-    else if (name == "gas")
-        parts = R"("gas":)" + listOf(3, heavy.preset);
-    else if (name == "fragments")
-        parts = R"("fragments":)" + listOf(6, heavy.preset);
-    else
-        parts = std::string(heavy.preset).front() == '['
-                    ? R"("emitters":)" + std::string(heavy.preset)
-                    : R"("subSteps":8,"emitters":)" + listOf(6, heavy.preset);
-    return R"({"version":1,"duration":20,)" + parts + "}";
-}
-
-constexpr Heavy kHeavy[] = {
-    {"gas", R"({"particles":150,"soundSpeed":0,"pressureRatio":100,"material":"tnt"})", 150 * 200 + 40'000,
-     60'000, true},
-    {"fan", "", 30'000 + 8 * 2000 * 6, 30'000},
-    {"pairs", R"([{"name":"a","maxParticles":500,"lifetime":1,"emission":{"rate":3000},"events":[
-        {"on":"age","age":0.001,"every":0.01,"emit":"b","count":65536},
-        {"on":"age","age":0.002,"every":0.01,"emit":"b","count":65536}]},
-        {"name":"b","maxParticles":1,"lifetime":0.01}])",
-     20'000, 3'000},
-    {"subSteps", R"({"name":"e#","maxParticles":2000,"lifetime":0.3,"radius":0.1,"emission":{"rate":20000},
-        "forces":{"curlStrength":1,"curlOctaves":4,"drag":1}})",
-     2000 * 16 + 6 * 2000 * 6, 60'000},
-    {"fragments",
-     R"({"count":60,"lifetime":30,"speed":200,"trail":{"spacing":0.01,"maxBlobs":2000,"lifetime":30}})",
-     2060 * 24 + 6 * 2060 * 6, 40'000},
-};
-
-FxSceneStatistics statisticsOf(FxScene* scene)
-{
-    FxSceneStatistics statistics = {};
-    statistics.structSize = sizeof statistics;
-    EXPECT_EQ(fxScene_GetStatistics(scene, &statistics), FX_OK);
-    return statistics;
-}
-
-uint64_t hashOf(FxScene* scene)
-{
-    uint64_t hash = 0;
-    EXPECT_EQ(fxScene_GetStateHash(scene, &hash), FX_OK);
-    return hash;
-}
-
-uint64_t simulationHashOf(FxScene* scene)
-{
-    uint64_t hash = 0;
-    EXPECT_EQ(fxScene_GetSimulationHash(scene, &hash), FX_OK);
-    return hash;
-}
-
-/// A scene of a context of its own.
-class Host
-{
-public:
-    explicit Host(uint64_t budget, uint32_t workers = 1, int64_t longestDebt = 30 * FX_TICKS_PER_SECOND)
-    {
-        FxContextDef contextDef = fxDefaultContextDef();
-        contextDef.workers = workers;
-        EXPECT_EQ(fxCreateContext(&contextDef, &context_), FX_OK);
-        FxSceneDef def = fxDefaultSceneDef();
-        def.workBudget = budget;
-        def.maxCatchUpTicks = longestDebt;
-        EXPECT_EQ(fxCreateScene(context_, &def, &scene_), FX_OK);
-    }
-    ~Host() { fxDestroyContext(context_); }
-    Host(const Host&) = delete;
-    Host& operator=(const Host&) = delete;
-
-    FxInstanceId add(const std::string& preset, uint64_t seed = 7)
-    {
-        FxInstanceDef def = fxDefaultInstanceDef();
-        def.preset = loadText(context_, preset);
-        def.seed = seed;
-        FxInstanceId id = {};
-        EXPECT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK);
-        return id;
-    }
-    FxSceneStatistics update(double seconds)
-    {
-        EXPECT_EQ(fxScene_Update(scene_, seconds), FX_OK);
-        return statisticsOf(scene_);
-    }
-    /// Updates by nothing until the debt is paid.
-    void payDebt()
-    {
-        for (int i = 0; i < 100'000 && update(0.0).timeDebtTicks > 0; ++i) {
-        }
-        EXPECT_EQ(statisticsOf(scene_).timeDebtTicks, 0);
-    }
-    FxInstanceState stateOf(FxInstanceId id)
-    {
-        FxInstanceState state = FX_INSTANCE_FINISHED;
-        EXPECT_EQ(fxScene_GetInstanceState(scene_, id, &state, nullptr), FX_OK);
-        return state;
-    }
-    FxScene* scene() { return scene_; }
-
-private:
-    FxContext* context_ = nullptr;
-    FxScene* scene_ = nullptr;
-};
-
-class HeavyPreset : public ::testing::TestWithParam<Heavy>
-{};
-
-INSTANTIATE_TEST_SUITE_P(Each, HeavyPreset, ::testing::ValuesIn(kHeavy),
-                         [](const auto& each) { return std::string(each.param.name); });
+constexpr uint64_t kBusyBudget = 60'000; ///< [unit]
 
 } // namespace
-
-TEST_P(HeavyPreset, staysWithinTheBudgetAndGivesTheSameBits)
-{
-    const Heavy& heavy = GetParam();
-    if (heavy.needsGas)
-        FX_NEEDS_GAS();
-    constexpr int kFrames = 8;
-    Host free(0), bounded(heavy.budget);
-    for (Host* const host : {&free, &bounded})
-        host->add(presetOf(heavy));
-    std::map<int64_t, uint64_t> expected; // by scene time
-    uint64_t whole = 0;
-    for (int i = 0; i < kFrames; ++i) {
-        const FxSceneStatistics statistics = free.update(kFrame);
-        EXPECT_EQ(statistics.timeDebtTicks, 0);
-        whole = std::max(whole, statistics.updateWork);
-        expected[statistics.simulatedTick] = hashOf(free.scene());
-    }
-    ASSERT_GT(whole, 2 * heavy.budget) << "too little work to be divided";
-    int64_t debt = 0;
-    for (int i = 0; i < 100'000 && (i < kFrames || debt > 0); ++i) {
-        const FxSceneStatistics statistics = bounded.update(i < kFrames ? kFrame : 0.0);
-        EXPECT_LE(statistics.updateWork, heavy.budget + heavy.piece) << "update " << i;
-        EXPECT_GT(statistics.updateWork, 0u);
-        EXPECT_TRUE(i != kFrames - 1 || statistics.timeDebtTicks > 0);
-        debt = statistics.timeDebtTicks;
-        EXPECT_EQ(statistics.nowTick - statistics.simulatedTick, debt);
-        if (statistics.simulatedTick > 0) {
-            EXPECT_EQ(hashOf(bounded.scene()), expected[statistics.simulatedTick]) << "update " << i;
-        }
-    }
-    EXPECT_EQ(debt, 0);
-    EXPECT_EQ(simulationHashOf(bounded.scene()), simulationHashOf(free.scene()));
-    EXPECT_EQ(statisticsOf(bounded.scene()).born, statisticsOf(free.scene()).born);
-    EXPECT_EQ(statisticsOf(bounded.scene()).dropped, statisticsOf(free.scene()).dropped);
-}
-
-TEST_P(HeavyPreset, isDividedAtTheSamePlacesForAnyNumberOfThreads)
-{
-    const Heavy& heavy = GetParam();
-    if (heavy.needsGas)
-        FX_NEEDS_GAS();
-    Host one(heavy.budget, 1), two(heavy.budget, 2);
-    for (Host* const host : {&one, &two})
-        host->add(presetOf(heavy));
-    for (int i = 0; i < 12; ++i) {
-        const FxSceneStatistics a = one.update(kFrame), b = two.update(kFrame);
-        EXPECT_EQ(a.simulatedTick, b.simulatedTick);
-        EXPECT_EQ(a.updateWork, b.updateWork);
-        EXPECT_EQ(hashOf(one.scene()), hashOf(two.scene()));
-    }
-}
 
 namespace {
 
@@ -285,12 +90,11 @@ TEST(WorkBudget, seekingFarIsSpreadOverUpdates)
 
 TEST(WorkBudget, whatTheHostDoesWhileAStepIsInHandHoldsFromItsEndOn)
 {
-    const Heavy& heavy = kHeavy[3];
-    Host one(heavy.budget, 1), two(heavy.budget, 2);
+    Host one(kBusyBudget, 1), two(kBusyBudget, 2);
     uint64_t hashes[2] = {};
     for (int h = 0; h < 2; ++h) {
         Host& host = h == 0 ? one : two;
-        const FxInstanceId first = host.add(presetOf(heavy), 1), second = host.add(presetOf(heavy), 2);
+        const FxInstanceId first = host.add(busyPreset(), 1), second = host.add(busyPreset(), 2);
         ASSERT_GT(host.update(kFrame).timeDebtTicks, 0);
         const double position[3] = {1, 2, 3};
         const float rotation[4] = {0, 0, 0, 1};
@@ -302,7 +106,7 @@ TEST(WorkBudget, whatTheHostDoesWhileAStepIsInHandHoldsFromItsEndOn)
         EXPECT_EQ(fxScene_SetInstanceSpeed(host.scene(), first, 2.0f), FX_OK);
         EXPECT_EQ(fxScene_DestroyInstance(host.scene(), second), FX_OK);
         EXPECT_EQ(fxScene_DestroyInstance(host.scene(), second), FX_ERROR_STALE_ID);
-        const FxInstanceId third = host.add(presetOf(heavy), 3);
+        const FxInstanceId third = host.add(busyPreset(), 3);
         EXPECT_EQ(host.stateOf(third), FX_INSTANCE_DORMANT);
         EXPECT_EQ(fxScene_SeekInstance(host.scene(), first, 0.1), FX_OK);
         for (int i = 0; i < 6; ++i)
@@ -317,17 +121,16 @@ TEST(WorkBudget, whatTheHostDoesWhileAStepIsInHandHoldsFromItsEndOn)
 
 TEST(WorkBudget, aStepInHandIsCompleteBeforeAStateIsSaved)
 {
-    const Heavy& heavy = kHeavy[3];
-    Host host(heavy.budget), other(0), free(0);
-    host.add(presetOf(heavy));
-    free.add(presetOf(heavy));
+    Host host(kBusyBudget), other(0), free(0);
+    host.add(busyPreset());
+    free.add(busyPreset());
     ASSERT_GT(host.update(kFrame).timeDebtTicks, 0);
     size_t size = 0;
     ASSERT_EQ(fxScene_SaveState(host.scene(), nullptr, 0, &size), FX_OK);
     std::vector<std::byte> state(size);
     ASSERT_EQ(fxScene_SaveState(host.scene(), state.data(), size, &size), FX_OK);
     EXPECT_EQ(statisticsOf(host.scene()).timeDebtTicks, 0);
-    other.add(presetOf(heavy)); // so that the preset is known
+    other.add(busyPreset()); // so that the preset is known
     ASSERT_EQ(fxScene_RestoreState(other.scene(), state.data(), size), FX_OK);
     free.update(kFrame);
     EXPECT_EQ(simulationHashOf(host.scene()), simulationHashOf(free.scene()));
@@ -341,12 +144,168 @@ TEST(WorkBudget, aStepInHandIsCompleteBeforeAStateIsSaved)
     EXPECT_EQ(hashOf(other.scene()), hashOf(free.scene()));
 }
 
+namespace {
+
+/// An emitter so large that a budget of 30'000 shows it in several updates, and does little else.
+std::string largePreset()
+{
+    return R"({"version":1,"duration":60,"emitters":[{"name":"e","maxParticles":20000,"lifetime":20,
+               "radius":0.1,"emission":{"bursts":[{"time":0,"count":20000}]}}]})";
+}
+
+/// Scene time of the newest snapshot.
+int64_t newestOf(FxScene* scene)
+{
+    FxSnapshotId snapshot{};
+    EXPECT_EQ(fxScene_AcquireSnapshot(scene, &snapshot), FX_OK);
+    FxSnapshotInfo info{};
+    info.structSize = sizeof info;
+    EXPECT_EQ(fxScene_GetSnapshotInfo(scene, snapshot, &info), FX_OK);
+    EXPECT_EQ(fxScene_ReleaseSnapshot(scene, snapshot), FX_OK);
+    return info.tickNewer;
+}
+
+} // namespace
+
+TEST(WorkBudget, readersKeepTheLastCompleteSnapshotWhileTheNextIsWritten)
+{
+    Host host(30'000);
+    host.add(largePreset());
+    int waited = 0;
+    int64_t before = 0;
+    for (int i = 0; i < 60; ++i) {
+        const FxSceneStatistics statistics = host.update(kFrame);
+        const int64_t newest = newestOf(host.scene());
+        EXPECT_EQ(newest, statistics.simulatedTick) << "what is shown is complete";
+        waited += newest == before ? 1 : 0;
+        before = newest;
+    }
+    EXPECT_GT(waited, 30);
+    EXPECT_GT(before, 0);
+}
+
+TEST(WorkBudget, whatTheHostDoesWhileAStepIsPublishedHoldsFromTheNextOn)
+{
+    Host host(30'000), free(0);
+    const FxInstanceId id = host.add(largePreset()), other = host.add(largePreset());
+    free.add(largePreset());
+    free.add(largePreset());
+    int updates = 0;
+    while (host.update(updates == 0 ? kFrame : 0.0).timeDebtTicks > 0 && ++updates < 6) {
+    }
+    ASSERT_EQ(updates, 6) << "births take four updates, publication takes more";
+    const double position[3] = {1, 2, 3};
+    const float rotation[4] = {0, 0, 0, 1};
+    EXPECT_EQ(fxScene_SetTransform(host.scene(), id, position, rotation, 1.0f), FX_OK);
+    EXPECT_EQ(fxScene_SeekInstance(host.scene(), other, 1.0), FX_OK);
+    EXPECT_EQ(fxScene_DestroyInstance(host.scene(), other), FX_OK);
+    while (host.update(0.0).timeDebtTicks > 0) {
+    }
+    free.update(kFrame);
+    EXPECT_EQ(hashOf(host.scene()), hashOf(free.scene())) << "the step is shown as it began";
+    host.update(kFrame);
+    host.payDebt();
+    EXPECT_EQ(statisticsOf(host.scene()).instances, 1u);
+    Host after(0);
+    FxInstanceId moved = after.add(largePreset());
+    after.update(kFrame);
+    EXPECT_EQ(fxScene_SetTransform(after.scene(), moved, position, rotation, 1.0f), FX_OK);
+    after.update(kFrame);
+    EXPECT_EQ(hashOf(host.scene()), hashOf(after.scene()));
+}
+
+TEST(WorkBudget, aStepThatIsPublishedIsCompleteBeforeAStateIsSavedOrRestored)
+{
+    Host host(30'000), free(0);
+    for (Host* const each : {&host, &free})
+        each->add(largePreset());
+    free.update(kFrame);
+    host.update(kFrame);
+    for (int i = 0; i < 3; ++i)
+        ASSERT_GT(host.update(0.0).timeDebtTicks, 0);
+    EXPECT_EQ(simulationHashOf(host.scene()), simulationHashOf(free.scene()));
+    EXPECT_EQ(statisticsOf(host.scene()).timeDebtTicks, 0);
+    EXPECT_EQ(hashOf(host.scene()), hashOf(free.scene()));
+    size_t size = 0;
+    ASSERT_EQ(fxScene_SaveState(host.scene(), nullptr, 0, &size), FX_OK);
+    std::vector<std::byte> state(size);
+    ASSERT_EQ(fxScene_SaveState(host.scene(), state.data(), size, &size), FX_OK);
+    host.update(kFrame); // the next is in hand
+    ASSERT_GT(statisticsOf(host.scene()).timeDebtTicks, 0);
+    ASSERT_EQ(fxScene_RestoreState(host.scene(), state.data(), size), FX_OK);
+    EXPECT_EQ(hashOf(host.scene()), hashOf(free.scene()));
+}
+
+TEST(WorkBudget, theHostMaySpeakToAnInstanceThatEndsWithTheStepInHand)
+{
+    const std::string preset = R"({"version":1,"duration":0.01,"emitters":[{"name":"e","maxParticles":20000,
+        "lifetime":1,"emission":{"bursts":[{"time":0,"count":20000}]},"forces":{"curlStrength":1}}]})";
+    Host host(30'000);
+    const FxInstanceId id = host.add(preset);
+    ASSERT_GT(host.update(kFrame).timeDebtTicks, 0);
+    FxInstanceParameters parameters = fxDefaultInstanceParameters();
+    parameters.intensity = 0.5f;
+    EXPECT_EQ(fxScene_SetParameters(host.scene(), id, &parameters), FX_OK);
+    host.payDebt();
+    EXPECT_EQ(host.stateOf(id), FX_INSTANCE_FINISHED);
+}
+
+namespace {
+
+/// Two emitters that feel a wind, one of which gives birth in the other.
+std::string linkedPreset()
+{
+    return R"({"version":1,"duration":60,"emitters":[{"name":"a","maxParticles":300,"lifetime":1,
+        "emission":{"rate":250},"forces":{"curlStrength":1,"drag":1},
+        "events":[{"on":"age","age":0.5,"emit":"b","count":3}]},
+        {"name":"b","maxParticles":900,"lifetime":1,"forces":{"curlStrength":1,"drag":1}}]})";
+}
+
+} // namespace
+
+TEST(WorkBudget, aSeekThatRunsOutOfMemoryOnItsWayChangesNothingAndGoesOn)
+{
+    for (const auto& [preset, budget] :
+         {std::pair(swirlPreset(0), uint64_t(60'000)), std::pair(linkedPreset(), uint64_t(200'000))})
+    {
+        int failures = 0;
+        for (int late = 0; late < 8; ++late) {
+            HostAllocator memory;
+            Host free(0), bounded(budget, 1, 30 * FX_TICKS_PER_SECOND, &memory);
+            const FxInstanceId there = free.add(preset), id = bounded.add(preset);
+            for (Host* const host : {&free, &bounded}) {
+                host->update(kFrame);
+                ASSERT_EQ(fxScene_SeekInstance(host->scene(), host == &free ? there : id, 3.0), FX_OK);
+                for (int i = 0; i < late; ++i)
+                    host->update(kFrame);
+            }
+            ASSERT_EQ(bounded.stateOf(id), FX_INSTANCE_WAKING);
+            for (int i = 0; i < 3; ++i) {
+                free.update(kFrame);
+                memory.failFrom(1);
+                const FxResult result = fxScene_Update(bounded.scene(), kFrame);
+                memory.failFrom(0);
+                EXPECT_TRUE(result == FX_OK || result == FX_ERROR_OUT_OF_MEMORY);
+                failures += result == FX_ERROR_OUT_OF_MEMORY ? 1 : 0;
+            }
+            if (late % 2 == 0) {
+                EXPECT_EQ(simulationHashOf(bounded.scene()), simulationHashOf(free.scene())) << late;
+            }
+            for (int i = 0; i < 400 && bounded.stateOf(id) == FX_INSTANCE_WAKING; ++i)
+                for (Host* const host : {&free, &bounded})
+                    host->update(kFrame);
+            EXPECT_EQ(bounded.stateOf(id), FX_INSTANCE_ACTIVE);
+            EXPECT_EQ(simulationHashOf(bounded.scene()), simulationHashOf(free.scene())) << late;
+        }
+        EXPECT_GT(failures, 0);
+    }
+}
+
 TEST(WorkBudget, debtBeyondTheLongestAbsenceIsDroppedAndCounted)
 {
-    const Heavy& heavy = kHeavy[3];
     const int64_t longest = FX_TICKS_PER_SECOND / 10;
-    Host host(heavy.budget, 1, longest);
-    host.add(presetOf(heavy));
+    Host host(kBusyBudget, 1, longest);
+    host.add(busyPreset());
     FxSceneStatistics statistics = {};
     for (int i = 0; i < 60; ++i) {
         statistics = host.update(kFrame);

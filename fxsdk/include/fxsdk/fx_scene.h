@@ -363,15 +363,15 @@ FX_API FxResult fxScene_SetContactHook(FxScene* scene, const FxContactHook* hook
 /// Adds time and takes the steps that are due, then publishes the last two of them for views and hosts.
 /// Allocates nothing once the scene is warm, except when an instance wakes. [scene thread]
 ///
-/// An update spends at most FxSceneDef::workBudget, and what the piece of work that exceeds it still takes: a
-/// sub-step of one emitter or one burst of fragments, of one gas a sub-step of its own, and showing a
-/// complete step. Work is counted, not timed, so that equal calls stop at the same place on every machine. A
-/// step that is not complete goes on with the next update; until then views see the last complete one, and
+/// An update spends at most FxSceneDef::workBudget, and what the piece of work that exceeds it still takes:
+/// some thousand particles, or of one gas a sub-step of its own. Publishing is counted and divided as well.
+/// Work is counted, not timed, so that equal calls stop at the same place on every machine. A step that is
+/// not complete and published goes on with the next update; until then views see the last one that is, and
 /// scene time is behind: FxSceneStatistics::timeDebtTicks. Debt beyond maxCatchUpTicks is dropped and counted
 /// as droppedTicks. All steps give the bits that they give without a budget. Prewarm and seeks that the
 /// budget does not cover make their instance wait (FX_INSTANCE_WAKING) while the others go on.
-/// While a step is not complete, transforms, parameters, speeds, triggers, seeks and new instances hold from
-/// its end on, and destroyed instances are no longer shown. fxScene_SaveState, fxScene_GetSimulationHash,
+/// Until it is, transforms, parameters, speeds, triggers, seeks and new instances hold from the next step
+/// on, and destroyed instances are shown in no later one. fxScene_SaveState, fxScene_GetSimulationHash,
 /// fxScene_SetCollisionMesh and fxScene_SetContactHook complete it first, however long that takes;
 /// fxScene_GetStateHash tells of what was published last.
 /// @param dtSeconds [s] >= 0; 0 takes no step, and shows what fxScene_SeekInstance() has changed; more than

@@ -84,9 +84,9 @@ struct GasDynamicsDef
 /// What sub-steps count, in units of base::WorkBudget.
 namespace gas_work {
 constexpr uint64_t kParts = 16;
-constexpr uint64_t kParticle = 24;   ///< of kParts, for each particle there is: prediction, search
-constexpr uint64_t kEvaluation = 30; ///< for each whose rates are evaluated, pairs apart
-constexpr uint64_t kPair = 12;       ///< of kParts, for each ordered pair
+constexpr uint64_t kParticle = 36;   ///< of kParts, for each particle there is: prediction, search
+constexpr uint64_t kEvaluation = 40; ///< for each whose rates are evaluated, pairs apart
+constexpr uint64_t kPair = 15;       ///< of kParts, for each ordered pair
 } // namespace gas_work
 
 /// Sums over all particles, in double, in a fixed order.

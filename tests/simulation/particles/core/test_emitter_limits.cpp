@@ -112,3 +112,23 @@ TEST(EmitterLimits, afterTheFirstStepsNothingIsAllocated)
         EXPECT_EQ(stage.memory().allocationCount(), before);
     }
 }
+
+/// 100 rows, 1000 births a second, all of which live 0.95 s: a row is free again for the tenth birth that
+/// asks for it, so the births of every tenth lap of the ring live and no others.
+TEST(EmitterLimits, aFullEmitterTakesTheBirthsOfEveryTenthLap)
+{
+    for (const base::Ticks ticks : {kStep, kStep / 7 + 1, 10 * kStep}) {
+        Stage stage;
+        auto def = spriteEmitter(1000.0f, {0.95f, 0.95f});
+        def->maxParticles = 100;
+        stage.add({}, std::move(def));
+        uint64_t born = 0;
+        while (born < 2500) {
+            stage.step(ticks);
+            born = stage.counters().born;
+            const uint64_t laps = born / 100, rest = born % 100;
+            const uint64_t stored = 100 * ((laps + 9) / 10) + (laps % 10 == 0 ? rest : 0);
+            ASSERT_EQ(stage.counters().dropped, born - stored) << born;
+        }
+    }
+}

@@ -172,7 +172,7 @@ TEST(EventBoard, isReadInTheOrderOfTicks)
 {
     base::HostMemory memory;
     base::Arena arena(&memory);
-    EventBoard board(arena, 2, [](size_t) { return 1u; });
+    EventBoard board(arena, 1, 2, [](size_t) { return 1u; });
     const auto at = [](base::Ticks tick, uint32_t rule) {
         EventBirth birth{};
         birth.cause.tick = tick;
@@ -182,6 +182,8 @@ TEST(EventBoard, isReadInTheOrderOfTicks)
     };
     for (const EventBirth& birth : {at(5, 0), at(1, 0), at(3, 0), at(1, 1)})
         board.post(1, birth);
+    base::WorkBudget unlimited;
+    ASSERT_TRUE(board.order(1, unlimited));
     const auto read = board.read(1).births;
     ASSERT_EQ(read.size(), 4u);
     EXPECT_EQ(read[0].cause.tick, 1);
@@ -196,13 +198,15 @@ TEST(EventBoard, keepsTheFirstEventsThatFillTheRoomAndCountsAll)
     base::HostMemory memory;
     base::Arena arena(&memory);
     constexpr uint32_t kRoom = 2 * kFewestFed, kCount = 100, kEvents = 5000;
-    EventBoard board(arena, 1, [](size_t) { return kRoom; });
+    EventBoard board(arena, 1, 1, [](size_t) { return kRoom; });
     for (uint32_t i = 0; i < kEvents; ++i) {
         EventBirth birth{};
         birth.cause.tick = base::Ticks(i * 7919u % kEvents); // each once, in no order
         birth.count = kCount;
         board.post(0, birth);
     }
+    for (base::WorkBudget work(1000); !board.order(0, work); work = base::WorkBudget(1000))
+        EXPECT_TRUE(work.isSpent());
     const EventRequests requests = board.read(0);
     EXPECT_EQ(requests.asked, uint64_t(kEvents) * kCount);
     ASSERT_EQ(requests.births.size(), (kRoom + kCount - 1) / kCount);

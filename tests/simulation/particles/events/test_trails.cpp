@@ -1,3 +1,4 @@
+#include "simulation/emitters/ribbon_store.h"
 #include "tests/simulation/particles/events/linked.h"
 
 #include <gtest/gtest.h>
@@ -341,4 +342,43 @@ TEST(Trails, aStretchedTextureRunsFromTheEndToTheHead)
     EXPECT_EQ(rows.back().arc, 0.0f);
     for (const RibbonRow& row : rows)
         EXPECT_NEAR(row.arc, 1.0f - row.age / 0.5f, 1e-4f);
+}
+
+/// The trail of one particle that was born at tick 1000 and has come to its head a quarter of a second later,
+/// as bytes in which the next point has the number `next`.
+TEST(Trails, aNumberOfTheNextPointThatIsNotThatOfItsTickIsRefused)
+{
+    using base::Ticks;
+    const std::unique_ptr<EmitterDef> def = comet();
+    std::pmr::memory_resource* const memory = std::pmr::new_delete_resource();
+    const std::shared_ptr<const ParticleProgram> program = def->program.of(*def);
+    ParticleStore particles(*program, memory);
+    particles.advance(1);
+    particles.index[0] = 0;
+    particles.born[0] = 1000;
+    const Ticks head = 1000 + kTicksPerSecond / 4;
+    const Ticks interval = kTicksPerSecond / 2 / (def->trail.maxPoints - 2) + 1;
+    const uint64_t right = uint64_t((head - 1000) / interval) + 1;
+    const auto isTaken = [&](uint64_t next) {
+        StateBuffer bytes(memory);
+        bytes.value(uint32_t(1)); // trails
+        bytes.value(uint32_t(0)); // row
+        bytes.value(uint64_t(0)); // index
+        bytes.value(uint32_t(1)); // points
+        bytes.value(next);
+        bytes.flag(false);
+        bytes.vector(glm::vec3(1.0f));
+        for (const Ticks tick : {head, Ticks(1000)}) {
+            bytes.vector(glm::vec3(0.0f));
+            bytes.value(0.0f);
+            bytes.value(tick);
+        }
+        RibbonStore trails(def->trail, def->maxParticles, memory);
+        StateReader reader(bytes.bytes());
+        trails.restore(reader, particles, head);
+        return reader.ok() && reader.left() == 0;
+    };
+    EXPECT_TRUE(isTaken(right));
+    for (const uint64_t next : {uint64_t(0), right - 1, right + 1, uint64_t(1) << 40, UINT64_MAX})
+        EXPECT_FALSE(isTaken(next)) << next;
 }
