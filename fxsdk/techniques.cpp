@@ -7,10 +7,7 @@
 #if FXSDK_WITH_SPH
 #include "fxsdk/presets/gas_preset.h"
 #endif
-#include "simulation/emitters/emitter_def.h"
-#include "simulation/emitters/gpu_program.h"
 
-#include <algorithm>
 #include <array>
 
 namespace fx::preset {
@@ -24,64 +21,16 @@ constexpr std::array<std::string_view, 2> kGpuPasses{"gpu particles", "gpu parti
 constexpr std::array<std::string_view, 2> kShimmerPasses{"heat offset", "heat shimmer"};
 constexpr std::array<std::string_view, 3> kDazzlePasses{"dazzle sum", "dazzle budget", "dazzle deal"};
 
-using sim::Appearance;
-using sim::EmitterDef;
-
-/// True when one of the effect's emitters is such.
-bool hasEmitter(const sim::EffectDef& effect, bool (*isSuch)(const EmitterDef&))
+/// What is seen may saturate the sensor.
+bool usesDazzle(const sim::EffectDef& effect)
 {
-    return std::any_of(effect.solvers.begin(), effect.solvers.end(), [&](const auto& solver) {
-        const auto* emitter = dynamic_cast<const EmitterDef*>(solver.get());
-        return emitter && isSuch(*emitter);
-    });
-}
-
-/// Gases and fragments are media.
-bool hasMedia(const sim::EffectDef& effect, bool (*isSuch)(const EmitterDef&))
-{
-    return hasEmitter(effect, isSuch) ||
-           std::any_of(effect.solvers.begin(), effect.solvers.end(), [](const auto& solver) {
-               return dynamic_cast<const EmitterDef*>(solver.get()) == nullptr;
-           });
-}
-
-bool usesBillboards(const sim::EffectDef& effect)
-{
-    return hasMedia(effect, [](const EmitterDef& e) { return e.look.kind == Appearance::Medium; });
-}
-
-bool usesSprites(const sim::EffectDef& effect)
-{
-    return hasEmitter(effect, [](const EmitterDef& e) {
-        return e.look.kind == Appearance::Sprite || e.look.kind == Appearance::Mesh;
-    });
-}
-
-bool usesGpu(const sim::EffectDef& effect)
-{
-    return hasEmitter(effect, [](const EmitterDef& e) { return sim::gpuObstacle(e).empty(); });
-}
-
-bool usesRibbons(const sim::EffectDef& effect)
-{
-    return hasEmitter(effect, [](const EmitterDef& e) { return e.trail.lifetime > 0.0f; });
-}
-
-bool usesLights(const sim::EffectDef& effect)
-{
-    return hasEmitter(effect, [](const EmitterDef& e) { return e.light.given; });
+    return effect.publishes(base::kBlobKind) || effect.publishes(base::kParticleKind) ||
+           effect.publishes(base::kRibbonKind);
 }
 
 bool usesShimmer(const sim::EffectDef& effect)
 {
-    return hasMedia(effect,
-                    [](const EmitterDef& e) { return e.look.kind == Appearance::Medium && e.heat > 0.0f; });
-}
-
-/// What is seen may saturate the sensor.
-bool usesDazzle(const sim::EffectDef& effect)
-{
-    return usesBillboards(effect) || usesSprites(effect) || usesRibbons(effect);
+    return effect.bendsLight();
 }
 
 constexpr std::array kTechniques
@@ -92,11 +41,11 @@ constexpr std::array kTechniques
 #if FXSDK_WITH_SPH
         Technique{"sph gas", "gas", "gas.schema.json", buildGas, nullptr, &base::kBlobKind, {}},
 #endif
-        Technique{"spherical billboards", "", "", nullptr, usesBillboards, &base::kBlobKind, kMediaPasses},
-        Technique{"sprites and meshes", "", "", nullptr, usesSprites, &base::kParticleKind, kParticlePasses},
-        Technique{"particles on the GPU", "", "", nullptr, usesGpu, &base::kGpuParticleKind, kGpuPasses},
-        Technique{"ribbons", "", "", nullptr, usesRibbons, &base::kRibbonKind, kMediaPasses},
-        Technique{"particle lights", "", "", nullptr, usesLights, &base::kLightKind, {}},
+        Technique{"spherical billboards", "", "", nullptr, nullptr, &base::kBlobKind, kMediaPasses},
+        Technique{"sprites and meshes", "", "", nullptr, nullptr, &base::kParticleKind, kParticlePasses},
+        Technique{"particles on the GPU", "", "", nullptr, nullptr, &base::kGpuParticleKind, kGpuPasses},
+        Technique{"ribbons", "", "", nullptr, nullptr, &base::kRibbonKind, kMediaPasses},
+        Technique{"particle lights", "", "", nullptr, nullptr, &base::kLightKind, {}},
         Technique{"heat shimmer", "", "", nullptr, usesShimmer, nullptr, kShimmerPasses},
         Technique{"dazzle", "", "", nullptr, usesDazzle, nullptr, kDazzlePasses},
 };
@@ -110,6 +59,12 @@ constexpr std::array kMissing{MissingTechnique{"gas", "FXSDK_WITH_SPH"}};
 std::span<const Technique> techniques()
 {
     return kTechniques;
+}
+
+bool isUsed(const Technique& technique, const sim::EffectDef& effect)
+{
+    return technique.isUsedBy ? technique.isUsedBy(effect)
+                              : technique.kind && effect.publishes(*technique.kind);
 }
 
 std::span<const MissingTechnique> missingTechniques()

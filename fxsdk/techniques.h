@@ -24,7 +24,7 @@ struct Technique
     std::string_view schemaFile;
     /// Reads one validated element and adds its solver to `effect`. Null without a preset member.
     void (*build)(const PresetValue& element, sim::EffectDef& effect);
-    /// Whether an effect makes use of it. Null: of whatever has its preset member.
+    /// Whether an effect makes use of it. Null: an effect that publishes `kind`.
     bool (*isUsedBy)(const sim::EffectDef& effect);
     /// Kind of snapshot data that its solvers publish; null when it publishes none.
     const base::KindDesc* kind;
@@ -40,6 +40,8 @@ struct MissingTechnique
 };
 
 std::span<const Technique> techniques();
+/// Whether an effect makes use of a technique without a preset member.
+bool isUsed(const Technique& technique, const sim::EffectDef& effect);
 std::span<const MissingTechnique> missingTechniques();
 
 /// Registers what the techniques publish. Called once per context.

@@ -53,6 +53,27 @@ struct EffectDef
                            [](const auto& def) { return def->heedsPlacement(); });
     }
 
+    /// True when one of its solvers publishes groups of `kind`.
+    bool publishes(const base::KindDesc& kind) const
+    {
+        return std::any_of(solvers.begin(), solvers.end(),
+                           [&](const auto& def) { return def->publishes(kind); });
+    }
+
+    bool bendsLight() const
+    {
+        return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->bendsLight(); });
+    }
+
+    /// Of all its solvers, which may cause births in each other.
+    Influence influence() const
+    {
+        Influence sum;
+        for (const auto& def : solvers)
+            sum.add(def->influence());
+        return sum;
+    }
+
     /// The preset's choice, or the most careful one that a solver asks for.
     CatchUp catchUp() const
     {

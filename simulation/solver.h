@@ -24,6 +24,10 @@
 #include <memory_resource>
 #include <span>
 
+namespace fx::base {
+struct GpuParticleProgram;
+}
+
 namespace fx::sim {
 
 /// What the host may change on a running instance.
@@ -258,6 +262,23 @@ struct BirthReach
     }
 };
 
+/// For how long, and how, the past of an instance acts on what is alive.
+struct Influence
+{
+    float seconds = 0;  ///< [s] of the instance's time; infinite where it cannot be told
+    float inherits = 0; ///< [1] share of the instance's velocity that particles keep from their birth
+    float extent = 0;   ///< [m] local, of the births of those
+    float drawnOut = 0; ///< [s] by which they are drawn longer for their speed
+
+    void add(const Influence& more)
+    {
+        seconds += more.seconds; // one solver may cause births in another
+        inherits = std::max(inherits, more.inherits);
+        extent = std::max(extent, more.extent);
+        drawnOut = std::max(drawnOut, more.drawnOut);
+    }
+};
+
 /// What is to be expected of a step of a solver.
 struct StepLoad
 {
@@ -277,6 +298,14 @@ public:
                                            std::pmr::memory_resource* memory) const = 0;
     /// Upper bound on elements alive at once, at medium quality.
     virtual uint32_t capacity() const = 0;
+    /// Whether its solvers publish groups of `kind`.
+    virtual bool publishes(const base::KindDesc& kind) const = 0;
+    /// Whether what it publishes is hot enough to bend light.
+    virtual bool bendsLight() const { return false; }
+    /// What the GPU computes instead of its solvers; null where it cannot or shall not. Any thread.
+    virtual std::shared_ptr<const base::GpuParticleProgram> gpuProgram() const { return nullptr; }
+    /// Of the instance's past, unless the host's parameters say more.
+    virtual Influence influence() const { return {.seconds = std::numeric_limits<float>::infinity()}; }
     /// [byte] of memory that a solver takes at the most, at medium quality.
     virtual uint64_t bytes() const { return 0; }
     /// True when its solvers heed StepContext::collider.

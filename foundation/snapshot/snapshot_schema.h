@@ -38,6 +38,9 @@ struct KindDesc
     std::span<const ColumnDesc> constants; ///< per group, F32 only
     bool hasIds = true; ///< elements are sorted by ids; false: the kind says how else one is
                         ///< found again
+
+    /// The name identifies a kind.
+    bool operator==(const KindDesc& other) const { return name == other.name; }
 };
 
 constexpr size_t kMostColumns = 24;   ///< of a kind

@@ -53,9 +53,8 @@ std::vector<std::shared_ptr<const fx::base::GpuParticleProgram>> gpuPrograms(FxC
         return programs;
     context.presets.forEach([&](uint32_t, const std::shared_ptr<const fx::sim::EffectDef>& effect) {
         for (const auto& solver : effect->solvers)
-            if (const auto* emitter = dynamic_cast<const fx::sim::EmitterDef*>(solver.get()))
-                if (const auto program = emitter->program.of(*emitter)->gpu)
-                    programs.push_back(program);
+            if (auto program = solver->gpuProgram())
+                programs.push_back(std::move(program));
     });
     return programs;
 }

@@ -44,8 +44,7 @@ std::string_view obstacleIfAsked(const sim::EmitterDef& emitter)
 std::string gpuObstacleOf(const scene_file::SceneFile& scene)
 {
     for (const scene_file::ScenePreset& preset : scene.presets)
-        for (const auto& solver : preset.effect->solvers) {
-            const auto* emitter = dynamic_cast<const sim::EmitterDef*>(solver.get());
+        for (const sim::EmitterDef* const emitter : sim::emittersOf(*preset.effect)) {
             const std::string_view why = emitter ? obstacleIfAsked(*emitter) : "it is no emitter";
             if (!why.empty())
                 return preset.name + (emitter ? ", emitter " + emitter->name : std::string()) + ": " +

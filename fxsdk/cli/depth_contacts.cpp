@@ -1,21 +1,22 @@
 #include "fxsdk/cli/depth_contacts.h"
 
+#include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/particle_kind.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/emitters/gpu_program.h"
+
+#include <algorithm>
+#include <vector>
 
 namespace fx::cli {
 namespace {
 
-bool shedsLight(const sim::SolverDef& solver)
+bool meetsDepth(const sim::EffectDef& effect)
 {
-    const auto* const emitter = dynamic_cast<const sim::EmitterDef*>(&solver);
-    return !emitter || emitter->look.kind == sim::Appearance::Medium || emitter->light.given;
-}
-
-bool meetsDepth(const sim::SolverDef& solver)
-{
-    const auto* const emitter = dynamic_cast<const sim::EmitterDef*>(&solver);
-    return emitter && emitter->meetsDepth && sim::gpuObstacle(*emitter).empty();
+    const std::vector<const sim::EmitterDef*> emitters = sim::emittersOf(effect);
+    return std::any_of(emitters.begin(), emitters.end(), [](const sim::EmitterDef* emitter) {
+        return emitter && emitter->meetsDepth && sim::gpuObstacle(*emitter).empty();
+    });
 }
 
 } // namespace
@@ -23,12 +24,12 @@ bool meetsDepth(const sim::SolverDef& solver)
 bool showsDepthContacts(const scene_file::SceneFile& file)
 {
     bool isWanted = false;
-    for (const scene_file::SceneInstance& instance : file.instances)
-        for (const auto& solver : file.presets[instance.preset].effect->solvers) {
-            if (shedsLight(*solver))
-                return false;
-            isWanted = isWanted || meetsDepth(*solver);
-        }
+    for (const scene_file::SceneInstance& instance : file.instances) {
+        const sim::EffectDef& effect = *file.presets[instance.preset].effect;
+        if (effect.publishes(base::kBlobKind) || effect.publishes(base::kLightKind))
+            return false;
+        isWanted = isWanted || meetsDepth(effect);
+    }
     return isWanted;
 }
 

@@ -94,8 +94,9 @@ Json callersOf(const preset::Technique& technique, const scene_file::SceneFile& 
             continue;
         const auto& used = file.presets[file.instances[entry["instance"].get<size_t>()].preset];
         const Json text = Json::parse(used.text, nullptr, false);
-        const bool calls = technique.isUsedBy ? technique.isUsedBy(*used.effect)
-                                              : text.contains(std::string(technique.presetMember));
+        const bool calls = technique.presetMember.empty()
+                               ? preset::isUsed(technique, *used.effect)
+                               : text.contains(std::string(technique.presetMember));
         if (calls && std::find(names.begin(), names.end(), used.name) == names.end())
             names.push_back(used.name);
     }
@@ -108,8 +109,7 @@ Json emittersOf(const scene_file::SceneFile& file)
 {
     Json list = Json::array();
     for (const scene_file::ScenePreset& preset : file.presets)
-        for (const auto& solver : preset.effect->solvers) {
-            const auto* emitter = dynamic_cast<const sim::EmitterDef*>(solver.get());
+        for (const sim::EmitterDef* const emitter : sim::emittersOf(*preset.effect)) {
             if (!emitter)
                 continue;
             const std::string_view why = sim::gpuObstacle(*emitter);

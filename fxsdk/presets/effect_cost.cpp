@@ -177,11 +177,10 @@ void adviseCost(const PresetValue& root, const sim::EffectDef& effect, const std
 
 void estimateCost(const PresetValue& root, sim::EffectDef& effect)
 {
-    std::vector<const sim::EmitterDef*> emitters;
+    std::vector<const sim::EmitterDef*> emitters = sim::emittersOf(effect);
+    emitters.resize(root.size("emitters")); // they are the first solvers
     std::vector<Share> shares;
     const double subSteps = double(effect.subSteps);
-    for (size_t i = 0; i < root.size("emitters"); ++i)
-        emitters.push_back(dynamic_cast<const sim::EmitterDef*>(effect.solvers[i].get()));
     const Loads loads = loadsOf(emitters, effect.order, kStep / subSteps);
     bool isClosed = effect.solvers.size() == emitters.size(); // jumps to any time
     double startWork = 0;

@@ -134,9 +134,10 @@ void adviseForces(const PresetValue& element, bool hasGround)
 
 void adviseEmitters(const PresetValue& root, const sim::EffectDef& effect)
 {
+    const std::vector<const sim::EmitterDef*> emitters = sim::emittersOf(effect);
     for (size_t i = 0; i < root.size("emitters"); ++i) {
         const PresetValue element = root.element("emitters", i);
-        const auto& emitter = dynamic_cast<const sim::EmitterDef&>(*effect.solvers[i]);
+        const sim::EmitterDef& emitter = *emitters[i];
         adviseForces(element, effect.hasGround);
         adviseShape(element);
         adviseLook(element, emitter);

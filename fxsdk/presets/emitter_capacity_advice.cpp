@@ -17,9 +17,8 @@ constexpr double kRoundedDown = 1.0 - 1e-6; // by more than floats are rounded u
 
 void adviseCapacity(const PresetValue& root, const sim::EffectDef& effect)
 {
-    std::vector<const sim::EmitterDef*> emitters;
-    for (size_t i = 0; i < root.size("emitters"); ++i)
-        emitters.push_back(dynamic_cast<const sim::EmitterDef*>(effect.solvers[i].get()));
+    std::vector<const sim::EmitterDef*> emitters = sim::emittersOf(effect);
+    emitters.resize(root.size("emitters")); // they are the first solvers
     BirthCount count(emitters);
     for (size_t i = 0; i < emitters.size(); ++i) {
         const PresetValue element = root.element("emitters", i);

@@ -20,8 +20,9 @@ bool isDepth(const PresetValue& collision)
 
 void warnOfDepthOnCpu(const PresetValue& root, const sim::EffectDef& effect)
 {
-    for (size_t i = 0; i < std::min(root.size("emitters"), effect.solvers.size()); ++i) {
-        const auto* const emitter = dynamic_cast<const sim::EmitterDef*>(effect.solvers[i].get());
+    const std::vector<const sim::EmitterDef*> emitters = sim::emittersOf(effect);
+    for (size_t i = 0; i < std::min(root.size("emitters"), emitters.size()); ++i) {
+        const sim::EmitterDef* const emitter = emitters[i];
         if (!emitter || !emitter->meetsDepth)
             continue;
         const std::string why(sim::gpuObstacle(*emitter));

@@ -24,8 +24,9 @@ class EventLinks
 public:
     EventLinks(const PresetValue& root, sim::EffectDef& effect) : root_(root), effect_(effect)
     {
+        const std::vector<const sim::EmitterDef*> emitters = sim::emittersOf(effect);
         for (size_t i = 0; i < root.size("emitters"); ++i) {
-            emitters_.push_back(*dynamic_cast<const sim::EmitterDef*>(effect.solvers[i].get()));
+            emitters_.push_back(*emitters[i]);
             names_.push_back(emitters_.back().name);
         }
     }

@@ -317,8 +317,8 @@ private:
     double significanceOf(const Instance& instance) const;
     uint64_t particlesOf(const Instance& instance) const;
     void measure(Instance& instance) const; ///< how far it reaches
-    Circumstances circumstancesOf(const InstanceSetup& setup, const Memory& memory) const;
-    Circumstances pastOf(Instance& instance, bool stays, const Memory& memory) const;
+    Circumstances circumstancesOf(const InstanceSetup& setup, const sim::Influence& influence) const;
+    Circumstances pastOf(Instance& instance, bool stays, const sim::Influence& influence) const;
     Reason judge(const Instance& instance, bool isSeen);
     void reconsider(const base::StepPlan& plan);
     void lookAround();

@@ -47,7 +47,7 @@ bool Scene::mayHide(const Instance& instance) const
     return !options_.lockStep || (isExact(instance.policy) && !instance.setup.destroyWhenFinished);
 }
 
-Circumstances Scene::circumstancesOf(const InstanceSetup& setup, const Memory& memory) const
+Circumstances Scene::circumstancesOf(const InstanceSetup& setup, const sim::Influence& influence) const
 {
     const base::Placement& to = setup.placement;
     const base::Placement& from = setup.cameFrom ? *setup.cameFrom : to;
@@ -61,8 +61,8 @@ Circumstances Scene::circumstancesOf(const InstanceSetup& setup, const Memory& m
     if (from.rotation != to.rotation || from.scale != to.scale) {
         const double cosine = double(glm::dot(from.rotation, to.rotation)); // of half the angle
         const double chord = 2.0 * std::sqrt(std::max(1.0 - cosine * cosine, 0.0) + kRounding);
-        way += double(memory.extent) * (chord * double(std::max(from.scale, to.scale)) +
-                                        std::abs(double(to.scale) - double(from.scale)));
+        way += double(influence.extent) * (chord * double(std::max(from.scale, to.scale)) +
+                                           std::abs(double(to.scale) - double(from.scale)));
     }
     if (is.slowest > 0 && way > 0.0)
         is.speed =
@@ -72,9 +72,9 @@ Circumstances Scene::circumstancesOf(const InstanceSetup& setup, const Memory& m
 
 /// What has to be reckoned with besides what is so now: kept where particles stay behind, and from the first
 /// time on that the wind grows weaker.
-Circumstances Scene::pastOf(Instance& instance, bool stays, const Memory& memory) const
+Circumstances Scene::pastOf(Instance& instance, bool stays, const sim::Influence& influence) const
 {
-    const Circumstances is = circumstancesOf(instance.setup, memory);
+    const Circumstances is = circumstancesOf(instance.setup, influence);
     const float before = instance.reachWind - glm::length(instance.setup.effect->wind);
     const bool calms = instance.reachWind >= 0.0f && is.localWind < before;
     if (!instance.past && (stays || calms)) {
@@ -83,11 +83,11 @@ Circumstances Scene::pastOf(Instance& instance, bool stays, const Memory& memory
         was.localWind = std::max(was.localWind, before);
         if (!instance.past)
             return was; // stays as far as it was, for ever
-        instance.past->note(clock_.simulated(), was, memory.seconds);
+        instance.past->note(clock_.simulated(), was, influence.seconds);
     }
     if (!instance.past)
         return is;
-    instance.past->note(clock_.simulated(), is, memory.seconds);
+    instance.past->note(clock_.simulated(), is, influence.seconds);
     return instance.past->all();
 }
 
@@ -97,9 +97,9 @@ void Scene::measure(Instance& instance) const
 {
     const InstanceSetup& setup = instance.setup;
     const sim::EffectDef& effect = *setup.effect;
-    const Memory memory = memoryOf(effect);
+    const sim::Influence influence = effect.influence();
     const bool stays = effect.heedsPlacement() && !(effect.bound > 0);
-    const Circumstances past = pastOf(instance, stays, memory);
+    const Circumstances past = pastOf(instance, stays, influence);
     const float wind = glm::length(effect.wind) + (stays ? past.wind / past.smallest : past.localWind);
     if (wind != instance.reachWind) {
         instance.localReach = effect.reach(glm::length(options_.environment.gravity), wind);
@@ -113,8 +113,8 @@ void Scene::measure(Instance& instance) const
     }
     const glm::dvec3 away =
         glm::max(past.high - setup.placement.position, setup.placement.position - past.low);
-    const double carried = double(memory.inherits) * past.speed;
-    const double flown = carried > 0.0 ? carried * double(memory.seconds + memory.drawnOut) : 0.0;
+    const double carried = double(influence.inherits) * past.speed;
+    const double flown = carried > 0.0 ? carried * double(influence.seconds + influence.drawnOut) : 0.0;
     instance.reach = instance.past && instance.past->isKnown()
                          ? glm::length(away) + double(past.largest) * double(instance.localReach) + flown
                          : kUnlimited;

@@ -1,44 +1,12 @@
 #include "fxsdk/scene/whereabouts.h"
 
-#include "simulation/emitters/emitter_def.h"
 #include "simulation/run_clock.h"
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 
 namespace fx::scene {
-
-namespace {
-
-constexpr float kSpare = 0.25f; ///< [s] more than steps, and what trails keep for frames between them
-
-void add(const sim::EmitterDef& emitter, Memory& io)
-{
-    io.seconds += emitter.lifetime.max + emitter.trail.lifetime + kSpare; // one may cause births in another
-    if (!emitter.inWorld || !(emitter.inheritVelocity > 0.0f))
-        return;
-    io.inherits = std::max(io.inherits, emitter.inheritVelocity);
-    io.extent =
-        std::max(io.extent, emitter.births ? emitter.births->extent()
-                                           : glm::length(emitter.position) + glm::length(emitter.size));
-    io.drawnOut = std::max(io.drawnOut, emitter.shutter + 0.5f * emitter.look.stretch);
-}
-
-} // namespace
-
-Memory memoryOf(const sim::EffectDef& effect)
-{
-    Memory memory;
-    for (const auto& solver : effect.solvers) {
-        if (const auto* emitter = dynamic_cast<const sim::EmitterDef*>(solver.get()))
-            add(*emitter, memory);
-        else // nobody says for how long it lives
-            memory.seconds = std::numeric_limits<float>::infinity();
-    }
-    return memory;
-}
 
 void Circumstances::add(const Circumstances& more)
 {

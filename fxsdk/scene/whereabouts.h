@@ -7,7 +7,6 @@
 
 #include "foundation/math/geometry.h"
 #include "foundation/time/ticks.h"
-#include "simulation/effect_def.h"
 
 #include <glm/vec3.hpp>
 
@@ -15,16 +14,6 @@
 #include <limits>
 
 namespace fx::scene {
-
-/// What an effect does with its own past.
-struct Memory
-{
-    float seconds = 0; ///< [s] of the instance's time for which anything matters: chains of events and trails
-    float inherits = 0; ///< [1] share of the velocity of births that particles keep
-    float extent = 0;   ///< [m] local, of the births of those
-    float drawnOut = 0; ///< [s] by which they are drawn longer for their speed
-};
-Memory memoryOf(const sim::EffectDef& effect);
 
 /// What was so at one moment, or the most of several.
 struct Circumstances

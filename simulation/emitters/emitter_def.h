@@ -153,6 +153,10 @@ struct EmitterDef final : SolverDef
     uint32_t capacity() const override { return maxParticles; }
     uint64_t bytes() const override;
     double workOf(const StepLoad& load) const override;
+    bool publishes(const base::KindDesc& kind) const override;
+    bool bendsLight() const override { return look.kind == Appearance::Medium && heat > 0.0f; }
+    std::shared_ptr<const base::GpuParticleProgram> gpuProgram() const override;
+    Influence influence() const override;
     bool collides() const override;
     bool heedsPlacement() const override { return inWorld; }
     /// Motion has a closed form: gravity, linear drag and wind alone.
@@ -174,6 +178,12 @@ struct EmitterDef final : SolverDef
     float reachFrom(const ReachConditions& conditions, const BirthReach& births,
                     std::span<BirthReach> ioOthers) const override;
 };
+
+struct EffectDef;
+
+/// The definitions of an effect's emitters by solver index, null for its other solvers: for what reads or
+/// explains emitters. All others ask SolverDef.
+std::vector<const EmitterDef*> emittersOf(const EffectDef& effect);
 
 constexpr float kAirTemperature = 293.15f; ///< [K] of the ambient air
 

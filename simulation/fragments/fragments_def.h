@@ -3,6 +3,7 @@
 #pragma once
 
 #include "foundation/math/curve.h"
+#include "foundation/snapshot/blob_kind.h"
 #include "simulation/solver.h"
 
 #include <glm/vec3.hpp>
@@ -101,6 +102,8 @@ struct FragmentsDef final : SolverDef
     uint32_t capacity() const override { return count + (trail.spacing > 0.0f ? trail.maxBlobs : 0); }
     uint64_t bytes() const override;
     double workOf(const StepLoad& load) const override;
+    bool publishes(const base::KindDesc& kind) const override { return kind == base::kBlobKind; }
+    bool bendsLight() const override { return heat > 0.0f; }
     bool collides() const override { return true; }
     float reach(float gravity, float wind, float seconds) const override;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "foundation/math/curve.h"
+#include "foundation/snapshot/blob_kind.h"
 #include "simulation/combustion/materials.h"
 #include "simulation/solver.h"
 
@@ -55,6 +56,8 @@ struct GasDef final : SolverDef
     uint32_t capacity() const override { return particles; }
     uint64_t bytes() const override;
     double workOf(const StepLoad& load) const override;
+    bool publishes(const base::KindDesc& kind) const override { return kind == base::kBlobKind; }
+    bool bendsLight() const override { return heat > 0.0f; }
     bool collides() const override { return true; }
     CatchUp catchUp() const override { return CatchUp::Authoritative; }
 };

@@ -83,6 +83,7 @@ struct ToyDef final : sim::SolverDef
         return std::make_unique<ToySolver>(kind);
     }
     uint32_t capacity() const override { return kind.elements; }
+    bool publishes(const base::KindDesc&) const override { return false; }
     sim::CatchUp catchUp() const override
     {
         return kind.seeks ? sim::CatchUp::Analytic : sim::CatchUp::Replay;

@@ -40,6 +40,7 @@ struct RecordingDef final : sim::SolverDef
         return std::make_unique<RecordingSolver>(recording);
     }
     uint32_t capacity() const override { return 3; }
+    bool publishes(const base::KindDesc&) const override { return false; }
     Recording* recording;
 };
 
@@ -52,6 +53,7 @@ struct FailingDef final : sim::SolverDef
         throw std::bad_alloc();
     }
     uint32_t capacity() const override { return 0; }
+    bool publishes(const base::KindDesc&) const override { return false; }
 };
 
 std::shared_ptr<sim::EffectDef> recordingEffect(Recording& recording)

@@ -24,6 +24,7 @@ struct NotingDef final : sim::SolverDef
         return emitter->create(schema, quality, memory);
     }
     uint32_t capacity() const override { return 1; }
+    bool publishes(const base::KindDesc&) const override { return false; }
     Made* made;
     std::unique_ptr<sim::EmitterDef> emitter = rateEmitter(60.0f);
 };

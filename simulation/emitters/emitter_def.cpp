@@ -1,0 +1,68 @@
+#include "simulation/emitters/emitter_def.h"
+
+#include "foundation/snapshot/gpu_particles.h"
+#include "foundation/snapshot/particle_kind.h"
+#include "simulation/effect_def.h"
+#include "simulation/emitters/gpu_program.h"
+#include "simulation/particles/particle_program.h"
+
+#include <glm/geometric.hpp>
+
+namespace fx::sim {
+
+namespace {
+
+constexpr float kSpareSeconds = 0.25f; ///< more than steps, and what trails keep for frames between them
+
+bool isLookOf(Appearance look, const base::KindDesc& kind)
+{
+    switch (look) {
+    case Appearance::Medium:
+        return kind == base::kBlobKind;
+    case Appearance::Sprite:
+    case Appearance::Mesh:
+        return kind == base::kParticleKind;
+    case Appearance::None:
+        break;
+    }
+    return false;
+}
+
+} // namespace
+
+bool EmitterDef::publishes(const base::KindDesc& kind) const
+{
+    if (kind == base::kRibbonKind)
+        return trail.lifetime > 0.0f;
+    if (kind == base::kLightKind)
+        return light.given;
+    if (kind == base::kGpuParticleKind)
+        return gpuObstacle(*this).empty();
+    return isLookOf(look.kind, kind);
+}
+
+std::shared_ptr<const base::GpuParticleProgram> EmitterDef::gpuProgram() const
+{
+    return program.of(*this)->gpu;
+}
+
+Influence EmitterDef::influence() const
+{
+    Influence result{.seconds = lifetime.max + trail.lifetime + kSpareSeconds};
+    if (inWorld && inheritVelocity > 0.0f) {
+        result.inherits = inheritVelocity;
+        result.extent = births ? births->extent() : glm::length(position) + glm::length(size);
+        result.drawnOut = shutter + 0.5f * look.stretch;
+    }
+    return result;
+}
+
+std::vector<const EmitterDef*> emittersOf(const EffectDef& effect)
+{
+    std::vector<const EmitterDef*> emitters;
+    for (const auto& solver : effect.solvers)
+        emitters.push_back(dynamic_cast<const EmitterDef*>(solver.get()));
+    return emitters;
+}
+
+} // namespace fx::sim
