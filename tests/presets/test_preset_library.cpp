@@ -26,12 +26,10 @@ std::shared_ptr<const sim::EffectDef> load(const std::string& name)
     return loaded->effect;
 }
 
-std::vector<const sim::EmitterDef*> emittersOf(const sim::EffectDef& effect)
+std::vector<const sim::EmitterDef*> emittersIn(const sim::EffectDef& effect)
 {
-    std::vector<const sim::EmitterDef*> emitters;
-    for (const auto& solver : effect.solvers)
-        if (const auto* emitter = dynamic_cast<const sim::EmitterDef*>(solver.get()))
-            emitters.push_back(emitter);
+    std::vector<const sim::EmitterDef*> emitters = sim::emittersOf(effect);
+    std::erase(emitters, nullptr);
     return emitters;
 }
 
@@ -72,7 +70,7 @@ TEST(PresetLibrary, whatGlowsIsAsHotAsFlamesAre)
 {
     for (const std::string& name : names()) {
         const auto effect = load(name);
-        for (const sim::EmitterDef* emitter : emittersOf(*effect)) {
+        for (const sim::EmitterDef* emitter : emittersIn(*effect)) {
             const bool glows = emitter->fireShare > 0;
             EXPECT_TRUE(!glows || emitter->temperature.min >= 1200) << name << " " << emitter->name;
             EXPECT_TRUE(!glows || emitter->temperature.max <= 2200) << name << " " << emitter->name;
@@ -84,7 +82,7 @@ TEST(PresetLibrary, nothingScattersMoreThanWaterDroplets)
 {
     for (const std::string& name : names()) {
         const auto effect = load(name);
-        for (const sim::EmitterDef* emitter : emittersOf(*effect))
+        for (const sim::EmitterDef* emitter : emittersIn(*effect))
             for (const float t : {0.0f, 0.25f, 0.5f, 1.0f})
                 for (const float albedo : emitter->albedoOverLife.at(t))
                     EXPECT_LE(albedo, 0.95f) << name << " " << emitter->name;
@@ -103,7 +101,7 @@ TEST(PresetLibrary, anExplosionEndsAndHasGasFragmentsDustAndSmoke)
     EXPECT_GE(gas->particles, 300u);
     std::set<fx::base::MediaLayer> layers;
     bool hasFragments = false;
-    for (const sim::EmitterDef* emitter : emittersOf(*effect)) {
+    for (const sim::EmitterDef* emitter : emittersIn(*effect)) {
         layers.insert(emitter->layer);
         hasFragments |= emitter->shutter > 0 && emitter->fireShare == 1;
     }
