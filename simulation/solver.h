@@ -25,7 +25,7 @@
 #include <span>
 
 namespace fx::base {
-struct GpuParticleProgram;
+class GpuParticleProgram;
 }
 
 namespace fx::sim {
