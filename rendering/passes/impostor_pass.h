@@ -2,8 +2,8 @@
 /// Pictures of whole far effects: taken into tiles of one texture, and drawn as squares that face the eye.
 #pragma once
 
+#include "rendering/frame/view_block.h"
 #include "rendering/frame_graph/frame_graph.h"
-#include "rendering/passes/view_block.h"
 
 #include <cstdint>
 #include <span>

@@ -1,10 +1,10 @@
 /// @file media_pass.h
 #pragma once
 
+#include "rendering/frame/view_block.h"
 #include "rendering/frame_graph/frame_graph.h"
 #include "rendering/passes/impostor_pass.h"
 #include "rendering/passes/particle_batch.h"
-#include "rendering/passes/view_block.h"
 
 #include <array>
 

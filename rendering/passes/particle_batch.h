@@ -2,8 +2,8 @@
 /// A group of particles or ribbons as the passes draw it, and the order in which groups and media take turns.
 #pragma once
 
+#include "rendering/frame/view_block.h"
 #include "rendering/frame_graph/frame_graph.h"
-#include "rendering/passes/view_block.h"
 
 #include <glm/vec4.hpp>
 

@@ -1,6 +1,6 @@
 #include "rendering/view/layer_grid.h"
 
-#include "rendering/view/blob_gather.h"
+#include "rendering/media/blob_gather.h"
 
 #include <cmath>
 

@@ -2,6 +2,7 @@
 /// Declares the passes of one frame of a view: which exist, in what order, and what they hand to each other.
 #pragma once
 
+#include "rendering/frame/view_types.h"
 #include "rendering/frame_graph/frame_graph.h"
 #include "rendering/gpu_particles/gpu_order_pass.h"
 #include "rendering/gpu_particles/gpu_rows_pass.h"
@@ -9,7 +10,6 @@
 #include "rendering/passes/heat_shimmer_pass.h"
 #include "rendering/passes/impostor_pass.h"
 #include "rendering/passes/particle_batch.h"
-#include "rendering/view/view_types.h"
 
 #include <span>
 

@@ -2,10 +2,10 @@
 
 #include "foundation/math/bits.h"
 #include "foundation/math/hash.h"
+#include "rendering/frame/view_block.h"
 #include "rendering/gl/gl_state_guard.h"
 #include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/programs.h"
-#include "rendering/passes/view_block.h"
 #include "rendering/view/view_parts.h"
 
 #include <glm/gtc/type_ptr.hpp>

@@ -7,9 +7,9 @@
 #include "foundation/assets/asset_table.h"
 #include "foundation/result/status.h"
 #include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/frame/view_types.h"
 #include "rendering/gl/gl_pass_timer.h"
-#include "rendering/view/screen_share.h"
-#include "rendering/view/view_types.h"
+#include "rendering/media/screen_share.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,8 +1,8 @@
 // Gathering, interpolation and order, without GL.
 #include "foundation/snapshot/blob_kind.h"
+#include "rendering/media/blob_gather.h"
+#include "rendering/media/frame_builder.h"
 #include "rendering/stage/stage_camera.h"
-#include "rendering/view/blob_gather.h"
-#include "rendering/view/frame_builder.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
