@@ -65,13 +65,13 @@ DrawRuns::Range DrawRuns::overlapOf(std::span<const DrawStream> streams)
     return overlap;
 }
 
-void DrawRuns::add(const Part& part, uint32_t batch)
+void DrawRuns::add(const Part& part, const DrawStream& stream)
 {
-    if (!runs_.empty() && runs_.back().batch == batch &&
+    if (!runs_.empty() && runs_.back().source == stream.source && runs_.back().batch == stream.batch &&
         runs_.back().first + runs_.back().count == part.first)
         runs_.back().count += part.count;
     else
-        runs_.push_back({batch, part.first, part.count});
+        runs_.push_back({stream.batch, part.first, part.count, stream.source});
 }
 
 /// What of each stream is farther than `edge`, or all that is left.
@@ -112,14 +112,14 @@ void DrawRuns::cut(std::span<const DrawStream> streams, const Range& overlap, ui
         takeParts(streams, isLast, overlap.far + (overlap.near - overlap.far) * share);
         arrange(slab > 0);
         for (const Part& part : parts_) {
-            add(part, streams[part.stream].batch);
+            add(part, streams[part.stream]);
             lastStream_ = part.stream;
         }
     }
     takeParts(streams, true, 0.0f);
     arrange(false);
     for (const Part& part : parts_)
-        add(part, streams[part.stream].batch);
+        add(part, streams[part.stream]);
 }
 
 std::span<const MediaRun> DrawRuns::build(std::span<const DrawStream> streams)

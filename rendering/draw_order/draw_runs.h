@@ -2,7 +2,7 @@
 /// In which order blobs and groups of particles take turns, so that they cover each other by distance.
 #pragma once
 
-#include "rendering/passes/particle_batch.h"
+#include "rendering/passes/media_source.h"
 
 #include <cstdint>
 #include <memory_resource>
@@ -14,14 +14,15 @@ namespace fx::render {
 /// Things that are drawn one after the other in a fixed order.
 struct DrawStream
 {
-    uint32_t batch = MediaRun::kBlobs;
+    uint32_t batch = 0; ///< the source says what it numbers
     uint32_t count = 0;
     const float* distances =
         nullptr; ///< [m] of the elements; null: all count as `distance`, and stay together
-    const uint32_t* order = nullptr; ///< element drawn as number i, farthest first
-    bool isSquared = false;          ///< `distances` holds squares
-    float distance = 0.0f;           ///< [m]
-    bool adds = false;               ///< the order among streams that only add does not matter
+    const uint32_t* order = nullptr;     ///< element drawn as number i, farthest first
+    bool isSquared = false;              ///< `distances` holds squares
+    float distance = 0.0f;               ///< [m]
+    bool adds = false;                   ///< the order among streams that only add does not matter
+    const MediaSource* source = nullptr; ///< that draws them
 
     float at(uint32_t i) const;
 };
@@ -63,7 +64,7 @@ private:
     void cut(std::span<const DrawStream> streams, const Range& overlap, uint32_t slabs);
     void takeParts(std::span<const DrawStream> streams, bool isLast, float edge);
     void arrange(bool goesOn);
-    void add(const Part& part, uint32_t batch);
+    void add(const Part& part, const DrawStream& stream);
 
     std::pmr::vector<uint32_t> byFar_;
     std::pmr::vector<uint32_t> begin_;

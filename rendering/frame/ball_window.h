@@ -11,6 +11,9 @@
 
 namespace fx::render {
 
+/// [pixel] radius of the smallest blob that is drawn: the pixels then sum its light within 6 %.
+inline constexpr float kLeastPixels = 1.15f;
+
 /// Range of slopes of a ball in the plane of one screen axis and the view axis; as tangentSlopes() of
 /// blob_quad.glsl.
 inline std::pair<float, float> tangentSlopes(float c, float depth, float radius)

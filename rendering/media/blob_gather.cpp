@@ -3,6 +3,7 @@
 #include "foundation/math/bits.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/streak.h"
+#include "rendering/frame/ball_window.h"
 #include "rendering/frame/snapshot_match.h"
 #include "rendering/frame/view_volume.h"
 

@@ -17,9 +17,6 @@
 
 namespace fx::render {
 
-/// [pixel] radius of the smallest blob that is drawn: the pixels then sum its light within 6 %.
-inline constexpr float kLeastPixels = 1.15f;
-
 /// A blob as seen from the eye, before light.
 struct GatheredBlob
 {

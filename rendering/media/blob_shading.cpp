@@ -59,11 +59,6 @@ glm::vec3 ambientRadiance(const GatheredBlob& blob, const ShadingContext& contex
 
 } // namespace
 
-float exposureFromEv100(float ev100)
-{
-    return 1.0f / (1.2f * std::exp2(ev100));
-}
-
 BlobInstance shadeBlob(const GatheredBlob& blob, const ShadingContext& context)
 {
     const glm::vec3 thermal = blackBodyLuminance(blob.temperature);

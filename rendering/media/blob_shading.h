@@ -2,6 +2,7 @@
 /// Light of each blob: what it emits, and what it scatters of the sun, the sky and the fires.
 #pragma once
 
+#include "rendering/frame/exposure.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
 #include "rendering/lights/extinction_grid.h"
@@ -23,9 +24,6 @@ struct ShadingContext
     bool orthographic;
     glm::vec3 forward; ///< unit
 };
-
-/// exposure of an EV100 setting: a luminance of 1.2 * 2^EV cd/m2 becomes 1 (ISO 12232, as used by [LdR14]).
-float exposureFromEv100(float ev100);
 
 BlobInstance shadeBlob(const GatheredBlob& blob, const ShadingContext& context);
 

@@ -2,20 +2,13 @@
 /// How much the blobs of a frame will cost to draw, before they are drawn.
 #pragma once
 
+#include "rendering/frame/fragment_counts.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/passes/blob_instance.h"
 
-#include <array>
-#include <cstdint>
 #include <span>
 
 namespace fx::render {
-
-/// What layers can be divided by.
-inline constexpr std::array<int, 3> kLayerDivisors = {1, 2, 4};
-
-/// Fragments if the layers were drawn at each of kLayerDivisors.
-using FragmentCounts = std::array<uint64_t, kLayerDivisors.size()>;
 
 /// Fragments of the covering rectangles of all blobs, cut by the window, if they were drawn at each of
 /// kLayerDivisors. What opaque surfaces hide is not taken off.

@@ -35,24 +35,23 @@ struct MixedShadow final : MediaShadow
 
 FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
     : gathered_(memory), gridBlobs_(memory), instances_(memory), shaded_(memory), sorted_(memory),
-      distances_(memory), fires_(memory), lod_(memory), grid_(memory), coarseGrid_(memory),
-      depthSort_(memory), impostors_(memory), impostorSort_(memory), takenSort_(memory),
-      sortedImpostors_(memory), taken_(memory), sortedTaken_(memory), takenDistances_(memory),
-      takenTiles_(memory)
+      distances_(memory), fires_(memory), grid_(memory), coarseGrid_(memory), depthSort_(memory),
+      impostors_(memory), impostorSort_(memory), takenSort_(memory), sortedImpostors_(memory), taken_(memory),
+      sortedTaken_(memory), takenDistances_(memory), takenTiles_(memory)
 {}
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,
-                         const ViewSettings& settings, const CameraGeometry& camera, uint64_t content)
+                         const ViewSettings& settings, const CameraGeometry& camera, LevelOfDetail& lod,
+                         std::span<const EffectLight> lights, uint64_t content)
 {
     gathered_.clear();
     gridBlobs_.clear();
     instances_.clear();
     beginImpostors(request, settings, camera, content);
-    lod_.begin(settings.lod, camera, request.targets.height, request.resetHistory);
     counts_ = gatherBlobs(snapshots, request.interpolation, camera, request.targets.height, gathered_,
-                          gridBlobs_, instances_, settings.particleShare, &lod_, &impostors_);
+                          gridBlobs_, instances_, settings.particleShare, &lod, &impostors_);
     impostors_.end();
-    shade(snapshots, settings, camera);
+    shade(settings, camera, lights);
     sort(camera);
     sortImpostors(camera);
 }
@@ -71,12 +70,11 @@ void FrameBuilder::beginImpostors(const FrameRequest& request, const ViewSetting
     mustForget_ = false;
 }
 
-void FrameBuilder::shade(const base::SnapshotPair& snapshots, const ViewSettings& settings,
-                         const CameraGeometry& camera)
+void FrameBuilder::shade(const ViewSettings& settings, const CameraGeometry& camera,
+                         std::span<const EffectLight> lights)
 {
-    lightCount_ = snapshots.newer ? effectLights(*snapshots.newer, lights_) : 0;
     fires_.clear();
-    for (const EffectLight& light : lights())
+    for (const EffectLight& light : lights)
         fires_.emplace_back(glm::vec3(light.position - camera.eye), light.intensity, light.radius);
 
     const DirectionalLight sun(settings.lighting.sunDirection, settings.lighting.sunIlluminance);
@@ -167,13 +165,11 @@ void FrameBuilder::sortImpostors(const CameraGeometry& camera)
     sortedTaken_.clear();
     for (const uint32_t index : takenSort_.farthestFirst(takenDistances_))
         sortedTaken_.push_back(taken_[index]);
-    takenRun_.count = uint32_t(sortedTaken_.size());
 }
 
 DrawStream FrameBuilder::impostorStream() const
 {
     DrawStream stream;
-    stream.batch = MediaRun::kImpostors;
     stream.count = uint32_t(impostorOrder_.size());
     stream.distances = impostors_.distances().data();
     stream.order = impostorOrder_.data();

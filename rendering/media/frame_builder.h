@@ -11,7 +11,6 @@
 #include "rendering/media/blob_gather.h"
 #include "rendering/passes/blob_instance.h"
 
-#include <array>
 #include <memory_resource>
 #include <span>
 #include <vector>
@@ -25,18 +24,17 @@ public:
     explicit FrameBuilder(std::pmr::memory_resource* memory);
 
     /// Builds the list for one frame. Equal input gives equal bits. [GL thread, but no GL]
+    /// @param lod begun for this frame
+    /// @param lights of all effects, brightest first; what is made of them is in the blobs
     /// @param content differs where what is shown differs, for pictures that are kept
     void build(const base::SnapshotPair& snapshots, const FrameRequest& request, const ViewSettings& settings,
-               const CameraGeometry& camera, uint64_t content = 0);
+               const CameraGeometry& camera, LevelOfDetail& lod, std::span<const EffectLight> lights,
+               uint64_t content = 0);
 
     std::span<const BlobInstance> blobs() const { return sorted_; } ///< farthest first
     bool anyHeat() const { return anyHeat_; }                       ///< some blob bends light
     bool anyDetail() const { return anyDetail_; }                   ///< some blob has procedural detail
     const GatherCounts& counts() const { return counts_; }
-    const LodCounts& lodCounts() const { return lod_.counts(); } ///< groups by level of detail
-    LevelOfDetail& lod() { return lod_; } ///< of this frame, for what is drawn beside the blobs
-    /// The brightest fires of all effects, brightest first.
-    std::span<const EffectLight> lights() const { return {lights_.data(), lightCount_}; }
     /// The blobs as a stream whose elements are the drawn ones; count 0 without any.
     DrawStream stream() const;
 
@@ -46,14 +44,13 @@ public:
     /// Blobs of the effects whose pictures are taken in this frame, placed for takingCamera().
     std::span<const BlobInstance> takenBlobs() const { return sortedTaken_; }
     std::span<const uint32_t> takenTiles() const { return takenTiles_; } ///< where each picture is kept
-    std::span<const MediaRun> takenRuns() const { return {&takenRun_, takenTiles_.empty() ? size_t(0) : 1}; }
     /// An equal frame after this one would be the same, but for its camera and snapshots.
     bool isSettled() const { return impostors_.isSettled(); }
     void forgetPictures() { mustForget_ = true; } ///< those of the last frame were not taken
 
 private:
-    void shade(const base::SnapshotPair& snapshots, const ViewSettings& settings,
-               const CameraGeometry& camera);
+    void shade(const ViewSettings& settings, const CameraGeometry& camera,
+               std::span<const EffectLight> lights);
     void sort(const CameraGeometry& camera);
     float buildShadow(const InstanceBlobs& instance);
     void beginImpostors(const FrameRequest& request, const ViewSettings& settings,
@@ -68,7 +65,6 @@ private:
     std::pmr::vector<BlobInstance> sorted_;
     std::pmr::vector<float> distances_;
     std::pmr::vector<BallLight> fires_;
-    LevelOfDetail lod_;
     ExtinctionGrid grid_;
     ExtinctionGrid coarseGrid_;
     DepthSort depthSort_;
@@ -80,15 +76,12 @@ private:
     std::pmr::vector<BlobInstance> sortedTaken_;
     std::pmr::vector<float> takenDistances_;
     std::pmr::vector<uint32_t> takenTiles_;
-    MediaRun takenRun_{MediaRun::kBlobs, 0, 0};
     std::span<const uint32_t> impostorOrder_;
     Lighting lighting_; ///< of the last frame
     float exposureEv100_ = 0.0f;
     uint64_t lightingStamp_ = 0;
     bool mustForget_ = false;
     GatherCounts counts_;
-    std::array<EffectLight, 4> lights_;
-    size_t lightCount_ = 0;
     std::span<const uint32_t> order_;
     bool isParallel_ = false;
     bool anyHeat_ = false;

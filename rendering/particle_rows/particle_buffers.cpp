@@ -69,9 +69,11 @@ void writeOrder(const ParticleGroup& group, uint32_t* out)
 
 } // namespace
 
-ParticleBuffers::ParticleBuffers(GlDevice& device, std::pmr::memory_resource* memory)
-    : device_(device), places_{Place(memory), Place(memory), Place(memory)}, assets_(device, memory),
-      emitters_(device, memory), states_(device, memory), jobs_(memory), wanted_(memory), older_(memory)
+ParticleBuffers::ParticleBuffers(GlDevice& device, std::span<const RowTechnique* const> techniques,
+                                 std::pmr::memory_resource* memory)
+    : device_(device), techniques_(techniques), places_{Place(memory), Place(memory), Place(memory)},
+      assets_(device, memory), emitters_(device, memory), states_(device, memory), jobs_(memory),
+      wanted_(memory), older_(memory)
 {}
 
 uint64_t ParticleBuffers::bytes() const
@@ -193,7 +195,7 @@ base::Status ParticleBuffers::takeRows(Place& place, const base::SnapshotGroup& 
                      {known.numbers.name(), {}, 0, known.numbers.bytes()},
                      {place.buffer.name(), {}, at.wordsOffset, at.wordsBytes},
                      at.columns,
-                     rowCount(group)});
+                     group.program()->rows});
     jobs_.back().meetsDepth = meetsDepth(group.program()->features);
     jobs_.back().place = group.info().placement;
     at.isThere = true;
@@ -328,14 +330,14 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
                 !status)
                 return status;
             batch.block.olderAt = older->groups[group.olderIndex].columns;
-            batch.block.rows[1] = int32_t(rowCount(*group.older));
+            batch.block.rows[1] = int32_t(group.technique->rows(*group.older));
         }
         if (base::Status status =
                 takeRows(*newer, *group.newer, group.newerIndex, uint32_t(i), true, batch.newer);
             !status)
             return status;
         batch.block.newerAt = newer->groups[group.newerIndex].columns;
-        batch.block.rows[0] = int32_t(rowCount(*group.newer));
+        batch.block.rows[0] = int32_t(group.technique->rows(*group.newer));
     }
     return findAssets(frame, assets);
 }

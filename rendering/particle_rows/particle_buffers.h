@@ -46,7 +46,9 @@ struct UploadStamps
 class ParticleBuffers
 {
 public:
-    ParticleBuffers(GlDevice& device, std::pmr::memory_resource* memory);
+    /// @param techniques whose groups are written; must stay
+    ParticleBuffers(GlDevice& device, std::span<const RowTechnique* const> techniques,
+                    std::pmr::memory_resource* memory);
 
     /// Writes what is not yet there and fills in the batches' buffers, textures and meshes.
     /// @return OutOfMemory, GlFailed, TooLarge (a group is larger than the context's storage buffers)
@@ -134,8 +136,7 @@ private:
     bool isAlike(const Source& source, size_t group) const;
     base::Status makeRoom(const Sizes& sizes, Place& place);
     Sizes layOut(const Source& source, std::pmr::vector<GroupPlace>& out) const;
-    void layOutRows(const base::SnapshotGroup& group, std::span<const base::ColumnDesc> columns,
-                    bool isRibbon, GroupPlace& out) const;
+    void layOutRows(const base::SnapshotGroup& group, const RowTechnique& technique, GroupPlace& out) const;
     base::Status ensureComputed(GlBuffer& buffer, uint64_t bytes);
     /// The rows of a batch; those that are not there become a job.
     base::Status takeRows(Place& place, const base::SnapshotGroup& group, size_t index, uint32_t batch,
@@ -149,6 +150,7 @@ private:
     base::Status findAssets(ParticleFrame& frame, const base::AssetTable* assets);
 
     GlDevice& device_;
+    std::span<const RowTechnique* const> techniques_;
     std::array<Place, 3> places_;
     std::array<GlMappedBuffer, 3> orders_;
 

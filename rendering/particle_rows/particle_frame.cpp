@@ -1,12 +1,10 @@
 #include "rendering/particle_rows/particle_frame.h"
 
-#include "foundation/snapshot/gpu_particles.h"
-#include "foundation/snapshot/particle_bounds.h"
 #include "rendering/draw_order/depth_keys.h"
+#include "rendering/frame/exposure.h"
 #include "rendering/frame/snapshot_match.h"
 #include "rendering/frame/view_volume.h"
 #include "rendering/lod/row_thinning.h"
-#include "rendering/media/blob_shading.h"
 #include "rendering/particle_rows/particle_estimate.h"
 
 #include <glm/common.hpp>
@@ -49,10 +47,9 @@ Ball ballOf(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, 
 }
 
 /// Middle of the rows when the writer has not given bounds.
-glm::vec3 middleOfRows(const base::SnapshotGroup& group, bool isRibbon)
+glm::vec3 middleOfRows(const base::SnapshotGroup& group, const RowTechnique& technique)
 {
-    const base::Bounds bounds =
-        isRibbon ? base::ribbonBounds(group) : base::particleBounds(group, 1.0f, 0.0f);
+    const base::Bounds bounds = technique.bounds(group);
     return bounds.empty() ? glm::vec3(0.0f) : 0.5f * (bounds.min + bounds.max);
 }
 
@@ -108,11 +105,6 @@ ParticleFrame::ParticleFrame(std::pmr::memory_resource* memory)
 
 ParticleFrame::~ParticleFrame() = default;
 
-uint32_t rowCount(const base::SnapshotGroup& group)
-{
-    return group.program() ? group.program()->rows : group.count();
-}
-
 void ParticleFrame::build(const ParticleFrameInputs& in)
 {
     ++frame_;
@@ -126,16 +118,11 @@ void ParticleFrame::build(const ParticleFrameInputs& in)
     if (!in.snapshots->newer)
         return;
     const base::FrameSnapshot& newer = *in.snapshots->newer;
-    const base::KindId particles = newer.schema().find(base::kParticleKind.name);
-    const base::KindId ribbons = newer.schema().find(base::kRibbonKind.name);
+    const RowTechniques techniques(in.techniques, newer.schema());
     for (size_t g = 0; g < newer.groupCount(); ++g) {
-        if (g < in.left.size() && in.left[g] != 0)
-            continue;
-        const base::GroupInfo& info = newer.group(g).info();
-        const bool isRibbon = info.kind == ribbons && ribbons != base::kNoKind;
-        if ((info.kind == particles && particles != base::kNoKind && info.count > 0) ||
-            (newer.group(g).program() && !info.bounds.empty()) || (isRibbon && info.count > 1))
-            addGroup(in, g, isRibbon);
+        const RowTechnique* technique = techniques.of(newer.name(g).kind);
+        if (technique && !(g < in.left.size() && in.left[g] != 0) && technique->isThere(newer.group(g)))
+            addGroup(in, g, *technique);
     }
     std::erase_if(orderers_, [&](const auto& orderer) { return frame_ - orderer->usedFrame > kFramesKept; });
 }
@@ -159,7 +146,7 @@ void ParticleFrame::dropComputed()
     batches_.erase(batches_.begin() + std::ptrdiff_t(count), batches_.end());
 }
 
-void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool isRibbon)
+void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, const RowTechnique& technique)
 {
     const base::SnapshotGroup& newer = in.snapshots->newer->group(index);
     const auto constants = newer.constants();
@@ -172,8 +159,9 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
     if (ball.radius >= 0.0f && !ViewVolume(*in.camera).touches(ball.center, ball.radius))
         return;
 
-    ParticleGroup group{&newer,
-                        isRibbon ? nullptr : older,
+    ParticleGroup group{&technique,
+                        &newer,
+                        technique.isStrip ? nullptr : older,
                         index,
                         olderIndex,
                         {},
@@ -184,13 +172,12 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
                         asCount(constants[constant::TileColumns]),
                         asCount(constants[constant::TileRows])};
     ParticleBatch batch;
-    const bool isMesh = !isRibbon && constants[constant::Shape] == float(base::ParticleShape::Mesh);
-    batch.shape = isRibbon ? BatchShape::Ribbon : isMesh ? BatchShape::Mesh : BatchShape::Sprite;
+    batch.shape = technique.shape(newer);
     batch.isSolid = constants[constant::Blend] == float(base::ParticleBlend::Opaque);
-    batch.repeats = isRibbon && constants[constant::ArcPerTile] > 0.0f;
-    batch.instances = rowCount(newer) - (isRibbon ? 1 : 0);
-    batch.isComputed = newer.program() != nullptr;
-    if (isRibbon)
+    batch.repeats = technique.isStrip && constants[constant::ArcPerTile] > 0.0f;
+    batch.instances = technique.instances(newer);
+    batch.isComputed = technique.isComputed;
+    if (technique.isStrip)
         group.columns = group.rows = 1;
     fillBlock(in, place, group, batch);
     DrawStream stream;
@@ -201,7 +188,7 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
         const glm::vec3 middle =
             ball.radius >= 0.0f
                 ? ball.center
-                : ball.center + place.rotation * (middleOfRows(newer, isRibbon) * place.scale);
+                : ball.center + place.rotation * (middleOfRows(newer, technique) * place.scale);
         const float distance =
             in.camera->orthographic ? glm::dot(middle, in.camera->forward) : glm::length(middle);
         stream.distance = distance - constants[constant::OrderBias];
@@ -220,20 +207,19 @@ void ParticleFrame::addGroup(const ParticleFrameInputs& in, size_t index, bool i
     if (batch.isSolid)
         return; // always drawn at full size
     streams_.push_back(stream);
-    const FragmentCounts counts = estimateParticles(newer, isRibbon, place, *in.camera,
-                                                    in.request->targets.width, in.request->targets.height);
-    for (size_t i = 0; i < counts.size(); ++i)
-        fragments_[i] += counts[i];
+    add(estimateRows(newer, technique, place, *in.camera, in.request->targets.width,
+                     in.request->targets.height),
+        fragments_);
 }
 
 /// @param thinned of them that are left to others
 void ParticleFrame::countRows(const ParticleGroup& group, const ParticleBatch& batch, uint64_t thinned)
 {
-    const bool isRibbon = batch.shape == BatchShape::Ribbon;
+    const bool isStrip = group.technique->isStrip;
     const uint64_t shown = batch.isComputed
                                ? batch.instances
-                               : countDrawn(*group.newer, 0, group.newer->count(), isRibbon).pieces - thinned;
-    (isRibbon                          ? drawn_.ribbonPieces
+                               : countDrawn(*group.newer, 0, group.newer->count(), isStrip).pieces - thinned;
+    (isStrip                           ? drawn_.ribbonPieces
      : batch.shape == BatchShape::Mesh ? drawn_.meshes
                                        : drawn_.sprites) += shown;
 }
@@ -243,8 +229,8 @@ void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placeme
 {
     const auto c = group.newer->constants();
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
-    const bool isRibbon = batch.shape == BatchShape::Ribbon;
-    const bool hasPast = group.older || (isRibbon && in.snapshots->older);
+    const bool isStrip = group.technique->isStrip;
+    const bool hasPast = group.older || (isStrip && in.snapshots->older);
     const float seconds =
         hasPast ? float(base::toSeconds(in.snapshots->newer->tick() - in.snapshots->older->tick())) : 0.0f;
     const glm::vec3 axis =
@@ -256,7 +242,7 @@ void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placeme
     b.placePosition = {glm::vec3(place.position), place.scale};
     b.placeRotation = {place.rotation.x, place.rotation.y, place.rotation.z, place.rotation.w};
     b.alignAxis = {axis, c[constant::Alignment]};
-    b.look = {c[isRibbon ? constant::TailAge : constant::Aspect], c[constant::Stretch], c[constant::Softness],
+    b.look = {c[isStrip ? constant::TailAge : constant::Aspect], c[constant::Stretch], c[constant::Softness],
               c[constant::Blend]};
     b.shine = {c[constant::Luminance] * exposure, c[constant::Lit], c[constant::Layer], 0.0f};
     b.moment = {float(glm::clamp(in.request->interpolation, 0.0, 1.0)), seconds, hasPast ? 1.0f : 0.0f,
@@ -321,9 +307,8 @@ void ParticleFrame::orderOnGpu(const ParticleFrameInputs& in, const base::Placem
 bool ParticleFrame::thin(const ParticleFrameInputs& in, const base::Placement& place,
                          const ParticleGroup& group, const ParticleBatch& batch, Orderer& orderer)
 {
-    const bool isRibbon = batch.shape == BatchShape::Ribbon;
-    const RowShape shape = isRibbon ? (batch.isSolid ? RowShape::SolidStrip : RowShape::Strip)
-                                    : (batch.isSolid ? RowShape::Body : RowShape::Card);
+    const RowShape shape = group.technique->isStrip ? (batch.isSolid ? RowShape::SolidStrip : RowShape::Strip)
+                                                    : (batch.isSolid ? RowShape::Body : RowShape::Card);
     const float pixels = 0.5f * float(in.request->targets.height) * std::abs(in.camera->clipScale.y);
     const auto parts = in.merger ? in.merger->partsOf(group.newerIndex) : std::span<const RowPart>{};
     return thinRows({group.newer, parts, place, shape, in.camera, pixels}, *in.lod, orderer.looks,
@@ -345,7 +330,7 @@ void ParticleFrame::arrangeRows(const ParticleFrameInputs& in, const base::Place
                                 uint32_t& shownRows)
 {
     const base::SnapshotGroup& rows = *group.newer;
-    const auto mode = batch.isSolid || batch.shape == BatchShape::Ribbon
+    const auto mode = batch.isSolid || group.technique->isStrip
                           ? base::ParticleOrder::None
                           : base::ParticleOrder(uint32_t(rows.constants()[constant::Order]));
     const bool mayThin = in.lod && in.lod->isOn();

@@ -6,12 +6,13 @@
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/draw_order/depth_sort.h"
 #include "rendering/draw_order/draw_runs.h"
+#include "rendering/frame/fragment_counts.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/gpu_particles/gpu_order_pass.h"
 #include "rendering/lights/effect_lights.h"
 #include "rendering/lod/level_of_detail.h"
-#include "rendering/media/fragment_estimate.h"
 #include "rendering/particle_rows/group_merger.h"
+#include "rendering/particle_rows/row_technique.h"
 #include "rendering/passes/particle_batch.h"
 
 #include <memory>
@@ -33,8 +34,9 @@ enum class OrderForm : uint8_t
 /// A group that is drawn, beside the batch of the same index.
 struct ParticleGroup
 {
+    const RowTechnique* technique;
     const base::SnapshotGroup* newer;
-    const base::SnapshotGroup* older; ///< null: none, or a ribbon
+    const base::SnapshotGroup* older; ///< null: none, or of a strip
     size_t newerIndex, olderIndex;    ///< in their snapshots
     std::span<const uint32_t> order;  ///< rows as they are drawn; empty: all as they are
     std::span<const uint32_t> looks;  ///< by row, see thinRows(); empty: nothing is thinned out
@@ -42,9 +44,6 @@ struct ParticleGroup
     int columns, rows;                ///< frames of the texture
     OrderForm orderForm = OrderForm::All;
 };
-
-/// Rows of a group of particles, published or computed.
-uint32_t rowCount(const base::SnapshotGroup& group);
 
 /// What a frame's particles are made from.
 struct ParticleFrameInputs
@@ -57,6 +56,7 @@ struct ParticleFrameInputs
     std::span<const uint8_t> left = {};  ///< by group of the newer snapshot: 1 where it is left out
     LevelOfDetail* lod = nullptr;        ///< begun for this frame; null: everything is drawn
     const GroupMerger* merger = nullptr; ///< that made the snapshots; null: they are the scene's
+    std::span<const RowTechnique* const> techniques = {};
 };
 
 /// What is drawn; of computed groups their capacity.
@@ -94,7 +94,7 @@ public:
 private:
     struct Orderer;
 
-    void addGroup(const ParticleFrameInputs& in, size_t index, bool isRibbon);
+    void addGroup(const ParticleFrameInputs& in, size_t index, const RowTechnique& technique);
     void fillBlock(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
                    ParticleBatch& batch);
     void fillLights(const ParticleFrameInputs& in, ParticleBlock& block);

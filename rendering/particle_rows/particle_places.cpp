@@ -17,13 +17,7 @@ uint64_t roundUp(uint64_t value, uint64_t step)
     return (value + step - 1) / step * step;
 }
 
-/// Columns that drawing reads. Of a ribbon's strip it reads whether a row goes on with that of the row
-/// before: the color says so, by the sign of its opacity.
-base::ColumnSet drawnColumns(bool isRibbon)
-{
-    return ~(isRibbon ? uint64_t(1) << base::ribbon_column::Strip : base::particle_column::kIndex);
-}
-
+/// Whether a row goes on with the strip of the row before is in its color, by the sign of its opacity.
 void writeRibbonColors(const base::SnapshotGroup& group, const RowStamp& part, std::byte* out)
 {
     constexpr uint64_t kGoesOn = uint64_t(1) << 63;
@@ -34,14 +28,6 @@ void writeRibbonColors(const base::SnapshotGroup& group, const RowStamp& part, s
         const uint64_t words = (colors[i] & ~kGoesOn) | (goesOn ? kGoesOn : 0);
         std::memcpy(out + i * sizeof words, &words, sizeof words);
     }
-}
-
-bool isDrawn(const base::FrameSnapshot& snapshot, size_t group, bool withComputed, bool& outRibbon)
-{
-    const base::KindId kind = snapshot.name(group).kind;
-    outRibbon = kind == snapshot.schema().find(base::kRibbonKind.name);
-    return outRibbon || kind == snapshot.schema().find(base::kParticleKind.name) ||
-           (withComputed && snapshot.group(group).program());
 }
 
 /// Rows of a group: some more than it has, so that others stay where they are when it grows.
@@ -86,18 +72,19 @@ bool ParticleBuffers::isAlike(const Source& source, size_t group) const
 }
 
 /// Of rows that are not packed.
-void ParticleBuffers::layOutRows(const base::SnapshotGroup& group, std::span<const base::ColumnDesc> columns,
-                                 bool isRibbon, GroupPlace& out) const
+void ParticleBuffers::layOutRows(const base::SnapshotGroup& group, const RowTechnique& technique,
+                                 GroupPlace& out) const
 {
     const base::GpuParticleProgram* program = group.program().get();
+    const std::span<const base::ColumnDesc> columns = technique.columns;
     out.columns.fill(-1);
     uint64_t words = 0;
     for (size_t c = 0; c < std::min(columns.size(), out.columns.size()); ++c) {
         const bool isThere = program ? (program->features.columns >> c & 1) != 0 : group.has(c);
-        if (!isThere || !(drawnColumns(isRibbon) >> c & 1))
+        if (!isThere || !(technique.drawnColumns >> c & 1))
             continue;
         out.columns[c] = int32_t(words);
-        words += roundUp(roomFor(rowCount(group)) * base::columnElementSize(columns[c].type) / 4, 16);
+        words += roundUp(roomFor(technique.rows(group)) * base::columnElementSize(columns[c].type) / 4, 16);
     }
     out.bytes = words * 4;
 }
@@ -108,9 +95,10 @@ ParticleBuffers::Sizes ParticleBuffers::layOut(const Source& source, std::pmr::v
     const auto alignment = uint64_t(std::max(device_.limits().storageAlignment, 64));
     Sizes end;
     out.assign(snapshot.groupCount(), GroupPlace{});
+    const RowTechniques techniques(techniques_, snapshot.schema());
     for (size_t g = 0; g < snapshot.groupCount(); ++g) {
-        bool isRibbon = false;
-        if ((snapshot.pooled(g) && !source.withPools) || !isDrawn(snapshot, g, !refusesGpu_, isRibbon))
+        const RowTechnique* technique = techniques.of(snapshot.name(g).kind);
+        if (!technique || (snapshot.pooled(g) && !source.withPools) || (technique->isComputed && refusesGpu_))
             continue;
         const base::SnapshotGroup& group = snapshot.group(g);
         const base::GpuParticleProgram* program = group.program().get();
@@ -128,13 +116,11 @@ ParticleBuffers::Sizes ParticleBuffers::layOut(const Source& source, std::pmr::v
         }
         uint64_t& rowsEnd = program ? end.computed : end.mapped;
         place.offset = roundUp(rowsEnd, alignment);
-        place.isPacked = !program && !isRibbon;
+        place.isPacked = !technique->isComputed && !technique->isStrip;
         if (place.isPacked)
-            place.bytes = layOutPacked(group, roomFor(rowCount(group)), place.columns) * 4;
+            place.bytes = layOutPacked(group, roomFor(technique->rows(group)), place.columns) * 4;
         else
-            layOutRows(group,
-                       program ? base::kParticleColumns : snapshot.schema().kind(group.info().kind).columns,
-                       isRibbon, place);
+            layOutRows(group, *technique, place);
         rowsEnd = place.offset + place.bytes;
     }
     return end;

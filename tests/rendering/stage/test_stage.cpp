@@ -1,6 +1,6 @@
 // The opaque picture: diffuse light in closed form, shadow, depth, and effect lights.
+#include "rendering/frame/exposure.h"
 #include "rendering/gl/gl_read_texture.h"
-#include "rendering/media/blob_shading.h"
 #include "rendering/stage/stage_renderer.h"
 #include "view_fixture.h"
 

@@ -1,6 +1,6 @@
 #include "particle_fixture.h"
 
-#include "rendering/media/blob_shading.h"
+#include "rendering/frame/exposure.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -1,7 +1,7 @@
 // What must not change a picture, and what must add up.
 #include "foundation/random/philox.h"
+#include "rendering/frame/exposure.h"
 #include "rendering/frame/view_block.h"
-#include "rendering/media/blob_shading.h"
 #include "view_fixture.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "rendering/media/screen_share.h"
+#include "rendering/media/blob_share.h"
 
 #include <glm/geometric.hpp>
 
