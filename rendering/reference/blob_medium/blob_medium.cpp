@@ -33,11 +33,7 @@ std::pair<double, double> approach(const Blob& blob, const Ray& ray)
 
 } // namespace
 
-BlobMedium::BlobMedium(std::vector<Blob> blobs) : blobs_(std::move(blobs))
-{
-    for (const Blob& blob : blobs_)
-        bounds_.add(glm::vec3(blob.center), float(blob.radius));
-}
+BlobMedium::BlobMedium(std::vector<Blob> blobs) : blobs_(std::move(blobs)) {}
 
 RaySpan BlobMedium::span(const Ray& ray) const
 {
@@ -83,7 +79,7 @@ double BlobMedium::opticalDepth(const Ray& ray, double begin, double end) const
     return sum;
 }
 
-glm::dvec3 marchEmission(const Medium& medium, const Ray& ray, double begin, double end, int steps)
+glm::dvec3 marchEmission(const BlobMedium& medium, const Ray& ray, double begin, double end, int steps)
 {
     const RaySpan span = medium.span(ray);
     const double first = std::max(begin, span.begin);
