@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fxsdk/scene/scene.h"
-#include "rendering/view/view_types.h"
+#include "rendering/frame/view_types.h"
 
 #include <memory_resource>
 #include <span>

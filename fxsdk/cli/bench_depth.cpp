@@ -1,7 +1,7 @@
 #include "fxsdk/cli/bench_depth.h"
 
+#include "rendering/frame/view_block.h"
 #include "rendering/gl/gl_device.h"
-#include "rendering/passes/view_block.h"
 #include "rendering/stage/stage_camera.h"
 
 #include <glm/geometric.hpp>

@@ -8,7 +8,7 @@
 #include "fxsdk/cli/bench_rows.h"
 #include "fxsdk/cli/bench_stage.h"
 #include "fxsdk/cli/interrupt.h"
-#include "rendering/view/depth_sort.h"
+#include "rendering/draw_order/depth_sort.h"
 
 #include <algorithm>
 #include <array>

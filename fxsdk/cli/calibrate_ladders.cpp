@@ -26,7 +26,6 @@ struct Moment
 struct Subject
 {
     const char* technique;
-    render::PassGroup group;
     std::vector<Knobs> settings; ///< the first is the best
     std::vector<Moment> moments;
     bool countsOff;          ///< the last setting leaves the technique out: it costs nothing
@@ -36,7 +35,6 @@ struct Subject
 Subject media()
 {
     Subject subject{"media",
-                    render::PassGroup::Media,
                     {},
                     {{"library:explosion", 0.5},
                      {"library:smoke-column", 4.0},
@@ -65,9 +63,11 @@ Subject dazzle()
     Knobs on, off;
     on.dazzle = true;
     off.dazzle = false;
-    return {"dazzle",  render::PassGroup::Dazzle,
-            {on, off}, {{"library:explosion", 0.2}, {"library:gas-fire", 2.5}, {"library:campfire", 2.5}},
-            true,      true};
+    return {"dazzle",
+            {on, off},
+            {{"library:explosion", 0.2}, {"library:gas-fire", 2.5}, {"library:campfire", 2.5}},
+            true,
+            true};
 }
 
 Subject shimmer()
@@ -75,11 +75,7 @@ Subject shimmer()
     Knobs on, off;
     on.shimmer = true;
     off.shimmer = false;
-    return {"shimmer",
-            render::PassGroup::Shimmer,
-            {on, off},
-            {{"library:campfire", 2.5}, {"library:gas-fire", 2.5}},
-            true};
+    return {"shimmer", {on, off}, {{"library:campfire", 2.5}, {"library:gas-fire", 2.5}}, true};
 }
 
 /// One preset at one moment, and all its settings drawn again and again.
@@ -121,7 +117,8 @@ public:
             stage_->view().quality.force(subject_.settings[k]);
             if (base::Status status = stage_->draw(); !status)
                 return status;
-            ioSeconds[k] += 1e-3 * stage_->times().milliseconds[size_t(subject_.group)];
+            const size_t group = stage_->view().renderer.passGroups().find(subject_.technique);
+            ioSeconds[k] += 1e-3 * stage_->times().milliseconds[group];
             if (!first)
                 continue;
             const std::vector<float> picture = stage_->picture();

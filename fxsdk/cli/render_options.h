@@ -7,7 +7,7 @@
 #include "fxsdk/cli/output_target.h"
 #include "fxsdk/cli/reference_options.h"
 #include "fxsdk/fxsdk.h"
-#include "rendering/view/view_types.h"
+#include "rendering/frame/view_types.h"
 
 #include <cstdint>
 #include <optional>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fxsdk/fxsdk.h"
-#include "rendering/view/view_types.h"
+#include "rendering/frame/view_types.h"
 
 namespace fx::cli {
 

@@ -2,7 +2,7 @@
 /// What a technique costs and how wrong it is, setting by setting: the data that quality is chosen from.
 #pragma once
 
-#include "rendering/view/view_types.h"
+#include "rendering/frame/view_types.h"
 
 #include <array>
 #include <cstdint>

@@ -2,13 +2,15 @@
 
 #include "fxsdk/quality/calibration_file.h"
 
+#include <algorithm>
+#include <span>
+#include <string_view>
 #include <utility>
 
 namespace fx::quality {
 
 namespace {
 
-using render::PassGroup;
 using render::TimingClock;
 
 constexpr uint64_t kNotToLearn = uint64_t(1) << 63;
@@ -30,10 +32,11 @@ Choice fromTag(uint64_t tag)
     return choice;
 }
 
-constexpr const char* techniqueOf(PassGroup group)
+/// The ladder that the time of a group of passes belongs to: the one of its name, otherwise the last.
+size_t ladderOf(std::span<const Ladder> ladders, std::string_view group)
 {
-    constexpr const char* kNames[render::kPassGroups] = {"other", "media", "shimmer", "dazzle"};
-    return kNames[size_t(group)];
+    const auto found = std::ranges::find(ladders, group, &Ladder::technique);
+    return found == ladders.end() ? ladders.size() - 1 : size_t(found - ladders.begin());
 }
 
 } // namespace
@@ -54,16 +57,8 @@ void ViewQuality::setCalibration(Calibration calibration)
 {
     std::vector<Ladder>& ladders = calibration.ladders;
     ladders.push_back({"other", {{1.0, 0.0, {}}}});
-    std::array<size_t, render::kPassGroups> ladderOf{};
-    for (size_t group = 0; group < ladderOf.size(); ++group) {
-        ladderOf[group] = ladders.size() - 1;
-        for (size_t i = 0; i < ladders.size(); ++i)
-            if (ladders[i].technique == techniqueOf(PassGroup(group)))
-                ladderOf[group] = i;
-    }
     BudgetController controller(std::move(ladders));
     controller_.emplace(std::move(controller));
-    ladderOf_ = ladderOf;
     chosen_ = controller_->choice();
     times_.reset();
 }
@@ -92,7 +87,7 @@ void ViewQuality::begin(render::ViewRenderer& renderer, double deltaTime, bool h
 
 void ViewQuality::control(render::ViewRenderer& renderer, double deltaTime)
 {
-    weigh(renderer.covered());
+    weigh(renderer);
     chosen_ = controller_->choose({options_.milliseconds, deltaTime, held_, weights_});
     for (size_t i = 0; i < controller_->ladders().size(); ++i)
         apply(controller_->ladders()[i].steps[chosen_[i]].knobs, renderer.settings());
@@ -114,22 +109,21 @@ void ViewQuality::collect(render::ViewRenderer& renderer)
         if (times.tag & kNotToLearn)
             continue;
         std::array<double, kMostLadders> milliseconds{};
-        for (size_t group = 0; group < render::kPassGroups; ++group)
-            milliseconds[ladderOf_[group]] += times.milliseconds[group];
+        const render::PassGroups& groups = renderer.passGroups();
+        for (size_t group = 0; group < groups.count(); ++group)
+            milliseconds[ladderOf(controller_->ladders(), groups.name(group))] += times.milliseconds[group];
         controller_->observe(fromTag(times.tag), milliseconds);
     }
 }
 
-void ViewQuality::weigh(const render::ScreenShare& covered)
+void ViewQuality::weigh(const render::ViewRenderer& renderer)
 {
     weights_ = {};
-    for (size_t i = 0; i < controller_->ladders().size(); ++i) {
-        const std::string& technique = controller_->ladders()[i].technique;
-        weights_[i] = technique == "media"     ? covered.media
-                      : technique == "shimmer" ? covered.hot
-                      : technique == "dazzle"  ? covered.media // glare is about as large as what is bright
-                                               : 0.0;
-    }
+    const auto& ladders = controller_->ladders();
+    for (const render::DrawTechnique* technique : renderer.techniques())
+        for (size_t i = 0; technique->weight && i < ladders.size(); ++i)
+            if (ladders[i].technique == technique->ladder)
+                weights_[i] = technique->weight(renderer.covered());
 }
 
 } // namespace fx::quality

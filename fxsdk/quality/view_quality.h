@@ -54,13 +54,12 @@ public:
 
 private:
     void control(render::ViewRenderer& renderer, double deltaTime);
-    void weigh(const render::ScreenShare& covered);
+    void weigh(const render::ViewRenderer& renderer);
 
     BudgetOptions options_;
     std::optional<BudgetController> controller_;
     std::optional<Knobs> forced_;
     std::optional<render::TimingClock> clock_ = render::TimingClock::Off;
-    std::array<size_t, render::kPassGroups> ladderOf_{}; ///< that the time of a group belongs to
     std::array<double, kMostLadders> weights_{};
     Choice chosen_{};
     bool held_ = false;

@@ -9,8 +9,8 @@
 #include "fxsdk/presets/preset_loader.h"
 #include "fxsdk/scene_file/camera_path.h"
 #include "fxsdk/scene_file/instance_play.h"
+#include "rendering/frame/view_types.h"
 #include "rendering/stage/stage_renderer.h"
-#include "rendering/view/view_types.h"
 #include "simulation/solver.h"
 
 #include <glm/gtc/quaternion.hpp>

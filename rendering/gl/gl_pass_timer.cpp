@@ -4,15 +4,6 @@
 
 namespace fx::render {
 
-PassGroup passGroupOf(std::string_view passName)
-{
-    if (passName.starts_with("media") || passName == "blob upload" || passName.starts_with("layer"))
-        return PassGroup::Media;
-    if (passName.starts_with("dazzle"))
-        return PassGroup::Dazzle;
-    return passName.starts_with("heat") ? PassGroup::Shimmer : PassGroup::Other;
-}
-
 double steadyMilliseconds()
 {
     using namespace std::chrono;
@@ -48,20 +39,20 @@ void GlPassTimer::beginFrame(TimingClock clock, uint64_t tag)
     frame.tag = tag;
     frame.clock = clock;
     open_ = &frame;
-    group_ = PassGroup::Other;
+    group_ = 0;
     if (clock == TimingClock::Host)
-        stamp(PassGroup::Other); // what the processor prepares counts
+        stamp(0); // what the processor prepares counts
 }
 
 void GlPassTimer::beginPasses()
 {
     if (open_ && open_->clock == TimingClock::Gpu)
-        stamp(PassGroup::Other);
+        stamp(0);
 }
 
 void GlPassTimer::beginPass(std::string_view name)
 {
-    const PassGroup group = passGroupOf(name);
+    const size_t group = open_ ? groups_.groupOf(name) : 0;
     if (open_ && group != group_ && open_->stamps + 1 < kStamps)
         stamp(group);
 }
@@ -69,13 +60,13 @@ void GlPassTimer::beginPass(std::string_view name)
 void GlPassTimer::endFrame(bool succeeded)
 {
     if (open_ && open_->stamps > 0 && succeeded) {
-        stamp(PassGroup::Other);
+        stamp(0);
         ++waiting_;
     }
     open_ = nullptr;
 }
 
-void GlPassTimer::stamp(PassGroup next)
+void GlPassTimer::stamp(size_t next)
 {
     Frame& frame = *open_;
     if (frame.clock == TimingClock::Gpu) {
@@ -112,7 +103,7 @@ bool GlPassTimer::take(GroupTimes& out)
         }
     out = {frame.tag, {}};
     for (size_t i = 0; i + 1 < frame.stamps; ++i)
-        out.milliseconds[size_t(frame.groups[i])] += at[i + 1] - at[i];
+        out.milliseconds[frame.groups[i]] += at[i + 1] - at[i];
     first_ = (first_ + 1) % kFrames;
     --waiting_;
     return true;

@@ -6,24 +6,15 @@
 #pragma once
 
 #include "rendering/gl/gl_device.h"
+#include "rendering/gl/pass_groups.h"
 
 #include <array>
 #include <cstdint>
 #include <numeric>
 #include <string_view>
+#include <utility>
 
 namespace fx::render {
-
-/// What passes are summed up by.
-enum class PassGroup : uint8_t
-{
-    Other,
-    Media,   ///< all blobs of fire, smoke and dust
-    Shimmer, ///< heat
-    Dazzle,  ///< glare
-};
-constexpr size_t kPassGroups = 4;
-PassGroup passGroupOf(std::string_view passName);
 
 enum class TimingClock : uint8_t
 {
@@ -35,9 +26,9 @@ enum class TimingClock : uint8_t
 /// One finished frame.
 struct GroupTimes
 {
-    uint64_t tag = 0; ///< what beginFrame() was given
-    std::array<double, kPassGroups> milliseconds{};
-    double total() const ///< [ms]
+    uint64_t tag = 0;                                   ///< what beginFrame() was given
+    std::array<double, kMostPassGroups> milliseconds{}; ///< by number of PassGroups
+    double total() const                                ///< [ms]
     {
         return std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0);
     }
@@ -53,10 +44,12 @@ public:
     static constexpr size_t kFrames = 6;  ///< that may wait for their results
     static constexpr size_t kStamps = 12; ///< of one frame; groups that change more often are not told apart
 
-    explicit GlPassTimer(GlDevice& device) : device_(device) {}
+    GlPassTimer(GlDevice& device, PassGroups groups) : device_(device), groups_(std::move(groups)) {}
     ~GlPassTimer();
     GlPassTimer(const GlPassTimer&) = delete;
     GlPassTimer& operator=(const GlPassTimer&) = delete;
+
+    const PassGroups& groups() const { return groups_; }
 
     /// Whether GL counts time: with 0 bits it does not, and its times would all be 0.
     bool hasGpuClock();
@@ -76,21 +69,22 @@ private:
     struct Frame
     {
         std::array<uint32_t, kStamps> queries{};
-        std::array<PassGroup, kStamps> groups{}; ///< of what follows stamp i
-        std::array<double, kStamps> host{};      ///< [ms]
+        std::array<size_t, kStamps> groups{}; ///< of what follows stamp i
+        std::array<double, kStamps> host{};   ///< [ms]
         size_t stamps = 0;
         uint64_t tag = 0;
         TimingClock clock = TimingClock::Off;
     };
-    void stamp(PassGroup next);
+    void stamp(size_t next);
     bool isAvailable(const Frame& frame);
 
     GlDevice& device_;
+    PassGroups groups_;
     std::array<Frame, kFrames> frames_;
     size_t first_ = 0;   ///< oldest frame whose result is awaited
     size_t waiting_ = 0; ///< frames from there
     Frame* open_ = nullptr;
-    PassGroup group_ = PassGroup::Other;
+    size_t group_ = 0;
     int counterBits_ = -1; ///< -1: not asked yet
 };
 

@@ -1,6 +1,6 @@
 #include "rendering/gpu_particles/gpu_depth.h"
 
-#include "rendering/passes/view_block.h"
+#include "rendering/frame/view_block.h"
 
 #include <glm/gtc/quaternion.hpp>
 

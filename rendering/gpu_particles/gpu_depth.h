@@ -48,8 +48,8 @@
 
 #include "foundation/math/geometry.h"
 #include "foundation/snapshot/gpu_particles.h"
+#include "rendering/frame/view_types.h"
 #include "rendering/frame_graph/frame_graph.h"
-#include "rendering/view/view_types.h"
 
 #include <glm/vec4.hpp>
 

@@ -18,6 +18,8 @@ struct EffectLight
     float radius;        ///< [m] root mean square extent of the emission, > 0
 };
 
+constexpr size_t kMostEffectLights = 4; ///< that drawing takes into account
+
 /// One light for each group that glows, brightest first, as many as fit.
 ///
 /// A blob of cross section s and source B sends B s (1 - exp(-t)) / t candela in every direction, t = 3.5 s /

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "foundation/result/status.h"
+#include "rendering/frame/view_types.h"
 #include "rendering/frame_graph/frame_graph.h"
-#include "rendering/view/view_types.h"
 
 #include <cstdint>
 

@@ -1,8 +1,8 @@
 /// @file heat_shimmer_pass.h
 #pragma once
 
+#include "rendering/frame/view_types.h"
 #include "rendering/frame_graph/frame_graph.h"
-#include "rendering/view/view_types.h"
 
 #include <cstdint>
 #include <span>

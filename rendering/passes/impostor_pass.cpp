@@ -61,22 +61,27 @@ ImpostorKeepPass::Outputs ImpostorKeepPass::addTo(FrameGraph& graph, const Input
     return out;
 }
 
-void drawImpostors(Backend& backend, const ImpostorDraw& impostors, uint32_t first, uint32_t count,
-                   const ViewBlock& view, ResourceId distance, std::span<const ResourceId> targets)
+void ImpostorSource::read(FrameGraph::Builder& builder) const
 {
-    ViewBlock block = view;
-    block.pass.y = float(first);
-    const TextureBinding textures[] = {{0, distance}, {1, impostors.atlas, Sampling::Linear}};
-    const BufferBinding buffers[] = {{0, impostors.instances}};
+    builder.read(instances);
+    builder.read(atlas);
+}
+
+void ImpostorSource::draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const
+{
+    ViewBlock block = *target.view;
+    block.pass.y = float(run.first);
+    const TextureBinding textures[] = {{0, target.distance}, {1, atlas, Sampling::Linear}};
+    const BufferBinding buffers[] = {{0, instances}};
     DrawCall call;
     call.program = &kImpostorProgram;
-    call.targets = targets;
+    call.targets = target.targets;
     call.textures = textures;
     call.buffers = buffers;
     call.uniforms = asUniforms(block);
     call.blend = Blend::Premultiplied;
     call.vertices = 6;
-    call.instances = count;
+    call.instances = run.count;
     backend.draw(call);
 }
 

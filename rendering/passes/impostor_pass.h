@@ -2,8 +2,9 @@
 /// Pictures of whole far effects: taken into tiles of one texture, and drawn as squares that face the eye.
 #pragma once
 
+#include "rendering/frame/view_block.h"
 #include "rendering/frame_graph/frame_graph.h"
-#include "rendering/passes/view_block.h"
+#include "rendering/passes/media_source.h"
 
 #include <cstdint>
 #include <span>
@@ -69,15 +70,15 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// What drawing effects as pictures reads.
-struct ImpostorDraw
+/// Draws effects as pictures of themselves.
+class ImpostorSource final : public MediaSource
 {
-    ResourceId instances; ///< buffer of ImpostorInstance; invalid: there are none
+public:
+    void read(FrameGraph::Builder& builder) const override;
+    void draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const override;
+
+    ResourceId instances; ///< buffer of ImpostorInstance
     ResourceId atlas;
 };
-
-/// Draws instances `first` to `first + count` into `targets`, premultiplied over what is there.
-void drawImpostors(Backend& backend, const ImpostorDraw& impostors, uint32_t first, uint32_t count,
-                   const ViewBlock& view, ResourceId distance, std::span<const ResourceId> targets);
 
 } // namespace fx::render

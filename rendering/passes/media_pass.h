@@ -1,27 +1,18 @@
 /// @file media_pass.h
 #pragma once
 
+#include "rendering/frame/view_block.h"
 #include "rendering/frame_graph/frame_graph.h"
-#include "rendering/passes/impostor_pass.h"
-#include "rendering/passes/particle_batch.h"
-#include "rendering/passes/view_block.h"
+#include "rendering/passes/media_source.h"
 
 #include <array>
 
 namespace fx::render {
 
-/// The program of one permutation: form of the billboard, procedural detail, light sorted by layer, targets
-/// smaller than the picture.
-const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bool isSmall);
-constexpr size_t kMediaPrograms = 3 * 2 * 2 * 2;
-const ProgramDesc& mediaProgramAt(size_t index);
-
-/// Draws all blobs of fire, smoke and dust as balls of medium and all particles that do not hide, in the
-/// order of `runs`, so that layers and kinds are composed by depth. Formula of blobs: kernel-optical-depth,
-/// or the form that is asked for.
+/// Draws what does not hide: media, sprites, ribbons, whatever sources have, in the order of `runs`, so that
+/// layers and techniques are composed by depth.
 ///
-/// reads   blobs     buffer of BlobInstance sorted by falling distance
-///         batches   rows, orders, textures
+/// reads   what the sources read
 ///         distance  [m] along the ray to opaque geometry
 /// writes  media     RGBA32F exposed radiance, premultiplied "over"; or, with layers, the same light in six
 ///         targets
@@ -31,17 +22,12 @@ class MediaPass
 public:
     struct Inputs
     {
-        ResourceId blobs;                       ///< invalid when there is none
-        std::span<const ParticleBatch> batches; ///< must stay until the graph has executed, like `runs`
-        std::span<const MediaRun> runs;
+        std::span<const MediaRun> runs; ///< must stay until the graph has executed, as must their sources
         ResourceId distance;
         int width, height;
         ViewBlock view;
-        BillboardForm form;
-        bool detail;
         bool layers;
-        bool isSmall = false;        ///< of a layer grid whose texels are larger than pixels
-        ImpostorDraw impostors = {}; ///< effects that are drawn as pictures; not with layers
+        bool isSmall = false; ///< of a layer grid whose texels are larger than pixels
     };
     /// What `layers` asks for, in the order of media.frag.glsl.
     enum LayerTarget : size_t

@@ -1,8 +1,8 @@
 /// @file overdraw_pass.h
 #pragma once
 
+#include "rendering/frame/view_block.h"
 #include "rendering/frame_graph/frame_graph.h"
-#include "rendering/passes/view_block.h"
 
 namespace fx::render {
 

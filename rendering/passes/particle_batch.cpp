@@ -1,5 +1,7 @@
 #include "rendering/passes/particle_batch.h"
 
+#include <algorithm>
+
 namespace fx::render {
 
 namespace {
@@ -38,7 +40,43 @@ const ProgramDesc& particleProgram(BatchShape shape, bool isSolid, bool layers)
     return kPrograms[size_t(shape) * 4 + (isSolid ? 2 : 0) + (layers ? 1 : 0)];
 }
 
-void readBatches(FrameGraph::Builder& builder, std::span<const ParticleBatch> batches)
+namespace {
+
+/// Draws instances `first` to `first + count` of a batch.
+void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uint32_t count,
+               const MediaTarget& target, ResourceId depth)
+{
+    ParticleBlock block = batch.block;
+    block.view = *target.view;
+    block.rows[2] = int32_t(first);
+    const TextureBinding textures[] = {
+        {0, target.distance},
+        {1, batch.textureId, batch.repeats ? Sampling::TrilinearRepeat : Sampling::Trilinear},
+        {2, batch.motionId, Sampling::Trilinear}};
+    const BufferPart* parts[] = {&batch.newer, &batch.older, &batch.order, &batch.mesh};
+    std::array<BufferBinding, 4> buffers;
+    for (uint32_t i = 0; i < 4; ++i) { // what is not there is never read, but something has to be bound
+        const BufferPart& part = parts[i]->bytes > 0 ? *parts[i] : batch.newer;
+        buffers[i] = {i, part.id, part.offset, part.bytes};
+    }
+    DrawCall call;
+    call.program = &particleProgram(batch.shape, batch.isSolid, target.layers);
+    call.targets = target.targets;
+    call.textures = textures;
+    call.buffers = buffers;
+    call.uniforms = asUniforms(block);
+    call.blend = batch.isSolid ? Blend::None : Blend::Premultiplied;
+    call.vertices = batch.vertices;
+    call.instances = count;
+    call.indirect = batch.arguments;
+    call.depthTarget = depth;
+    call.reversedDepth = true;
+    backend.draw(call);
+}
+
+} // namespace
+
+void BatchSource::read(FrameGraph::Builder& builder) const
 {
     for (const ParticleBatch& batch : batches) {
         for (const BufferPart* part : {&batch.newer, &batch.older, &batch.order, &batch.mesh})
@@ -51,36 +89,21 @@ void readBatches(FrameGraph::Builder& builder, std::span<const ParticleBatch> ba
     }
 }
 
-void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uint32_t count,
-               const ViewBlock& view, bool layers, ResourceId distance, std::span<const ResourceId> targets,
-               ResourceId depth)
+void BatchSource::draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const
 {
-    ParticleBlock block = batch.block;
-    block.view = view;
-    block.rows[2] = int32_t(first);
-    const TextureBinding textures[] = {
-        {0, distance},
-        {1, batch.textureId, batch.repeats ? Sampling::TrilinearRepeat : Sampling::Trilinear},
-        {2, batch.motionId, Sampling::Trilinear}};
-    const BufferPart* parts[] = {&batch.newer, &batch.older, &batch.order, &batch.mesh};
-    std::array<BufferBinding, 4> buffers;
-    for (uint32_t i = 0; i < 4; ++i) { // what is not there is never read, but something has to be bound
-        const BufferPart& part = parts[i]->bytes > 0 ? *parts[i] : batch.newer;
-        buffers[i] = {i, part.id, part.offset, part.bytes};
-    }
-    DrawCall call;
-    call.program = &particleProgram(batch.shape, batch.isSolid, layers);
-    call.targets = targets;
-    call.textures = textures;
-    call.buffers = buffers;
-    call.uniforms = asUniforms(block);
-    call.blend = batch.isSolid ? Blend::None : Blend::Premultiplied;
-    call.vertices = batch.vertices;
-    call.instances = count;
-    call.indirect = batch.arguments;
-    call.depthTarget = depth;
-    call.reversedDepth = true;
-    backend.draw(call);
+    drawBatch(backend, batches[run.batch], run.first, run.count, target, {});
+}
+
+bool BatchSource::hasSolids() const
+{
+    return std::ranges::any_of(batches, [](const ParticleBatch& batch) { return batch.isSolid; });
+}
+
+void BatchSource::drawSolids(Backend& backend, const MediaTarget& target, ResourceId depth) const
+{
+    for (const ParticleBatch& batch : batches)
+        if (batch.isSolid)
+            drawBatch(backend, batch, 0, batch.instances, target, depth);
 }
 
 } // namespace fx::render

@@ -1,9 +1,10 @@
 /// @file particle_batch.h
-/// A group of particles or ribbons as the passes draw it, and the order in which groups and media take turns.
+/// A group of particles or ribbons as the passes draw it.
 #pragma once
 
+#include "rendering/frame/view_block.h"
 #include "rendering/frame_graph/frame_graph.h"
-#include "rendering/passes/view_block.h"
+#include "rendering/passes/media_source.h"
 
 #include <glm/vec4.hpp>
 
@@ -71,27 +72,21 @@ struct ParticleBatch
     ResourceId arguments;    ///< of the draw, written on the GPU; invalid: `instances` are drawn
 };
 
-/// Some of a batch's instances, or of the media's blobs, that are drawn in one go.
-struct MediaRun
-{
-    static constexpr uint32_t kBlobs = ~0u;
-    static constexpr uint32_t kImpostors = ~0u - 1;
-    uint32_t batch; ///< kBlobs, kImpostors, or an index of the batches
-    uint32_t first;
-    uint32_t count;
-};
-
 /// The program of one permutation; `isSolid` writes depth and distance, `layers` as in MediaPass.
 const ProgramDesc& particleProgram(BatchShape shape, bool isSolid, bool layers);
 constexpr size_t kParticlePrograms = 3 * 2 * 2;
 const ProgramDesc& particleProgramAt(size_t index);
 
-/// Declares what drawing `batches` reads.
-void readBatches(FrameGraph::Builder& builder, std::span<const ParticleBatch> batches);
+/// Draws groups of particles and ribbons; runs number its batches.
+class BatchSource final : public MediaSource
+{
+public:
+    void read(FrameGraph::Builder& builder) const override;
+    void draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const override;
+    bool hasSolids() const override;
+    void drawSolids(Backend& backend, const MediaTarget& target, ResourceId depth) const override;
 
-/// Draws instances `first` to `first + count` of a batch into `targets`, as `view` shows them.
-void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uint32_t count,
-               const ViewBlock& view, bool layers, ResourceId distance, std::span<const ResourceId> targets,
-               ResourceId depth = {});
+    std::span<const ParticleBatch> batches;
+};
 
 } // namespace fx::render

@@ -1,5 +1,6 @@
 /// @file programs.h
-/// Every program that a view can need: finite, known beforehand, compiled by the warm-up.
+/// The programs of passes that belong to no technique. With those that techniques list they are all that a
+/// view can need, known beforehand and compiled by the warm-up.
 #pragma once
 
 #include "rendering/frame_graph/backend.h"
@@ -8,6 +9,6 @@
 
 namespace fx::render {
 
-std::span<const ProgramDesc* const> allPrograms();
+std::span<const ProgramDesc* const> framePrograms();
 
 } // namespace fx::render

@@ -8,7 +8,7 @@ SolidPass::Outputs SolidPass::addTo(FrameGraph& graph, const Inputs& in)
 {
     Outputs out;
     out.distance = in.distance;
-    if (std::none_of(in.batches.begin(), in.batches.end(), [](const ParticleBatch& b) { return b.isSolid; }))
+    if (in.sources.empty())
         return out;
 
     graph.addPass("solid particles", [&](FrameGraph::Builder& builder) {
@@ -16,7 +16,8 @@ SolidPass::Outputs SolidPass::addTo(FrameGraph& graph, const Inputs& in)
         const size_t mediaTargets = in.layers ? size_t(MediaPass::LayerTargets) : 1;
         std::array<ResourceId, kMost> targets;
         builder.read(in.distance);
-        readBatches(builder, in.batches);
+        for (const MediaSource* source : in.sources)
+            source->read(builder);
         for (size_t i = 0; i < mediaTargets; ++i)
             targets[i] = builder.write(builder.create(mediaTargetDesc(in.layers, i, in.width, in.height)));
         out.distance = targets[mediaTargets] =
@@ -33,10 +34,10 @@ SolidPass::Outputs SolidPass::addTo(FrameGraph& graph, const Inputs& in)
                 backend.clear(targets[i], {0.0f, 0.0f, 0.0f, 0.0f});
             backend.copyTexture(in.distance, targets[mediaTargets]);
             backend.clear(depth, {0.0f, 0.0f, 0.0f, 0.0f});
-            for (const ParticleBatch& batch : in.batches)
-                if (batch.isSolid)
-                    drawBatch(backend, batch, 0, batch.instances, in.view, in.layers, in.distance,
-                              {targets.data(), mediaTargets + 1}, depth);
+            const MediaTarget target{
+                &in.view, in.distance, {targets.data(), mediaTargets + 1}, in.layers, false};
+            for (const MediaSource* source : in.sources)
+                source->drawSolids(backend, target, depth);
         };
     });
     return out;

@@ -2,23 +2,22 @@
 #pragma once
 
 #include "rendering/passes/media_pass.h"
-#include "rendering/passes/particle_batch.h"
 
 namespace fx::render {
 
-/// Draws particles that hide what is behind them, nearest wins, before any media: what the media pass then
+/// Draws what hides what is behind it, nearest wins, before any media: what the media pass then
 /// blends over, and where its rays end. The host's depth is read, not written.
 ///
 /// reads   distance  [m] along the ray to the host's opaque geometry
 /// writes  media, or the layer targets, as the media pass does: exposed radiance, opacity 1 or nothing
 ///         distance  [m] a new texture, to the nearest of host and particles
-/// Adds nothing when no batch is solid. Keeps no state.
+/// Adds nothing without sources. Keeps no state.
 class SolidPass
 {
 public:
     struct Inputs
     {
-        std::span<const ParticleBatch> batches; ///< must stay until the graph has executed
+        std::span<const MediaSource* const> sources; ///< with solids; must stay until the graph has executed
         ResourceId distance;
         int width, height;
         ViewBlock view;

@@ -2,7 +2,7 @@
 /// Camera matrices for tools and tests.
 #pragma once
 
-#include "rendering/view/view_types.h"
+#include "rendering/frame/view_types.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,12 +1,12 @@
 #include "rendering/stage/stage_renderer.h"
 
+#include "rendering/frame/exposure.h"
+#include "rendering/frame/view_block.h"
 #include "rendering/gl/gl_backend.h"
 #include "rendering/gl/gl_buffer.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_state_guard.h"
 #include "rendering/gl/gl_texture.h"
-#include "rendering/passes/view_block.h"
-#include "rendering/view/blob_shading.h"
 
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>

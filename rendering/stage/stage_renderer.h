@@ -6,8 +6,8 @@
 #pragma once
 
 #include "foundation/result/status.h"
+#include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
-#include "rendering/view/view_types.h"
 
 #include <glm/vec3.hpp>
 

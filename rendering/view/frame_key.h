@@ -3,8 +3,8 @@
 /// uploaded for the last frame serves again.
 #pragma once
 
-#include "rendering/view/snapshot_stamps.h"
-#include "rendering/view/view_types.h"
+#include "rendering/frame/snapshot_stamps.h"
+#include "rendering/frame/view_types.h"
 
 namespace fx::base {
 class AssetTable;

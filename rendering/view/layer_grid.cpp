@@ -1,6 +1,6 @@
 #include "rendering/view/layer_grid.h"
 
-#include "rendering/view/blob_gather.h"
+#include "rendering/frame/ball_window.h"
 
 #include <cmath>
 

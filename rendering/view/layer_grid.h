@@ -2,8 +2,8 @@
 /// The texels of layers that are smaller than the picture, and the rays through them.
 #pragma once
 
-#include "rendering/passes/view_block.h"
-#include "rendering/view/view_types.h"
+#include "rendering/frame/view_block.h"
+#include "rendering/frame/view_types.h"
 
 namespace fx::render {
 

@@ -1,6 +1,6 @@
 #include "rendering/view/layer_scale_control.h"
 
-#include "rendering/view/fragment_estimate.h"
+#include "rendering/frame/fragment_counts.h"
 
 #include <algorithm>
 

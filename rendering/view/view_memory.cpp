@@ -1,98 +1,55 @@
-// Buffers and textures that belong to a view: made when they are called for, given back after a while without
-// use.
+// What a view makes and gives back: the parts of its techniques, and frames in which there is nothing to
+// draw.
 #include "rendering/view/view_parts.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace fx::render {
 
-namespace {
-
-constexpr uint32_t kIdleFrames = 300; ///< until textures and buffers are given back
-constexpr size_t kLeastBufferBytes = 4096;
-
-} // namespace
-
-/// Such a buffer belongs to the view, so that what is in it is still there in the next frame.
-base::Status ViewRenderer::Impl::makeRoom(GlBuffer& buffer, size_t bytes, const char* label)
+ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
+                         DrawTechniques list)
+    : device(d), graph(memory), backend(*d, memory), techniques(list), parts(memory), lod(memory),
+      runs(memory), streams(memory), solids(memory), stamps(memory), targetCheck(*d),
+      timer(*d, render::passGroups(list))
 {
-    if (bytes == 0)
-        return {};
-    if (buffer.bytes() >= bytes) {
-        device->gl.InvalidateBufferData(buffer.name()); // the GPU may still read it: do not wait
-        return {};
+    const TechniqueSetup setup{d, schema, memory, list};
+    for (size_t i = 0; i < list.size(); ++i) {
+        const auto isMadeAlready = [&](const DrawTechnique* before) {
+            return before->create == list[i]->create;
+        };
+        if (list[i]->create && std::ranges::none_of(list.first(i), isMadeAlready))
+            parts.push_back(list[i]->create(setup));
     }
-    auto created = GlBuffer::create(*device, std::bit_ceil(std::max(bytes, kLeastBufferBytes)), label);
-    if (!created)
-        return created.status();
-    buffer = std::move(*created);
-    return {};
 }
 
-base::Status ViewRenderer::Impl::makeRoomForImpostors()
+uint64_t ViewRenderer::Impl::bytes() const
 {
-    if (base::Status status = makeRoom(impostorBuffer, builder.impostors().size_bytes(), "impostors");
-        !status)
-        return status;
-    if (builder.takenTiles().empty() || impostorAtlas.name() != 0)
-        return {};
-    auto created = GlTexture::create(*device, kImpostorColumns * kImpostorTile, kImpostorRows * kImpostorTile,
-                                     glInternalFormat(Format::RGBA16F), "impostors");
-    if (!created)
-        return created.status();
-    impostorAtlas = std::move(*created);
-    return {};
+    uint64_t sum = backend.pooledBytes();
+    for (const auto& part : parts)
+        sum += part->bytes();
+    return sum;
 }
 
 /// A frame in which there is nothing to draw.
 FrameStatistics ViewRenderer::Impl::rest()
 {
     outputs = {};
-    historyFresh = true; // glare that has paused begins anew
     FrameStatistics statistics;
     const uint64_t before = device->callCount();
     if (++idleFrames >= kIdleFrames && backend.pooledBytes() > 0)
         backend.releasePool();
-    if (idleFrames == kIdleFrames) {
-        releaseBlobs();
-        releaseImpostors();
+    for (const auto& part : parts)
+        part->rest();
+    if (idleFrames == kIdleFrames)
         key.reset();
-    }
-    single.buffers.idle();
-    joined.buffers.idle();
     statistics.glCalls = device->callCount() - before;
-    statistics.textureBytes = backend.pooledBytes() + single.buffers.bytes() + joined.buffers.bytes();
+    statistics.textureBytes = bytes();
     return statistics;
 }
 
 bool ViewRenderer::Impl::holdsNothing() const
 {
-    return backend.pooledBytes() == 0 && single.buffers.bytes() == 0 && joined.buffers.bytes() == 0 &&
-           blobBuffer.name() == 0 && impostorBuffer.name() == 0 && impostorAtlas.name() == 0 && !key;
-}
-
-void ViewRenderer::Impl::releaseBlobs()
-{
-    blobBuffer = {};
-}
-
-void ViewRenderer::Impl::releaseImpostors()
-{
-    impostorBuffer = {};
-    impostorAtlas = {};
-    builder.forgetPictures();
-}
-
-/// Gives back what many frames in a row have drawn nothing from.
-void ViewRenderer::Impl::releaseUnused()
-{
-    blobsUnused = builder.blobs().empty() ? blobsUnused + 1 : 0;
-    if (blobsUnused == kIdleFrames)
-        releaseBlobs();
-    impostorsUnused = builder.impostors().empty() ? impostorsUnused + 1 : 0;
-    if (impostorsUnused == kIdleFrames)
-        releaseImpostors();
+    return bytes() == 0 && !key;
 }
 
 } // namespace fx::render

@@ -1,80 +1,56 @@
 /// @file view_parts.h
-/// What a ViewRenderer is made of: its lists, its memory on the GPU, and what it counts.
+/// What a ViewRenderer is made of: what its techniques keep, the lists of a frame, and what it counts.
 #pragma once
 
+#include "rendering/frame/fragment_counts.h"
 #include "rendering/gl/gl_backend.h"
-#include "rendering/gl/gl_buffer.h"
 #include "rendering/gl/gl_device.h"
-#include "rendering/gl/gl_texture.h"
-#include "rendering/view/fragment_estimate.h"
-#include "rendering/view/frame_builder.h"
+#include "rendering/host_targets/host_target_check.h"
+#include "rendering/lights/effect_lights.h"
+#include "rendering/lod/level_of_detail.h"
 #include "rendering/view/frame_key.h"
-#include "rendering/view/group_merger.h"
-#include "rendering/view/host_target_check.h"
-#include "rendering/view/hot_areas.h"
 #include "rendering/view/layer_scale_control.h"
-#include "rendering/view/particle_buffers.h"
-#include "rendering/view/particle_frame.h"
 #include "rendering/view/view_graph.h"
 #include "rendering/view/view_renderer.h"
 
+#include <array>
 #include <optional>
 
 namespace fx::render {
 
 struct ViewRenderer::Impl
 {
-    Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory)
-        : device(d), graph(memory), backend(*d, memory), builder(memory), hotAreas(memory),
-          merger(schema, memory), single{ParticleFrame(memory), ParticleBuffers(*d, memory)},
-          joined{ParticleFrame(memory), ParticleBuffers(*d, memory)}, batches(memory), runs(memory),
-          streams(memory), stamps(memory), targetCheck(*d), timer(*d)
-    {}
-
-    struct Particles
-    {
-        ParticleFrame frame;
-        ParticleBuffers buffers;
-    };
+    Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
+         DrawTechniques list);
 
     base::Status checkTargets(const FrameRequest& request);
-    base::Status ensureHistory();
+    bool leavesPictureAlone(const base::SnapshotPair& snapshots, const FrameRequest& request,
+                            const ViewSettings& settings) const;
     base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
                         const ViewSettings& settings); ///< everything that is to be drawn
     base::Status gatherAnew(const base::SnapshotPair& snapshots, const StampPair& stamps,
                             const FrameRequest& request, const ViewSettings& settings);
     SnapshotRowStamps rowsOf(const base::FrameSnapshot* snapshot) const;
-    base::Status makeRoom(GlBuffer& buffer, size_t bytes, const char* label);
-    base::Status makeRoomForImpostors();
-    base::Status add(Particles& particles, const ParticleFrameInputs& inputs, const UploadStamps& of);
-    void releaseBlobs();
-    void releaseImpostors();
-    void releaseUnused();
+    base::Status draw(const FrameRequest& request, const ViewSettings& settings, int divisor);
+    void forget(); ///< what this frame was to write
+    uint64_t bytes() const;
     FrameStatistics rest();
     bool holdsNothing() const; ///< that rest() gives back
     FrameStatistics count(int divisor);
-    void readBack(FrameStatistics& statistics); ///< waits for the GPU
 
     GlDevice* device;
     FrameGraph graph;
     GlBackend backend;
-    FrameBuilder builder;
-    HotAreas hotAreas;
-    GroupMerger merger;
-    Particles single; ///< groups as they are
-    Particles joined; ///< small groups that are drawn alike
-    std::pmr::vector<ParticleBatch> batches;
+    DrawTechniques techniques;
+    std::pmr::vector<std::unique_ptr<TechniqueView>> parts; ///< of techniques, in their order
+    LevelOfDetail lod;
     DrawRuns runs;
     std::pmr::vector<DrawStream> streams;
     std::span<const MediaRun> mediaRuns;
+    std::pmr::vector<const MediaSource*> solids;
     SnapshotStamps stamps;
     std::optional<FrameKey> key; ///< of the lists above and of what is on the GPU; nothing: not to be used
     bool keptLists = false;      ///< they were not made for this frame
-    GlBuffer blobBuffer;
-    uint32_t blobsUnused = 0; ///< frames, one after the other
-    uint32_t impostorsUnused = 0;
-    GlBuffer impostorBuffer;
-    GlTexture impostorAtlas; ///< pictures of effects; nothing before the first
     const base::AssetTable* assets = nullptr;
     FragmentCounts fragments{}; ///< of this frame
     LayerScaleControl layerScale;
@@ -82,9 +58,7 @@ struct ViewRenderer::Impl
     GlPassTimer timer;
     TimingClock clock = TimingClock::Off;
     uint64_t tag = 0;
-    GlBuffer dazzleHistory;
-    uint32_t idleFrames = 0;   ///< one after the other in which there was nothing to draw
-    bool historyFresh = false; ///< nothing has been adapted to yet
+    uint32_t idleFrames = 0; ///< one after the other in which there was nothing to draw
     ViewGraphOutputs outputs;
 };
 

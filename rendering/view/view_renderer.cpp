@@ -2,10 +2,9 @@
 
 #include "foundation/math/bits.h"
 #include "foundation/math/hash.h"
+#include "rendering/frame/view_block.h"
 #include "rendering/gl/gl_state_guard.h"
-#include "rendering/passes/dazzle_pass.h"
 #include "rendering/passes/programs.h"
-#include "rendering/passes/view_block.h"
 #include "rendering/view/view_parts.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -30,17 +29,6 @@ base::Status invalid(std::string message)
     return {base::Code::InvalidArgument, std::move(message)};
 }
 
-/// Nothing is to be seen, and nothing else would change the host's picture.
-bool leavesPictureAlone(const base::SnapshotPair& snapshots, const FrameRequest& request,
-                        const ViewSettings& settings)
-{
-    const auto isEmpty = [](const base::FrameSnapshot* snapshot) {
-        return !snapshot || snapshot->groupCount() == 0;
-    };
-    return isEmpty(snapshots.newer) && isEmpty(snapshots.older) && !settings.dazzle.enabled &&
-           !settings.toneMap && !request.targets.useFramebuffer && request.overlay.empty();
-}
-
 } // namespace
 
 base::Status ViewRenderer::Impl::checkTargets(const FrameRequest& request)
@@ -54,16 +42,24 @@ base::Status ViewRenderer::Impl::checkTargets(const FrameRequest& request)
     return targetCheck.check(request);
 }
 
-base::Status ViewRenderer::Impl::ensureHistory()
+/// Nothing is to be seen, and nothing else would change the host's picture.
+bool ViewRenderer::Impl::leavesPictureAlone(const base::SnapshotPair& snapshots, const FrameRequest& request,
+                                            const ViewSettings& settings) const
 {
-    if (dazzleHistory.name() != 0)
-        return {};
-    auto created = GlBuffer::create(*device, sizeof(DazzleHistory), "dazzle history");
-    if (!created)
-        return created.status();
-    dazzleHistory = std::move(*created);
-    historyFresh = true;
-    return {};
+    const auto isEmpty = [](const base::FrameSnapshot* snapshot) {
+        return !snapshot || snapshot->groupCount() == 0;
+    };
+    return isEmpty(snapshots.newer) && isEmpty(snapshots.older) && !settings.toneMap &&
+           !request.targets.useFramebuffer && request.overlay.empty() &&
+           std::ranges::none_of(techniques, [&](const DrawTechnique* technique) {
+               return technique->actsAlone && technique->actsAlone(settings);
+           });
+}
+
+void ViewRenderer::Impl::forget()
+{
+    for (const auto& part : parts)
+        part->forget();
 }
 
 base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
@@ -73,8 +69,8 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     const FrameKey wanted = frameKey(now, request, settings, assets);
     keptLists = key == wanted && !request.resetHistory;
     if (keptLists) {
-        single.buffers.keep(single.frame);
-        joined.buffers.keep(joined.frame);
+        for (const auto& part : parts)
+            part->keep();
         return {};
     }
     key.reset();
@@ -82,11 +78,10 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     if (now.isSteady())
         shown.older = nullptr; // nothing moves between them
     if (base::Status status = gatherAnew(shown, now, request, settings); !status) {
-        single.buffers.forgetComputed();
-        builder.forgetPictures();
+        forget();
         return status;
     }
-    if (builder.isSettled())
+    if (std::ranges::all_of(parts, [](const auto& part) { return part->isSettled(); }))
         key = wanted;
     return {};
 }
@@ -100,67 +95,38 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
                                             const FrameRequest& request, const ViewSettings& settings)
 {
     const CameraGeometry camera = cameraGeometry(request.camera);
-    builder.build(snapshots, request, settings, camera, contentOf(now, request.interpolation));
-    if (builder.anyHeat() && settings.shimmer.strength > 0.0f)
-        hotAreas.find(builder.blobs(), request.camera, request.targets.width, request.targets.height);
-    else
-        hotAreas.clear();
+    lod.begin(settings.lod, camera, request.targets.height, request.resetHistory);
+    std::array<EffectLight, kMostEffectLights> lights;
+    const size_t lightCount = snapshots.newer ? effectLights(*snapshots.newer, lights) : 0;
+    const GatherInputs inputs{&snapshots,
+                              now,
+                              rowsOf(snapshots.newer),
+                              rowsOf(snapshots.older),
+                              &request,
+                              &settings,
+                              &camera,
+                              assets,
+                              std::span(lights).first(lightCount),
+                              &lod,
+                              contentOf(now, request.interpolation)};
     streams.clear();
-    batches.clear();
-    if (builder.stream().count > 0)
-        streams.push_back(builder.stream());
-    if (builder.impostorStream().count > 0)
-        streams.push_back(builder.impostorStream());
-    fragments = estimateFragments(builder.blobs(), camera, request.targets.width, request.targets.height);
-    const UploadStamps own{now, rowsOf(snapshots.newer), rowsOf(snapshots.older)};
-    merger.build(snapshots, now, own.newerRows, own.olderRows);
-    const base::SnapshotPair merged = merger.merged();
-    ParticleFrameInputs inputs{&snapshots, &request, &settings, &camera, builder.lights()};
-    inputs.lod = &builder.lod();
-    inputs.left = merger.taken();
-    if (base::Status status = add(single, inputs, own); !status)
-        return status;
-    inputs.snapshots = &merged;
-    inputs.left = {};
-    inputs.merger = &merger;
-    if (base::Status status = add(joined, inputs, {merger.stamps(), merger.newerRows(), merger.olderRows()});
-        !status)
-        return status;
-    if (base::Status status = makeRoom(blobBuffer, builder.blobs().size_bytes(), "blobs"); !status)
-        return status;
-    if (base::Status status = makeRoomForImpostors(); !status)
-        return status;
+    solids.clear();
+    mediaRuns = {};
+    GatheredFrame gathered{&streams};
+    for (const auto& part : parts)
+        if (base::Status status = part->gather(inputs, gathered); !status)
+            return status;
+    for (const auto& part : parts)
+        if (const MediaSource* source = part->solids())
+            solids.push_back(source);
+    fragments = gathered.fragments;
     mediaRuns = runs.build(streams);
     return {};
 }
 
-base::Status ViewRenderer::Impl::add(Particles& particles, const ParticleFrameInputs& inputs,
-                                     const UploadStamps& of)
-{
-    particles.frame.build(inputs);
-    const bool refused = particles.buffers.refusesGpu();
-    if (refused)
-        particles.frame.dropComputed();
-    base::Status status = particles.buffers.prepare(*inputs.snapshots, of, particles.frame, assets);
-    if (!status && particles.buffers.refusesGpu() && !refused) { // the scene will send rows from now on
-        particles.frame.dropComputed();
-        status = particles.buffers.prepare(*inputs.snapshots, of, particles.frame, assets);
-    }
-    if (!status)
-        return status;
-    for (DrawStream stream : particles.frame.streams()) {
-        stream.batch += uint32_t(batches.size());
-        streams.push_back(stream);
-    }
-    batches.insert(batches.end(), particles.frame.batches().begin(), particles.frame.batches().end());
-    for (size_t i = 0; i < fragments.size(); ++i)
-        fragments[i] += particles.frame.fragments()[i];
-    return {};
-}
-
 ViewRenderer::ViewRenderer(GlDevice* device, const base::SnapshotSchema* schema,
-                           std::pmr::memory_resource* memory)
-    : impl_(std::make_unique<Impl>(device, schema, memory))
+                           std::pmr::memory_resource* memory, DrawTechniques techniques)
+    : impl_(std::make_unique<Impl>(device, schema, memory, techniques))
 {}
 
 ViewRenderer::~ViewRenderer() = default;
@@ -172,20 +138,33 @@ void ViewRenderer::setAssets(const base::AssetTable* assets)
 
 base::Status ViewRenderer::warmUp()
 {
-    for (const ProgramDesc* program : allPrograms())
-        if (base::Status status = impl_->device->compile(*program); !status)
+    const auto compile = [&](std::span<const ProgramDesc* const> programs) {
+        for (const ProgramDesc* program : programs)
+            if (base::Status status = impl_->device->compile(*program); !status)
+                return status;
+        return base::Status();
+    };
+    if (base::Status status = compile(framePrograms()); !status)
+        return status;
+    for (const DrawTechnique* technique : impl_->techniques)
+        if (base::Status status = technique->programs ? compile(technique->programs()) : base::Status();
+            !status)
             return status;
-    return impl_->ensureHistory();
+    for (const auto& part : impl_->parts)
+        if (base::Status status = part->prepare(); !status)
+            return status;
+    return {};
 }
 
 bool ViewRenderer::canComputeParticles() const
 {
-    return !impl_->single.buffers.refusesGpu();
+    return std::ranges::all_of(impl_->parts, [](const auto& part) { return part->canComputeParticles(); });
 }
 
 void ViewRenderer::warmUp(const base::GpuParticleProgram& emitter)
 {
-    impl_->single.buffers.warmUp(emitter);
+    for (const auto& part : impl_->parts)
+        part->warmUp(emitter);
 }
 
 base::Status ViewRenderer::check(const FrameRequest& request)
@@ -205,15 +184,37 @@ base::Status ViewRenderer::check(const FrameRequest& request)
     return {};
 }
 
+base::Status ViewRenderer::Impl::draw(const FrameRequest& request, const ViewSettings& settings, int divisor)
+{
+    graph.begin();
+    outputs = buildViewGraph(graph, {&request, &settings, parts, mediaRuns, solids, divisor});
+    if (!outputs.anyPass)
+        return {};
+    graph.compile();
+    GlStateGuard guard(*device, settings.saveState);
+    timer.beginPasses();
+    // tone mapping writes the codes of sRGB itself
+    const bool isDisplayReferred = settings.toneMap && request.targets.color != 0;
+    if (backend.beginFrame(graph, isDisplayReferred ? SrgbTargets::Codes : SrgbTargets::Light))
+        graph.execute(backend);
+    for (const auto& part : parts)
+        part->fence();
+    base::Status status = backend.endFrame();
+    if (!status)
+        forget();
+    return status;
+}
+
 base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const FrameRequest& asked)
 {
     Impl& s = *impl_;
     if (base::Status status = check(asked); !status)
         return status;
-    if (base::Status status = checkSensorLaw(settings_.dazzle); !status)
-        return status;
+    for (const DrawTechnique* technique : s.techniques)
+        if (base::Status status = technique->check ? technique->check(settings_) : base::Status(); !status)
+            return status;
     asleep_ = false;
-    if (leavesPictureAlone(snapshots, asked, settings_)) {
+    if (s.leavesPictureAlone(snapshots, asked, settings_)) {
         statistics_ = s.rest();
         asleep_ = statistics_.glCalls == 0 && s.holdsNothing();
         return {};
@@ -223,57 +224,34 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
         return status;
     s.idleFrames = 0;
     const uint32_t compiledBefore = s.device->programsCompiled();
-    if (base::Status status = settings_.dazzle.enabled ? s.ensureHistory() : base::Status(); !status)
-        return status;
-    FrameRequest request = asked;
-    request.resetHistory = asked.resetHistory || s.historyFresh;
-
+    for (const auto& part : s.parts)
+        if (base::Status status = part->begin(settings_); !status)
+            return status;
     if (base::Status status = s.gather(snapshots, asked, settings_); !status)
         return status;
     s.timer.beginFrame(s.clock, s.tag);
     s.backend.setTimer(s.clock == TimingClock::Off ? nullptr : &s.timer);
     const int divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,
                                             asked.resetHistory);
-    s.graph.begin();
-    s.outputs = buildViewGraph(
-        s.graph,
-        {&request, &settings_, s.builder.blobs(), s.batches, s.mediaRuns, s.hotAreas.areas(),
-         s.builder.anyDetail(), s.dazzleHistory.name(), divisor, s.blobBuffer.name(), s.keptLists,
-         s.builder.impostors(), s.keptLists ? std::span<const BlobInstance>() : s.builder.takenBlobs(),
-         s.keptLists ? std::span<const uint32_t>() : s.builder.takenTiles(),
-         s.keptLists ? std::span<const MediaRun>() : s.builder.takenRuns(), s.impostorBuffer.name(),
-         s.impostorAtlas.name(), s.single.buffers.jobs(), s.single.frame.gpuOrders()});
-    base::Status status;
-    if (s.outputs.anyPass) {
-        s.graph.compile();
-        GlStateGuard guard(*s.device, settings_.saveState);
-        s.timer.beginPasses();
-        // tone mapping writes the codes of sRGB itself
-        const bool isDisplayReferred = settings_.toneMap && asked.targets.color != 0;
-        if (s.backend.beginFrame(s.graph, isDisplayReferred ? SrgbTargets::Codes : SrgbTargets::Light))
-            s.graph.execute(s.backend);
-        s.single.buffers.fence();
-        s.joined.buffers.fence();
-        status = s.backend.endFrame();
-    }
-    if (!status)
-        s.single.buffers.forgetComputed();
-    s.releaseUnused();
+    const base::Status status = s.draw(asked, settings_, divisor);
+    for (const auto& part : s.parts)
+        part->endFrame(status.ok());
     s.timer.endFrame(status.ok() && s.outputs.anyPass);
-    if (s.clock != TimingClock::Off)
-        covered_ = screenShare(s.builder.blobs(), cameraGeometry(request.camera));
+    if (s.clock != TimingClock::Off) {
+        covered_ = {};
+        for (const auto& part : s.parts)
+            part->cover(cameraGeometry(asked.camera), covered_);
+    }
     if (!status) {
         s.outputs = {}; // nothing of this frame can be handed out
         s.key.reset();
-        s.builder.forgetPictures();
     }
-    s.historyFresh = !(status && s.outputs.dazzled); // glare that has paused begins anew
-
     statistics_ = s.count(divisor);
     statistics_.glCalls = s.device->callCount() - callsBefore;
     statistics_.programsCompiled = s.device->programsCompiled() - compiledBefore;
     if (status && settings_.countOverdraw)
-        s.readBack(statistics_);
+        for (const auto& part : s.parts)
+            part->readBack(s.backend, statistics_);
     return status;
 }
 
@@ -296,6 +274,16 @@ void ViewRenderer::setHostClock(HostClock clock)
 bool ViewRenderer::takeTimes(GroupTimes& out)
 {
     return impl_->timer.take(out);
+}
+
+DrawTechniques ViewRenderer::techniques() const
+{
+    return impl_->techniques;
+}
+
+const PassGroups& ViewRenderer::passGroups() const
+{
+    return impl_->timer.groups();
 }
 
 LayerTextures ViewRenderer::layers() const

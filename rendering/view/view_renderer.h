@@ -7,9 +7,10 @@
 #include "foundation/assets/asset_table.h"
 #include "foundation/result/status.h"
 #include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/frame/screen_share.h"
+#include "rendering/frame/view_types.h"
 #include "rendering/gl/gl_pass_timer.h"
-#include "rendering/view/screen_share.h"
-#include "rendering/view/view_types.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include <cstdint>
 #include <memory>
@@ -37,10 +38,14 @@ struct LayerTextures
 class ViewRenderer
 {
 public:
-    ViewRenderer(GlDevice* device, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory);
+    /// @param techniques what it can draw; must stay
+    ViewRenderer(GlDevice* device, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
+                 DrawTechniques techniques = drawTechniques());
     ~ViewRenderer();
     ViewRenderer(const ViewRenderer&) = delete;
     ViewRenderer& operator=(const ViewRenderer&) = delete;
+
+    DrawTechniques techniques() const;
 
     ViewSettings& settings() { return settings_; }
     const ViewSettings& settings() const { return settings_; }
@@ -57,8 +62,9 @@ public:
     /// @param tag comes back with the times of a frame
     void setTiming(TimingClock clock, uint64_t tag);
     bool hasGpuClock();
-    void setHostClock(HostClock clock); ///< of TimingClock::Host
-    bool takeTimes(GroupTimes& out);    ///< see GlPassTimer::take
+    void setHostClock(HostClock clock);   ///< of TimingClock::Host
+    bool takeTimes(GroupTimes& out);      ///< see GlPassTimer::take
+    const PassGroups& passGroups() const; ///< of those times
     /// Of the last frame; only while frames are measured.
     const ScreenShare& covered() const { return covered_; }
     /// Images and meshes that particles name; must outlive the view or the next call. Null: plain particles.

@@ -1,4 +1,4 @@
-// A blob as drawn; written by rendering/view/frame_builder.cpp, layout asserted in rendering/passes/blob_instance.h.
+// A blob as drawn; written by rendering/media/frame_builder.cpp, layout asserted in rendering/passes/blob_instance.h.
 struct BlobInstance
 {
     vec4 centerRadius; // xyz [m] relative to the eye, world axes; w radius [m]

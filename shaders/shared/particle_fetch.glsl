@@ -26,7 +26,7 @@ vec4 olderColor(int column, int row)
     return colorOfWords(olderWords[at], olderWords[at + 1]);
 }
 
-// The row that is drawn as number `rank`; strip.z is an OrderForm of rendering/view/particle_frame.h.
+// The row that is drawn as number `rank`; strip.z is an OrderForm of rendering/particle_rows/particle_frame.h.
 int rowOfRank(int rank)
 {
     int form = int(strip.z);
@@ -67,7 +67,7 @@ struct Particle
     vec4 orientation;
 };
 
-// Rows of the CPU are packed, as rendering/view/packed_rows.h says.
+// Rows of the CPU are packed, as rendering/particle_rows/packed_rows.h says.
 const float kAgeUnit = 1.0 / 2048.0; // [s]
 const float kMostAge = 2047.0 / 2048.0;
 const float kTurnUnit = 6.28318531 / 4096.0; // [rad]

@@ -1,4 +1,4 @@
-// The view of one frame; filled from rendering/passes/view_block.h, which asserts this layout.
+// The view of one frame; filled from rendering/frame/view_block.h, which asserts this layout.
 layout(std140, binding = 0) uniform ViewBlock
 {
     vec4 rayOrigin;      // [m] relative to the eye, of the ray through the window's center; w: 1 orthographic, 0 perspective

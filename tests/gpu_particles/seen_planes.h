@@ -2,7 +2,7 @@
 /// Depth textures of planes, as a rasterizer would have written them, and how exact they are.
 #pragma once
 
-#include "rendering/passes/view_block.h"
+#include "rendering/frame/view_block.h"
 #include "rendering/stage/stage_camera.h"
 
 #include <glm/geometric.hpp>

@@ -2,9 +2,9 @@
 #include "gpu_fixture.h"
 
 #include "foundation/random/philox.h"
+#include "rendering/draw_order/depth_keys.h"
+#include "rendering/draw_order/depth_sort.h"
 #include "rendering/gpu_particles/gpu_order_pass.h"
-#include "rendering/view/depth_keys.h"
-#include "rendering/view/depth_sort.h"
 
 #include <limits>
 

@@ -57,10 +57,10 @@ class Lint(unittest.TestCase):
                                      "simulation/verification/b.cpp": "x = std::exp(y);\n"})
 
     def test_includes_follow_the_layers(self):
-        self.refused("arrows", {"simulation/a.h": '#include "rendering/view/view_types.h"\n'},
+        self.refused("arrows", {"simulation/a.h": '#include "rendering/frame/view_types.h"\n'},
                      "simulation/ must not include rendering/")
         self.refused("arrows", {"simulation/a.h": "", "foundation/b.h": '#include "simulation/world.h"\n'}, "foundation/b.h:1")
-        self.accepted("arrows", {"foundation/b.h": "", "fxsdk/a.h": '#include "rendering/view/view_types.h"\n'})
+        self.accepted("arrows", {"foundation/b.h": "", "fxsdk/a.h": '#include "rendering/frame/view_types.h"\n'})
 
     def test_examples_include_what_a_host_can(self):
         public = {"fxsdk/include/fxsdk/fx_view.h": "", "fxsdk/cli/main.h": ""}

@@ -32,7 +32,7 @@ struct MediumList
     uint32_t nonFinite = 0;
 };
 
-/// The blobs of a pair of snapshots at a moment between them, by the rules of rendering/view/blob_gather.h:
+/// The blobs of a pair of snapshots at a moment between them, by the rules of rendering/media/blob_gather.h:
 /// matched by id, interpolated, newborn ones carried back, moving ones drawn out along the shutter. Unlike
 /// there, nothing is culled or widened to a pixel, and positions are double.
 ///

@@ -2,9 +2,9 @@
 /// What stands behind the medium: diffuse triangles under the scene's lights, or the background.
 #pragma once
 
+#include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
 #include "rendering/reference/render/triangle_scene.h"
-#include "rendering/view/view_types.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,4 +1,4 @@
-#include "rendering/media/blob_medium.h"
+#include "rendering/reference/blob_medium/blob_medium.h"
 
 #include <gtest/gtest.h>
 

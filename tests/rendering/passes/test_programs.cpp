@@ -1,5 +1,6 @@
 // Every program that a view can need, checked by a compiler that belongs to no driver.
 #include "rendering/passes/programs.h"
+#include "rendering/techniques/draw_techniques.h"
 #include "shaders/shader_library.h"
 #include "tests/tool/temporary_folder.h"
 
@@ -9,6 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -32,13 +34,24 @@ std::string complaints(const char* name, const char* defines, const char* stage)
     return code == 0 ? "" : std::string(name) + ": " + text;
 }
 
+/// Those of the frame and of all techniques.
+std::vector<const fx::render::ProgramDesc*> allPrograms()
+{
+    const auto frame = fx::render::framePrograms();
+    std::vector<const fx::render::ProgramDesc*> programs(frame.begin(), frame.end());
+    for (const fx::render::DrawTechnique* technique : fx::render::drawTechniques())
+        if (technique->programs)
+            programs.insert(programs.end(), technique->programs().begin(), technique->programs().end());
+    return programs;
+}
+
 } // namespace
 
 TEST(Programs, areValidForAnIndependentCompiler)
 {
     if (!isInstalled())
         GTEST_SKIP() << "glslangValidator is not installed (package glslang-tools)";
-    for (const fx::render::ProgramDesc* program : fx::render::allPrograms()) {
+    for (const fx::render::ProgramDesc* program : allPrograms()) {
         if (program->compute) {
             EXPECT_EQ(complaints(program->compute, program->defines, "comp"), "");
             continue;
@@ -50,7 +63,7 @@ TEST(Programs, areValidForAnIndependentCompiler)
 
 TEST(Programs, areAllDifferent)
 {
-    const auto programs = fx::render::allPrograms();
+    const auto programs = allPrograms();
     for (size_t i = 0; i < programs.size(); ++i)
         for (size_t j = 0; j < i; ++j)
             EXPECT_NE(programs[i], programs[j]);

@@ -1,7 +1,7 @@
 // The opaque picture: diffuse light in closed form, shadow, depth, and effect lights.
+#include "rendering/frame/exposure.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/stage/stage_renderer.h"
-#include "rendering/view/blob_shading.h"
 #include "view_fixture.h"
 
 #include <cmath>

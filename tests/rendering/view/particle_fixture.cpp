@@ -1,6 +1,6 @@
 #include "particle_fixture.h"
 
-#include "rendering/view/blob_shading.h"
+#include "rendering/frame/exposure.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -1,5 +1,5 @@
 #include "foundation/random/philox.h"
-#include "rendering/view/depth_sort.h"
+#include "rendering/draw_order/depth_sort.h"
 
 #include <gtest/gtest.h>
 

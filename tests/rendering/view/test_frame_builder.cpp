@@ -1,8 +1,8 @@
 // Gathering, interpolation and order, without GL.
 #include "foundation/snapshot/blob_kind.h"
+#include "rendering/media/blob_gather.h"
+#include "rendering/media/frame_builder.h"
 #include "rendering/stage/stage_camera.h"
-#include "rendering/view/blob_gather.h"
-#include "rendering/view/frame_builder.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
@@ -189,7 +189,8 @@ TEST_F(FrameBuilderTest, sortsFarthestFirstByDistanceFromTheEye)
     render::FrameRequest request;
     request.targets.height = 720;
     request.camera = render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f);
-    builder.build(pair, request, {}, render::cameraGeometry(request.camera));
+    render::LevelOfDetail lod(std::pmr::get_default_resource());
+    builder.build(pair, request, {}, render::cameraGeometry(request.camera), lod, {});
     ASSERT_EQ(builder.blobs().size(), 3u);
     EXPECT_FLOAT_EQ(builder.blobs()[0].centerRadius.x, -6.0f);
     EXPECT_FLOAT_EQ(builder.blobs()[2].centerRadius.x, 0.0f);

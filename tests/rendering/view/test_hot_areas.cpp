@@ -1,5 +1,5 @@
 // Where heat shimmer looks: everywhere where there is heat, and hardly anywhere else.
-#include "rendering/view/hot_areas.h"
+#include "rendering/media/hot_areas.h"
 
 #include "foundation/random/philox.h"
 #include "rendering/passes/heat_offset_pass.h"

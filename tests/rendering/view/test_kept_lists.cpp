@@ -1,6 +1,6 @@
 // What stays the same is neither gathered, sorted nor uploaded again.
 #include "particle_fixture.h"
-#include "rendering/view/snapshot_stamps.h"
+#include "rendering/frame/snapshot_stamps.h"
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 // What is left out of a far effect, and that what remains stands for all of it. No GL.
+#include "rendering/lod/level_of_detail.h"
 #include "rendering/stage/stage_camera.h"
-#include "rendering/view/level_of_detail.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>

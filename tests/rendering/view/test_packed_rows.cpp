@@ -4,8 +4,8 @@
 #include "particle_fixture.h"
 #include "rendering/gl/gl_buffer.h"
 #include "rendering/gl/gl_device.h"
+#include "rendering/particle_rows/packed_rows.h"
 #include "rendering/passes/particle_batch.h"
-#include "rendering/view/packed_rows.h"
 #include "shaders/shader_library.h"
 
 #include <glm/gtc/packing.hpp>

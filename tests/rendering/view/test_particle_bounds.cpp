@@ -3,8 +3,8 @@
 
 #include "foundation/random/philox.h"
 #include "foundation/snapshot/particle_bounds.h"
-#include "rendering/passes/view_block.h"
-#include "rendering/view/snapshot_match.h"
+#include "rendering/frame/snapshot_match.h"
+#include "rendering/frame/view_block.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,8 +1,8 @@
 // Particles together with media: order, layers, small sizes, the budget, and what a frame leaves behind.
 #include "particle_fixture.h"
 
+#include "rendering/draw_order/draw_runs.h"
 #include "rendering/gl/gl_state_guard.h"
-#include "rendering/view/draw_runs.h"
 #include "tests/rendering/gl/gl_host_state.h"
 #include "tests/rendering/gl/heap_counter.h"
 

@@ -1,7 +1,7 @@
 // Ribbons and mesh particles on the picture against their areas, textures and normals.
 #include "particle_fixture.h"
 
-#include "rendering/view/blob_shading.h"
+#include "rendering/frame/exposure.h"
 
 #include <glm/geometric.hpp>
 

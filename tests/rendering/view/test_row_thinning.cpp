@@ -1,7 +1,7 @@
 // What is left out of far sprites, meshes and ribbons, and that what remains stands for all of it. No GL.
 #include "foundation/snapshot/particle_kind.h"
+#include "rendering/lod/row_thinning.h"
 #include "rendering/stage/stage_camera.h"
-#include "rendering/view/row_thinning.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/packing.hpp>

@@ -1,6 +1,6 @@
 // Shares of the picture, from solid angles that can be computed by hand.
+#include "rendering/media/blob_share.h"
 #include "rendering/stage/stage_camera.h"
-#include "rendering/view/screen_share.h"
 
 #include <gtest/gtest.h>
 

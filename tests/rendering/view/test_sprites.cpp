@@ -1,7 +1,7 @@
 // Sprites on the picture against what follows from their sizes, colors and textures by hand.
 #include "particle_fixture.h"
 
-#include "rendering/view/blob_shading.h"
+#include "rendering/frame/exposure.h"
 
 #include <glm/geometric.hpp>
 

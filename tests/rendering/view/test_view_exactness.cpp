@@ -1,7 +1,7 @@
 // One ball of gas, drawn by GL into a float target, against the exact integral in double precision, pixel by
 // pixel.
-#include "rendering/media/blob_medium.h"
-#include "rendering/passes/view_block.h"
+#include "rendering/frame/view_block.h"
+#include "rendering/reference/blob_medium/blob_medium.h"
 #include "view_fixture.h"
 
 #include <glm/matrix.hpp>

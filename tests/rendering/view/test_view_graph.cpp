@@ -1,66 +1,59 @@
-// Which passes a frame has, seen through the recording backend: nothing that nothing calls for.
-#include "rendering/frame_graph/recording_backend.h"
-#include "rendering/stage/stage_camera.h"
-#include "rendering/view/view_graph.h"
-
-#include <gtest/gtest.h>
+// Which passes a frame has: nothing that nothing calls for.
+#include "tests/rendering/view/view_fixture.h"
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-using namespace fx::render;
+using namespace fx;
+using test::TestBlob;
 
 namespace {
 
-constexpr HotArea kAreas[] = {{16, 16, 48, 32}};
+using Names = std::vector<std::string>;
 
-class ViewGraphTest : public testing::Test
+class ViewGraphTest : public test::ViewTest
 {
 protected:
-    ViewGraphTest()
+    void SetUp() override
     {
-        request_.camera = perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.5f, 0.1f);
-        request_.targets = {1, 2, 0, false, 96, 64};
-        settings_.dazzle.enabled = false;
+        ViewTest::SetUp();
+        makeTargets(96, 64);
+        request_.camera = render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.5f, 0.1f);
+        request_.targets = {color_->name(), depth_->name(), 0, false, 96, 64};
+        request_.resetHistory = true; // lists of the last frame do not serve again
+        setDepth(std::vector<float>(96 * 64, 1.0f));
     }
 
-    std::vector<std::string> passes(size_t blobCount, bool heat = false)
+    Names passes(size_t blobCount, float heat = 0.0f)
     {
-        blobs_.assign(blobCount, BlobInstance{});
-        graph_.begin();
-        runs_.clear();
-        if (blobCount > 0)
-            runs_.push_back({MediaRun::kBlobs, 0, uint32_t(blobCount)});
-        outputs_ = buildViewGraph(graph_, {&request_,
-                                           &settings_,
-                                           blobs_,
-                                           {},
-                                           runs_,
-                                           heat ? std::span(kAreas) : std::span<const HotArea>(),
-                                           false,
-                                           7});
-        graph_.compile();
-        EXPECT_TRUE(graph_.status().ok()) << graph_.status().message();
-        return {graph_.executedPasses().begin(), graph_.executedPasses().end()};
+        std::vector<TestBlob> blobs(blobCount);
+        for (size_t i = 0; i < blobCount; ++i) {
+            blobs[i].center.x = float(i) - 1.0f;
+            blobs[i].heat = heat;
+        }
+        const base::FrameSnapshot snapshot = snapshotOf(blobs);
+        base::SnapshotPair pair;
+        pair.newer = &snapshot;
+        const base::Status status = view_->render(pair, request_);
+        EXPECT_TRUE(status.ok()) << status.message();
+        return {view_->executedPasses().begin(), view_->executedPasses().end()};
     }
 
-    FrameRequest request_;
-    ViewSettings settings_;
-    std::vector<BlobInstance> blobs_;
-    std::vector<MediaRun> runs_;
-    FrameGraph graph_{std::pmr::get_default_resource()};
-    ViewGraphOutputs outputs_;
+    static bool has(const Names& names, const char* what)
+    {
+        return std::ranges::any_of(
+            names, [&](const std::string& name) { return name.find(what) != std::string::npos; });
+    }
+
+    render::FrameRequest request_;
 };
-
-using Names = std::vector<std::string>;
 
 } // namespace
 
 TEST_F(ViewGraphTest, anEmptySnapshotHasNoPass)
 {
     EXPECT_TRUE(passes(0).empty());
-    EXPECT_FALSE(outputs_.anyPass);
 }
 
 TEST_F(ViewGraphTest, gasIsUploadedDrawnAndComposited)
@@ -70,65 +63,64 @@ TEST_F(ViewGraphTest, gasIsUploadedDrawnAndComposited)
 
 TEST_F(ViewGraphTest, shimmerComesOnlyWithHeatAndStrength)
 {
-    const auto has = [](const Names& names, const char* what) {
-        for (const auto& name : names)
-            if (name.find(what) != std::string::npos)
-                return true;
-        return false;
-    };
-    EXPECT_FALSE(has(passes(3, false), "shimmer"));
-    EXPECT_TRUE(has(passes(3, true), "shimmer"));
-    settings_.shimmer.strength = 0.0f;
-    EXPECT_FALSE(has(passes(3, true), "shimmer"));
+    EXPECT_FALSE(has(passes(3), "shimmer"));
+    EXPECT_EQ(passes(3, 500.0f), (Names{"scene distance", "blob upload", "media", "composite", "heat offset",
+                                        "heat shimmer", "heat shimmer back", "present"}));
+    view_->settings().shimmer.strength = 0.0f;
+    EXPECT_FALSE(has(passes(3, 500.0f), "shimmer"));
+}
+
+TEST_F(ViewGraphTest, glareAndToneMappingComeBehindWhatBendsLight)
+{
+    view_->settings().dazzle.enabled = true;
+    view_->settings().toneMap = true;
+    EXPECT_EQ(passes(3, 500.0f), (Names{"scene distance", "blob upload", "media", "composite", "heat offset",
+                                        "heat shimmer", "heat shimmer back", "dazzle sum", "dazzle budget",
+                                        "dazzle deal", "tone map", "present"}));
 }
 
 TEST_F(ViewGraphTest, layersAreResolvedOnlyWhenAskedFor)
 {
-    settings_.layerOutputs = true;
-    const auto names = passes(3);
-    EXPECT_NE(std::find(names.begin(), names.end(), "layer resolve"), names.end());
-    EXPECT_TRUE(outputs_.fire.valid());
-    settings_.layerOutputs = false;
+    view_->settings().layerOutputs = true;
+    EXPECT_TRUE(has(passes(3), "layer resolve"));
+    EXPECT_NE(view_->layers().fire, 0u);
+    view_->settings().layerOutputs = false;
     passes(3);
-    EXPECT_FALSE(outputs_.fire.valid());
+    EXPECT_EQ(view_->layers().fire, 0u);
 }
 
 TEST_F(ViewGraphTest, toneMappingAloneStillReachesTheHost)
 {
-    settings_.toneMap = true;
+    view_->settings().toneMap = true;
     EXPECT_EQ(passes(0), (Names{"tone map", "present"}));
 }
 
 TEST_F(ViewGraphTest, aFramebufferAloneIsDrawnOver)
 {
-    request_.targets = {0, 0, 5, true, 96, 64};
-    settings_.toneMap = true;
+    GLuint framebuffer = 0;
+    device_->gl.CreateFramebuffers(1, &framebuffer);
+    device_->gl.NamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, color_->name(), 0);
+    request_.targets = {0, 0, framebuffer, true, 96, 64};
+    view_->settings().toneMap = true;
     EXPECT_EQ(passes(3), (Names{"scene distance", "blob upload", "media", "composite"}));
+    device_->gl.DeleteFramebuffers(1, &framebuffer);
 }
 
-TEST_F(ViewGraphTest, everyBlobIsAnInstanceOfOneDraw)
+TEST_F(ViewGraphTest, manyBlobsAreInstancesOfOneDraw)
 {
+    passes(1);
+    const uint32_t draws = view_->statistics().drawCalls;
     passes(5);
-    RecordingBackend backend(graph_);
-    graph_.execute(backend);
-    EXPECT_EQ(graph_.executedPasses().size(), 4u);
+    EXPECT_EQ(view_->statistics().blobs, 5u);
+    EXPECT_EQ(view_->statistics().drawCalls, draws);
 }
 
 TEST_F(ViewGraphTest, smallLayersAreDrawnToBothEndsOfTheDepthAndEnlarged)
 {
-    blobs_.assign(3, BlobInstance{});
-    runs_.push_back({MediaRun::kBlobs, 0, 3});
-    const auto passesOf = [&](uint32_t depth) {
-        request_.targets.depth = depth;
-        graph_.begin();
-        outputs_ = buildViewGraph(graph_, {&request_, &settings_, blobs_, {}, runs_, {}, false, 7, 2});
-        graph_.compile();
-        EXPECT_TRUE(graph_.status().ok()) << graph_.status().message();
-        return Names(graph_.executedPasses().begin(), graph_.executedPasses().end());
-    };
-    EXPECT_EQ(passesOf(2), (Names{"scene distance", "blob upload", "layer distance", "layer spread", "media",
-                                  "media", "layer upsample", "composite"}));
-    EXPECT_EQ(outputs_.layerWidth, 48);
-    EXPECT_EQ(passesOf(0), (Names{"scene distance", "blob upload", "layer distance", "media",
-                                  "layer upsample", "composite"}));
+    view_->settings().layerDivisor = 2;
+    EXPECT_EQ(passes(3), (Names{"scene distance", "blob upload", "layer distance", "layer spread", "media",
+                                "media", "layer upsample", "composite"}));
+    request_.targets.depth = 0;
+    EXPECT_EQ(passes(3), (Names{"scene distance", "blob upload", "layer distance", "media", "layer upsample",
+                                "composite"}));
 }

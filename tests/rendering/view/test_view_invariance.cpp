@@ -1,7 +1,7 @@
 // What must not change a picture, and what must add up.
 #include "foundation/random/philox.h"
-#include "rendering/passes/view_block.h"
-#include "rendering/view/blob_shading.h"
+#include "rendering/frame/exposure.h"
+#include "rendering/frame/view_block.h"
 #include "view_fixture.h"
 
 #include <algorithm>

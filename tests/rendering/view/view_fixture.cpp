@@ -1,8 +1,8 @@
 #include "view_fixture.h"
 
+#include "rendering/frame/exposure.h"
+#include "rendering/frame/view_block.h"
 #include "rendering/gl/gl_read_texture.h"
-#include "rendering/passes/view_block.h"
-#include "rendering/view/blob_shading.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "rendering/reference/render/reference_renderer.h"
 
-#include "rendering/media/blob_medium.h"
+#include "rendering/reference/blob_medium/blob_medium.h"
 #include "tests/foundation/every_set.h"
 #include "tests/rendering/reference/render/reference_scenes.h"
 

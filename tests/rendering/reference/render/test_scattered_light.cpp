@@ -2,8 +2,8 @@
 
 #include "rendering/reference/render/scattered_light.h"
 
-#include "rendering/media/blob_medium.h"
 #include "rendering/optics/phase.h"
+#include "rendering/reference/blob_medium/blob_medium.h"
 #include "rendering/reference/trace/ray_query.h"
 #include "tests/rendering/reference/render/reference_scenes.h"
 

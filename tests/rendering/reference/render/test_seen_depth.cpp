@@ -2,7 +2,7 @@
 
 #include "rendering/reference/render/seen_depth.h"
 
-#include "rendering/media/blob_medium.h"
+#include "rendering/reference/blob_medium/blob_medium.h"
 #include "rendering/reference/trace/ray_query.h"
 #include "tests/rendering/reference/trace/ball_scenes.h"
 

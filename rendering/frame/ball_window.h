@@ -1,0 +1,44 @@
+/// @file ball_window.h
+/// Which part of the window a ball covers: what shaders/shared/blob_quad.glsl draws, before the window cuts
+/// it.
+#pragma once
+
+#include "rendering/frame/view_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fx::render {
+
+/// [pixel] radius of the smallest blob that is drawn: the pixels then sum its light within 6 %.
+inline constexpr float kLeastPixels = 1.15f;
+
+/// Range of slopes of a ball in the plane of one screen axis and the view axis; as tangentSlopes() of
+/// blob_quad.glsl.
+inline std::pair<float, float> tangentSlopes(float c, float depth, float radius)
+{
+    constexpr float kAll = 1e9f;
+    const float l2 = c * c + depth * depth - radius * radius;
+    if (l2 <= 0.0f)
+        return {-kAll, kAll};
+    const float l = std::sqrt(l2);
+    const float lowDepth = depth * l + c * radius;
+    const float highDepth = depth * l - c * radius;
+    return {lowDepth > 0.0f ? (c * l - depth * radius) / lowDepth : -kAll,
+            highDepth > 0.0f ? (c * l + depth * radius) / highDepth : kAll};
+}
+
+/// Clip coordinates between which a ball lies along one screen axis, the smaller one first.
+/// @param c, depth [m] of its center along that axis and along the view axis
+inline std::pair<float, float> clipRange(const CameraGeometry& camera, int axis, float c, float depth,
+                                         float radius)
+{
+    const auto [low, high] =
+        camera.orthographic ? std::pair(c - radius, c + radius) : tangentSlopes(c, depth, radius);
+    const float a = low * camera.clipScale[axis] + camera.clipOffset[axis];
+    const float b = high * camera.clipScale[axis] + camera.clipOffset[axis];
+    return {std::min(a, b), std::max(a, b)};
+}
+
+} // namespace fx::render

@@ -1,0 +1,23 @@
+/// @file fragment_counts.h
+/// Fragments of a frame at each size at which layers can be drawn.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace fx::render {
+
+/// What layers can be divided by.
+inline constexpr std::array<int, 3> kLayerDivisors = {1, 2, 4};
+
+/// Fragments if the layers were drawn at each of kLayerDivisors.
+using FragmentCounts = std::array<uint64_t, kLayerDivisors.size()>;
+
+inline void add(const FragmentCounts& counts, FragmentCounts& ioSum)
+{
+    for (size_t i = 0; i < counts.size(); ++i)
+        ioSum[i] += counts[i];
+}
+
+} // namespace fx::render

@@ -1,0 +1,65 @@
+/// @file snapshot_stamps.h
+/// Numbers that tell whether two snapshots hold the same, so that what was made of one need not be made
+/// again.
+///
+/// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
+#pragma once
+
+#include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/frame/row_stamps.h"
+
+#include <array>
+#include <cstdint>
+
+namespace fx::render {
+
+/// Whether every group, id, column, constant and placement is the same, bit for bit. Ends at the first
+/// difference: comparing snapshots of something that moves costs next to nothing. Rows of pools are compared
+/// where they lie; the same groups in another order of rows count as different.
+bool holdSame(const base::FrameSnapshot& a, const base::FrameSnapshot& b);
+
+/// Stamps of the two snapshots of a frame; 0 stands for no snapshot.
+struct StampPair
+{
+    uint64_t newer = 0;
+    uint64_t older = 0;
+
+    bool operator==(const StampPair&) const = default;
+    bool isSteady() const { return newer == older; } ///< any moment between the two looks the same
+};
+
+/// Gives every content its own stamp. A snapshot is compared with its predecessor once; scenes in which
+/// nothing moves keep their stamp however often they publish.
+class SnapshotStamps
+{
+public:
+    explicit SnapshotStamps(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+        : known_{Known(memory), Known(memory), Known(memory), Known(memory)}
+    {}
+
+    StampPair stampsOf(const base::SnapshotPair& snapshots);
+    /// Stamps of the rows of a snapshot of the last stampsOf(); valid until the next one.
+    SnapshotRowStamps rowsOf(const base::FrameSnapshot& snapshot) const;
+
+private:
+    /// Names a snapshot: those of one ring differ in their number, those of two in their address.
+    struct Known
+    {
+        explicit Known(std::pmr::memory_resource* memory) : rows(memory) {}
+
+        const base::FrameSnapshot* snapshot = nullptr; ///< never followed; null: none
+        uint64_t sequence = 0;
+        base::Ticks tick = 0;
+        uint64_t stamp = 0;
+        RowStamps rows;
+    };
+    const Known* find(const base::FrameSnapshot& snapshot) const; ///< null: not known
+    void remember(const base::FrameSnapshot& snapshot, const base::FrameSnapshot* older, uint64_t stamp);
+
+    std::array<Known, 4> known_;
+    size_t next_ = 0; ///< of known_, to be overwritten
+    uint64_t last_ = 0;
+    uint64_t lastRows_ = 0;
+};
+
+} // namespace fx::render

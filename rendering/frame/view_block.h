@@ -1,0 +1,47 @@
+/// @file view_block.h
+/// The uniform block that the passes of a view share: rays of pixels, camera axes, depth linearisation.
+#pragma once
+
+#include "rendering/frame/view_types.h"
+
+#include <glm/vec4.hpp>
+
+namespace fx::render {
+
+/// Layout of ViewBlock in shaders/shared/view_block.glsl, where each member is explained.
+struct ViewBlock
+{
+    glm::vec4 rayOrigin;
+    glm::vec4 rayOriginX;
+    glm::vec4 rayOriginY;
+    glm::vec4 rayDirection;
+    glm::vec4 rayDirectionX;
+    glm::vec4 rayDirectionY;
+    glm::vec4 right;
+    glm::vec4 up;
+    glm::vec4 forward;
+    glm::vec4 clipOffset;
+    glm::vec4 depthScale;
+    glm::vec4 depthRange;
+    glm::vec4 sunDirection;
+    glm::vec4 pass;
+};
+static_assert(sizeof(ViewBlock) == 14 * 16);
+
+/// What follows from a camera alone.
+struct CameraGeometry
+{
+    glm::dvec3 eye;               ///< [m] world
+    glm::vec3 right, up, forward; ///< unit, world axes
+    bool orthographic;
+    float nearDistance;   ///< [m] along the axis
+    glm::vec2 clipScale;  ///< clip x, y per unit of slope (perspective) or per metre (orthographic)
+    glm::vec2 clipOffset; ///< clip position of the axis
+};
+
+CameraGeometry cameraGeometry(const CameraView& camera);
+
+/// @param width, height of the target [pixel]
+ViewBlock makeViewBlock(const CameraView& camera, int width, int height);
+
+} // namespace fx::render

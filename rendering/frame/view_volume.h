@@ -1,0 +1,43 @@
+/// @file view_volume.h
+/// What a camera sees, as half-spaces in its axes.
+#pragma once
+
+#include "rendering/frame/view_block.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace fx::render {
+
+class ViewVolume
+{
+public:
+    explicit ViewVolume(const CameraGeometry& camera) : camera_(camera) {}
+
+    /// Whether something of a ball may be seen.
+    /// @param center [m] relative to the eye, world axes
+    bool touches(const glm::vec3& center, float radius) const
+    {
+        const glm::vec3 c(glm::dot(center, camera_.right), glm::dot(center, camera_.up),
+                          glm::dot(center, camera_.forward));
+        if (c.z + radius < camera_.nearDistance)
+            return false;
+        for (int axis = 0; axis < 2; ++axis)
+            for (const float side : {-1.0f, 1.0f}) {
+                const float slope = (side - camera_.clipOffset[axis]) / camera_.clipScale[axis];
+                const float outward = camera_.clipScale[axis] < 0.0f ? -side : side; // mirrored
+                const float outside = camera_.orthographic ? outward * (c[axis] - slope)
+                                                           : outward * (c[axis] - slope * c.z) /
+                                                                 std::sqrt(1.0f + slope * slope);
+                if (outside > radius)
+                    return false;
+            }
+        return true;
+    }
+
+private:
+    const CameraGeometry& camera_;
+};
+
+} // namespace fx::render

@@ -1,0 +1,66 @@
+/// @file pass_groups.h
+/// What the times of passes are added to.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace fx::render {
+
+/// A pass, and the group that its time is added to.
+struct TimedPass
+{
+    std::string_view pass;
+    std::string_view group;
+};
+
+constexpr size_t kMostPassGroups = 8;
+
+/// Groups by number. Group 0, "other", has what is in no list; so have groups beyond kMostPassGroups.
+class PassGroups
+{
+public:
+    /// @param passes names must stay
+    void add(std::span<const TimedPass> passes)
+    {
+        for (const TimedPass& timed : passes) {
+            size_t group = find(timed.group);
+            if (group == 0 && count_ < kMostPassGroups)
+                names_[group = count_++] = timed.group;
+            passes_.push_back({timed.pass, group});
+        }
+    }
+
+    size_t count() const { return count_; }
+    std::string_view name(size_t group) const { return names_[group]; }
+    /// 0 when there is no such group.
+    size_t find(std::string_view name) const
+    {
+        for (size_t i = 1; i < count_; ++i)
+            if (names_[i] == name)
+                return i;
+        return 0;
+    }
+    size_t groupOf(std::string_view pass) const
+    {
+        for (const Pass& known : passes_)
+            if (known.name == pass)
+                return known.group;
+        return 0;
+    }
+
+private:
+    struct Pass
+    {
+        std::string_view name;
+        size_t group;
+    };
+    std::array<std::string_view, kMostPassGroups> names_{"other"};
+    size_t count_ = 1;
+    std::vector<Pass> passes_;
+};
+
+} // namespace fx::render

@@ -1,0 +1,40 @@
+/// @file host_target_check.h
+/// Refuses a frame whose targets it would read or write wrongly, before anything of it is drawn.
+///
+/// Threads: [GL thread]. No GL state is changed, also on failure.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "rendering/frame/view_types.h"
+#include "rendering/host_targets/host_texture.h"
+
+namespace fx::render {
+
+class HostTargetCheck
+{
+public:
+    explicit HostTargetCheck(GlDevice& device) : device_(device), textures_(device) {}
+
+    /// @return InvalidArgument with the frame's member, what was found and the remedy
+    base::Status check(const FrameRequest& request);
+
+private:
+    /// [pixel] of what the frame is drawn to; 0 where OpenGL does not tell, as of a window.
+    struct Size
+    {
+        GLint width = 0;
+        GLint height = 0;
+    };
+
+    base::Status checkColor(const HostTargets& targets, Size& outSize);
+    base::Status checkFramebuffer(const HostTargets& targets, Size& outSize);
+    base::Status checkAttachment(const HostTargets& targets, Size& outSize);
+    base::Status checkDepth(const HostTargets& targets, Size drawn);
+    base::Status checkContext(const CameraView& camera);
+    GLint drawBuffer(uint32_t framebuffer);
+
+    GlDevice& device_;
+    HostTextureCheck textures_;
+};
+
+} // namespace fx::render

@@ -1,0 +1,104 @@
+/// @file impostor_field.h
+/// Which effects of a view are drawn as pictures of themselves, where those pictures lie, and when each has
+/// to be taken anew. No GL.
+///
+/// Each effect has two pictures in tiles of one texture: while the older fades into the newer the effect is
+/// shown between them, so that nothing jumps. What is shown is at most two intervals old.
+/// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
+#pragma once
+
+#include "rendering/frame/view_block.h"
+#include "rendering/passes/impostor_pass.h"
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// What a frame has to know of one effect.
+struct ImpostorSubject
+{
+    uint64_t instance;
+    glm::vec3 center; ///< [m] of the ball around it, relative to the eye
+    float radius;     ///< [m]
+    float pixels;     ///< [pixel] of the ball's radius on the picture
+};
+
+/// What is to be done with it in this frame.
+struct ImpostorPlan
+{
+    float blobShare = 1.0f; ///< [1] of its cross section that is drawn as blobs; 0: none need be gathered
+    bool isTaken = false;   ///< its blobs are to be drawn into a picture as well
+    uint32_t slot = 0;      ///< place of that picture among those that are taken in this frame
+};
+
+class ImpostorField
+{
+public:
+    static constexpr float kInterval = 0.1f;     ///< [s] after which a picture of what changes is taken anew
+    static constexpr float kBand = 0.75f;        ///< of the largest size: from there on both are drawn
+    static constexpr float kParallax = 1.0f;     ///< [pixel] by which the view may have turned
+    static constexpr float kGrowth = 1.25f;      ///< factor by which the size may have changed
+    static constexpr float kFadeSeconds = 0.25f; ///< [s] in which a first picture replaces its blobs
+
+    explicit ImpostorField(std::pmr::memory_resource* memory);
+
+    struct Frame
+    {
+        float mostPixels;  ///< [pixel] radius up to which effects are pictures; 0: none
+        double seconds;    ///< [s] since the last frame
+        uint64_t content;  ///< stamp of what is shown: equal ones show the same
+        uint64_t lighting; ///< hash of what lights it: pictures of another lighting are not shown
+        bool forget;       ///< the camera has jumped
+        bool hold = false; ///< pictures and their shares stay as they are
+    };
+    void begin(const Frame& frame, const CameraGeometry& camera);
+    /// To be asked for once a frame and effect.
+    ImpostorPlan plan(const ImpostorSubject& subject);
+    void end(); ///< gives back the tiles of effects that were not asked for
+
+    /// Axes of the picture that is taken in `slot`, and the size of its square.
+    const ImpostorTaking& taking(uint32_t slot) const { return takings_[slot]; }
+    std::span<const ImpostorTaking> takings() const { return takings_; }
+    std::span<const ImpostorInstance> shown() const { return shown_; }
+    std::span<const float> distances() const { return distances_; } ///< [m] of shown()
+    /// Nothing will change by itself: no fade is under way and no picture is waited for.
+    bool isSettled() const { return settled_; }
+
+private:
+    struct Entry
+    {
+        uint64_t instance = 0;
+        uint32_t tiles = 0;     ///< first of two
+        uint32_t newest = 0;    ///< 0, 1: of the two
+        float mix = 1.0f;       ///< [1] of the newer over the older
+        float presence = 0.0f;  ///< [1] share that is shown by pictures at all
+        glm::vec3 direction{0}; ///< in which the newer was taken
+        glm::vec3 right{0}, up{0};
+        float pixels = 0.0f;      ///< [pixel] then
+        float olderPixels = 0.0f; ///< [pixel] when the older was taken
+        uint64_t content = 0;
+        uint64_t lighting = 0;
+        bool hasPicture = false;
+        bool hasOlder = false; ///< there are two
+        bool isUsed = false;
+    };
+    Entry* find(uint64_t instance);
+    bool isStale(const Entry& entry, const ImpostorSubject& subject, const glm::vec3& direction) const;
+    uint32_t take(Entry& entry, const ImpostorSubject& subject, const glm::vec3& direction);
+    void show(const Entry& entry, const ImpostorSubject& subject, float opacity);
+
+    Frame frame_{};
+    const CameraGeometry* camera_ = nullptr;
+    std::pmr::vector<Entry> entries_; ///< sorted by instance
+    std::pmr::vector<Entry> fresh_;   ///< of this frame
+    std::pmr::vector<uint32_t> freeTiles_;
+    std::pmr::vector<ImpostorTaking> takings_;
+    std::pmr::vector<ImpostorInstance> shown_;
+    std::pmr::vector<float> distances_;
+    bool settled_ = true;
+};
+
+} // namespace fx::render

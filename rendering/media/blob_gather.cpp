@@ -1,0 +1,280 @@
+#include "rendering/media/blob_gather.h"
+
+#include "foundation/math/bits.h"
+#include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/streak.h"
+#include "rendering/frame/ball_window.h"
+#include "rendering/frame/snapshot_match.h"
+#include "rendering/frame/view_volume.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fx::render {
+
+namespace {
+
+namespace column = base::blob_column;
+namespace constant = base::blob_constant;
+
+constexpr uint32_t kFewestOfAnImpostor = 16; ///< blobs; fewer are cheaper than their picture
+
+float mix(float a, float b, float t)
+{
+    return a + (b - a) * t;
+}
+
+/// Reads one element of a group, blended with the same element of the older group.
+class ElementReader
+{
+public:
+    ElementReader(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
+                  float stepSeconds)
+        : newer_(newer), older_(older), t_(t), stepSeconds_(stepSeconds)
+    {}
+
+    /// Selects element i; elements must be selected in rising order. False: it is not yet born at this
+    /// moment.
+    bool select(size_t i)
+    {
+        i_ = i;
+        hasOld_ = false;
+        const uint64_t id = newer_.ids()[i];
+        if (older_) {
+            const auto ids = older_->ids();
+            while (j_ < ids.size() && ids[j_] < id)
+                ++j_;
+            hasOld_ = j_ < ids.size() && ids[j_] == id;
+        }
+        return hasOld_ || !older_ || newer_.column(column::Age)[i] >= (1.0f - t_) * stepSeconds_;
+    }
+
+    float value(size_t c) const
+    {
+        const float now = newer_.column(c)[i_];
+        return hasOld_ ? mix(older_->column(c)[j_], now, t_) : now;
+    }
+    glm::vec3 vector(size_t c) const { return {value(c), value(c + 1), value(c + 2)}; }
+    glm::vec3 position() const
+    {
+        const glm::vec3 p = vector(column::PositionX);
+        return hasOld_ || !older_ ? p : p - vector(column::VelocityX) * ((1.0f - t_) * stepSeconds_);
+    }
+    uint64_t id() const { return newer_.ids()[i_]; }
+
+private:
+    const base::SnapshotGroup& newer_;
+    const base::SnapshotGroup* older_;
+    float t_;
+    float stepSeconds_;
+    size_t i_ = 0;
+    size_t j_ = 0;
+    bool hasOld_ = false;
+};
+
+float seedOf(uint64_t id)
+{
+    const uint64_t x = (id ^ (id >> 29)) * 0xBF58476D1CE4E5B9u;
+    return float(x >> 40) * 0x1.0p-24f;
+}
+
+bool finite(const GatheredBlob& b, const glm::vec3& velocity)
+{
+    const float values[] = {b.center.x, b.center.y, b.center.z, b.radius,     b.crossSection, b.temperature,
+                            b.albedo.x, b.albedo.y, b.albedo.z, b.emission.x, b.emission.y,   b.emission.z,
+                            b.heat,     velocity.x, velocity.y, velocity.z};
+    return base::allFinite(values, int(std::size(values)));
+}
+
+/// Collects one group.
+class GroupGather
+{
+public:
+    GroupGather(const CameraGeometry& camera, int height, float share, LevelOfDetail* lod,
+                std::pmr::vector<GatheredBlob>& visible, std::pmr::vector<GridBlob>& medium,
+                GatherCounts& counts)
+        : camera_(camera), volume_(camera),
+          pixelsPerSlope_(0.5f * float(height) * std::abs(camera.clipScale.y)), share_(share), lod_(lod),
+          visible_(visible), medium_(medium), counts_(counts)
+    {}
+
+    /// [1] of the group that was run last, see LodLevel.
+    float shadowCoarse() const { return level_.shadowCoarse; }
+
+    /// Whether what is beside the view is left out.
+    void cullToView(bool isCulled) { isCulled_ = isCulled; }
+
+    void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds)
+    {
+        const base::Placement place = placementAt(newer, older, t, camera_.eye);
+        level_ = lod_ ? lod_->levelOf(newer.info(), place) : LodLevel();
+        const std::span<const float> constants = newer.constants();
+        ElementReader reader(newer, older, t, stepSeconds);
+        for (size_t i = 0; i < newer.count(); ++i) {
+            if (!reader.select(i))
+                continue;
+            const float rank = birthRank(reader.id());
+            const float shadowWeight = weightOf(rank);
+            if (shadowWeight == 0.0f) {
+                ++counts_.thinned;
+                continue;
+            }
+            GatheredBlob blob = read(reader, constants);
+            blob.center = glm::vec3(place.position) + place.rotation * (reader.position() * place.scale);
+            blob.radius *= place.scale;
+            blob.crossSection *= place.scale * place.scale;
+            const glm::vec3 velocity = place.rotation * (reader.vector(column::VelocityX) * place.scale);
+            if (!finite(blob, velocity)) {
+                ++counts_.nonFinite;
+                continue;
+            }
+            if (!(blob.crossSection > 0.0f && blob.radius > 0.0f))
+                continue;
+            medium_.push_back({blob.center, blob.radius, blob.crossSection * shadowWeight});
+            const float shownWeight = rank < share_ ? weightOf(rank / share_) : 0.0f; // uniform again
+            if (shownWeight == 0.0f)
+                continue;
+            blob.crossSection *= shownWeight / share_;
+            add(blob, velocity * constants[constant::Shutter]);
+        }
+    }
+
+private:
+    static GatheredBlob read(const ElementReader& reader, std::span<const float> constants)
+    {
+        GatheredBlob blob;
+        blob.radius = reader.value(column::Radius);
+        blob.crossSection = reader.value(column::CrossSection);
+        blob.temperature = reader.value(column::Temperature);
+        blob.albedo = reader.vector(column::AlbedoR);
+        blob.emission = reader.vector(column::EmissionR);
+        blob.fireShare = glm::clamp(reader.value(column::FireShare), 0.0f, 1.0f);
+        blob.heat = reader.value(column::Heat);
+        blob.seed = seedOf(reader.id());
+        blob.detailAmount = constants[constant::DetailAmount];
+        blob.detailScale = constants[constant::DetailScale];
+        blob.anisotropy = constants[constant::Anisotropy];
+        blob.layer = uint32_t(constants[constant::Layer]);
+        return blob;
+    }
+
+    /// What a blob's cross section is multiplied by for the level of detail.
+    float weightOf(float rank) const
+    {
+        return level_.ramp.isAll() ? 1.0f : level_.ramp.weight(rank) / level_.ramp.mean();
+    }
+
+    void add(GatheredBlob blob, const glm::vec3& streak)
+    {
+        const float depth = camera_.orthographic ? 1.0f : glm::length(blob.center);
+        const float pixel = depth / pixelsPerSlope_; // [m]
+        const float grown = std::min({blob.radius / std::sqrt(level_.ramp.mean()), level_.grownPixels * pixel,
+                                      blob.radius + level_.swollenPixels * pixel});
+        blob.radius = std::max({blob.radius, grown, kLeastPixels * pixel});
+        const auto [pieces, radius] = base::streakOf(glm::length(streak), blob.radius);
+        blob.radius = radius;
+        blob.crossSection /= float(pieces);
+        const glm::vec3 head = blob.center;
+        for (int k = 0; k < pieces; ++k) {
+            blob.center = head - streak * (float(k) / float(pieces));
+            if (!isCulled_ || volume_.touches(blob.center, blob.radius))
+                visible_.push_back(blob);
+            else
+                ++counts_.culled;
+        }
+    }
+
+    const CameraGeometry& camera_;
+    ViewVolume volume_;
+    float pixelsPerSlope_;
+    float share_;
+    LevelOfDetail* lod_;
+    LodLevel level_;
+    bool isCulled_ = true;
+    std::pmr::vector<GatheredBlob>& visible_;
+    std::pmr::vector<GridBlob>& medium_;
+    GatherCounts& counts_;
+};
+
+/// What is to be done with the instance whose first group of blobs is number `first`.
+ImpostorPlan planImpostor(const base::SnapshotPair& snapshots, size_t first, float t,
+                          const CameraGeometry& camera, int height, ImpostorField& impostors)
+{
+    const base::FrameSnapshot& newer = *snapshots.newer;
+    const base::GroupInfo& info = newer.group(first).info();
+    base::Bounds around;
+    uint32_t count = 0;
+    for (size_t g = first; g < newer.groupCount(); ++g) {
+        const base::GroupName name = newer.name(g);
+        if (name.instance != info.instance)
+            break;
+        if (name.kind != info.kind || newer.group(g).count() == 0)
+            continue;
+        const base::SnapshotGroup& group = newer.group(g);
+        if (group.info().bounds.empty())
+            return {};
+        const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
+        const auto* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
+        const base::Placement place = placementAt(group, older, t, camera.eye);
+        const base::Bounds& bounds = group.info().bounds;
+        around.add(glm::vec3(place.position) +
+                       place.rotation * (0.5f * (bounds.min + bounds.max) * place.scale),
+                   0.5f * glm::length(bounds.max - bounds.min) * place.scale);
+        count += group.count();
+    }
+    if (count < kFewestOfAnImpostor || camera.orthographic)
+        return {};
+    ImpostorSubject subject{info.instance, 0.5f * (around.min + around.max), 0.0f, 0.0f};
+    subject.radius = 0.5f * std::max({around.max.x - around.min.x, around.max.y - around.min.y,
+                                      around.max.z - around.min.z});
+    if (!ViewVolume(camera).touches(subject.center, subject.radius))
+        return {};
+    subject.pixels = subject.radius * 0.5f * float(height) * std::abs(camera.clipScale.y) /
+                     std::max(glm::length(subject.center), 1e-6f);
+    return impostors.plan(subject);
+}
+
+} // namespace
+
+GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
+                         const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
+                         std::pmr::vector<GridBlob>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances,
+                         float share, LevelOfDetail* lod, ImpostorField* impostors)
+{
+    GatherCounts counts;
+    if (!snapshots.newer)
+        return counts;
+    const base::FrameSnapshot& newer = *snapshots.newer;
+    const base::KindId kind = newer.schema().find(base::kBlobKind.name);
+    const float t = float(glm::clamp(interpolation, 0.0, 1.0));
+    const float stepSeconds =
+        snapshots.older ? float(base::toSeconds(newer.tick() - snapshots.older->tick())) : 0.0f;
+    GroupGather gather(camera, height, share, lod, outVisible, outMedium, counts);
+    for (size_t g = 0; g < newer.groupCount(); ++g) {
+        if (newer.name(g).kind != kind)
+            continue;
+        const base::SnapshotGroup& group = newer.group(g);
+        if (outInstances.empty() || outInstances.back().instance != group.info().instance) {
+            const ImpostorPlan plan =
+                impostors ? planImpostor(snapshots, g, t, camera, height, *impostors) : ImpostorPlan();
+            outInstances.push_back({group.info().instance, outVisible.size(), outVisible.size(),
+                                    outMedium.size(), outMedium.size(), LodLevel::kCoarsest, plan});
+            gather.cullToView(!plan.isTaken);
+        }
+        const ImpostorPlan& plan = outInstances.back().plan;
+        if (plan.blobShare <= 0.0f && !plan.isTaken)
+            continue;
+        const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
+        gather.run(group, same == kNoGroup ? nullptr : &snapshots.older->group(same), t, stepSeconds);
+        outInstances.back().visibleEnd = outVisible.size();
+        outInstances.back().mediumEnd = outMedium.size();
+        outInstances.back().shadowCoarse = std::min(outInstances.back().shadowCoarse, gather.shadowCoarse());
+    }
+    return counts;
+}
+
+} // namespace fx::render

@@ -1,0 +1,91 @@
+/// @file frame_builder.h
+/// Snapshots and a camera to the sorted list of blobs that the passes draw.
+#pragma once
+
+#include "rendering/draw_order/depth_sort.h"
+#include "rendering/draw_order/draw_runs.h"
+#include "rendering/frame/view_types.h"
+#include "rendering/lights/effect_lights.h"
+#include "rendering/lights/extinction_grid.h"
+#include "rendering/lights/light.h"
+#include "rendering/media/blob_gather.h"
+#include "rendering/passes/blob_instance.h"
+
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// Owns the buffers of one view's frames; they grow to the largest frame and stay.
+class FrameBuilder
+{
+public:
+    explicit FrameBuilder(std::pmr::memory_resource* memory);
+
+    /// Builds the list for one frame. Equal input gives equal bits. [GL thread, but no GL]
+    /// @param lod begun for this frame
+    /// @param lights of all effects, brightest first; what is made of them is in the blobs
+    /// @param content differs where what is shown differs, for pictures that are kept
+    void build(const base::SnapshotPair& snapshots, const FrameRequest& request, const ViewSettings& settings,
+               const CameraGeometry& camera, LevelOfDetail& lod, std::span<const EffectLight> lights,
+               uint64_t content = 0);
+
+    std::span<const BlobInstance> blobs() const { return sorted_; } ///< farthest first
+    bool anyHeat() const { return anyHeat_; }                       ///< some blob bends light
+    bool anyDetail() const { return anyDetail_; }                   ///< some blob has procedural detail
+    const GatherCounts& counts() const { return counts_; }
+    /// The blobs as a stream whose elements are the drawn ones; count 0 without any.
+    DrawStream stream() const;
+
+    /// Effects that are drawn as pictures of themselves, farthest first, and their stream.
+    std::span<const ImpostorInstance> impostors() const { return sortedImpostors_; }
+    DrawStream impostorStream() const;
+    /// Blobs of the effects whose pictures are taken in this frame, placed for takingCamera().
+    std::span<const BlobInstance> takenBlobs() const { return sortedTaken_; }
+    std::span<const uint32_t> takenTiles() const { return takenTiles_; } ///< where each picture is kept
+    /// An equal frame after this one would be the same, but for its camera and snapshots.
+    bool isSettled() const { return impostors_.isSettled(); }
+    void forgetPictures() { mustForget_ = true; } ///< those of the last frame were not taken
+
+private:
+    void shade(const ViewSettings& settings, const CameraGeometry& camera,
+               std::span<const EffectLight> lights);
+    void sort(const CameraGeometry& camera);
+    float buildShadow(const InstanceBlobs& instance);
+    void beginImpostors(const FrameRequest& request, const ViewSettings& settings,
+                        const CameraGeometry& camera, uint64_t content);
+    void sortImpostors(const CameraGeometry& camera);
+    void add(const BlobInstance& blob, const ImpostorPlan& plan, const CameraGeometry& camera);
+
+    std::pmr::vector<GatheredBlob> gathered_;
+    std::pmr::vector<GridBlob> gridBlobs_;
+    std::pmr::vector<InstanceBlobs> instances_;
+    std::pmr::vector<BlobInstance> shaded_;
+    std::pmr::vector<BlobInstance> sorted_;
+    std::pmr::vector<float> distances_;
+    std::pmr::vector<BallLight> fires_;
+    ExtinctionGrid grid_;
+    ExtinctionGrid coarseGrid_;
+    DepthSort depthSort_;
+    ImpostorField impostors_;
+    DepthSort impostorSort_;
+    DepthSort takenSort_;
+    std::pmr::vector<ImpostorInstance> sortedImpostors_;
+    std::pmr::vector<BlobInstance> taken_;
+    std::pmr::vector<BlobInstance> sortedTaken_;
+    std::pmr::vector<float> takenDistances_;
+    std::pmr::vector<uint32_t> takenTiles_;
+    std::span<const uint32_t> impostorOrder_;
+    Lighting lighting_; ///< of the last frame
+    float exposureEv100_ = 0.0f;
+    uint64_t lightingStamp_ = 0;
+    bool mustForget_ = false;
+    GatherCounts counts_;
+    std::span<const uint32_t> order_;
+    bool isParallel_ = false;
+    bool anyHeat_ = false;
+    bool anyDetail_ = false;
+};
+
+} // namespace fx::render

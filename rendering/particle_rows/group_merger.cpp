@@ -1,0 +1,251 @@
+#include "rendering/particle_rows/group_merger.h"
+
+#include "foundation/math/hash.h"
+#include "rendering/frame/snapshot_match.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <bit>
+
+namespace fx::render {
+
+namespace {
+
+namespace column = base::particle_column;
+namespace constant = base::particle_constant;
+using base::SnapshotGroup;
+
+void forgetRibbonBounds(base::FrameSnapshot& merged)
+{
+    const base::KindId ribbon = merged.schema().find(base::kRibbonKind.name);
+    for (size_t g = 0; g < merged.groupCount(); ++g)
+        if (merged.editGroup(g).info().kind == ribbon)
+            merged.editGroup(g).editInfo().bounds = {};
+}
+
+/// Whether rows of several groups may be drawn in one order without changing the picture: in that of their
+/// distances, or in any.
+bool hasFreeOrder(const SnapshotGroup& group, bool ribbon)
+{
+    const auto c = group.constants();
+    return c[constant::Blend] != float(base::ParticleBlend::Alpha) ||
+           (!ribbon && c[constant::Order] == float(base::ParticleOrder::Depth));
+}
+
+bool haveSameColumns(const SnapshotGroup& a, const SnapshotGroup& b)
+{
+    constexpr base::ColumnSet kColumns = (base::ColumnSet(1) << column::Count) - 1;
+    return ((a.present() ^ b.present()) & kColumns) == 0;
+}
+
+/// Rows of a pool stay where they are.
+MergeSource sourceOf(const base::FrameSnapshot& snapshot, size_t g, base::KindId particle)
+{
+    const base::GroupRoster::Entry* const entry = snapshot.pooled(g);
+    if (entry && snapshot.name(g).kind == particle) {
+        const base::PooledRows& pool = snapshot.pool(entry->pool);
+        return {&pool.rows, &pool, entry, pool.counts[entry->member]};
+    }
+    const SnapshotGroup& group = snapshot.group(g);
+    return {&group, nullptr, nullptr, group.count()};
+}
+
+base::GroupInfo infoOf(const MergeSource& from, const base::Bounds& bounds)
+{
+    if (!from.entry)
+        return from.rows->info();
+    const base::GroupRoster::Entry& entry = *from.entry;
+    return {from.rows->info().kind, entry.instance, entry.solver,    from.count,
+            entry.placement,        bounds,         entry.isCosmetic};
+}
+
+bool isSame(const base::Placement& a, const base::Placement& b)
+{
+    return a.position == b.position && a.rotation == b.rotation && a.scale == b.scale;
+}
+
+} // namespace
+
+GroupMerger::GroupMerger(const base::SnapshotSchema* schema, std::pmr::memory_resource* memory)
+    : members_(memory), sets_(memory), taken_(memory), parts_(memory), partsBegin_(memory),
+      newerStamps_(memory), olderStamps_(memory), layout_(memory), layoutBefore_(memory), anchors_(memory),
+      anchorsBefore_(memory), rows_(memory), newer_(schema, memory), older_(schema, memory)
+{}
+
+bool GroupMerger::joins(const Set& set, const MergeSource& group) const
+{
+    const MergeSource& first = members_[set.first].newer;
+    if (first.rows != group.rows && // those of one pool are alike
+        (first.rows->info().kind != group.rows->info().kind || !haveSameColumns(*first.rows, *group.rows) ||
+         !std::ranges::equal(first.rows->constants(), group.rows->constants())))
+        return false;
+    const base::Placement& a = first.placement();
+    const base::Placement& b = group.placement();
+    const bool hasAxis = group.rows->constants()[constant::Alignment] >= float(base::SpriteAlignment::Axis);
+    return glm::length(a.position - b.position) <= kFarthestMerged && (!hasAxis || a.rotation == b.rotation);
+}
+
+void GroupMerger::collect(const base::SnapshotPair& snapshots)
+{
+    const base::FrameSnapshot& newer = *snapshots.newer;
+    const base::KindId particle = newer.schema().find(base::kParticleKind.name);
+    const base::KindId ribbon = newer.schema().find(base::kRibbonKind.name);
+    members_.clear();
+    sets_.clear();
+    taken_.assign(newer.groupCount(), 0);
+    for (size_t g = 0; g < newer.groupCount(); ++g) {
+        const base::GroupName name = newer.name(g);
+        if (name.kind == base::kNoKind || (name.kind != particle && name.kind != ribbon))
+            continue;
+        const MergeSource group = sourceOf(newer, g, particle);
+        const bool isRibbon = name.kind == ribbon;
+        if (group.count == 0 || group.count > kMostMergedRows || !hasFreeOrder(*group.rows, isRibbon))
+            continue;
+        const size_t before = isRibbon ? kNoGroup : findSameGroup(snapshots.older, name, g);
+        const MergeSource older =
+            before == kNoGroup ? MergeSource{} : sourceOf(*snapshots.older, before, particle);
+        if (older.rows && (older.count > kMostMergedRows || !haveSameColumns(*group.rows, *older.rows)))
+            continue;
+        const uint32_t rows = std::max(group.room(), older.room());
+        const uint32_t member = uint32_t(members_.size());
+        auto set = std::find_if(sets_.begin(), sets_.end(), [&](const Set& s) { return joins(s, group); });
+        if (set == sets_.end()) {
+            members_.push_back({group, older, g, before, 0, rows, kNone});
+            sets_.push_back({member, member, 1, rows, g});
+            continue;
+        }
+        members_.push_back({group, older, g, before, set->rows, rows, kNone});
+        members_[set->last].next = member;
+        set->last = member;
+        set->rows += rows;
+        ++set->count;
+        taken_[g] = taken_[set->group] = 1;
+    }
+}
+
+/// Two layouts that are the same, of the same groups, give the same rows.
+void GroupMerger::listLayout()
+{
+    layout_.clear();
+    anchors_.clear();
+    forEachSet([this](const Set& set) {
+        anchors_.push_back(members_[set.first].newer.placement());
+        forEachMember(set, [this](uint32_t m) {
+            const Member& member = members_[m];
+            layout_.push_back({nameOf(infoOf(member.newer, base::Bounds())), member.firstRow, member.rows});
+        });
+    });
+}
+
+void GroupMerger::mergeSets(const base::SnapshotPair& snapshots, bool isOlder)
+{
+    rows_.begin(isOlder ? *snapshots.older : *snapshots.newer, isOlder ? older_ : newer_,
+                snapshots.newer->schema().find(base::kRibbonKind.name));
+    forEachSet([&](const Set& set) {
+        rows_.addGroup(members_[set.first].newer, set.rows);
+        forEachMember(set, [&](uint32_t m) {
+            const Member& member = members_[m];
+            rows_.addRows(isOlder ? member.older : member.newer, member.firstRow, member.rows, m + 1);
+        });
+    });
+    rows_.write();
+}
+
+/// What decides the rows that mergeSets() makes of a member.
+RowStamp GroupMerger::stampOf(const Set& set, uint32_t member, bool isOlder, bool isRibbon,
+                              const SnapshotRowStamps& rows) const
+{
+    const Member& m = members_[member];
+    RowStamp part{m.firstRow, m.rows, 0};
+    const MergeSource& from = isOlder ? m.older : m.newer;
+    const uint64_t own =
+        from.rows && !rows.parts.empty() ? rows.of(isOlder ? m.olderIndex : m.newerIndex)[0].stamp : 0;
+    if (own == 0)
+        return part;
+    const base::Placement& place = from.placement();
+    const glm::vec3 offset = place.position - members_[set.first].newer.placement().position;
+    const auto two = [](float a, float b) {
+        return uint64_t(std::bit_cast<uint32_t>(a)) << 32 | std::bit_cast<uint32_t>(b);
+    };
+    uint64_t hash = base::hashWord(own, isRibbon ? member + 1 : 0); // is in the numbers of strips
+    for (const uint64_t word :
+         {two(offset.x, offset.y), two(offset.z, place.scale), two(place.rotation.x, place.rotation.y),
+          two(place.rotation.z, place.rotation.w)})
+        hash = base::hashWord(hash, word);
+    part.stamp = hash | 1;
+    return part;
+}
+
+void GroupMerger::listStamps(const base::SnapshotPair& snapshots, bool isOlder, const SnapshotRowStamps& rows)
+{
+    const base::KindId ribbon = snapshots.newer->schema().find(base::kRibbonKind.name);
+    std::pmr::vector<RowStamp>& out = isOlder ? olderStamps_ : newerStamps_;
+    out.clear();
+    forEachSet([&](const Set& set) {
+        const bool isRibbon = members_[set.first].newer.rows->info().kind == ribbon;
+        forEachMember(set, [&](uint32_t m) { out.push_back(stampOf(set, m, isOlder, isRibbon, rows)); });
+    });
+}
+
+/// Of the newer rows, which have just been written.
+void GroupMerger::listParts()
+{
+    parts_.clear();
+    partsBegin_.assign(1, 0);
+    forEachSet([this](const Set& set) {
+        forEachMember(set, [this](uint32_t m) {
+            const Member& member = members_[m];
+            parts_.push_back(
+                {infoOf(member.newer, rows_.bounds(parts_.size())), member.firstRow, member.rows});
+        });
+        partsBegin_.push_back(parts_.size());
+    });
+}
+
+void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of,
+                        const SnapshotRowStamps& newerRows, const SnapshotRowStamps& olderRows)
+{
+    if (of == built_ && sequence_ > 0)
+        return;
+    const StampPair before = built_;
+    const uint64_t newerBefore = stamps_.newer;
+    built_ = {}; // until it is done
+    hasOlder_ = snapshots.older != nullptr;
+    taken_.clear();
+    sets_.clear();
+    if (snapshots.newer)
+        collect(snapshots);
+    layout_.swap(layoutBefore_);
+    anchors_.swap(anchorsBefore_);
+    listLayout();
+    const bool isKept = hasOlder_ && before.newer != 0 && before.newer == of.older &&
+                        newer_.tick() == snapshots.older->tick() && layout_ == layoutBefore_ &&
+                        std::ranges::equal(anchors_, anchorsBefore_, isSame);
+    if (isKept) {
+        std::swap(newer_, older_);
+        newerStamps_.swap(olderStamps_);
+        forgetRibbonBounds(older_); // those that are merged as older have none
+    }
+    newer_.begin(snapshots.newer ? snapshots.newer->tick() : 0, ++sequence_);
+    stamps_ = {sequence_, 0};
+    if (hasOlder_ && isKept) {
+        stamps_.older = newerBefore;
+    } else {
+        older_.begin(snapshots.older ? snapshots.older->tick() : 0, ++sequence_);
+        stamps_.older = hasOlder_ ? sequence_ : 0;
+    }
+    if (snapshots.newer) {
+        if (hasOlder_ && !isKept) {
+            mergeSets(snapshots, true);
+            listStamps(snapshots, true, olderRows);
+        }
+        mergeSets(snapshots, false);
+        listStamps(snapshots, false, newerRows);
+    }
+    listParts();
+    built_ = of;
+}
+
+} // namespace fx::render

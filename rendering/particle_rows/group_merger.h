@@ -1,0 +1,122 @@
+/// @file group_merger.h
+/// Small groups that are drawn alike become one, so that many instances of a preset are one draw and are
+/// sorted among each other.
+#pragma once
+
+#include "foundation/snapshot/particle_kind.h"
+#include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/frame/snapshot_stamps.h"
+#include "rendering/lod/row_thinning.h"
+#include "rendering/particle_rows/merged_rows.h"
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// Owns the merged rows of one view; memory is kept from frame to frame, and nothing is done again while the
+/// snapshots hold the same. What was the newer of two snapshots serves as the older one of the next frame,
+/// where the same groups stand in the same places. Rows of pools are read where they lie, and what has its
+/// rows there has room for all that it may ever have, so that others stay in their places.
+///
+/// Groups of the kinds "particle" and "ribbon" are merged when no order of theirs is lost (they are sorted by
+/// distance, or add, or hide), when they have the same columns and constants, at
+/// most kMostMergedRows rows each, and stand within kFarthestMerged of each other; where sprites stand by an
+/// axis, also the same rotation. A merged group is relative to where the first of its members stands, with
+/// the world's axes; a particle has the same row in both snapshots.
+class GroupMerger
+{
+public:
+    static constexpr uint32_t kMostMergedRows = 4096;
+    static constexpr double kFarthestMerged = 2000.0; ///< [m]
+
+    GroupMerger(const base::SnapshotSchema* schema, std::pmr::memory_resource* memory);
+
+    /// @param of the snapshots: nothing is done again while they stay
+    /// @param newerRows, olderRows  stamps of their groups; without parts: not known
+    void build(const base::SnapshotPair& snapshots, const StampPair& of,
+               const SnapshotRowStamps& newerRows = {}, const SnapshotRowStamps& olderRows = {});
+    /// What build() has merged; without groups when there was nothing to merge.
+    base::SnapshotPair merged() const { return {&newer_, hasOlder_ ? &older_ : nullptr}; }
+    StampPair stamps() const { return stamps_; } ///< of merged()
+    /// Stamps of the rows of merged(), one part a member. They follow from stamps of what was merged by a
+    /// hash of 64 bits.
+    SnapshotRowStamps newerRows() const { return {newerStamps_, partsBegin_, {}}; }
+    SnapshotRowStamps olderRows() const { return {olderStamps_, partsBegin_, {}}; }
+    /// Which rows of a group of merged() came from which group.
+    std::span<const RowPart> partsOf(size_t group) const
+    {
+        return {parts_.data() + partsBegin_[group], partsBegin_[group + 1] - partsBegin_[group]};
+    }
+    /// By group of the newer snapshot: 1 where it is part of a merged group.
+    std::span<const uint8_t> taken() const { return taken_; }
+
+private:
+    struct Member
+    {
+        MergeSource newer;
+        MergeSource older;             ///< without rows: there is none, or a ribbon
+        size_t newerIndex, olderIndex; ///< in their snapshots
+        uint32_t firstRow;
+        uint32_t rows;
+        uint32_t next; ///< of the same set; kNone ends it
+    };
+    struct Set
+    {
+        uint32_t first, last; ///< members
+        uint32_t count;
+        uint32_t rows;
+        size_t group; ///< of the newer snapshot, the first member's
+    };
+    /// Where the rows of a merged group came from.
+    struct Layout
+    {
+        base::GroupName name;
+        uint32_t firstRow, rows;
+
+        bool operator==(const Layout&) const = default;
+    };
+    static constexpr uint32_t kNone = ~0u;
+
+    void collect(const base::SnapshotPair& snapshots);
+    bool joins(const Set& set, const MergeSource& group) const;
+    void listLayout();
+    void mergeSets(const base::SnapshotPair& snapshots, bool isOlder);
+    RowStamp stampOf(const Set& set, uint32_t member, bool isOlder, bool isRibbon,
+                     const SnapshotRowStamps& rows) const;
+    void listStamps(const base::SnapshotPair& snapshots, bool isOlder, const SnapshotRowStamps& rows);
+    void listParts();
+    /// Calls f(set) for each that becomes a group.
+    template <class F>
+    void forEachSet(F&& f)
+    {
+        for (const Set& set : sets_)
+            if (set.count > 1)
+                f(set);
+    }
+    template <class F>
+    void forEachMember(const Set& set, F&& f)
+    {
+        for (uint32_t m = set.first; m != kNone; m = members_[m].next)
+            f(m);
+    }
+
+    StampPair built_; ///< what merged() was made of
+    StampPair stamps_;
+    std::pmr::vector<Member> members_;
+    std::pmr::vector<Set> sets_;
+    std::pmr::vector<uint8_t> taken_;
+    std::pmr::vector<RowPart> parts_;
+    std::pmr::vector<size_t> partsBegin_;                  ///< by group of newer_, and the end
+    std::pmr::vector<RowStamp> newerStamps_, olderStamps_; ///< of parts_
+    std::pmr::vector<Layout> layout_, layoutBefore_;       ///< of newer_ and olderStamps_ now and until now
+    std::pmr::vector<base::Placement> anchors_, anchorsBefore_; ///< of first members, likewise
+    MergedRows rows_;
+    base::FrameSnapshot newer_, older_;
+    bool hasOlder_ = false;
+    uint64_t sequence_ = 0;
+};
+
+} // namespace fx::render

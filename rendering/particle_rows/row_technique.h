@@ -1,0 +1,70 @@
+/// @file row_technique.h
+/// How groups of one kind of snapshot data become rows of particles: what differs between sprites, ribbons
+/// and particles that the GPU computes.
+#pragma once
+
+#include "foundation/snapshot/frame_snapshot.h"
+#include "rendering/passes/particle_batch.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace fx::render {
+
+/// A row as a rectangle across the view.
+struct RowCard
+{
+    glm::vec3 center; ///< [m] in the group's axes
+    float area;       ///< [m2]; 0: nothing is drawn
+};
+
+struct RowTechnique
+{
+    const base::KindDesc* kind;
+    bool isStrip;    ///< rows are points, and what is drawn lies between two; they are not matched with older
+                     ///< ones
+    bool isComputed; ///< the GPU writes the rows; the group holds what it computes them from
+    std::span<const base::ColumnDesc> columns; ///< of the rows
+    base::ColumnSet drawnColumns;              ///< those that drawing reads
+
+    bool (*isThere)(const base::SnapshotGroup& group); ///< whether a group has something to draw
+    BatchShape (*shape)(const base::SnapshotGroup& group);
+    uint32_t (*rows)(const base::SnapshotGroup& group);
+    /// For estimates, of a row that is not the last of a strip's group.
+    RowCard (*card)(const base::SnapshotGroup& group, size_t row);
+    base::Bounds (*bounds)(const base::SnapshotGroup& group); ///< of rows whose writer has given none
+
+    /// What is drawn of a group: rows, or what lies between them.
+    uint32_t instances(const base::SnapshotGroup& group) const { return rows(group) - (isStrip ? 1u : 0u); }
+};
+
+/// Techniques by the kinds of one schema.
+class RowTechniques
+{
+public:
+    static constexpr size_t kMost = 8;
+
+    /// @param techniques at most kMost are used; must stay
+    RowTechniques(std::span<const RowTechnique* const> techniques, const base::SnapshotSchema& schema)
+        : techniques_(techniques.first(techniques.size() < kMost ? techniques.size() : kMost))
+    {
+        for (size_t i = 0; i < techniques_.size(); ++i)
+            kinds_[i] = schema.find(techniques_[i]->kind->name);
+    }
+
+    /// Null: the kind is none of rows.
+    const RowTechnique* of(base::KindId kind) const
+    {
+        for (size_t i = 0; i < techniques_.size(); ++i)
+            if (kinds_[i] == kind && kind != base::kNoKind)
+                return techniques_[i];
+        return nullptr;
+    }
+
+private:
+    std::span<const RowTechnique* const> techniques_;
+    std::array<base::KindId, kMost> kinds_{};
+};
+
+} // namespace fx::render

@@ -1,0 +1,76 @@
+#include "rendering/passes/blob_source.h"
+
+namespace fx::render {
+
+namespace {
+
+constexpr ProgramDesc program(const char* defines)
+{
+    return {"media", "passes/media.vert.glsl", "passes/media.frag.glsl", nullptr, defines};
+}
+
+// index = small * 12 + form * 4 + detail * 2 + layers
+constexpr ProgramDesc kPrograms[kMediaPrograms] = {
+    program("FX_FORM=0 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=0 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=0 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=0 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=1 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=1 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=1 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=1 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=2 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=2 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=2 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=0"),
+    program("FX_FORM=2 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=0"),
+    program("FX_FORM=0 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=0 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=1"),
+    program("FX_FORM=0 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=0 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=1"),
+    program("FX_FORM=1 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=1 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=1"),
+    program("FX_FORM=1 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=1 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=1"),
+    program("FX_FORM=2 FX_DETAIL=0 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=2 FX_DETAIL=0 FX_LAYERS=1 FX_SMALL=1"),
+    program("FX_FORM=2 FX_DETAIL=1 FX_LAYERS=0 FX_SMALL=1"),
+    program("FX_FORM=2 FX_DETAIL=1 FX_LAYERS=1 FX_SMALL=1"),
+};
+
+} // namespace
+
+const ProgramDesc& mediaProgramAt(size_t index)
+{
+    return kPrograms[index];
+}
+
+const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bool isSmall)
+{
+    return kPrograms[(isSmall ? kMediaPrograms / 2 : 0) + size_t(form) * 4 + (detail ? 2 : 0) +
+                     (layers ? 1 : 0)];
+}
+
+void BlobSource::read(FrameGraph::Builder& builder) const
+{
+    builder.read(blobs);
+}
+
+void BlobSource::draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const
+{
+    ViewBlock view = *target.view;
+    view.pass.y = float(run.first); // exact up to 2^24
+    const TextureBinding textures[] = {{0, target.distance}};
+    const BufferBinding buffers[] = {{0, blobs}};
+    DrawCall call;
+    call.program = &mediaProgram(form, detail, target.layers, target.isSmall);
+    call.targets = target.targets;
+    call.textures = textures;
+    call.buffers = buffers;
+    call.uniforms = asUniforms(view);
+    call.blend = Blend::Premultiplied;
+    call.vertices = 6;
+    call.instances = run.count;
+    backend.draw(call);
+}
+
+} // namespace fx::render

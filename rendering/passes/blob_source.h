@@ -1,0 +1,28 @@
+/// @file blob_source.h
+/// Blobs of fire, smoke and dust as balls of medium in the media pass.
+#pragma once
+
+#include "rendering/passes/media_source.h"
+
+namespace fx::render {
+
+/// The program of one permutation: form of the billboard, procedural detail, light sorted by layer, targets
+/// smaller than the picture.
+const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bool isSmall);
+constexpr size_t kMediaPrograms = 3 * 2 * 2 * 2;
+const ProgramDesc& mediaProgramAt(size_t index);
+
+/// Draws BlobInstances of a buffer, sorted by falling distance. Formula: kernel-optical-depth, or the form
+/// that is asked for.
+class BlobSource final : public MediaSource
+{
+public:
+    void read(FrameGraph::Builder& builder) const override;
+    void draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const override;
+
+    ResourceId blobs; ///< buffer of BlobInstance
+    BillboardForm form = BillboardForm::Kernel;
+    bool detail = false; ///< some have procedural detail, and it is drawn
+};
+
+} // namespace fx::render

@@ -1,0 +1,55 @@
+#include "rendering/techniques/blobs/blob_technique.h"
+
+#include "foundation/snapshot/blob_kind.h"
+#include "rendering/passes/overdraw_pass.h"
+#include "rendering/techniques/blobs/blob_view.h"
+
+#include <array>
+
+namespace fx::render {
+
+namespace {
+
+constexpr TimedPass kTimed[] = {{"blob upload", "media"},
+                                {"media impostor upload", "media"},
+                                {"media impostor blobs", "media"},
+                                {"media impostors", "media"}};
+
+std::span<const ProgramDesc* const> programs()
+{
+    static const auto all = [] {
+        std::array<const ProgramDesc*, kMediaPrograms + 4> list{};
+        for (size_t i = 0; i < kMediaPrograms; ++i)
+            list[i] = &mediaProgramAt(i);
+        size_t end = kMediaPrograms;
+        for (const ProgramDesc* program :
+             {&kOverdrawProgram, &kOverdrawSmallProgram, &kImpostorProgram, &kImpostorKeepProgram})
+            list[end++] = program;
+        return list;
+    }();
+    return all;
+}
+
+std::unique_ptr<TechniqueView> create(const TechniqueSetup& setup)
+{
+    return std::make_unique<BlobView>(setup);
+}
+
+double weight(const ScreenShare& covered)
+{
+    return covered.media;
+}
+
+} // namespace
+
+constexpr DrawTechnique kBlobTechnique{
+    .name = "spherical billboards",
+    .kind = &base::kBlobKind,
+    .create = create,
+    .programs = programs,
+    .timedPasses = kTimed,
+    .ladder = "media",
+    .weight = weight,
+};
+
+} // namespace fx::render

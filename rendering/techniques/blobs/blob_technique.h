@@ -1,0 +1,11 @@
+/// @file blob_technique.h
+/// Spherical billboards: fire, smoke and dust as balls of medium, and far effects as pictures of themselves.
+#pragma once
+
+#include "rendering/techniques/draw_technique.h"
+
+namespace fx::render {
+
+extern const DrawTechnique kBlobTechnique;
+
+} // namespace fx::render

@@ -1,0 +1,59 @@
+/// @file blob_view.h
+/// The blobs of one view and the pictures of its far effects.
+#pragma once
+
+#include "rendering/gl/gl_buffer.h"
+#include "rendering/gl/gl_texture.h"
+#include "rendering/media/frame_builder.h"
+#include "rendering/passes/blob_source.h"
+#include "rendering/passes/impostor_pass.h"
+#include "rendering/techniques/draw_technique.h"
+
+namespace fx::render {
+
+class BlobView final : public TechniqueView
+{
+public:
+    explicit BlobView(const TechniqueSetup& setup);
+
+    base::Status gather(const GatherInputs& in, GatheredFrame& io) override;
+    void keep() override;
+    bool isSettled() const override { return builder_.isSettled(); }
+    void addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame) override;
+    void forget() override;
+    void endFrame(bool succeeded) override;
+    void rest() override;
+    void count(FrameStatistics& statistics) const override;
+    void readBack(const GlBackend& backend, FrameStatistics& statistics) override;
+    void cover(const CameraGeometry& camera, ScreenShare& share) const override;
+    uint64_t bytes() const override;
+
+private:
+    base::Status makeRoom(GlBuffer& buffer, size_t bytes, const char* label);
+    base::Status makeRoomForImpostors();
+    void releaseBlobs();
+    void releaseImpostors();
+    void addPictures(FrameGraph& graph, PassFrame& frame);
+    void takePictures(FrameGraph& graph, const PassFrame& frame);
+    void uploadImpostors(FrameGraph& graph);
+    void uploadBlobs(FrameGraph& graph, PassFrame& frame);
+    void countOverdraw(FrameGraph& graph, const PassFrame& frame);
+
+    GlDevice& device_;
+    FrameBuilder builder_;
+    BlobSource blobs_;
+    BlobSource takenBlobs_; ///< of pictures that are taken
+    MediaRun takenRun_;
+    ImpostorSource impostors_;
+    GlBuffer blobBuffer_; ///< lasts, so that what is in it is still there in the next frame
+    GlBuffer impostorBuffer_;
+    GlTexture impostorAtlas_;      ///< pictures of effects; nothing before the first
+    bool isKept_ = false;          ///< lists and buffers are those of the last frame
+    uint32_t blobsUnused_ = 0;     ///< frames, one after the other
+    uint32_t impostorsUnused_ = 0; ///< likewise
+    uint32_t restingFrames_ = 0;   ///< likewise
+    ResourceId overdraw_;          ///< of the last frame; invalid: not counted
+    int layerWidth_ = 0, layerHeight_ = 0;
+};
+
+} // namespace fx::render

@@ -1,0 +1,17 @@
+/// @file draw_techniques.h
+/// The explicit list of what views can draw. A technique joins by a line here; where it is in the list is the
+/// order in which it gathers and, within a stage of passes, the order of its passes.
+#pragma once
+
+#include "rendering/techniques/draw_technique.h"
+
+namespace fx::render {
+
+using DrawTechniques = std::span<const DrawTechnique* const>;
+
+DrawTechniques drawTechniques();
+
+/// What the times of passes are added to: those of the frame's own passes and of `techniques`.
+PassGroups passGroups(DrawTechniques techniques);
+
+} // namespace fx::render

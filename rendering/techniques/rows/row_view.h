@@ -1,0 +1,50 @@
+/// @file row_view.h
+/// All rows of particles of one view. Techniques that describe themselves by a RowTechnique share it, so that
+/// their groups share batches, orders and buffers.
+#pragma once
+
+#include "rendering/particle_rows/group_merger.h"
+#include "rendering/particle_rows/particle_buffers.h"
+#include "rendering/particle_rows/particle_frame.h"
+#include "rendering/techniques/draw_technique.h"
+
+namespace fx::render {
+
+std::unique_ptr<TechniqueView> makeRowView(const TechniqueSetup& setup);
+
+class RowView final : public TechniqueView
+{
+public:
+    explicit RowView(const TechniqueSetup& setup);
+
+    base::Status gather(const GatherInputs& in, GatheredFrame& io) override;
+    void keep() override;
+    const MediaSource* solids() const override { return source_.hasSolids() ? &source_ : nullptr; }
+    void addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame) override;
+    void fence() override;
+    void forget() override;
+    void rest() override;
+    void count(FrameStatistics& statistics) const override;
+    uint64_t bytes() const override;
+    bool canComputeParticles() const override { return !single_.buffers.refusesGpu(); }
+    void warmUp(const base::GpuParticleProgram& emitter) override { single_.buffers.warmUp(emitter); }
+
+private:
+    struct Rows
+    {
+        ParticleFrame frame;
+        ParticleBuffers buffers;
+    };
+    base::Status add(Rows& rows, const ParticleFrameInputs& inputs, const UploadStamps& of,
+                     const base::AssetTable* assets, GatheredFrame& io);
+
+    std::pmr::vector<const RowTechnique*> techniques_;
+    GroupMerger merger_;
+    Rows single_; ///< groups as they are
+    Rows joined_; ///< small groups that are drawn alike
+    std::pmr::vector<ParticleBatch> batches_;
+    BatchSource source_;
+    bool isKept_ = false;
+};
+
+} // namespace fx::render
