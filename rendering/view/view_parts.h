@@ -33,6 +33,7 @@ struct ViewRenderer::Impl
     SnapshotRowStamps rowsOf(const base::FrameSnapshot* snapshot) const;
     base::Status draw(const FrameRequest& request, const ViewSettings& settings, int divisor);
     void forget(); ///< what this frame was to write
+    void askWhetherParticlesAreComputed();
     uint64_t bytes() const;
     FrameStatistics rest();
     bool holdsNothing() const; ///< that rest() gives back
@@ -58,7 +59,8 @@ struct ViewRenderer::Impl
     GlPassTimer timer;
     TimingClock clock = TimingClock::Off;
     uint64_t tag = 0;
-    uint32_t idleFrames = 0; ///< one after the other in which there was nothing to draw
+    bool computesParticles = true; ///< all parts could when last asked: after drawing and compiling
+    uint32_t idleFrames = 0;       ///< one after the other in which there was nothing to draw
     ViewGraphOutputs outputs;
 };
 

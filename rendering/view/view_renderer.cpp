@@ -62,6 +62,12 @@ void ViewRenderer::Impl::forget()
         part->forget();
 }
 
+void ViewRenderer::Impl::askWhetherParticlesAreComputed()
+{
+    computesParticles =
+        std::ranges::all_of(parts, [](const auto& part) { return part->canComputeParticles(); });
+}
+
 base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
                                         const ViewSettings& settings)
 {
@@ -79,6 +85,7 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
         shown.older = nullptr; // nothing moves between them
     if (base::Status status = gatherAnew(shown, now, request, settings); !status) {
         forget();
+        askWhetherParticlesAreComputed();
         return status;
     }
     if (std::ranges::all_of(parts, [](const auto& part) { return part->isSettled(); }))
@@ -158,13 +165,14 @@ base::Status ViewRenderer::warmUp()
 
 bool ViewRenderer::canComputeParticles() const
 {
-    return std::ranges::all_of(impl_->parts, [](const auto& part) { return part->canComputeParticles(); });
+    return impl_->computesParticles;
 }
 
 void ViewRenderer::warmUp(const base::GpuParticleProgram& emitter)
 {
     for (const auto& part : impl_->parts)
         part->warmUp(emitter);
+    impl_->askWhetherParticlesAreComputed();
 }
 
 base::Status ViewRenderer::check(const FrameRequest& request)
@@ -236,6 +244,7 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     const base::Status status = s.draw(asked, settings_, divisor);
     for (const auto& part : s.parts)
         part->endFrame(status.ok());
+    s.askWhetherParticlesAreComputed();
     s.timer.endFrame(status.ok() && s.outputs.anyPass);
     if (s.clock != TimingClock::Off) {
         covered_ = {};
