@@ -203,8 +203,8 @@ bool Scene::proceedPublication(base::Ticks tick, double interpolation)
     return true;
 }
 
-/// Those who have come back were not in the last publication, from which views interpolate: it is made again,
-/// unless that takes too much work.
+/// Publishes the last step again, with the instances that have come back since: views interpolate from it.
+/// Where that takes too much work, these instances appear a step later.
 void Scene::stageReturned(base::Ticks tick)
 {
     try {
@@ -213,7 +213,7 @@ void Scene::stageReturned(base::Ticks tick)
         const bool isWritten = world_.proceedPublication(share);
         work_.spend(share.spent());
         if (!isWritten)
-            return world_.dropPublication(); // they appear a step later
+            return world_.dropPublication();
         ring_.stageOlder();
         emptyPublications_ = 0;
     } catch (const std::bad_alloc&) {

@@ -1,5 +1,5 @@
 // The order in which computed particles are drawn: a bitonic sort of (key, row), which no two rows share, so that there is
-// exactly one order. Keys as in rendering/draw_order/depth_keys.h; rows that hold nobody come last and are not drawn.
+// exactly one order. Keys as in rendering/draw_order/depth_keys.h; empty rows come last and are not drawn.
 //
 // FX_STAGE 0: keys, sorted within blocks of 1024; 1: one step over distances of 1024 and more; 2: all steps within blocks;
 // 3: rows in order, and the arguments of the draw; 4: keys alone, for gpu_particle_radix.comp.glsl.

@@ -39,8 +39,8 @@ uint32_t drawCount(const StepContext& context, const EventRule& rule, uint32_t n
 /// What a step with events keeps in scratch memory.
 struct EmitterSolver::Linked
 {
-    EventRoom old;       ///< what happened to those who lived before
-    EventRoom young;     ///< to those who were born in the step
+    EventRoom old;       ///< events of particles born in earlier steps
+    EventRoom young;     ///< events of particles born in this step
     EventList births;    ///< births, and then all that is new
     uint64_t firstNew;   ///< index of the first who is born in the step
     uint32_t number = 0; ///< of the rule that is answered

@@ -70,7 +70,7 @@ public:
 private:
     GlDevice& device_;
     GlBuffer history_;
-    bool isFresh_ = false; ///< nothing has been adapted to yet; glare that has paused begins anew
+    bool isFresh_ = false; ///< the history holds no frame, or frames without dazzle came since
     bool hasRun_ = false;  ///< in this frame
 };
 
