@@ -19,8 +19,8 @@
 namespace fx::sim {
 
 /// Everything that decides what a run computes, as its solvers see it. Position and scale are not in it, nor
-/// is a rotation that leaves gravity and wind as they are, unless the run meets the host's geometry or
-/// its effect heeds its placement.
+/// is a rotation that leaves gravity and wind as they are, unless the run collides with the host's geometry
+/// or its effect depends on its placement.
 struct RunConditions
 {
     uint64_t seed = 0;
@@ -33,7 +33,7 @@ struct RunConditions
     const DistanceField* field = nullptr; ///< the host's geometry; null for none
     bool hasContact = false;              ///< the host's contact function is asked
     base::Placement placement;            ///< where it is heeded; default elsewhere
-    glm::vec3 worldWind{0.0f};            ///< [m/s] world, the host's, where the effect heeds its placement
+    glm::vec3 worldWind{0.0f}; ///< [m/s] world, the host's, where the effect depends on its placement
 
     /// Bit for bit.
     bool equals(const RunConditions& other) const;
@@ -91,7 +91,7 @@ struct Run
     std::optional<StateBuffer> kept;
     bool brief = false; ///< what is kept lacks what lived, none of which is alive by now
     base::Ticks forgottenAt =
-        kNever;             ///< scene time at which nobody of those in the state lives; of a released run
+        kNever;             ///< scene time after which no particle of the state is alive; of a released run
     bool fresh = false;     ///< no step has touched it: another instance may still join
     uint32_t nextFresh = 0; ///< see RunPool
 
@@ -145,7 +145,7 @@ public:
     /// @param released start it without solvers
     RunIndex enter(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions,
                    bool released = false);
-    /// A run with no users yet, which nobody joins before welcome().
+    /// A run without users, which no instance joins before welcome().
     RunIndex create(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions,
                     bool released = false);
     /// Gives a released run its solvers back.

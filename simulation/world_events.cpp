@@ -52,7 +52,7 @@ void World::tell(Slot slot, const HostEvent& event)
     isolate(slot);
     const RunIndex index = instances_[slot].run;
     runs_.at(index).told.push_back({now_, event});
-    runs_.touch(index); // nobody may join it any more
+    runs_.touch(index); // no instance may join it any more
 }
 
 /// What the run, at scene time `tick`, has been told and has not heard.

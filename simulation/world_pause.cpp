@@ -1,4 +1,4 @@
-// Simulations that nobody looks at: paused, caught up, released.
+// Hidden simulations: paused, caught up, released.
 #include "simulation/world.h"
 
 #include "foundation/simd/floating_point_scope.h"

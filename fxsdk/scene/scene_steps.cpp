@@ -129,7 +129,7 @@ void Scene::countDropped(base::Ticks ticks)
     counters_.droppedTicks = std::min(counters_.droppedTicks, kMostDropped - ticks) + ticks;
 }
 
-/// What may be spent on those who are late before the steps of the update.
+/// Work that may be spent on catching up before the steps of the update.
 base::WorkBudget Scene::lateWork() const
 {
     if (work_.left() == base::kNoWorkLimit)

@@ -79,8 +79,8 @@ std::span<const uint32_t> DepthSort::sort(std::span<const float> distances, uint
     return order_;
 }
 
-/// Where few keys have changed, those who have them are sorted and merged in anew; else those are who stand
-/// in the way of the others.
+/// If few keys have changed, their elements are sorted and merged in; otherwise the elements that are out of
+/// order are.
 bool DepthSort::mendLastOrder(size_t changed, size_t newcomers)
 {
     const size_t limit = presentCount_ / kMostMovedShare + 8;

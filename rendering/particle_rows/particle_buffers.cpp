@@ -271,7 +271,7 @@ base::Status ParticleBuffers::findAssets(ParticleFrame& frame, const base::Asset
     return {};
 }
 
-/// @param older null after it: rows of the newer are as the frame's moment wants them
+/// @param older null afterwards: the rows of the newer are those of the frame's moment
 base::Status ParticleBuffers::makeTwoResident(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
                                               ParticleFrame& frame, Place*& older, Place*& newer)
 {

@@ -28,7 +28,7 @@ class EmitterSolver;
 struct PoolEntry
 {
     EmitterSolver* emitter;
-    uint32_t user;      ///< whose it is, for whoever owns the pool
+    uint32_t user;      ///< identifies the emitter for the owner of the pool
     uint64_t seed;      ///< of its instance
     base::Ticks offset; ///< its local time minus the pool's
     EvenBirths births;  ///< local time

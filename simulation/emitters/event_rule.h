@@ -26,7 +26,7 @@ struct EventRule
     uint32_t fewest = 1;       ///< births of one event, drawn from [fewest, most]
     uint32_t most = 1;
     float probability = 1.0f;     ///< [1] 0..1 that anything is born
-    float inheritVelocity = 0.0f; ///< [1] 0..1 of the particle's velocity that those who are born have too
+    float inheritVelocity = 0.0f; ///< [1] 0..1 share of the particle's velocity that is added to births
     float inheritColor = 0.0f;    ///< [1] 0..1: from their own color to that times the particle's
 };
 

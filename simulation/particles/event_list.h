@@ -83,8 +83,8 @@ inline base::Ticks contactTick(base::Ticks begin, base::Ticks ticks, float conta
     return begin + std::min(base::Ticks(share * double(ticks)), ticks - 1);
 }
 
-/// Events of one step in memory that somebody else owns. Events that find no room are counted.
-/// Threads: add() from one; several threads have a list each, which append() joins in a fixed order.
+/// Events of one step in memory of the caller. Events beyond its capacity are counted. Threads: add() from
+/// one; several threads have a list each, which append() joins in a fixed order.
 class EventList
 {
 public:

@@ -39,7 +39,7 @@ struct BoundsLanes
             low[a] = kFull ? lower : hn::IfThenElse(alive, lower, low[a]);
             high[a] = kFull ? upper : hn::IfThenElse(alive, upper, high[a]);
         }
-        radius = hn::Max(radius, r); // that of nobody is 0
+        radius = hn::Max(radius, r); // that of an empty row is 0
     }
     HWY_INLINE void store(LookBounds& out) const
     {

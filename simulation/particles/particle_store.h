@@ -20,7 +20,7 @@ namespace fx::sim {
 
 struct Birth;
 
-constexpr uint64_t kNobody = ~uint64_t(0); ///< birth index of a row that nobody has lived in
+constexpr uint64_t kNobody = ~uint64_t(0); ///< birth index of a row that no particle has used
 
 /// Rows that may hold living particles: those below `count` outside of [gapBegin, gapEnd).
 struct RowWindow
@@ -94,7 +94,7 @@ public:
     void advance(uint64_t count) { next_ += count; }
     uint64_t next() const { return next_; }
     uint64_t front() const { return front_; } ///< the oldest index that may live; next() when none does
-    /// Forgets rows at the old end of the window that hold nobody any more.
+    /// Drops empty rows at the old end of the window.
     void retire(base::Ticks now)
     {
         if (now >= frontUntil_)

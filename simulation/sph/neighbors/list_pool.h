@@ -100,7 +100,7 @@ private:
         exhausted_ = end_ - next_ < entries;
         return !exhausted_;
     }
-    /// The rest of the block, when nobody has taken the next one since.
+    /// The rest of the block, when the next one has not been taken since.
     void giveBack()
     {
         uint64_t expected = end_;

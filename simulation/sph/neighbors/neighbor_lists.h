@@ -1,5 +1,5 @@
 /// @file neighbor_lists.h
-/// Who is near whom: lists of neighbors, kept while nobody has moved too far.
+/// Lists of neighbors, kept until a particle has moved too far.
 #pragma once
 
 #include "simulation/sph/neighbors/neighbor_search.h"
@@ -8,8 +8,8 @@
 
 namespace fx::sim {
 
-/// Neighbors of particles, found at once for all and kept while nobody has moved too far: lists built with
-/// `margin` hold all pairs nearer than max(support) as long as for every particle
+/// Neighbors of particles, found for all at once and kept until a particle has moved too far: lists built
+/// with `margin` hold all pairs nearer than max(support) as long as for every particle
 ///     support now + 2 (largest distance that any particle has moved since) <= (1 + margin) support then.
 template <class T>
 class NeighborLists
