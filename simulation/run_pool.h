@@ -40,8 +40,8 @@ struct RunConditions
     uint64_t hash() const;
 };
 
-/// A sub-step of solvers that tell each other of events, of a run that is not stepped with the others: what
-/// they have told stays while the sub-step waits for another call.
+/// A sub-step of solvers that exchange events, of a run that is not stepped with the others: the events stay
+/// while the sub-step waits for another call.
 struct LinkedPart
 {
     explicit LinkedPart(std::pmr::memory_resource* memory) : scratch(memory) {}
@@ -51,10 +51,10 @@ struct LinkedPart
     std::span<const HostEvent> heard{}; ///< in `scratch`
 };
 
-/// The solvers of one effect and what they are told.
+/// The solvers of one effect and their inputs.
 struct Run
 {
-    /// What a paused run is to be told from a time on that it has not reached.
+    /// A change of the conditions of a paused run, from a time on that it has not reached.
     struct Change
     {
         base::Ticks tick; ///< scene time
@@ -62,7 +62,7 @@ struct Run
         std::shared_ptr<const DistanceField> field; ///< keeps that of the conditions
     };
 
-    /// What the host said happened.
+    /// An event of the host.
     struct Told
     {
         base::Ticks tick; ///< scene time

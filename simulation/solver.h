@@ -100,7 +100,7 @@ struct HostContact
 
 class EventBoard;
 
-/// The host says that something happened.
+/// An event of the host.
 struct HostEvent
 {
     uint32_t event; ///< number in EffectDef::hostEvents
@@ -123,7 +123,7 @@ struct StepContext
     base::Arena* scratch; ///< forgotten after the step
     StepCounters* counters;
     const ContactHook* contactHook = nullptr; ///< null for none
-    EventBoard* board = nullptr;              ///< what solvers tell each other in this step; null for nothing
+    EventBoard* board = nullptr;              ///< events between solvers in this step; null for none
     std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
     EmitterCrowd* crowd = nullptr; ///< may defer births until the end of the step; null: make them at once
     base::Placement placement{}; ///< target of the instance's motion; default unless the effect depends on it
@@ -199,7 +199,7 @@ public:
     /// equal bytes.
     virtual void save(StateWriter& writer) const = 0;
     /// [tick] of local time after which nothing is left of what lives now, as long as the host's parameters
-    /// stay as they are; the largest number where that cannot be told.
+    /// do not change; the largest number where that is unknown.
     virtual base::Ticks memory(const InstanceParameters&) const
     {
         return std::numeric_limits<base::Ticks>::max();
@@ -265,7 +265,7 @@ struct BirthReach
 /// For how long, and how, the past of an instance acts on what is alive.
 struct Influence
 {
-    float seconds = 0;  ///< [s] of the instance's time; infinite where it cannot be told
+    float seconds = 0;  ///< [s] of the instance's time; infinite where it is unknown
     float inherits = 0; ///< [1] share of the instance's velocity that particles keep from their birth
     float extent = 0;   ///< [m] local, of the births of those
     float drawnOut = 0; ///< [s] by which they are drawn longer for their speed
@@ -315,7 +315,7 @@ public:
     /// What becomes of it out of sight, unless the preset says.
     virtual CatchUp catchUp() const { return CatchUp::Replay; }
     /// [m] distance from the instance's origin that no element passes within `seconds` after the start, with
-    /// its radius; infinite when it cannot be told.
+    /// its radius; infinite when it is unknown.
     /// @param gravity [m/s2] magnitude @param wind [m/s] magnitude
     virtual float reach(float /*gravity*/, float /*wind*/, float /*seconds*/) const
     {

@@ -209,7 +209,7 @@ const EffectDef& World::effect(Slot slot) const
     return *runs_.at(instances_[slot].run).effect;
 }
 
-/// Asks the memory for what is wanted of those that follow in a list.
+/// Prefetches data of the following elements of a list.
 void World::fetchAhead(std::span<const Slot> active, size_t place) const
 {
     constexpr size_t kLine = 64;

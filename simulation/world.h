@@ -1,5 +1,5 @@
 /// @file world.h
-/// Holds the instances that exist and steps those it is told to, and nothing else.
+/// Holds the instances that exist and steps the given ones.
 ///
 /// Instances that must come out alike are simulated once: same effect, seed, start and quality, same
 /// intensity and emission, same gravity and wind in local space; and the same placement, when they meet the
@@ -7,7 +7,7 @@
 /// them is changed, its state is copied first.
 ///
 /// A simulation all of whose instances are hidden is paused: it costs nothing until catchUp() takes it to the
-/// present, and what it is told meanwhile waits for the moment at which it was told.
+/// present, and changes meanwhile are applied at the time at which they were made.
 ///
 /// Threads: one thread at a time (the scene thread). Work inside a step is spread over the task runner.
 #pragma once
@@ -80,7 +80,7 @@ public:
         const Run& run = runs_.at(instances_[slot].run);
         return run.pooled ? pools_.now() : run.simulated;
     }
-    /// True when so much waits to be told to it that it should be caught up.
+    /// True when it has so many pending changes that it should be caught up.
     bool crowded(Slot slot) const;
     /// Takes a hidden instance towards the present, as if it had never been out of sight unless `policy` says
     /// otherwise; the past that it begins with, prewarm, first. Strong guarantee for each step.
@@ -165,7 +165,7 @@ public:
     /// Plays an instance at another rate from now on. As setParameters().
     void setRate(Slot slot, uint32_t rate);
     /// Takes an instance to local time `to`, as if it had been played to there from its first step on, in
-    /// steps of `stepTicks`, under the conditions that hold now; what the host told it is left out. Strong
+    /// steps of `stepTicks`, under the conditions that hold now; events of the host are not replayed. Strong
     /// guarantee.
     /// @return whether it is there; otherwise as arrive()
     bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
@@ -249,11 +249,11 @@ private:
     {
         RunIndex run = kNoRun;
         bool hidden = false;
-        uint32_t wanted = 0; ///< place in wanted_, from 1 on, of what `start` is to be; 0: it stays
+        uint32_t wanted = 0; ///< place in wanted_, from 1 on, of what `start` becomes; 0: unchanged
         InstanceStart start;
     };
 
-    /// What an instance is told while a step is in hand.
+    /// A change of an instance while a step is in hand.
     struct Waiting
     {
         Slot slot;

@@ -1,5 +1,5 @@
 /// @file budget.h
-/// Who may be simulated when not everything can be: the most significant, with a reluctance to change.
+/// Selects the most significant instances that fit into a budget, with hysteresis.
 #pragma once
 
 #include <cstdint>

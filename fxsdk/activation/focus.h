@@ -27,7 +27,7 @@ enum class Sight : uint8_t
     Seen,
     Outside,  ///< of every frustum
     TooFar,   ///< beyond its own distance or the focus's
-    TooSmall, ///< fewer pixels than the focus asks for
+    TooSmall, ///< fewer pixels than the focus requires
 };
 
 /// One camera, in world coordinates.

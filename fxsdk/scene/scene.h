@@ -1,5 +1,6 @@
 /// @file scene.h
-/// The instance table over the simulated world: who exists, who is stepped, and what views get to see.
+/// The instance table over the simulated world: which instances exist, which are stepped, and what views
+/// show.
 ///
 /// Threads: one thread at a time (the scene thread); acquire() and release() from any thread.
 #pragma once
@@ -168,7 +169,7 @@ public:
     /// @return InvalidArgument before its start and after its end
     base::Status seek(LocalId id, base::Ticks local);
     /// Tells an instance that what its preset calls `name` happened `count` times.
-    /// @return NotFound when its preset knows no such event, InvalidArgument before its start
+    /// @return NotFound when its preset has no such event, InvalidArgument before its start
     base::Status tell(LocalId id, std::string_view name, uint32_t count);
     void setHints(LocalId id, const ActivationHints& hints);
 

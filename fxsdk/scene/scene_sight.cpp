@@ -262,7 +262,7 @@ void Scene::lookAround()
     lookAtDenied();
 }
 
-/// Who was turned away may be out of sight by now, or there is no budget any more.
+/// Instances denied by the budget may be out of sight by now, or there is no budget any more.
 void Scene::lookAtDenied()
 {
     candidates_.clear();
@@ -362,7 +362,7 @@ void Scene::place(uint32_t index, Reason reason)
     setAlarm(index, holdsMemory ? std::min(clock_.simulated() + options_.releaseAfter, end) : end);
 }
 
-/// The opposite: takes it from everything that knows it as hidden, resting or waking.
+/// The opposite: removes it from all lists of hidden, resting and waking instances.
 void Scene::takeBack(uint32_t index)
 {
     Instance& instance = instances_.at(index);

@@ -69,7 +69,7 @@ base::Status Scene::seek(LocalId id, base::Ticks local)
 /// steps have the same time, so that all is shown as it is at this step.
 void Scene::showSought()
 {
-    if (waking_.size() > 0) { // who rested
+    if (waking_.size() > 0) { // resting before
         base::WorkBudget late = lateWork();
         catchUpWaking(late);
         work_.spend(late.spent());

@@ -157,7 +157,7 @@ void keepStill(Chain& chain, const uint8_t* changed)
 }
 
 /// The first block of the chain, at most `block`, before which all blocks stand before `key`: found by the
-/// keys of the blocks' ends, which lie side by side. Asks for the keys of its elements.
+/// keys of the blocks' ends, which lie side by side. Prefetches the keys of its elements.
 HWY_INLINE size_t blockOf(const Chain& chain, uint32_t key, size_t block)
 {
 #if HWY_TARGET != HWY_SCALAR

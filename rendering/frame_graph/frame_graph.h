@@ -122,7 +122,7 @@ public:
     bool contains(ResourceId id) const
     {
         return id.index < versions_.size();
-    } ///< whether this frame knows it
+    } ///< whether it belongs to this frame
     std::span<const PhysicalTexture> physicalTextures() const { return physicalTextures_; }
     std::span<const size_t> physicalBuffers() const { return physicalBuffers_; } ///< [byte]
     /// Memory of what lives within the frame, as planned; host's and imported resources do not count.

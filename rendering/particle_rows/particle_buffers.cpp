@@ -134,7 +134,7 @@ base::Status ParticleBuffers::makeResident(const Source& source, const ParticleF
     return {};
 }
 
-/// Whether neither of the two snapshots is there, nor will be wanted again, as far as can be told.
+/// Whether neither of the two snapshots is there, nor is expected to be used again.
 bool ParticleBuffers::mixes(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
                             ParticleFrame& frame)
 {

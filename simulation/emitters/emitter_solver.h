@@ -142,7 +142,7 @@ private:
     {
         Old, ///< moves existing particles and collects their events
         Births,
-        Young,  ///< who was born moves
+        Young,  ///< moves the new particles
         Move,   ///< moves all particles, without events
         Answer, ///< what happened gives birth elsewhere
         Follow, ///< trails

@@ -21,7 +21,7 @@ public:
     /// @param program one with a program for the GPU; outlives it
     GpuEmitter(const ParticleProgram& program, std::pmr::memory_resource* memory);
 
-    /// What is born, to be told by BirthSchedule.
+    /// Log of births, filled by BirthSchedule.
     BirthLog& log() { return log_; }
     const BirthLog& log() const { return log_; }
 
@@ -38,7 +38,7 @@ public:
     /// Forgets what can no longer be alive at `now`.
     void forget(base::Ticks now);
 
-    /// Whether a step asks for more than the GPU knows.
+    /// Whether a step needs more than the GPU supports.
     bool asksTooMuch(const StepContext& context) const
     {
         constexpr base::Ticks kLongest = std::numeric_limits<uint32_t>::max(); // about 6 s

@@ -78,7 +78,7 @@ struct TileContact
     float share;        ///< [1] 0..1 of the row's part of the step
     float speed;        ///< [m/s] >= 0 against the surface, along its normal, just before
     glm::vec3 position; ///< [m]
-    glm::vec3 velocity; ///< [m/s] just after; of who is killed, just before
+    glm::vec3 velocity; ///< [m/s] just after; of killed particles, just before
     bool isLast;        ///< the row is killed or sticks
     uint32_t number;    ///< contacts of the row in this step before this one, at least
 };

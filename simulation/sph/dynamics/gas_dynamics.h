@@ -3,9 +3,9 @@
 /// support, entropy form, viscosity with a switch, kick-drift-kick with one step for all or a hierarchy of
 /// steps.
 ///
-/// Knows nothing of presets, pictures or verification cases; all of them stand on it. One thread at a time
-/// calls a GasDynamics; it spreads its loops over the task runner it is given, and gives the same bits for
-/// any runner. All memory comes from the resource given at the beginning, except for save().
+/// Independent of presets, pictures and verification cases, which all use it. One thread at a time calls a
+/// GasDynamics; it spreads its loops over the task runner it is given, and gives the same bits for any
+/// runner. All memory comes from the resource given at the beginning, except for save().
 #pragma once
 
 #include "foundation/result/status.h"

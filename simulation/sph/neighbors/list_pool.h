@@ -12,8 +12,8 @@
 
 namespace fx::sim {
 
-/// Lists of entries, by place. Who finds no room depends on which thread comes first; what a list holds does
-/// not, because it can always be searched anew.
+/// Lists of entries, by place. Which lists find no room depends on the order of threads; their contents do
+/// not, because a list can always be searched again.
 class ListPool
 {
 public:

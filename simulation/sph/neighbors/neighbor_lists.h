@@ -50,7 +50,7 @@ public:
     }
 
     /// Owners of the last build for whose lists there was no room, or who have more than some two thousand
-    /// neighbors: every time that their lists are asked for costs about as much as ten searches.
+    /// neighbors: each read of their lists costs about as much as ten searches.
     uint32_t unlisted() const { return pool_.unlisted(); }
     /// Entries of all lists of the last build, without padding; those of unlisted owners not counted.
     uint64_t entries() const { return pool_.total(); }
