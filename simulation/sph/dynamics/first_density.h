@@ -6,8 +6,8 @@
 
 namespace fx::sim {
 
-/// Supports, densities and entropies of particles that have none; sorts all particles. Bounds of supports
-/// that the definition leaves open follow from the median: 1e-4 and 200 times it.
+/// Supports, densities and entropies of particles that have none; sorts everybody. Bounds of supports that
+/// the definition leaves open follow from the median: 1e-4 and 200 times it.
 template <class T>
 void findFirstDensities(DynamicsState<T>& state, base::TaskRunner& tasks);
 

@@ -6,8 +6,8 @@
 
 namespace fx::sim {
 
-/// Gives new particles supports, densities and entropies, then evaluates all particles if anything has
-/// changed from outside. Does nothing otherwise.
+/// Gives new particles supports, densities and entropies, then evaluates everybody if anything has changed
+/// from outside. Nothing to do otherwise.
 template <class T>
 void prepare(DynamicsState<T>& state, base::TaskRunner& tasks);
 
