@@ -56,8 +56,8 @@ public:
 
     void closeBounds() { addBounds(0, count_); } ///< of all rows
     /// The bounds gain the rows [begin, end), which have been written: the balls, drawn out along their way
-    /// while the shutter is open, and at any moment since the snapshot before, where those are who were not
-    /// in it. Ages do not tell who that was: they count time of the instance, which may run faster.
+    /// while the shutter is open, and at any moment since the snapshot before, including blobs that were not
+    /// in it. Ages do not identify those: they count time of the instance, which may run faster.
     void addBounds(uint32_t begin, uint32_t end)
     {
         namespace blob = base::blob_column;

@@ -1,5 +1,5 @@
 /// @file catch_up.h
-/// What becomes of an instance that nobody looks at, and how it reaches the present when somebody does again.
+/// Policies for hidden instances, and how they reach the present when they are visible again.
 #pragma once
 
 #include <cstdint>

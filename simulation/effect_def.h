@@ -74,7 +74,7 @@ struct EffectDef
         return sum;
     }
 
-    /// The preset's choice, or the most careful one that a solver asks for.
+    /// The preset's choice, or the most careful one that a solver requires.
     CatchUp catchUp() const
     {
         if (offscreen)

@@ -19,8 +19,8 @@
 namespace fx::sim {
 
 /// Everything that decides what a run computes, as its solvers see it. Position and scale are not in it, nor
-/// is a rotation that leaves gravity and wind as they are, unless the run meets the host's geometry or
-/// its effect heeds its placement.
+/// is a rotation that leaves gravity and wind as they are, unless the run collides with the host's geometry
+/// or its effect depends on its placement.
 struct RunConditions
 {
     uint64_t seed = 0;
@@ -33,15 +33,15 @@ struct RunConditions
     const DistanceField* field = nullptr; ///< the host's geometry; null for none
     bool hasContact = false;              ///< the host's contact function is asked
     base::Placement placement;            ///< where it is heeded; default elsewhere
-    glm::vec3 worldWind{0.0f};            ///< [m/s] world, the host's, where the effect heeds its placement
+    glm::vec3 worldWind{0.0f}; ///< [m/s] world, the host's, where the effect depends on its placement
 
     /// Bit for bit.
     bool equals(const RunConditions& other) const;
     uint64_t hash() const;
 };
 
-/// A sub-step of solvers that tell each other of events, of a run that is not stepped with the others: what
-/// they have told stays while the sub-step waits for another call.
+/// A sub-step of solvers that exchange events, of a run that is not stepped with the others: the events stay
+/// while the sub-step waits for another call.
 struct LinkedPart
 {
     explicit LinkedPart(std::pmr::memory_resource* memory) : scratch(memory) {}
@@ -51,10 +51,10 @@ struct LinkedPart
     std::span<const HostEvent> heard{}; ///< in `scratch`
 };
 
-/// The solvers of one effect and what they are told.
+/// The solvers of one effect and their inputs.
 struct Run
 {
-    /// What a paused run is to be told from a time on that it has not reached.
+    /// A change of the conditions of a paused run, from a time on that it has not reached.
     struct Change
     {
         base::Ticks tick; ///< scene time
@@ -62,7 +62,7 @@ struct Run
         std::shared_ptr<const DistanceField> field; ///< keeps that of the conditions
     };
 
-    /// What the host said happened.
+    /// An event of the host.
     struct Told
     {
         base::Ticks tick; ///< scene time
@@ -91,7 +91,7 @@ struct Run
     std::optional<StateBuffer> kept;
     bool brief = false; ///< what is kept lacks what lived, none of which is alive by now
     base::Ticks forgottenAt =
-        kNever;             ///< scene time at which nobody of those in the state lives; of a released run
+        kNever;             ///< scene time after which no particle of the state is alive; of a released run
     bool fresh = false;     ///< no step has touched it: another instance may still join
     uint32_t nextFresh = 0; ///< see RunPool
 
@@ -145,7 +145,7 @@ public:
     /// @param released start it without solvers
     RunIndex enter(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions,
                    bool released = false);
-    /// A run with no users yet, which nobody joins before welcome().
+    /// A run without users, which no instance joins before welcome().
     RunIndex create(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions,
                     bool released = false);
     /// Gives a released run its solvers back.

@@ -1,4 +1,4 @@
-// Solvers come and go with what is looked at; those that are put aside serve the next run of their kind.
+// The free list: solvers of removed and released runs, reused by the next run of the same effect.
 #include "simulation/run_pool.h"
 
 #include <algorithm>

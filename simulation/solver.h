@@ -76,7 +76,7 @@ struct StepCounters
     }
 };
 
-/// Geometry that only the host knows, asked for each way of a particle that heeds it.
+/// Geometry behind a function of the host, called for each path of a particle that depends on it.
 struct ContactHook
 {
     void* user = nullptr;
@@ -100,7 +100,7 @@ struct HostContact
 
 class EventBoard;
 
-/// The host says that something happened.
+/// An event of the host.
 struct HostEvent
 {
     uint32_t event; ///< number in EffectDef::hostEvents
@@ -123,15 +123,15 @@ struct StepContext
     base::Arena* scratch; ///< forgotten after the step
     StepCounters* counters;
     const ContactHook* contactHook = nullptr; ///< null for none
-    EventBoard* board = nullptr;              ///< what solvers tell each other in this step; null for nothing
+    EventBoard* board = nullptr;              ///< events between solvers in this step; null for none
     std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
-    EmitterCrowd* crowd = nullptr; ///< what is left to it is done before anybody looks; null: do it at once
-    base::Placement placement{};   ///< where the instance is going; default unless the effect heeds it
-    float moveShare = 1.0f;        ///< [1] of the rest of the way there that it goes in this step, 0..1
-    glm::vec3 worldGravity{0.0f};  ///< [m/s2] world
-    glm::vec3 worldWind{0.0f};     ///< [m/s] world, the host's share of `wind`; 0 unless placement is heeded
-    glm::vec3 effectWind{0.0f};    ///< [m/s] local, the preset's share of `wind`
-    bool gpuParticles = false;     ///< emitters that may be computed on the GPU are not needed as rows
+    EmitterCrowd* crowd = nullptr; ///< may defer births until the end of the step; null: make them at once
+    base::Placement placement{}; ///< target of the instance's motion; default unless the effect depends on it
+    float moveShare = 1.0f;      ///< [1] of the rest of the way there that it goes in this step, 0..1
+    glm::vec3 worldGravity{0.0f}; ///< [m/s2] world
+    glm::vec3 worldWind{0.0f};    ///< [m/s] world, the host's share of `wind`; 0 unless placement is heeded
+    glm::vec3 effectWind{0.0f};   ///< [m/s] local, the preset's share of `wind`
+    bool gpuParticles = false;    ///< emitters that may be computed on the GPU are not needed as rows
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };
@@ -178,8 +178,8 @@ public:
     /// stepped nor published, and all other questions are answered as ever. @return whether it has joined
     virtual bool joinPool(EmitterPools&, const PoolRequest&) { return false; }
     virtual void leavePool() {}
-    /// publish(), but what is in the columns may be left to `crowd`. @return false, and nothing has happened,
-    /// when it wants nothing of it
+    /// publish(), but `crowd` may fill the columns later. @return false, without any effect, when that is not
+    /// supported
     virtual bool joinPublication(const base::GroupInfo&, base::FrameSnapshot&, EmitterCrowd&) const
     {
         return false;
@@ -199,15 +199,15 @@ public:
     /// equal bytes.
     virtual void save(StateWriter& writer) const = 0;
     /// [tick] of local time after which nothing is left of what lives now, as long as the host's parameters
-    /// stay as they are; the largest number where that cannot be told.
+    /// do not change; the largest number where that is unknown.
     virtual base::Ticks memory(const InstanceParameters&) const
     {
         return std::numeric_limits<base::Ticks>::max();
     }
     /// save() without what lives. What restore() takes from it is right once memory() has passed.
     virtual void saveBriefly(StateWriter& writer) const { save(writer); }
-    /// Goes forwards to local time `tick` without those who are born meanwhile: right once memory() has
-    /// passed after it. Only where memory() is known; the context's own tick and stepTicks are ignored.
+    /// Goes forwards to local time `tick` without the births meanwhile: right once memory() has passed after
+    /// it. Only where memory() is known; the context's own tick and stepTicks are ignored.
     virtual void passOver(const StepContext&, base::Ticks) {}
     /// Takes the state of a solver of the same definition and quality; from there on it gives the same bits.
     /// Checks whatever could harm it. After a failure, kept by the reader, the solver may only be destroyed.
@@ -265,7 +265,7 @@ struct BirthReach
 /// For how long, and how, the past of an instance acts on what is alive.
 struct Influence
 {
-    float seconds = 0;  ///< [s] of the instance's time; infinite where it cannot be told
+    float seconds = 0;  ///< [s] of the instance's time; infinite where it is unknown
     float inherits = 0; ///< [1] share of the instance's velocity that particles keep from their birth
     float extent = 0;   ///< [m] local, of the births of those
     float drawnOut = 0; ///< [s] by which they are drawn longer for their speed
@@ -308,14 +308,14 @@ public:
     virtual Influence influence() const { return {.seconds = std::numeric_limits<float>::infinity()}; }
     /// [byte] of memory that a solver takes at the most, at medium quality.
     virtual uint64_t bytes() const { return 0; }
-    /// True when its solvers heed StepContext::collider.
+    /// True when its solvers depend on StepContext::collider.
     virtual bool collides() const { return false; }
-    /// True when its solvers heed StepContext::placement.
+    /// True when its solvers depend on StepContext::placement.
     virtual bool heedsPlacement() const { return false; }
     /// What becomes of it out of sight, unless the preset says.
     virtual CatchUp catchUp() const { return CatchUp::Replay; }
     /// [m] distance from the instance's origin that no element passes within `seconds` after the start, with
-    /// its radius; infinite when it cannot be told.
+    /// its radius; infinite when it is unknown.
     /// @param gravity [m/s2] magnitude @param wind [m/s] magnitude
     virtual float reach(float /*gravity*/, float /*wind*/, float /*seconds*/) const
     {

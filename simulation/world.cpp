@@ -112,7 +112,7 @@ void World::changeAfterStep(Slot slot, const InstanceStart& start)
         return;
     }
     wanted_.push_back(start);
-    waiting_.push_back({slot, std::nullopt}); // where that fails, nobody knows of the other
+    waiting_.push_back({slot, std::nullopt}); // if that throws, the other is unchanged
     instance.wanted = uint32_t(wanted_.size());
 }
 
@@ -181,7 +181,7 @@ bool World::isFinished(const Run& run, base::Ticks sceneTick) const
         return true;
     const auto isEmpty = [](const std::unique_ptr<Solver>& solver) { return !solver->hasElements(); };
     if (run.released)
-        return false; // nobody knows before it is simulated
+        return false; // unknown before it is simulated
     if (!run.conditions.parameters.emitting && std::all_of(run.solvers.begin(), run.solvers.end(), isEmpty))
         return true;
     return std::all_of(run.solvers.begin(), run.solvers.end(),
@@ -209,7 +209,7 @@ const EffectDef& World::effect(Slot slot) const
     return *runs_.at(instances_[slot].run).effect;
 }
 
-/// Asks the memory for what is wanted of those that follow in a list.
+/// Prefetches data of the following elements of a list.
 void World::fetchAhead(std::span<const Slot> active, size_t place) const
 {
     constexpr size_t kLine = 64;

@@ -1,13 +1,13 @@
 /// @file world.h
-/// Holds the instances that exist and steps those it is told to, and nothing else.
+/// Holds the instances that exist and steps the given ones.
 ///
 /// Instances that must come out alike are simulated once: same effect, seed, start and quality, same
 /// intensity and emission, same gravity and wind in local space; and the same placement, when they meet the
-/// geometry of the host. Each is published at its own placement.
-/// Nobody can tell from the results: when one of them is changed, its state is copied first.
+/// geometry of the host. Each is published at its own placement. Sharing never changes results: when one of
+/// them is changed, its state is copied first.
 ///
 /// A simulation all of whose instances are hidden is paused: it costs nothing until catchUp() takes it to the
-/// present, and what it is told meanwhile waits for the moment at which it was told.
+/// present, and changes meanwhile are applied at the time at which they were made.
 ///
 /// Threads: one thread at a time (the scene thread). Work inside a step is spread over the task runner.
 #pragma once
@@ -63,7 +63,7 @@ public:
           const Environment& environment = {}, bool share = true);
 
     /// Creates all solvers of `effect`. Strong guarantee: on an exception nothing has changed.
-    /// @param hidden begin out of sight: there are no solvers until somebody looks
+    /// @param hidden begin out of sight: solvers are created when it becomes visible
     Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden = false);
     void remove(Slot slot);
     /// The same at the end of an instance's life: its solvers wait for the next instance of their kind.
@@ -80,7 +80,7 @@ public:
         const Run& run = runs_.at(instances_[slot].run);
         return run.pooled ? pools_.now() : run.simulated;
     }
-    /// True when so much waits to be told to it that it should be caught up.
+    /// True when it has so many pending changes that it should be caught up.
     bool crowded(Slot slot) const;
     /// Takes a hidden instance towards the present, as if it had never been out of sight unless `policy` says
     /// otherwise; the past that it begins with, prewarm, first. Strong guarantee for each step.
@@ -115,7 +115,8 @@ public:
         return run.arriving ? run.target - run.reached : 0;
     }
     /// Puts the solvers of a paused simulation aside and keeps its state as bytes.
-    /// @param mayForget it will be caught up without a trace: those who will be dead by then need not be kept
+    /// @param mayForget it will be caught up without a trace: particles that will be dead by then need not be
+    ///             kept
     /// @return scene time at which another call would free more; the largest number for never
     base::Ticks release(Slot slot, bool mayForget);
     /// Where nothing is left of what lived long ago, a lagging simulation goes to a step shortly before the
@@ -136,7 +137,7 @@ public:
     uint32_t resting() const { return resting_; } ///< slots that the last step() let rest
     /// false: every step is taken.
     void allowRest(bool allow) { mayRest_ = allow; }
-    /// false: every emitter is computed by itself, from the next step on. Nobody can tell from the results.
+    /// false: every emitter is computed by itself, from the next step on. Results are the same.
     void allowPools(bool allow) { mayPool_ = allow; }
     /// Whether emitters that may be computed on the GPU are published as what is needed for that, from the
     /// next step on; see StepContext::gpuParticles.
@@ -164,7 +165,7 @@ public:
     /// Plays an instance at another rate from now on. As setParameters().
     void setRate(Slot slot, uint32_t rate);
     /// Takes an instance to local time `to`, as if it had been played to there from its first step on, in
-    /// steps of `stepTicks`, under the conditions that hold now; what the host told it is left out. Strong
+    /// steps of `stepTicks`, under the conditions that hold now; events of the host are not replayed. Strong
     /// guarantee.
     /// @return whether it is there; otherwise as arrive()
     bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
@@ -198,7 +199,7 @@ public:
     void beginStep(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
     /// @param work     one piece at least is done: a sub-step of a solver, or of a gas one of its own
     /// @param counters gains what was done in the step, when it is complete
-    /// After an exception there is no step in hand.
+    /// After an exception no step is open.
     bool proceed(base::WorkBudget& work, StepCounters& counters);
     /// Whether there is a step in hand: one that is not complete, or that is being published.
     bool isStepping() const { return hand_.isOpen || publication_.isOpen; }
@@ -207,7 +208,7 @@ public:
     void makeChanges();
     bool hasChanges() const { return !waiting_.empty() || !leaving_.empty(); }
 
-    /// A step of nobody: time passes until `now`.
+    /// A step without instances: time advances to `now`.
     void passTime(base::Ticks now)
     {
         if (!pools_.empty())
@@ -219,7 +220,7 @@ public:
     /// Writes the groups of each slot of `active`, in the order of the list.
     void publish(std::span<const Slot> active, base::FrameSnapshot& snapshot);
     /// The same in parts: beginPublication() once, then proceedPublication() until it says true. The bits are
-    /// the same. Meanwhile as with a step in hand; nobody else may write to `snapshot`.
+    /// the same. Meanwhile as with a step in hand; no other code may write to `snapshot`.
     void beginPublication(std::span<const Slot> active, base::FrameSnapshot& snapshot);
     /// After an exception there is no publication in hand.
     bool proceedPublication(base::WorkBudget& work);
@@ -248,11 +249,11 @@ private:
     {
         RunIndex run = kNoRun;
         bool hidden = false;
-        uint32_t wanted = 0; ///< place in wanted_, from 1 on, of what `start` is to be; 0: it stays
+        uint32_t wanted = 0; ///< place in wanted_, from 1 on, of what `start` becomes; 0: unchanged
         InstanceStart start;
     };
 
-    /// What an instance is told while a step is in hand.
+    /// A change of an instance while a step is in hand.
     struct Waiting
     {
         Slot slot;
@@ -291,7 +292,7 @@ private:
     {
         base::Ticks tick; ///< scene time
         base::Ticks stepTicks;
-        EmitterCrowd* crowd = nullptr; ///< null unless it is closed before anybody looks at the run
+        EmitterCrowd* crowd = nullptr;              ///< null unless it is closed before the run is read
         std::optional<EventBoard>* board = nullptr; ///< null: the run has its own, see linkedPartOf()
     };
     struct LocalSpan

@@ -1,4 +1,4 @@
-// How solvers of an effect and the host tell each other of events.
+// Events between the solvers of an effect, and of the host.
 #include "simulation/emitters/event_board.h"
 #include "simulation/world.h"
 
@@ -9,7 +9,7 @@ namespace fx::sim {
 
 /// The solvers that are not through yet. Those that tell each other of events share the scratch memory of the
 /// sub-step, causes before effects.
-/// @param ioBoard what they have told, which stays with the scratch memory while the sub-step waits
+/// @param ioBoard their events, which stay with the scratch memory while the sub-step waits
 /// @return whether all are through
 bool World::stepSolvers(Run& run, StepContext& context, std::optional<EventBoard>& ioBoard,
                         base::WorkBudget& work)
@@ -52,10 +52,10 @@ void World::tell(Slot slot, const HostEvent& event)
     isolate(slot);
     const RunIndex index = instances_[slot].run;
     runs_.at(index).told.push_back({now_, event});
-    runs_.touch(index); // nobody may join it any more
+    runs_.touch(index); // no instance may join it any more
 }
 
-/// What the run, at scene time `tick`, has been told and has not heard.
+/// Takes the pending events of the run up to scene time `tick`.
 std::span<const HostEvent> World::hear(RunIndex index, base::Ticks tick, base::Arena& scratch)
 {
     Run& run = runs_.at(index);

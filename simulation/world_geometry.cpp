@@ -1,4 +1,4 @@
-// What the host says stands in the way of particles, and how runs are told.
+// Geometry of the host, and how it reaches runs.
 #include "simulation/world.h"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ void World::reserveTelling()
     }
 }
 
-/// All runs are told what holds from now on. Never fails after reserveTelling().
+/// Applies the present conditions to all runs. Never fails after reserveTelling().
 void World::tellAll()
 {
     for (const Instance& instance : instances_) {

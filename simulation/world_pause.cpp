@@ -1,4 +1,4 @@
-// Simulations that nobody looks at: paused, caught up, released.
+// Hidden simulations: paused, caught up, released.
 #include "simulation/world.h"
 
 #include "foundation/simd/floating_point_scope.h"
@@ -10,7 +10,7 @@
 namespace fx::sim {
 
 namespace {
-constexpr size_t kManyChanges = 64; ///< what waits to be told costs memory: then the run is caught up
+constexpr size_t kManyChanges = 64; ///< pending changes cost memory: then the run is caught up
 }
 
 void World::hide(Slot slot)
@@ -54,7 +54,7 @@ bool World::crowded(Slot slot) const
     return runs_.at(instances_[slot].run).changes.size() >= kManyChanges;
 }
 
-/// A lagging run is told `wanted` when it reaches the present. @return the run of the one user that changes
+/// A lagging run gets `wanted` when it reaches the present. @return the run of the one user that changes
 RunIndex World::changeLater(RunIndex index, const RunConditions& wanted)
 {
     const Run& run = runs_.at(index);
@@ -110,7 +110,7 @@ bool World::catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& 
                 return false;
         }
     }
-    if (!run.changes.empty()) { // told at the present, or after the end
+    if (!run.changes.empty()) { // applied at the present, or after the end
         runs_.touch(index);
         run.conditions = run.changes.back().conditions;
         run.changes.clear();
@@ -190,7 +190,7 @@ void World::endRest(RunIndex index, base::Ticks tick)
 void World::endRests()
 {
     for (RunIndex index = 0; index < runs_.size(); ++index)
-        if (runs_.at(index).users > 0 && !runs_.at(index).pooled) // who is in a pool does not rest
+        if (runs_.at(index).users > 0 && !runs_.at(index).pooled) // members of a pool do not rest
             endRest(index, now_);
 }
 

@@ -55,7 +55,7 @@ void World::stepPools(std::span<const Slot> active, bool isPlanned, StepCounters
                 leavePool(user); // time stands still for it
         });
     left_.clear();
-    left_.reserve(pools_.members()); // before anybody leaves
+    left_.reserve(pools_.members()); // before any member leaves
     pools_.step(now_, counters, left_);
     for (const RunIndex index : left_)
         leavePool(index);

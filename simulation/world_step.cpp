@@ -165,7 +165,7 @@ bool World::stepRun(RunIndex index, const RunStep& step, base::WorkBudget& work,
         const base::Ticks parts = partsOf(*run.effect) * std::max<base::Ticks>(turns, 1);
         context.crowd = parts == 1 ? step.crowd : nullptr;
         LinkedPart* const own = step.board ? nullptr : linkedPartOf(run);
-        std::optional<EventBoard> none; // of solvers that tell nobody
+        std::optional<EventBoard> none; // of solvers without events
         std::optional<EventBoard>& board = own ? own->board : step.board ? *step.board : none;
         std::span<const HostEvent>& heard = own ? own->heard : hand_.heard;
         if (own)
@@ -245,7 +245,7 @@ void World::setOut(RunIndex index, const LocalSpan& way, base::Ticks stepTicks, 
 {
     if (way.begin >= way.end || jump(index, way.begin, way.end, counters))
         return;
-    runs_.touch(index); // nobody may join it on its way
+    runs_.touch(index); // no instance may join it meanwhile
     Run& run = runs_.at(index);
     run.arriving = true;
     run.reached = way.begin;
@@ -279,7 +279,7 @@ bool World::replayPart(RunIndex index, base::WorkBudget& work, StepCounters& cou
             ++part;
         const base::Ticks end = std::min(begin + run.stepLength * part / parts, run.target);
         LinkedPart* const own = linkedPartOf(run);
-        std::optional<EventBoard> none; // of solvers that tell nobody
+        std::optional<EventBoard> none; // of solvers without events
         if (own)
             context.scratch = &own->scratch;
         isComplete = stepPart(index, context, {run.reached, end}, own ? own->board : none, work);

@@ -49,7 +49,7 @@ bool World::seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounter
     const base::FloatingPointScope floatingPoint;
     isolate(slot);
     const RunIndex index = instances_[slot].run;
-    if (runs_.at(index).brief) { // those who lived then are known again at the present only
+    if (runs_.at(index).brief) { // its particles are only known at the present
         uint64_t unlimited = UINT64_MAX;
         catchUp(slot, CatchUp::Analytic, stepTicks, unlimited, counters);
     }

@@ -60,7 +60,7 @@ static int lowest(FxScene* scene, const Plane* plane, double* ioLowest)
     x = column(scene, snapshot, "x", &count);
     y = column(scene, snapshot, "y", &count);
     z = column(scene, snapshot, "z", &count);
-    radius = column(scene, snapshot, "radius", &count); /* 0: nobody lives in this row */
+    radius = column(scene, snapshot, "radius", &count); /* 0: the row is empty */
     for (i = 0; x && y && z && radius && i < count; ++i) {
         const double place[3] = {x[i], y[i], z[i]};
         if (radius[i] > 0.0f && heightAbove(plane, place) < *ioLowest)

@@ -17,8 +17,8 @@ std::align_val_t alignmentFor(size_t size, size_t alignment)
     return std::align_val_t(size >= kLargePage ? std::max(alignment, kLargePage) : alignment);
 }
 
-/// Asks for large pages under all of a block but its last, partial one, whose rest belongs to others. Only
-/// speed depends on the answer.
+/// Requests large pages for a block, without its last, partial page, which other blocks share. Only speed
+/// depends on it.
 void askForLargePages([[maybe_unused]] void* memory, [[maybe_unused]] size_t size)
 {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)

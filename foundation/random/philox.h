@@ -1,5 +1,6 @@
 /// @file philox.h
-/// Random numbers as a pure function of who asks: no state, so order and thread count cannot matter.
+/// Counter-based random numbers: a pure function of a key, without state, so that order and thread count
+/// cannot matter.
 ///
 /// @formula philox4x32-10
 /// Ten rounds of a multiply-and-xor bijection on a 128-bit counter under a 64-bit key.

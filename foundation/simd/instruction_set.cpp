@@ -20,8 +20,8 @@ void disableBeyond(InstructionSet widest)
 {
 #if HWY_ARCH_X86
     hwy::DisableTargets(widest == InstructionSet::Avx512 ? 0 : kTargets[size_t(widest)] - 1);
-    // SupportedTargets() obeys, but whoever calls it undoes the choice, except while it is told what to
-    // answer.
+    // SupportedTargets() respects the choice, but a call of it resets the choice, except while a test value
+    // is set.
     hwy::SetSupportedTargetsForTest(0);
     const int64_t allowed = hwy::SupportedTargets();
     hwy::SetSupportedTargetsForTest(allowed);

@@ -4,8 +4,8 @@
 /// A snapshot is a list of groups in creation order. A group holds the elements of one kind that one solver
 /// of one instance published: typed columns, shared constants, bounds, and an id per element by which the
 /// same element is found in the snapshot before. Many small groups of one kind may be published as one pool
-/// of rows, see pooled_groups.h; whoever reads the snapshot sees them as groups like all others. Threads:
-/// written by one thread, then published through a SnapshotRing and never changed again; read by any.
+/// of rows, see pooled_groups.h; readers of the snapshot see ordinary groups. Threads: written by one thread,
+/// then published through a SnapshotRing and never changed again; read by any.
 #pragma once
 
 #include "foundation/snapshot/pooled_groups.h"
@@ -56,13 +56,13 @@ public:
         const uint32_t place = placeOf(index);
         return (place & kPooled) != 0 ? spread_->group(*this, place & ~kPooled) : groups_[place];
     }
-    /// Where the rows of a group lie in a pool, for who reads them there; null: they lie in the group.
+    /// Position of the rows of a group in a pool, to read them in place; null: the group has its own rows.
     const GroupRoster::Entry* pooled(size_t index) const
     {
         const uint32_t place = placeOf(index);
         return (place & kPooled) != 0 ? &roster_->entries[place & ~kPooled] : nullptr;
     }
-    /// Whether somebody has asked for a group of a pool.
+    /// Whether group() has been called for a group of a pool.
     bool hasGivenRows() const { return roster_ && spread_->isDone(); }
     GroupName name(size_t index) const ///< of a group, whose rows stay where they are
     {

@@ -101,7 +101,7 @@ struct GpuStepRun
 };
 static_assert(sizeof(GpuStepRun) == 56);
 
-/// How far somebody has computed an emitter.
+/// Step up to which an emitter has been computed.
 struct GpuStepMark
 {
     uint64_t history = 0; ///< of the run of the last step; 0: nothing has been computed

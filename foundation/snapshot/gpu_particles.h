@@ -1,7 +1,7 @@
 /// @file gpu_particles.h
-/// The kind "gpuParticle": an emitter published as what is needed to compute its particles instead of the
-/// particles themselves. Vocabulary of the emitter that writes it and of the renderer that computes rows of
-/// the kind "particle" from it; neither knows the other.
+/// The kind "gpuParticle": the inputs from which an emitter's particles are computed, published instead of
+/// the particles. Shared by the emitter that writes it and the renderer that computes rows of the kind
+/// "particle" from it; neither depends on the other.
 ///
 /// A group of this kind has one column of 64-bit words: a GpuParticleMoment, its GpuBirthRuns, its
 /// GpuConditions and its GpuStepRuns, in this order. What never changes is the group's program. Where a row
@@ -142,7 +142,7 @@ public:
     float meanRadius = 0.0f;          ///< [m] about so much, to estimate costs
 
     /// Computes the rows of `group` on the calling thread, as the emitter would have published them: adds a
-    /// group of the kind "particle" to `out`, whose schema knows it. Any thread; allocates.
+    /// group of the kind "particle" to `out`, whose schema contains it. Any thread; allocates.
     virtual void replay(const SnapshotGroup& group, FrameSnapshot& out) const = 0;
     /// Appends the words of all steps of `group` that ended after `since`, in order, to `out`. Any thread;
     /// allocates nothing but in `out`. Only where features.steps.

@@ -1,9 +1,8 @@
 /// @file pooled_groups.h
 /// Many small groups of one kind that are published as one pool of rows, in whatever order suits the writer.
 ///
-/// Readers ask FrameSnapshot::group() as for any other group: the first question gives each row of each pool
-/// to its group. A snapshot that nobody reads, or whose pools are read as they are, as views do, never pays
-/// for that.
+/// Readers call FrameSnapshot::group() as for any other group: the first call copies each row of each pool to
+/// its group. A snapshot that is never read, or whose pools are read in place, as views do, has no such cost.
 #pragma once
 
 #include "foundation/snapshot/snapshot_group.h"
@@ -135,7 +134,7 @@ struct PooledRows
     float along = 0;           ///< [s] of its way by which a row is longer to each side, along the way
     float across = 0;          ///< [s] the same of rows that lie anyhow, over `corner`
     float secondsBack = 0;     ///< [s] rows are also drawn on their way since then
-    uint64_t writer = 0;       ///< who wrote owners and places, 0: nobody
+    uint64_t writer = 0;       ///< number of the writer of owners and places, 0: none
     uint64_t writtenUpTo = 0;  ///< how far, in the writer's own count
 
 private:

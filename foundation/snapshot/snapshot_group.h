@@ -78,9 +78,9 @@ public:
     /// Room for all columns that it has.
     float* editStorage() { return storage_.data(); }
     size_t capacity() const { return capacity_; }
-    /// True when its constants are what the writer with the number `writer` has written into its memory
-    /// before and nobody has changed since: then they need not be written again. If not, they are zero, and
-    /// taken to be written now.
+    /// True when its constants are those that the writer with the number `writer` has written into its memory
+    /// before, unchanged since: then they need not be written again. Otherwise they are zero, and the writer
+    /// must write them now.
     /// @param writer not 0; names what is written, for the life of the process
     bool keepsConstants(uint64_t writer)
     {

@@ -26,12 +26,12 @@ public:
     SnapshotRing(const SnapshotSchema* schema, std::pmr::memory_resource* memory);
 
     /// @param step [tick] length of the step that ends at `tick`; 0: none does
-    /// @return a snapshot nobody reads, cleared for writing; when all are held, the ring grows by one
+    /// @return a snapshot without readers, cleared for writing; when all are held, the ring grows by one
     FrameSnapshot& beginWrite(Ticks tick, Ticks step = 0);
     /// Makes what was written the newest. It must not be changed after this.
     void publish();
-    /// What was written becomes the predecessor of what is written next, in place of the newest one of now:
-    /// nobody sees it before that is published.
+    /// What was written becomes the predecessor of what is written next, in place of the newest one of now.
+    /// Readers see it only when that is published.
     void stageOlder();
     /// The newest has no predecessor any more: time did not lead from that one to it.
     void forgetOlder();

@@ -1,6 +1,6 @@
 /// @file snapshot_schema.h
-/// Which kinds of data a snapshot can carry. Techniques register their kinds; the container knows none of
-/// them.
+/// Which kinds of data a snapshot can carry. Techniques register their kinds; the container depends on none
+/// of them.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ struct StepPlan
     Ticks droppedTicks = 0; ///< time that was given up because dt exceeded the clamp
 };
 
-/// Everything a clock knows beside its rules.
+/// The state of a clock, without its rules.
 struct ClockState
 {
     Ticks now = 0;

@@ -1,5 +1,5 @@
 /// @file budget.h
-/// Who may be simulated when not everything can be: the most significant, with a reluctance to change.
+/// Selects the most significant instances that fit into a budget, with hysteresis.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Budget
     bool any() const { return particles > 0 || milliseconds > 0 || bytes > 0; }
 };
 
-/// Somebody who would like to be simulated.
+/// An instance that requests simulation.
 struct Candidate
 {
     double significance = 0; ///< [1] larger is more important
@@ -31,11 +31,12 @@ struct Candidate
     bool granted = false; ///< the answer
 };
 
-/// Someone who runs counts this much more, so that two who are alike do not take turns.
+/// Hysteresis: the significance of an active instance is multiplied by this, so that equal ones do not
+/// alternate.
 constexpr double kReluctance = 1.25;
 
-/// Sorts `candidates` by significance and grants in that order whatever fits; those who must are served
-/// first. The most significant is always granted. Equal input gives equal answers.
+/// Sorts `candidates` by significance and grants those that fit, in that order; mandatory ones come first.
+/// The most significant one is always granted. Equal inputs give equal results.
 void share(const Budget& budget, double nanosecondsPerParticle, std::span<Candidate> candidates);
 
 } // namespace fx::activation

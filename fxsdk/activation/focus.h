@@ -1,5 +1,5 @@
 /// @file focus.h
-/// Where somebody looks: cameras of the host as cones of sight, and what lies in them.
+/// Cameras of the host as view cones, and tests of bounds against them.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -18,7 +18,7 @@ namespace fx::activation {
 struct Ball
 {
     glm::dvec3 center{0.0}; ///< [m] world
-    double radius = 0;      ///< [m] infinite when nobody knows
+    double radius = 0;      ///< [m] infinite when unknown
 };
 
 /// Why something is out of sight.
@@ -27,7 +27,7 @@ enum class Sight : uint8_t
     Seen,
     Outside,  ///< of every frustum
     TooFar,   ///< beyond its own distance or the focus's
-    TooSmall, ///< fewer pixels than the focus asks for
+    TooSmall, ///< fewer pixels than the focus requires
 };
 
 /// One camera, in world coordinates.

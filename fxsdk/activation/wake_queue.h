@@ -18,7 +18,7 @@ struct Sleeper
     uint32_t key = 0;
 };
 
-/// A binary heap that knows where each key is, so that any sleeper can be taken out in logarithmic time.
+/// A binary heap with the position of each key, so that any sleeper can be removed in logarithmic time.
 class WakeQueue
 {
 public:

@@ -1,5 +1,6 @@
 /// @file call_scope.h
-/// The thread rules of the C API: who may call an object, and who is inside it already.
+/// The thread rules of the C API: checks the calling thread of an object, and that no other call on it is in
+/// progress.
 #pragma once
 
 #include "foundation/result/status.h"

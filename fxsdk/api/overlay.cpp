@@ -7,7 +7,7 @@ namespace fx::api {
 
 namespace {
 
-constexpr double kUnknownReach = 0.5; ///< [m] half a side where nobody knows how far an effect reaches
+constexpr double kUnknownReach = 0.5; ///< [m] half the side of a box of unknown extent
 constexpr double kLargest = 1e6;      ///< [m]
 constexpr float kOpacity = 0.8f;
 

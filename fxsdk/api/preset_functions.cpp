@@ -18,9 +18,9 @@ using fx::base::Status;
 using fx::preset::LoadedPreset;
 
 constexpr std::string_view kLibraryPrefix = "library:";
-constexpr double kMostWork = 1e18; ///< [unit] that is told
+constexpr double kMostWork = 1e18; ///< [unit] largest reported value
 
-/// The host's asset hook in the form that the resolver asks for.
+/// Adapts the host's asset hook to the resolver.
 int readThroughHook(void* user, const char* name, uint64_t maxBytes,
                     void (*deliver)(void* sink, const void* data, size_t size), void* sink)
 {

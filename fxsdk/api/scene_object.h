@@ -76,7 +76,7 @@ inline sim::QualityLevel toQuality(uint32_t quality, sim::QualityLevel preferred
     return quality == FX_QUALITY_DEFAULT ? preferred : sim::QualityLevel(quality - FX_QUALITY_LOW);
 }
 
-/// Takes the scene out of its context and frees it. Nobody may be inside it.
+/// Removes the scene from its context and frees it. No call on it may be in progress.
 void destroyScene(FxScene* scene);
 
 /// Runs `body` as a call inside the scene, if the thread rules allow it.

@@ -26,7 +26,7 @@ base::Status checkStructSize(uint32_t size, const char* name)
                                      "; fill the struct with its default function"};
 }
 
-/// Copies what the caller knows over `defaults` into `out`. What this library does not know must be zero.
+/// Copies the caller's members over `defaults` into `out`. Members that this library lacks must be zero.
 template <class T>
 base::Status readStruct(const T* given, const char* name, const T& defaults, T& out)
 {

@@ -56,7 +56,7 @@ inline const FxLog* logOf(const FxView* view)
     return view ? &view->context->def.log : nullptr;
 }
 
-/// Takes the view out of its context and frees it. Nobody may be inside it; GL thread.
+/// Removes the view from its context and frees it. No call on it may be in progress; GL thread.
 void destroyView(FxView* view);
 
 /// Checked settings and frames in the renderer's terms; the status names the member that is wrong.

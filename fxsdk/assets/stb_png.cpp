@@ -8,7 +8,7 @@
 
 namespace {
 
-/// stb_image asks for memory without saying for whom, so the limit of a thread's call has to lie beside it.
+/// stb_image allocates without a context argument, so the limit of a call is thread-local.
 thread_local size_t mostBlockBytes = 0;
 
 void* limitedRealloc(void* block, size_t bytes)

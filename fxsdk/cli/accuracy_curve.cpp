@@ -25,7 +25,7 @@ double fewestInstructions(const AccuracyPoint& point)
                : *std::min_element(point.instructions.begin(), point.instructions.end());
 }
 
-/// `"` doubled, as CSV wants it.
+/// `"` doubled, as CSV requires.
 std::string quoted(const std::string& text)
 {
     std::string out = "\"";

@@ -17,7 +17,7 @@ namespace {
 constexpr int kWarmUp = 60;                ///< steps before the camera turns
 constexpr double kTurn = 2.0 * 3.14159265; ///< [rad] in all frames together
 constexpr int kReleased = 720;             ///< steps after which memory has been given back
-constexpr float kVisible = 1.0f / 255.0f;  ///< a difference of the picture that nobody sees
+constexpr float kVisible = 1.0f / 255.0f;  ///< smallest visible difference of the picture
 
 /// How the effects of a city are treated out of sight.
 struct Policy
@@ -92,8 +92,8 @@ struct Popping
 {
     uint32_t frames = 0;  ///< on which something came
     uint32_t entries = 0; ///< instances that did
-    double largest = 0;   ///< [1] of a channel, white is 1; where nobody was still on the way
-    double late = 0;      ///< [1] the same where somebody was: the budget of a replay was used up
+    double largest = 0;   ///< [1] of a channel, white is 1; in frames without pending replays
+    double late = 0;      ///< [1] the same with pending replays: the replay budget was used up
     double mean = 0;      ///< [1] over the pixels of those frames
     double seen = 0;      ///< [1] largest difference from the background: what could have been missed
 };

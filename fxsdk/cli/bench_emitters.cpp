@@ -107,7 +107,7 @@ double bytesPerParticle(const sim::EffectDef& effect)
     const sim::ParticleProgram program(def);
     const double rows = double(def.maxParticles) * double(def.lifetime.min + def.lifetime.max) * 0.5 /
                         (double(def.maxParticles) * double(def.lifetime.max));
-    return double(sim::bytesMoved(program)) / rows; // rows that hold nobody are moved too
+    return double(sim::bytesMoved(program)) / rows; // empty rows are moved too
 }
 
 } // namespace fx::cli

@@ -45,9 +45,9 @@ struct BenchEntry
     std::string_view name;
     std::string_view summary;
     std::span<const std::string_view> variants;
-    bool hasThreads; ///< heeds BenchSettings::threads
-    bool hasGpu;     ///< heeds BenchSettings::gpu
-    bool hasGl;      ///< heeds BenchSettings::gl
+    bool hasThreads; ///< uses BenchSettings::threads
+    bool hasGpu;     ///< uses BenchSettings::gpu
+    bool hasGl;      ///< uses BenchSettings::gl
     uint64_t usualCount;
     uint64_t mostCount;
     std::string_view elements; ///< what is counted, as errors say it

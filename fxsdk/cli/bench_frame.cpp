@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kPixels = 512;
 constexpr uint32_t kWarmFrames = 200; // a life and some more
-constexpr uint32_t kPoolFrames = 4;   // with drawing, until the scene knows who computes
+constexpr uint32_t kPoolFrames = 4;   // with drawing, until emitters have moved to the GPU
 
 using Clock = std::chrono::steady_clock;
 

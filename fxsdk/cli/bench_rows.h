@@ -8,7 +8,7 @@
 namespace fx::cli {
 
 /// Plays and times `steps` frames of a stage whose instances all show `effect`.
-/// @param row gets everything but name, variant and count, which measureVariants() knows
+/// @param row receives everything but name, variant and count, which measureVariants() sets
 /// @return Interrupted after a signal
 base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& effect, BenchRow& row);
 

@@ -62,7 +62,7 @@ base::Status BenchScene::startGl()
     if (base::Status status = toStatus(fxContext_WarmUp(context_)); !status)
         return status;
     FxViewSettings settings = fxDefaultViewSettings();
-    settings.dazzle = 0; // glare of the host's own picture is work that no effect asks for
+    settings.dazzle = 0; // glare of the host's picture is not a cost of effects
     frame_.colorTexture = color_.name();
     frame_.width = frame_.height = options_.pixels;
     return toStatus(fxCreateView(context_, scene_, &settings, &view_));

@@ -118,7 +118,7 @@ uint64_t residentBytes()
     return 0;
 }
 
-/// An effect far behind that nobody ever takes away.
+/// An effect far behind the camera that is never removed.
 bool leakOne(Soak& soak)
 {
     FxInstanceDef def = fxDefaultInstanceDef();

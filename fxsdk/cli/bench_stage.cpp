@@ -98,7 +98,7 @@ double copyGigabytes(base::TaskRunner& tasks, double bytes)
             tasks.parallelFor(parts, 1, [&](uint32_t begin, uint32_t end) {
                 std::memcpy(to.data() + begin * part, from.data() + begin * part, (end - begin) * part);
             });
-            from[k % half] = to[half - 1]; // nobody may leave a copy out
+            from[k % half] = to[half - 1]; // keeps the compiler from removing copies
         }
         best = std::min(best, secondsSince(start));
     }

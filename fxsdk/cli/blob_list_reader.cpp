@@ -47,7 +47,7 @@ std::string_view withoutSpaces(std::string_view text)
     return text;
 }
 
-/// The beginning of a field as a message can show it: a terminal must not obey what stands in a file.
+/// The beginning of a field, escaped for messages: control codes of a file must not reach the terminal.
 std::string printable(std::string_view field)
 {
     std::string text(field.substr(0, 40));
@@ -57,7 +57,7 @@ std::string printable(std::string_view field)
     return text;
 }
 
-/// Reads the text line by line and knows where it is.
+/// Reads the text line by line and keeps the position.
 class BlobListReader
 {
 public:

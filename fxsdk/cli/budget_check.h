@@ -1,5 +1,5 @@
 /// @file budget_check.h
-/// What fx bench budget --check asks of a run.
+/// Criteria of fx bench budget --check.
 #pragma once
 
 #include <string>

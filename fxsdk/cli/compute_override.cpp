@@ -14,7 +14,7 @@
 namespace fx::cli {
 namespace {
 
-constexpr const char* kReplaced = "replaced.fx.json"; ///< what the library asks the hook for
+constexpr const char* kReplaced = "replaced.fx.json"; ///< the name that the library passes to the hook
 
 std::string withCompute(const std::string& text, const std::string& compute)
 {

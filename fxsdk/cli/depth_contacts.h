@@ -6,7 +6,7 @@
 namespace fx::cli {
 
 /// True when particles of the scene collide with what the view sees, and no other effect lights the stage:
-/// lights are read from snapshots, and who asks for those gets particles that the CPU has computed.
+/// lights are read from snapshots, and a reader of snapshots gets particles computed on the CPU.
 bool showsDepthContacts(const scene_file::SceneFile& file);
 
 } // namespace fx::cli

@@ -103,8 +103,8 @@ Json callersOf(const preset::Technique& technique, const scene_file::SceneFile& 
     return names;
 }
 
-/// What computes the particles of each emitter, and why not the GPU. What may goes there once a view has
-/// drawn the scene, and while nobody asks for rows.
+/// Whether each emitter is computed on CPU or GPU, and the reason. Emitters move to the GPU once a view has
+/// drawn the scene, and while no reader requests rows.
 Json emittersOf(const scene_file::SceneFile& file)
 {
     Json list = Json::array();

@@ -12,8 +12,8 @@ namespace fx::cli {
 
 constexpr uint64_t kMostHeaderBytes = uint64_t(4) << 20; ///< of all parts
 
-/// Whether every attribute ends within the file and is as long as its type asks for. A file that is no
-/// OpenEXR file is left to the library.
+/// Whether every attribute ends within the file and has the length that its type requires. A file that is not
+/// an OpenEXR file is left to the library.
 /// @param beginning of the file, kMostHeaderBytes or all of it
 /// @param fileBytes [byte] of the whole file
 /// @return Parse naming the attribute; TooLarge for longer headers

@@ -74,7 +74,7 @@ void write(const std::filesystem::path& file, Header header, const sim::Distance
     std::error_code error;
     const std::filesystem::file_status there = std::filesystem::symlink_status(file, error);
     if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
-        return; // somebody else's
+        return; // the file of another program
     header.field = field.hash();
     AtomicFile out(file);
     const std::span<const float> values = field.values();

@@ -2,10 +2,10 @@
 /// Fields of distances that lie beside the meshes they were made from, so that a scene starts at once.
 ///
 /// A file holds the field of one mesh, at one place and size, with one size of cells, in the byte order of
-/// the machine. Nothing of it is believed: what it has to be follows from the mesh, a hash of which it names,
-/// and another hash covers its values. Any other file is ignored and replaced; where that cannot be done,
-/// because the folder is not to be written to, say, the field is made anew each time, and nobody is told.
-/// Threads: any. Programs that write one file at once each put a whole file in place.
+/// the machine. A file is verified before use: it names a hash of the mesh, which determines its size, and
+/// another hash covers its values. An invalid file is ignored and replaced; where that fails, as in a
+/// read-only folder, the field is computed each time, without a message. Threads: any. Programs that write
+/// one file at once each put a whole file in place.
 #pragma once
 
 #include "foundation/result/status.h"

@@ -84,7 +84,7 @@ private:
     std::unique_ptr<render::StageRenderer> stage_;
     std::unique_ptr<EffectScene> effects_;
     FxView* view_ = nullptr;
-    bool staysOnGpu_ = false;   ///< all particles are computed on the GPU as long as nobody asks for rows
+    bool staysOnGpu_ = false;   ///< all particles are computed on the GPU as long as no reader requests rows
     base::Ticks lastTick_ = -1; ///< of the frame before; -1: there was none
     Picture background_;
     FrameCounters counters_;

@@ -36,7 +36,7 @@ private:
         size_t switches = 0;
         size_t triggers = 0;
         size_t jumps = 0;
-        base::Placement place; ///< as the scene knows it
+        base::Placement place; ///< last one set in the scene
     };
 
     static base::Status play(FxScene* scene, Role& role, base::Ticks due, base::Ticks to);

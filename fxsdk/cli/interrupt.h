@@ -21,7 +21,7 @@ constexpr unsigned kSecondsToStop = 8;
 /// Takes SIGALRM for itself.
 void installInterruptHandler(unsigned secondsToStop = kSecondsToStop);
 
-/// Whether the user has asked to stop. Who hears so ends in a time of its own.
+/// Whether the user has requested a stop. The caller ends at its next safe point.
 bool interruptRequested();
 
 /// The status that says so.

@@ -11,7 +11,7 @@ class Validator;
 
 namespace fx::cli {
 
-/// Accepts one of `names`; the message about another value lists them and asks about the nearest.
+/// Accepts one of `names`; the message about another value lists them and suggests the nearest.
 CLI::Validator oneOf(std::vector<std::string> names);
 
 } // namespace fx::cli

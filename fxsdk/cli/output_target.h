@@ -1,5 +1,5 @@
 /// @file output_target.h
-/// What the argument of `-o` asks for: a still, a numbered sequence, or a video.
+/// The kind of output that the argument of `-o` names: a still, a numbered sequence, or a video.
 #pragma once
 
 #include "foundation/result/status.h"

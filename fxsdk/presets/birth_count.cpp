@@ -85,7 +85,7 @@ double BirthCount::causedBy(size_t cause, const sim::EventRule& rule, size_t lif
     if (rule.on == sim::EventKind::Host)
         return count; // how often is the host's affair
     double events = within(life, cause) * timesOf(rule, emitters_[cause]->lifetime);
-    if (rule.every > 0) // no more than all who live at once can cause
+    if (rule.every > 0) // at most as many as all living particles can cause
         events = std::min(events,
                           within(lifeOf(cause), cause) * (lives_[life] / base::toSeconds(rule.every) + 1.0));
     return count * (events > 0.0 ? std::max(events, 1.0) : 0.0);

@@ -137,7 +137,7 @@ std::string sharePercent(double part, double all)
     return std::to_string(int(100.0 * part / all + 0.5)) + " %";
 }
 
-/// What an author is told to do about `member`.
+/// The remedy for `member` in a warning.
 std::string remedyOf(const std::string& member)
 {
     if (member == "soundSpeed")

@@ -1,5 +1,5 @@
 /// @file emitter_advice.h
-/// Warnings about what is valid in a preset and yet does nothing, or takes more than its author may expect.
+/// Lint warnings: members of a preset that are valid and have no effect, or cost more than expected.
 #pragma once
 
 #include "fxsdk/presets/preset_value.h"

@@ -1,4 +1,4 @@
-// What an emitter's shape and look are told without effect.
+// Warnings about members of an emitter's shape and appearance that have no effect.
 #include "fxsdk/presets/emitter_advice.h"
 
 #include <algorithm>

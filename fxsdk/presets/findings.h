@@ -61,7 +61,7 @@ public:
     /// Findings with their places in `text`, in the order of the text.
     std::vector<Diagnostic> locate(std::string_view text, const std::string& file) const;
 
-    static constexpr size_t kLimit = 100; ///< more would help nobody
+    static constexpr size_t kLimit = 100; ///< findings beyond it are dropped
 
 private:
     void add(Finding finding);

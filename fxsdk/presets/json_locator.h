@@ -1,6 +1,5 @@
 /// @file json_locator.h
-/// Finds places in JSON text by reading it a second time, so that the document needs no memory for places
-/// that nobody asks for.
+/// Finds positions in JSON text by parsing it a second time, so that the document stores no positions.
 #pragma once
 
 #include <cstddef>

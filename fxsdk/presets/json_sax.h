@@ -11,8 +11,8 @@
 
 namespace fx::preset {
 
-/// Iterator over text that leaves the position of the furthest copy behind, so that an event knows what was
-/// consumed.
+/// Iterator over text that leaves the position of the furthest copy behind, so that an event has the end of
+/// the consumed text.
 class TrackedIterator
 {
 public:

@@ -10,8 +10,8 @@
 
 namespace fx::preset {
 
-/// One step: turns a document of version `from` into one of version `from + 1`. It meets documents that
-/// nobody has validated, so it leaves alone whatever is not of the shape it expects.
+/// One step: turns a document of version `from` into one of version `from + 1`. Documents are not validated
+/// yet, so values of an unexpected shape are left unchanged.
 struct MigrationStep
 {
     int from;

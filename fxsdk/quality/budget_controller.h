@@ -1,6 +1,6 @@
 /// @file budget_controller.h
-/// Keeps frames within a time by choosing the quality of each technique. Knows no clock and no GL: it is told
-/// how long frames took and how much time has passed, so that equal input gives equal choices.
+/// Keeps frames within a time by choosing the quality of each technique. It uses no clock and no GL: frame
+/// times and elapsed time are inputs, so that equal inputs give equal choices.
 ///
 /// Quality falls at once, as far as needed, when the next frame is expected to take more than 0.92 of the
 /// budget; it aims at 0.8. It rises by one step a technique after 45 frames without a change, not within a
@@ -28,8 +28,8 @@ public:
     /// @param ladders 1 to kMostLadders, each with costs that rise and errors that fall
     explicit BudgetController(std::vector<Ladder> ladders);
 
-    /// Learns from a finished frame. Results may come late: they are told with the choice they were made
-    /// with.
+    /// Updates the cost model from a finished frame. Results may come late: they carry the choice of their
+    /// frame.
     /// @param milliseconds one a ladder; negative: not known
     void observe(const Choice& choice, std::span<const double> milliseconds);
 

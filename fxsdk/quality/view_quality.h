@@ -12,7 +12,7 @@
 
 namespace fx::quality {
 
-/// What the host asks for.
+/// The host's budget.
 struct BudgetOptions
 {
     double milliseconds = 0; ///< [ms] 0: quality is what the settings say

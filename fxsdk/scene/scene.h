@@ -1,5 +1,6 @@
 /// @file scene.h
-/// The instance table over the simulated world: who exists, who is stepped, and what views get to see.
+/// The instance table over the simulated world: which instances exist, which are stepped, and what views
+/// show.
 ///
 /// Threads: one thread at a time (the scene thread); acquire() and release() from any thread.
 #pragma once
@@ -82,7 +83,7 @@ struct Mark
 struct ActivationHints
 {
     float priority = 1;    ///< [1] multiplies the size on the picture
-    float maxDistance = 0; ///< [m] beyond which nobody sees it; 0: none
+    float maxDistance = 0; ///< [m] largest distance at which it is seen; 0: no limit
     bool occluded = false;
 };
 
@@ -106,7 +107,7 @@ struct InstanceSetup
     uint64_t seed = 0;
     base::Ticks startTick = 0; ///< what is past means the next step
     base::Placement placement;
-    /// Where it stood at the last step, when the host has moved it since; only where the effect heeds it.
+    /// Placement at the last step, when the host has moved it since; only where the effect depends on it.
     std::optional<base::Placement> cameFrom = {};
     sim::InstanceParameters parameters;
     bool destroyWhenFinished = false;
@@ -168,7 +169,7 @@ public:
     /// @return InvalidArgument before its start and after its end
     base::Status seek(LocalId id, base::Ticks local);
     /// Tells an instance that what its preset calls `name` happened `count` times.
-    /// @return NotFound when its preset knows no such event, InvalidArgument before its start
+    /// @return NotFound when its preset has no such event, InvalidArgument before its start
     base::Status tell(LocalId id, std::string_view name, uint32_t count);
     void setHints(LocalId id, const ActivationHints& hints);
 
@@ -246,8 +247,7 @@ public:
         instances_.forEach([&](uint32_t index, const Instance&) { f(instances_.idAt(index)); });
     }
 
-    /// While somebody wants them, each update() leaves a mark of every instance, which costs a visit to all.
-    /// [any thread]
+    /// While enabled, each update() writes a mark of every instance, which visits all instances. [any thread]
     void wantMarks(bool more) { marksWanted_.fetch_add(more ? 1 : -1); }
     /// Those of the last update(). [any thread]
     void copyMarks(std::pmr::vector<Mark>& out);
@@ -387,7 +387,7 @@ private:
     uint64_t shownWork_ = 0;            ///< [unit] spent on the publication in hand, or the last one
     base::Ticks published_ = 0;         ///< scene time of the last publication
     std::pmr::vector<LocalId> moved_;   ///< instances with InstanceSetup::cameFrom, and perhaps others
-    bool lookAgain_ = false;            ///< something moved, or somebody looks elsewhere
+    bool lookAgain_ = false;            ///< an instance or a camera has moved
     bool memoryFailed_ = false;
     bool sought_ = false; ///< seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;

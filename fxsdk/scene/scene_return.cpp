@@ -151,7 +151,7 @@ void Scene::restOrNot(base::Ticks now)
     });
 }
 
-/// Takes what is out of sight to the present, whoever looks.
+/// Catches all hidden instances up, whatever the cameras see.
 /// @param alsoInexact also what cannot be caught up without a trace
 void Scene::settle(bool alsoInexact)
 {

@@ -1,4 +1,4 @@
-// Who is in sight: instances go out of sight and come back, and nobody visits those that are out of it.
+// Visibility: instances go out of sight and come back; hidden instances are not visited.
 #include "fxsdk/scene/scene.h"
 
 #include <glm/common.hpp>
@@ -171,7 +171,7 @@ void Scene::setHints(LocalId id, const ActivationHints& hints)
     lookAgain_ = true;
     if (instance.state != InstanceState::Hidden || instance.reason == Reason::Budget)
         return;
-    const Reason reason = judge(instance, false); // nobody would look at it again by itself
+    const Reason reason = judge(instance, false); // it would not be tested again otherwise
     if (reason == Reason::None)
         return comeBack(indexOf(id));
     const bool isInTree = instance.leaf != activation::HiddenTree::kNone;
@@ -262,7 +262,7 @@ void Scene::lookAround()
     lookAtDenied();
 }
 
-/// Who was turned away may be out of sight by now, or there is no budget any more.
+/// Instances denied by the budget may be out of sight by now, or there is no budget any more.
 void Scene::lookAtDenied()
 {
     candidates_.clear();
@@ -281,7 +281,7 @@ void Scene::lookAtDenied()
     }
 }
 
-/// Takes those in sight who do not fit into the budget out, and those who do back.
+/// Hides visible instances that exceed the budget, and shows those that fit again.
 void Scene::keepBudget()
 {
     candidates_.clear();
@@ -362,7 +362,7 @@ void Scene::place(uint32_t index, Reason reason)
     setAlarm(index, holdsMemory ? std::min(clock_.simulated() + options_.releaseAfter, end) : end);
 }
 
-/// The opposite: takes it from everything that knows it as hidden, resting or waking.
+/// The opposite: removes it from all lists of hidden, resting and waking instances.
 void Scene::takeBack(uint32_t index)
 {
     Instance& instance = instances_.at(index);

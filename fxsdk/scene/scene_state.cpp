@@ -178,7 +178,7 @@ void Scene::saveInstances(sim::StateWriter& writer) const
         writer.value(instance.serial);
         const bool isInWorld =
             instance.state != InstanceState::Dormant && instance.state != InstanceState::Finished;
-        writer.value(isInWorld ? InstanceState::Active : instance.state); // a state knows no cameras
+        writer.value(isInWorld ? InstanceState::Active : instance.state); // states do not depend on cameras
         saveSetup(writer, instance.setup);
     });
 }

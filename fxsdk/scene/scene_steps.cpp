@@ -129,7 +129,7 @@ void Scene::countDropped(base::Ticks ticks)
     counters_.droppedTicks = std::min(counters_.droppedTicks, kMostDropped - ticks) + ticks;
 }
 
-/// What may be spent on those who are late before the steps of the update.
+/// Work that may be spent on catching up before the steps of the update.
 base::WorkBudget Scene::lateWork() const
 {
     if (work_.left() == base::kNoWorkLimit)
@@ -205,8 +205,8 @@ void Scene::makeChanges()
     }
 }
 
-/// Who begins with a past, prewarm, gets it before the first step; those for whom the work does not suffice
-/// are on their way to the present from then on, while the scene goes on.
+/// Simulates prewarm before the first step. Instances whose prewarm exceeds the work budget are waking from
+/// then on, while the scene continues.
 void Scene::letArrive()
 {
     for (; !arrived_.empty(); arrived_.erase(arrived_.begin())) {

@@ -65,11 +65,11 @@ base::Status Scene::seek(LocalId id, base::Ticks local)
     return {};
 }
 
-/// Publishes the last step again, with those who have been taken to another time since. Between that and what
-/// was published before no time has passed, so that all is shown as it is at this step.
+/// Publishes the last step again, with instances that have been sought to another time since. Both published
+/// steps have the same time, so that all is shown as it is at this step.
 void Scene::showSought()
 {
-    if (waking_.size() > 0) { // who rested
+    if (waking_.size() > 0) { // resting before
         base::WorkBudget late = lateWork();
         catchUpWaking(late);
         work_.spend(late.spent());

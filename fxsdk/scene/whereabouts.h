@@ -38,7 +38,7 @@ public:
     void note(base::Ticks now, const Circumstances& is, float seconds);
     /// No time of the instance has passed before `now` since the last note.
     void restart(base::Ticks now) { begun_ = now; }
-    /// Nobody knows what was before.
+    /// The past is unknown.
     void forget() { unknown_ = 2; }
 
     bool isKnown() const { return unknown_ == 0; }

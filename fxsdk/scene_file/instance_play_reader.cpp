@@ -25,7 +25,7 @@ void checkOrder(const PresetValue& element, double time, double before)
                                   textOf(before) + "; allowed are rising times");
 }
 
-/// Every key has the member or none has: a key without it would be anybody's guess.
+/// Every key has the member or none has: a key without it would be ambiguous.
 bool allHave(const PresetValue& value, const char* member)
 {
     const size_t count = value.size("keys");

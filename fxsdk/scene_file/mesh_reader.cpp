@@ -19,7 +19,7 @@ namespace {
 
 constexpr float kLargestCoordinate = 1e6f; // [m]
 
-/// Hands material files to the OBJ parser through the resolver, so that they obey the rules of assets.
+/// Hands material files to the OBJ parser through the resolver, so that the rules of assets apply.
 class ResolvedMaterials final : public tinyobj::MaterialReader
 {
 public:

@@ -1,5 +1,5 @@
 /// @file preview.h
-/// How a preset wants to be shown by itself: its member "preview".
+/// How tools show a preset by itself: its member "preview".
 #pragma once
 
 #include "fxsdk/scene_file/scene_file.h"

@@ -32,7 +32,7 @@ struct Reader
     std::map<std::string, std::string> failures; ///< presets that cannot be used, with the reason
 };
 
-/// Says so where an emitter asks for the scene's geometry and the scene has none. The preset is valid.
+/// Warns when an emitter uses the scene's geometry and the scene has none. The preset is valid.
 void adviseGeometry(Reader& reader, const PresetValue& instance, const std::string& name,
                     const std::string& text)
 {

@@ -79,8 +79,8 @@ std::span<const uint32_t> DepthSort::sort(std::span<const float> distances, uint
     return order_;
 }
 
-/// Where few keys have changed, those who have them are sorted and merged in anew; else those are who stand
-/// in the way of the others.
+/// If few keys have changed, their elements are sorted and merged in; otherwise the elements that are out of
+/// order are.
 bool DepthSort::mendLastOrder(size_t changed, size_t newcomers)
 {
     const size_t limit = presentCount_ / kMostMovedShare + 8;
@@ -110,7 +110,7 @@ bool DepthSort::mendLastOrder(size_t changed, size_t newcomers)
     return true;
 }
 
-/// Appends those in `set` who are not absent to the first `count` in moved_. @return how many there are then
+/// Appends the elements of `set` that are present to the first `count` in moved_. @return their number then
 size_t DepthSort::take(std::span<const uint64_t> set, size_t count)
 {
     for (size_t word = 0; word < set.size(); ++word)
@@ -188,7 +188,7 @@ void DepthSort::sortMoved(size_t count)
         moved_.swap(scratch_);
         scratch_.resize(std::max(scratch_.size(), moved_.size()));
     }
-    for (size_t begin = 0, end = 0; begin < count; begin = end) { // who is equally far: by index
+    for (size_t begin = 0, end = 0; begin < count; begin = end) { // equal distances: by index
         for (end = begin + 1; end < count && moved_[end] >> 32 == moved_[begin] >> 32;)
             ++end;
         if (end - begin > 1)
@@ -231,7 +231,7 @@ void DepthSort::sortAll()
         for (size_t i = 0; i < count; ++i)
             order_[offsets[lastPass][digits.of(uint32_t(from[i] >> 32), lastPass)]++] = uint32_t(from[i]);
     }
-    order_.resize(presentCount_); // who is absent stands at the end
+    order_.resize(presentCount_); // absent elements are at the end
 }
 
 } // namespace fx::render

@@ -44,10 +44,10 @@ private:
     void sortAll();
     void sortMoved(size_t count);
 
-    std::pmr::vector<uint32_t> keys_; ///< rising order of these is asked for; ~0 for who is absent
+    std::pmr::vector<uint32_t> keys_; ///< to be put in ascending order; ~0 for absent elements
     std::pmr::vector<uint32_t> order_;
     std::pmr::vector<uint64_t> changed_;   ///< whose keys are others than in the call before, a bit each
-    std::pmr::vector<uint64_t> arrived_;   ///< who was absent then
+    std::pmr::vector<uint64_t> arrived_;   ///< elements that were absent then
     std::pmr::vector<uint32_t> blockEnds_; ///< of the chain that mending keeps: the key of each block's last
     std::pmr::vector<uint64_t> pairs_;     ///< key * 2^32 + index
     std::pmr::vector<uint64_t> moved_;

@@ -157,7 +157,7 @@ void keepStill(Chain& chain, const uint8_t* changed)
 }
 
 /// The first block of the chain, at most `block`, before which all blocks stand before `key`: found by the
-/// keys of the blocks' ends, which lie side by side. Asks for the keys of its elements.
+/// keys of the blocks' ends, which lie side by side. Prefetches the keys of its elements.
 HWY_INLINE size_t blockOf(const Chain& chain, uint32_t key, size_t block)
 {
 #if HWY_TARGET != HWY_SCALAR
@@ -220,8 +220,9 @@ HWY_INLINE void moveUp(uint32_t* order, size_t begin, size_t end, size_t by)
     std::memmove(order + begin + by, order + begin, (end - begin) * sizeof *order);
 }
 
-/// From the end: each of those who moved has its place looked for ahead of the one before it, and what lies
-/// between moves up as a block. Blocks are looked for some elements ahead, so that keys have come by then.
+/// From the end: finds the position of each moved element before that of the previous one, and moves the
+/// elements between them up as a block. Blocks are found some elements ahead, so that their keys are in the
+/// cache by then.
 void mergeAll(const Chain& chain, const uint64_t* moved, size_t count)
 {
     constexpr size_t kLead = 8;

@@ -44,7 +44,7 @@ bool haveSameRows(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
                   std::span<const base::ColumnDesc> columns);
 
 /// Whether two pools that were written one after the other hold the same in all rows, those of the dead among
-/// them; false also where it is not easily told.
+/// them; false also where a comparison would be expensive.
 bool haveSameRows(const base::PooledRows& a, const base::PooledRows& b,
                   std::span<const base::ColumnDesc> columns);
 

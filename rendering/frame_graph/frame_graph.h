@@ -1,12 +1,11 @@
 /// @file frame_graph.h
-/// The passes of one frame as declared reads and writes: what nobody reads is not executed, what lives at
-/// different times shares memory.
+/// The passes of one frame as declared reads and writes: unread results are not computed, and resources of
+/// disjoint lifetimes share memory.
 ///
 /// Use: begin(), import what exists outside, addPass() in any sensible order, keep() what must exist
 /// afterwards, compile(), execute(). The idea is O'Donnell's, "FrameGraph" (GDC 2017). Misuse (a stale
-/// version, reading what nobody wrote, an empty size) is remembered in status(); then nothing executes.
-/// Frames that are no larger than one before allocate nothing.
-/// Threads: one thread at a time.
+/// version, reading an unwritten resource, an empty size) is stored in status(); then nothing executes.
+/// Frames that are no larger than one before allocate nothing. Threads: one thread at a time.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -58,7 +57,7 @@ public:
         /// passes. A write also reads (blending, partial update) unless the resource was created by this
         /// pass.
         [[nodiscard]] ResourceId write(ResourceId resource);
-        /// The pass is executed even when nobody reads what it writes.
+        /// The pass is executed even when its results are not read.
         void sideEffect();
 
     private:
@@ -123,7 +122,7 @@ public:
     bool contains(ResourceId id) const
     {
         return id.index < versions_.size();
-    } ///< whether this frame knows it
+    } ///< whether it belongs to this frame
     std::span<const PhysicalTexture> physicalTextures() const { return physicalTextures_; }
     std::span<const size_t> physicalBuffers() const { return physicalBuffers_; } ///< [byte]
     /// Memory of what lives within the frame, as planned; host's and imported resources do not count.

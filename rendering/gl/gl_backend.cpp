@@ -275,7 +275,7 @@ void GlBackend::dispatch(const DispatchCall& call)
     device_.gl.DispatchCompute(call.groups[0], call.groups[1], call.groups[2]);
     ++drawCalls_;
     hasDrawn_ = false;
-    // Draws are ordered by GL; what a dispatch wrote is visible to nobody until this.
+    // Draws are ordered by GL; the writes of a dispatch become visible here.
     device_.gl.MemoryBarrier(GL_ALL_BARRIER_BITS);
 }
 

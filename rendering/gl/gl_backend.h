@@ -7,9 +7,9 @@
 ///     if (backend.beginFrame(graph)) { graph.execute(backend); }
 ///     const base::Status status = backend.endFrame();
 ///
-/// Each draw gets exactly the state that it asks for: the whole of it is set at beginFrame, then only
+/// Each draw gets exactly the state that it declares: the whole of it is set at beginFrame, then only
 /// differences. What is touched is listed by GlStateGuard. The host's clip control and multisampling are
-/// respected and left alone. A frame like the one before allocates nothing and asks GL nothing per draw.
+/// respected and left alone. A frame like the one before allocates nothing and makes no GL queries per draw.
 /// Threads: [GL thread].
 #pragma once
 

@@ -1,6 +1,5 @@
 /// @file gl_device.h
-/// What the renderer knows of one OpenGL context: its functions, its limits, the programs compiled in it, the
-/// bytes held.
+/// Data about one OpenGL context: its functions, its limits, the programs compiled in it, the bytes held.
 ///
 /// Threads: [GL thread], the thread on which the context is current; also for create() and destruction.
 /// Ownership: everything made from a device must be destroyed before it.
@@ -23,7 +22,7 @@
 
 namespace fx::render {
 
-/// Read once when the device is created; a frame never asks GL.
+/// Read once when the device is created; frames make no such queries.
 struct GlLimits
 {
     int version = 0;           ///< 10 major + minor

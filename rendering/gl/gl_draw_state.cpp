@@ -4,7 +4,7 @@ namespace fx::render {
 
 namespace {
 
-/// Switches that could discard, move or alter fragments, none of which a pass wants.
+/// Switches that could discard, move or alter fragments; off in all passes.
 constexpr GLenum kOff[] = {
     GL_CULL_FACE,
     GL_DEPTH_TEST,

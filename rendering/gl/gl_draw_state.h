@@ -2,8 +2,8 @@
 /// The only place that sets GL state for drawing: all of it once a frame, then what differs from draw to
 /// draw.
 ///
-/// It remembers what it has set since reset(), so nobody else may set state until the frame ends. What it
-/// touches is listed in gl_touched_state.cpp.
+/// It caches the state that it has set since reset(), so other code may not set state until the frame ends.
+/// The states that it changes are listed in gl_touched_state.cpp.
 #pragma once
 
 #include "rendering/frame_graph/backend.h"

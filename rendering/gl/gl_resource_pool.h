@@ -20,8 +20,8 @@ public:
     GlResourcePool(GlDevice& device, std::pmr::memory_resource* memory);
 
     /// Gives every physical resource of the graph an object: the one it had last frame when nothing has
-    /// changed. Textures and buffers that several frames have not used are deleted, and `framebuffers` told
-    /// so.
+    /// changed. Textures and buffers that several frames have not used are deleted, and `framebuffers` is
+    /// notified.
     base::Status realise(const FrameGraph& graph, GlFramebufferCache& framebuffers);
     /// Deletes everything; the next realise() starts anew.
     void release(GlFramebufferCache& framebuffers);

@@ -1,6 +1,6 @@
 /// @file gpu_emitters.h
-/// What the GPU knows of emitters that it computes: a program for each way of computing, and the numbers of
-/// each emitter's definition in a buffer.
+/// GPU data of emitters that are computed there: a program for each combination of features, and the numbers
+/// of each emitter's definition in a buffer.
 ///
 /// Nothing exists before the first such emitter. Threads: [GL thread].
 #pragma once

@@ -17,7 +17,7 @@ struct OutputBlock
     GpuDepthBlock depth;
 };
 
-/// A job whose buffers the graph knows.
+/// A job whose buffers are resources of the graph.
 struct RowsDispatch
 {
     GpuRowsJob job;

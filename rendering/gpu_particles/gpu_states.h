@@ -31,7 +31,7 @@ public:
     /// Nothing where the group's motion has a closed form. At most two jobs of an emitter in a frame.
     /// @return OutOfMemory, TooLarge (for the context's storage buffers)
     base::Status prepare(const base::SnapshotGroup& group, GpuRowsJob& ioJob);
-    /// Forgets states that nobody has asked for in a long time.
+    /// Drops states that have not been used for a long time.
     void nextFrame();
     /// Jobs have not run: all begins anew.
     void forget();

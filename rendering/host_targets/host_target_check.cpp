@@ -175,9 +175,9 @@ base::Status HostTargetCheck::checkAttachment(const HostTargets& targets, Size& 
     return checkRoom(targets, "the color attachment of frame.framebuffer", outSize.width, outSize.height);
 }
 
-/// States of the context that draws obey and a frame does not change. The origin of clip control: rays follow
-/// what the frame says of it; its depth mode does not matter. Transform feedback: it holds the host's program
-/// in use.
+/// States of the context that affect draws and that a frame does not change. The origin of clip control: rays
+/// follow what the frame says of it; its depth mode does not matter. Transform feedback: it holds the host's
+/// program in use.
 base::Status HostTargetCheck::checkContext(const CameraView& camera)
 {
     GLint origin = GL_LOWER_LEFT;

@@ -44,7 +44,7 @@ struct HostTexture
     bool operator==(const HostTexture&) const = default;
 };
 
-/// Remembers which textures were found good, so that a frame like the one before asks for facts only.
+/// Caches which textures were accepted, so that a frame like the one before only queries their properties.
 class HostTextureCheck
 {
 public:

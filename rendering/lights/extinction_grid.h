@@ -22,7 +22,7 @@ struct GridBlob
 /// Up to kCells^3 cells over the bounds of all blobs. Each blob's cross section is dealt to the cells its
 /// middle half covers, so the sum over cells is the sum over blobs exactly; positions are resolved to a cell.
 /// The error against exact shadow rays is that of the cell size; the blob's own shadow is left to the
-/// billboard, which knows it exactly.
+/// billboard, which computes it exactly.
 class ExtinctionGrid final : public MediaShadow
 {
 public:

@@ -134,7 +134,7 @@ base::Status ParticleBuffers::makeResident(const Source& source, const ParticleF
     return {};
 }
 
-/// Whether neither of the two snapshots is there, nor will be wanted again, as far as can be told.
+/// Whether neither of the two snapshots is there, nor is expected to be used again.
 bool ParticleBuffers::mixes(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
                             ParticleFrame& frame)
 {
@@ -271,7 +271,7 @@ base::Status ParticleBuffers::findAssets(ParticleFrame& frame, const base::Asset
     return {};
 }
 
-/// @param older null after it: rows of the newer are as the frame's moment wants them
+/// @param older null afterwards: the rows of the newer are those of the frame's moment
 base::Status ParticleBuffers::makeTwoResident(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
                                               ParticleFrame& frame, Place*& older, Place*& newer)
 {

@@ -29,7 +29,7 @@ public:
         bool layers;
         bool isSmall = false; ///< of a layer grid whose texels are larger than pixels
     };
-    /// What `layers` asks for, in the order of media.frag.glsl.
+    /// Outputs with `layers`, in the order of media.frag.glsl.
     enum LayerTarget : size_t
     {
         Fire,

@@ -12,7 +12,7 @@ inline constexpr ProgramDesc kOverdrawSmallProgram{"overdraw (small)", "passes/m
                                                    "passes/overdraw.frag.glsl", nullptr,
                                                    "FX_FORM=2 FX_SMALL=1"};
 
-/// Counts, for people who tune, how many blobs of the kernel form add something to each pixel.
+/// Counts how many blobs of the kernel form contribute to each pixel, for tuning.
 ///
 /// reads   blobs     buffer of BlobInstance
 ///         distance  [m] along the ray to opaque geometry

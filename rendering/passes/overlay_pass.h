@@ -11,7 +11,7 @@ namespace fx::render {
 inline constexpr ProgramDesc kOverlayProgram{"activation overlay", "passes/overlay.vert.glsl",
                                              "passes/overlay.frag.glsl", nullptr, nullptr};
 
-/// Lines over the picture for people who look for what is simulated: the edges of boxes, each in its color.
+/// Debug lines over the picture: the edges of bounding boxes, each in its color.
 ///
 /// reads   boxes    relative to the camera's origin
 /// writes  picture  the finished picture, by blending; nothing hides the lines

@@ -1,6 +1,6 @@
 /// @file draw_technique.h
 /// The drawing half of a technique: what it draws of a snapshot, with which passes and programs, and what it
-/// counts. A view knows techniques by a list of these descriptions alone.
+/// counts. A view only has a list of these descriptions.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -122,7 +122,7 @@ public:
 
     /// Adds what the last frame has drawn.
     virtual void count(FrameStatistics&) const {}
-    /// Adds what only the GPU knows; waits for it.
+    /// Adds counters of the GPU; waits for it.
     virtual void readBack(const GlBackend&, FrameStatistics&) {}
     /// Adds the share of the picture that the last frame has covered.
     virtual void cover(const CameraGeometry&, ScreenShare&) const {}

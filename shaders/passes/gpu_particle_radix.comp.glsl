@@ -104,7 +104,7 @@ void main()
     for (uint k = 0u; k < kOwn; ++k) {
         uvec2 pair = pairsBefore[first + k];
         uint digit = digitOf(pair.x);
-        uint place = places[digit * kThreads + i]++; // nobody else has this one
+        uint place = places[digit * kThreads + i]++; // unique to this thread
         pairsAfter[counts[digit * sizes.x + block] + place] = pair;
     }
 #endif

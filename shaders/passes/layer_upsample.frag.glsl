@@ -16,7 +16,7 @@ float closeness(float d)
     return d < 1e30 ? 1.0 / max(d, 1e-30) : 0.0;
 }
 
-// What texel q knows about the media before a surface of that closeness, and how far off it is [1].
+// The media of texel q in front of a surface of that closeness, and the difference in closeness [1].
 vec4 lightAt(ivec2 q, float asked, out float mismatch)
 {
     vec4 value = texelFetch(farLight, q, 0);

@@ -1,5 +1,5 @@
-// Planes, balls and boxes: how far a place is from them, where a leg meets them, who has to look closer. Part of
-// gpu_particle_contacts.glsl, whose legs and answers these functions share; formula swept-contact.
+// Planes, balls and boxes: distance of a position, contact of a leg, and which particles need the full test.
+// Part of gpu_particle_contacts.glsl, whose legs and answers these functions share; formula swept-contact.
 
 double dotOf(dvec3 a, dvec3 b)
 {
@@ -220,7 +220,7 @@ void meet(int kind, int n)
         meetPlane(kind, n);
 }
 
-// ---- who has to look closer ----
+// ---- which particles need the full test ----
 
 vec3 ballCenter = vec3(0.0);
 float ballRadius = 0.0;

@@ -50,7 +50,7 @@ void keepVector(uint column, uint row, vec3 v)
         reached[reachedAt(column + uint(a), row)] = floatBitsToUint(v[a]);
 }
 
-// True when somebody has computed the row of a particle of this age before.
+// True when the row of a particle of this age has been computed before.
 bool isReached(uvec2 age, uint firstStep)
 {
     int at = firstStep > 0u ? kStepsAt + int(firstStep - 1u) * FX_STEP_WORDS : 0;

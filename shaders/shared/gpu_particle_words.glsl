@@ -104,7 +104,7 @@ float secondsOf(uvec2 ticks)
 {
 #if FX_BRIEF
     if (ticks.y != 0u)
-        return 1e9; // longer than anybody lives
+        return 1e9; // longer than any lifetime
     precise float seconds = (float(ticks.x >> 16) * 65536.0 + float(ticks.x & 0xFFFFu)) * 1.41723355e-09;
     return seconds;
 #else

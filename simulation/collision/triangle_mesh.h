@@ -1,5 +1,5 @@
 /// @file triangle_mesh.h
-/// A view of triangles that somebody else owns.
+/// A non-owning view of triangles.
 #pragma once
 
 #include "foundation/result/status.h"

@@ -16,7 +16,7 @@ namespace fx::sim {
 __extension__ typedef __int128 WideInt;           ///< holds rate times time exactly
 __extension__ typedef unsigned __int128 WideWord; ///< holds a fraction of 96 bits times 2^32
 
-/// Told of births in order of their indices, by BirthSchedule. Keeps those of a window of time.
+/// Receives births in order of their indices from BirthSchedule. Keeps those of a window of time.
 class BirthLog
 {
 public:

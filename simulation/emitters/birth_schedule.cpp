@@ -288,7 +288,7 @@ BirthCount BirthSchedule::advance(const BirthWindow& window, std::span<Birth> ou
     return advanceTo(window, {out, out.size(), nullptr, nullptr}, end);
 }
 
-/// True when nobody is born in the window, which is remembered.
+/// True when the window has no births; the window is recorded.
 bool BirthSchedule::staysQuiet(const BirthWindow& window)
 {
     const bool quiet = window.end <= quiet_.until && window.begin == quiet_.to &&
@@ -304,7 +304,7 @@ void BirthSchedule::endQuiet()
     quiet_ = {};
 }
 
-/// Sees how long nobody will be born from the end of the window on.
+/// Finds the time without births after the end of the window.
 void BirthSchedule::findQuiet(const BirthWindow& window)
 {
     if (curved_ || window.end < start_ || window.end >= end_)

@@ -24,8 +24,8 @@
 ///   Where the rate runs straight from ra to rb over L ticks, with D = 2^48 F,
 ///       q = 2^48 ra + m k at tick k of it,   m = 2^48 (rb - ra) / L rounded towards 0           (5)
 ///   Progress is a sum of integers, and S(k + n) = S(k) + S(n) of the piece that begins at k: any partition
-///   of time into steps gives the same births. At a constant rate nobody is born within floor(-R / q) ticks
-///   of a moment: windows that end by then are put together and their progress is added later.           (6)
+///   of time into steps gives the same births. At a constant rate there are no births within floor(-R / q)
+///   ticks of a moment: windows that end by then are put together and their progress is added later. (6)
 /// @source    elementary
 /// @deviation none
 /// @valid     r <= 1e9 /s (larger is taken as that; NaN and negative as 0); a rate that changes over more
@@ -65,7 +65,7 @@ struct BirthCount
     uint64_t stored = 0;
 };
 
-/// An interval of local time and what the host wants of it.
+/// An interval of local time and the host's parameters in it.
 struct BirthWindow
 {
     base::Ticks begin;
@@ -106,7 +106,7 @@ public:
     void setPhase(float phase);
     /// What decides about bursts of a probability below 1. Before the first advance.
     void setSeed(uint64_t seed, uint32_t solverIndex);
-    /// Told of all births from now on, of rates that do not change; null for nobody. It outlives its use.
+    /// Receives all births of constant rates from now on; null for none. It must outlive its use.
     void setLog(BirthLog* log) { log_ = log; }
     /// All births of the window in order; those that do not fit into `out` are counted and keep their index.
     BirthCount advance(const BirthWindow& window, std::span<Birth> out);
@@ -133,8 +133,8 @@ public:
         };
         return advanceTo(window, {room, most, call, &take, wanted}, outReached);
     }
-    /// Nobody is born before this local time, as long as the last window's conditions go on; 0 when that is
-    /// not known. Windows up to it may be left out.
+    /// No births before this local time, as long as the conditions of the last window hold; 0 when unknown.
+    /// Windows up to it may be skipped.
     base::Ticks quietUntil() const { return quiet_.until; }
     /// Windows up to `tick` have been left out; nothing happens when it is not beyond them.
     void passTo(base::Ticks tick)
@@ -142,14 +142,14 @@ public:
         if (tick > quiet_.to && tick <= quiet_.until)
             quiet_.to = tick;
     }
-    /// All births from `tick`, the end of the last window, until end(), as long as the host wants the same;
-    /// none when they do not come at a constant rate of at least 1e-3 /s, or not yet.
+    /// All births from `tick`, the end of the last window, until end(), as long as the host's parameters do
+    /// not change; none unless they come at a constant rate of at least 1e-3 /s by now.
     std::optional<EvenBirths> evenBirths(base::Ticks tick, double intensity, bool emitting) const;
     base::Ticks end() const { return end_; } ///< of the rate
     /// True when nothing can be born from `tick` on.
     bool exhausted(base::Ticks tick) const;
-    /// Nobody is born from `tick`, the end of the last window, until then, as long as the host wants the
-    /// same. Not always the longest such time.
+    /// No births from `tick`, the end of the last window, until then, as long as the host's parameters do not
+    /// change. A lower bound.
     base::Ticks quietUntil(base::Ticks tick, double intensity, bool emitting) const;
 
     /// What has been born so far; rate and bursts are the definition's.
@@ -194,12 +194,12 @@ private:
     };
     struct Writer;
 
-    /// Windows in which nobody is born, whose progress has not been added yet.
+    /// Windows without births whose progress has not been added yet.
     struct Quiet
     {
         base::Ticks from = 0;
         base::Ticks to = 0;    ///< they are [from, to)
-        base::Ticks until = 0; ///< nobody is born before this under the same conditions
+        base::Ticks until = 0; ///< no births before this under the same conditions
         double intensity = 0;
         bool emitting = false;
         WideInt rate = 0; ///< q

@@ -28,11 +28,11 @@ public:
     void wait(EmitterSolver& emitter, const StepContext& context, std::span<const Birth> births);
     /// Whether its step is still to be ended.
     bool waitsFor(const EmitterSolver& emitter) const { return !open_.empty() && open_.back() == &emitter; }
-    /// After an exception: what waited never happens.
+    /// After an exception: discards pending births.
     void forget();
     /// Makes the births that wait.
     void makeBirths();
-    /// Makes all births and ends the steps of those that wait. Before anybody looks at them.
+    /// Makes all pending births and ends the steps of their emitters. Must precede any read of them.
     void close();
 
     // ---- a publication ----

@@ -42,7 +42,7 @@ struct EmitterSolver::Linked
     EventRoom old;       ///< events of particles born in earlier steps
     EventRoom young;     ///< events of particles born in this step
     EventList births;    ///< births, and then all that is new
-    uint64_t firstNew;   ///< index of the first who is born in the step
+    uint64_t firstNew;   ///< index of the first birth of the step
     uint32_t number = 0; ///< of the rule that is answered
     size_t answered = 0; ///< events of the list in hand
     bool isOpen = false; ///< births have begun

@@ -24,7 +24,7 @@ bool EmitterSolver::mayDieSooner() const
     return gpu_->kills() && schedule_.exhausted(now_);
 }
 
-/// Only counts births; nobody has a row.
+/// Only counts births; particles have no rows.
 void EmitterSolver::stepOnGpu(const StepContext& context)
 {
     const base::Ticks end = context.tick + context.stepTicks;
@@ -66,7 +66,7 @@ uint32_t EmitterSolver::elementCount() const
     if (!gpu_ || !gpu_->isOn())
         return store_.countAlive(now_);
     const bool mayBeEmpty =
-        !conditions_.emitting || schedule_.exhausted(now_); // otherwise nobody looks closer
+        !conditions_.emitting || schedule_.exhausted(now_); // otherwise it is not examined
     return mayBeEmpty && gpu_->isEmpty(key_, now_) ? 0 : gpu_->count();
 }
 

@@ -21,7 +21,7 @@ uint64_t nextOrder()
     return ++last;
 }
 
-/// Asks the memory for what is wanted soon.
+/// Prefetches data that is used soon.
 void fetchAhead(const void* data, size_t bytes)
 {
     for (size_t at = 0; at < bytes; at += 64)
@@ -160,7 +160,7 @@ uint32_t EmitterPool::admit(const PoolEntry& entry, base::Ticks now)
     return m;
 }
 
-/// Copies who is alive in the store that a member has had so far.
+/// Copies the living particles of the member's previous store.
 void EmitterPool::takeRows(uint32_t m, const ParticleStore& own)
 {
     const base::Ticks offset = members_[m].offset;

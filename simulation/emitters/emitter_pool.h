@@ -28,7 +28,7 @@ class EmitterSolver;
 struct PoolEntry
 {
     EmitterSolver* emitter;
-    uint32_t user;      ///< whose it is, for whoever owns the pool
+    uint32_t user;      ///< identifies the emitter for the owner of the pool
     uint64_t seed;      ///< of its instance
     base::Ticks offset; ///< its local time minus the pool's
     EvenBirths births;  ///< local time
@@ -109,7 +109,7 @@ private:
 
     size_t placeOfName(uint32_t name) const { return placeOf(name >> 8, name & 0xFF); }
     size_t placeOf(uint32_t member, uint32_t row) const { return size_t(member) * each_ + row; }
-    /// Whether who was given the place lives at `tick`; then `outRow` is its row.
+    /// Whether the particle of the place is alive at `tick`; then `outRow` is its row.
     bool lives(uint64_t serial, base::Ticks tick, uint32_t& outRow) const;
     void makeRoom(uint32_t member, uint64_t rows);
     void rebuild(uint64_t rows);
@@ -130,7 +130,7 @@ private:
     ParticleStore store_;           ///< a ring of all births; its indices are serial numbers
     std::vector<uint32_t> owner_;   ///< by row: member and row of its own store, see base::PooledRows
     std::vector<uint64_t> index_;   ///< by row: birth index in the member
-    std::vector<uint64_t> serial_;  ///< by place: who was last born there, kNobody
+    std::vector<uint64_t> serial_;  ///< by place: the particle last born there, kNobody
     std::vector<base::Ticks> wake_; ///< by member: a step that ends there or later is not like standing still
     std::vector<uint32_t> counts_;  ///< by member: count of its group
     std::vector<Member> members_;

@@ -120,7 +120,7 @@ base::Bounds ballOf(const EmitterDef& def, const FlightBound& bound, const Reach
 {
     float reach = def.reachFrom(conditions, {}, {});
     if (def.look.alignment == base::SpriteAlignment::Velocity || def.look.stretch > 0.0f) {
-        // Whoever was born since the snapshot before is drawn on the tangent of its way.
+        // Particles born since the snapshot before are drawn on the tangent of their path.
         const float back = std::min(float(bound.seconds), secondsBack), fastest = fastestOf(bound);
         const float grown = float(bound.acceleration + bound.drag * (double(fastest) + bound.air));
         const float change = followsAir(def) ? 2.0f * fastest : 0.5f * grown * back;

@@ -164,7 +164,7 @@ bool EmitterSolver::goOn(const StepContext& context, base::WorkBudget& work)
         return goOnHere(context, work);
     if (begins && !started_)
         space_->begin(context.placement);
-    else if (begins && context.tick != now_) // nobody knows the way of the time that was left out
+    else if (begins && context.tick != now_) // the path during the skipped time is unknown
         space_->jumpTo(context.placement);
     if (begins)
         space_->moveTo(context.placement, context.moveShare);
@@ -260,7 +260,7 @@ void EmitterSolver::openBirths(base::Ticks from)
     open_.asked = open_.refused = 0;
 }
 
-/// Those who are born from open_.reached to `to`. @return whether all are
+/// Makes births from open_.reached to `to`. @return whether all are made
 bool EmitterSolver::giveBirth(const StepContext& context, base::Ticks to, std::span<Birth> room,
                               base::WorkBudget& work)
 {
@@ -297,8 +297,8 @@ bool EmitterSolver::giveBirth(const StepContext& context, base::Ticks to, std::s
     return true;
 }
 
-/// Once all rows have refused a birth, one after the other, none has room before the first of those who live
-/// in them dies: until then births need only be counted.
+/// Once all rows have refused a birth, one after the other, none is free before the first particle in them
+/// dies: until then births need only be counted.
 void EmitterSolver::noteRefusals()
 {
     fullUntil_ = 0;
@@ -329,8 +329,8 @@ void EmitterSolver::storeBatch(const StepContext& context, std::span<const Birth
     store_.advance(births.size());
 }
 
-/// @param firstIndex only particles from it on move @param room receives what happens to them; null: nobody
-/// asks
+/// @param firstIndex only particles from it on move @param room receives their events; null: none are
+///             collected
 /// @return whether all have moved, those of the rows before open_.row among them
 bool EmitterSolver::move(const StepContext& context, base::WorkBudget& work, uint64_t firstIndex,
                          EventRoom* room)
@@ -446,7 +446,7 @@ void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
     const uint64_t droppedBefore = dropped_;
     base::Ticks from = now_;
     if (neverDrops(double(context.parameters->intensity))) {
-        // Whoever was born before then is dead.
+        // Particles born before then are dead.
         const base::Ticks dead = tick - lifetimeOf(double(context.parameters->intensity));
         if (dead > from) {
             const BirthWindow past{from, dead, double(context.parameters->intensity),

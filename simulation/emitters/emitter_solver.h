@@ -89,11 +89,11 @@ public:
                1;
     }
     bool hasElements() const override;
-    /// Where motion has a closed form; backwards while the host has changed nothing since local time 0. While
-    /// nobody lives and nobody is born, any emitter can.
+    /// Where motion has a closed form; backwards while the host has changed nothing since local time 0.
+    /// Without particles and births, any emitter can.
     bool canSeek(const StepContext& context, base::Ticks tick) const override;
     void seek(const StepContext& context, base::Ticks tick) override;
-    /// While nobody lives, up to the next birth. A birth that another emitter's particles cause comes no
+    /// Without particles, up to the next birth. A birth that another emitter's particles cause comes no
     /// sooner than that emitter's own rest ends.
     base::Ticks restsUntil(base::Ticks tick) const override;
     void save(StateWriter& writer) const override;
@@ -140,10 +140,10 @@ private:
     /// A step of which some is still to be done.
     enum class StepPart : uint8_t
     {
-        Old, ///< what happens to those who lived before, where somebody asks; they move
+        Old, ///< moves existing particles and collects their events
         Births,
-        Young,  ///< who was born moves
-        Move,   ///< all move, where nobody asks
+        Young,  ///< moves the new particles
+        Move,   ///< moves all particles, without events
         Answer, ///< what happened gives birth elsewhere
         Follow, ///< trails
     };
@@ -186,7 +186,7 @@ private:
     };
     Conditions conditionsOf(const StepContext& context) const;
     void heedConditions(const StepContext& context);
-    /// True while nobody lives and nobody is born up to `tick`.
+    /// True without particles and without births up to `tick`.
     bool restsThrough(const StepContext& context, base::Ticks tick) const;
     void seekHere(const StepContext& context, base::Ticks tick);
     base::Ticks lifetimeOf(double intensity) const;

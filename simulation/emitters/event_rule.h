@@ -9,7 +9,8 @@
 namespace fx::sim {
 
 constexpr uint32_t kMostAges = 256; ///< of one emitter, repetitions included
-/// [m/s] against the surface: below it, who bounces is taken to rest. What falls from 13 mm is as fast.
+/// [m/s] against the surface: below it, a bouncing particle counts as resting. It is the speed after a fall
+/// of 13 mm.
 constexpr float kUsualContactSpeed = 0.5f;
 
 /// Something that happens to particles of one emitter gives birth to particles of another one.
@@ -26,11 +27,11 @@ struct EventRule
     uint32_t fewest = 1;       ///< births of one event, drawn from [fewest, most]
     uint32_t most = 1;
     float probability = 1.0f;     ///< [1] 0..1 that anything is born
-    float inheritVelocity = 0.0f; ///< [1] 0..1 of the particle's velocity that those who are born have too
+    float inheritVelocity = 0.0f; ///< [1] 0..1 share of the particle's velocity that is added to births
     float inheritColor = 0.0f;    ///< [1] 0..1: from their own color to that times the particle's
 };
 
-/// What one event asks of the emitter that it gives birth in.
+/// Births that one event causes in the target emitter.
 struct EventBirth
 {
     ParticleEvent cause; ///< its velocity is what is inherited

@@ -1,4 +1,4 @@
-// Where the particles of an emitter can get that nobody has looked at.
+// Bounds of the particles of an emitter whose positions the CPU does not have.
 #include "foundation/math/elementary.h"
 #include "simulation/emitters/gpu_replay.h"
 #include "simulation/motion/drag_step.h"
@@ -94,7 +94,7 @@ base::Bounds boundsOfAll(const EmitterDef& def, const glm::vec3& low, const glm:
     const float speed = std::max(std::abs(slow), std::abs(fast)) + gain * pull;
     float more = reachOfOne(def, speed) + kRounding * glm::length(box.max - box.min);
     if (def.look.alignment == base::SpriteAlignment::Velocity || def.look.stretch > 0.0f) {
-        // Whoever was born since the snapshot before is drawn on the tangent of its way.
+        // Particles born since the snapshot before are drawn on the tangent of their path.
         const float back = std::min(seconds, secondsBack);
         more += 0.5f * (pull + drag * speed) * back * back;
     }

@@ -21,7 +21,7 @@ public:
     /// @param program one with a program for the GPU; outlives it
     GpuEmitter(const ParticleProgram& program, std::pmr::memory_resource* memory);
 
-    /// What is born, to be told by BirthSchedule.
+    /// Log of births, filled by BirthSchedule.
     BirthLog& log() { return log_; }
     const BirthLog& log() const { return log_; }
 
@@ -38,7 +38,7 @@ public:
     /// Forgets what can no longer be alive at `now`.
     void forget(base::Ticks now);
 
-    /// Whether a step asks for more than the GPU knows.
+    /// Whether a step needs more than the GPU supports.
     bool asksTooMuch(const StepContext& context) const
     {
         constexpr base::Ticks kLongest = std::numeric_limits<uint32_t>::max(); // about 6 s
@@ -56,7 +56,7 @@ public:
 
     /// Births that may be alive; at least as many as are.
     uint32_t count() const { return uint32_t(log_.next() - log_.front()); }
-    /// True when nobody is alive at `now`. Looks at each birth, once after the last one.
+    /// True when no particle is alive at `now`. Examines each birth, once after the last one.
     bool isEmpty(const BirthKey& key, base::Ticks now) const;
 
     /// The rows at `now`. @param store is filled; its `placed` is kept
@@ -66,7 +66,7 @@ public:
                  base::FrameSnapshot& snapshot) const;
 
 private:
-    float oldestAge(base::Ticks now) const; ///< [s] at most, of those who may live
+    float oldestAge(base::Ticks now) const; ///< [s] upper bound of the age of living particles
     base::Bounds bounds(base::Ticks now, float secondsBack) const;
     StepWeather weather(base::Ticks now) const;
     base::Ticks lastDeath(const BirthKey& key) const;

@@ -83,7 +83,7 @@ std::string_view obstacleOfSteps(const EmitterDef& def)
     return std::isfinite(bounds.max.x) ? "" : "nothing says how far its particles may get";
 }
 
-/// What the emitter does besides being drawn, or does in a way that no shader knows.
+/// What the emitter does besides being drawn, or does without support in shaders.
 std::string_view obstacleOfModules(const EmitterDef& def)
 {
     if (def.births && !isKnown(*def.births))

@@ -13,7 +13,7 @@ namespace fx::sim {
 namespace {
 
 constexpr uint32_t kChunk = 1024;               // rows that are handed to a thread together
-constexpr base::Ticks kEver = int64_t(1) << 60; // members have been moving for longer than anybody lives
+constexpr base::Ticks kEver = int64_t(1) << 60; // members have been moving for longer than any lifetime
 
 uint32_t wholeLines(uint32_t rows)
 {
@@ -68,7 +68,7 @@ void EmitterPool::publish(base::KindId kind, base::TaskRunner& tasks, base::Fram
         writeRange(job, columns, range, tasks);
 }
 
-/// Only of those who were born since the snapshot was written last.
+/// Only of particles born since the snapshot was written last.
 void EmitterPool::nameOwners(base::PooledRows& out) const
 {
     const uint64_t known = out.writer == number_ ? out.writtenUpTo : 0;

@@ -285,7 +285,7 @@ void RibbonStore::save(StateWriter& writer) const
     }
 }
 
-/// Of who lives, the points are known whose ticks have passed, by (1): there is no other number of the next.
+/// For living particles the points are known whose ticks have passed, by (1); the number of the next follows.
 void RibbonStore::checkRow(StateReader& reader, const ParticleStore& store, uint32_t row,
                            base::Ticks now) const
 {

@@ -20,7 +20,7 @@
 ///   where it died, with (2) from the newest point. The tail ends at the age T: between the last point that
 ///   is younger and the first that is not, place and arc length are interpolated in proportion to time (3)
 ///   What is published goes on beyond that age for a step, at most 1/30 s, so that the tail is known at any
-///   moment between two steps of that length; whoever draws it ends it at the age T of that moment.
+///   moment between two steps of that length; drawing ends it at the age T of that moment.
 ///   Near its ends, at arc length s between the tail's s_t and the head's s_h, a strip whose ends are soft
 ///   over f has its opacity times
 ///       min(s_h - s, s - s_t, f) / f                                                        (4)

@@ -13,7 +13,7 @@ namespace fx::sim {
 class RowsOfOne
 {
 public:
-    static constexpr bool kAreFree = false; ///< nobody asks whether somebody lives there
+    static constexpr bool kAreFree = false; ///< rows are not tested for particles
     RowsOfOne(std::span<const Birth> births, ParticleStore& store) : births_(births), store_(store) {}
 
     uint32_t count() const { return uint32_t(births_.size()); }
@@ -58,7 +58,7 @@ private:
 class RowsOfPool
 {
 public:
-    static constexpr bool kAreFree = true; ///< nobody asks whether somebody lives there
+    static constexpr bool kAreFree = true; ///< rows are not tested for particles
     RowsOfPool(std::span<const PooledBirth> births, ParticleStore& store) : births_(births), store_(store) {}
 
     uint32_t count() const { return uint32_t(births_.size()); }
@@ -99,7 +99,7 @@ private:
 class RowsOfMany
 {
 public:
-    static constexpr bool kAreFree = false; ///< nobody asks whether somebody lives there
+    static constexpr bool kAreFree = false; ///< rows are not tested for particles
     explicit RowsOfMany(std::span<ScatteredBirth> births) : births_(births) {}
 
     uint32_t count() const { return uint32_t(births_.size()); }

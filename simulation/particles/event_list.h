@@ -62,7 +62,7 @@ struct ParticleEvent
     EventKind kind;
     glm::vec3 position;     ///< [m]
     glm::vec3 velocity;     ///< [m/s]
-    glm::vec3 color{1.0f};  ///< [1] linear Rec. 709, where a rule asks for it
+    glm::vec3 color{1.0f};  ///< [1] linear Rec. 709, where a rule needs it
     bool scheduled = false; ///< the clock or the host is its cause, not what a particle went through
     uint32_t number = 0; ///< which of the emitter's ages, with EventKind::Age; as TileContact with Collision
     float speed = 0.0f;  ///< [m/s] with Collision: see TileContact
@@ -83,8 +83,8 @@ inline base::Ticks contactTick(base::Ticks begin, base::Ticks ticks, float conta
     return begin + std::min(base::Ticks(share * double(ticks)), ticks - 1);
 }
 
-/// Events of one step in memory that somebody else owns. Events that find no room are counted.
-/// Threads: add() from one; several threads have a list each, which append() joins in a fixed order.
+/// Events of one step in memory of the caller. Events beyond its capacity are counted. Threads: add() from
+/// one; several threads have a list each, which append() joins in a fixed order.
 class EventList
 {
 public:

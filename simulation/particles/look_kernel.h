@@ -76,8 +76,8 @@ struct LookBounds
     base::Bounds box() const;
 };
 
-/// Writes the rows [begin, end); begin is a multiple of kTilePadding, end too or the window's count. Rows
-/// that hold nobody are zero throughout.
+/// Writes the rows [begin, end); begin is a multiple of kTilePadding, end too or the window's count. Empty
+/// rows are zero throughout.
 LookBounds writeLooks(const LookJob& job, const LookColumns& out, uint32_t begin, uint32_t end);
 
 /// One of many groups that are written together.
@@ -99,7 +99,7 @@ struct alignas(64) MotionTile
     float position[3][kTileRows];
     float velocity[3][kTileRows];
     float age[kTileRows];  ///< [s]
-    float life[kTileRows]; ///< [1] age / lifetime; >= 1 or NaN: nobody lives here
+    float life[kTileRows]; ///< [1] age / lifetime; >= 1 or NaN: empty row
 };
 
 /// Fills the first `count` rows from those that begin at `row`, a multiple of kTilePadding.

@@ -39,7 +39,7 @@ struct BoundsLanes
             low[a] = kFull ? lower : hn::IfThenElse(alive, lower, low[a]);
             high[a] = kFull ? upper : hn::IfThenElse(alive, upper, high[a]);
         }
-        radius = hn::Max(radius, r); // that of nobody is 0
+        radius = hn::Max(radius, r); // that of an empty row is 0
     }
     HWY_INLINE void store(LookBounds& out) const
     {
@@ -186,7 +186,7 @@ private:
         return std::max(row, rows.count / kWidth * kWidth);
     }
 
-    /// Asks memory for what write() is going to want.
+    /// Prefetches data for write().
     template <bool kPlain>
     HWY_INLINE void fetch(uint32_t row) const
     {
@@ -269,7 +269,7 @@ HWY_INLINE void Looks::write(uint32_t row, Which alive, const MotionLanes& motio
 }
 
 /// Sprites are longer by their way, along it unless they turn, and what was born since the snapshot before is
-/// drawn on its way since then. Ages do not tell who that was: they count time of the instance, which may run
+/// drawn on its way since then. Ages do not identify those: they count time of the instance, which may run
 /// faster.
 HWY_INLINE void Looks::addMoving(Which alive, const MotionLanes& motion, Floats radius,
                                  BoundsLanes& bounds) const

@@ -101,7 +101,7 @@ public:
         return m;
     }
 
-    /// Asks memory for what read() is going to want.
+    /// Prefetches data for read().
     HWY_INLINE void fetch(uint32_t row) const
     {
         if constexpr (kBrief) {

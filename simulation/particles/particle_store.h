@@ -20,7 +20,7 @@ namespace fx::sim {
 
 struct Birth;
 
-constexpr uint64_t kNobody = ~uint64_t(0); ///< birth index of a row that nobody has lived in
+constexpr uint64_t kNobody = ~uint64_t(0); ///< birth index of a row that no particle has used
 
 /// Rows that may hold living particles: those below `count` outside of [gapBegin, gapEnd).
 struct RowWindow
@@ -69,7 +69,7 @@ public:
             return {end, 0, first};
         return {capacity_, end, first};
     }
-    /// Asks for what a publication is going to read first.
+    /// Prefetches the first data that a publication reads.
     void fetch() const
     {
         __builtin_prefetch(brief_ ? static_cast<const void*>(bornShort.data()) : born.data());
@@ -94,7 +94,7 @@ public:
     void advance(uint64_t count) { next_ += count; }
     uint64_t next() const { return next_; }
     uint64_t front() const { return front_; } ///< the oldest index that may live; next() when none does
-    /// Forgets rows at the old end of the window that hold nobody any more.
+    /// Drops empty rows at the old end of the window.
     void retire(base::Ticks now)
     {
         if (now >= frontUntil_)
@@ -114,11 +114,11 @@ public:
     void clear(uint64_t front, uint64_t next, base::Ticks now);
     /// Copies a particle of a store of the same program into `row`, as the one of that index and birth.
     void copyRow(const ParticleStore& from, uint32_t fromRow, uint32_t row, const Birth& birth);
-    /// Who lives in `row` does no more. For brief lives: until it leaves the window, at most 3 s from now.
+    /// Ends the particle in `row`. For brief lives: until it leaves the window, at most 3 s from now.
     void endRow(uint32_t row, base::Ticks now);
 
     void save(StateWriter& writer, base::Ticks now) const;
-    void saveEmpty(StateWriter& writer) const; ///< the same, once all who live now are dead
+    void saveEmpty(StateWriter& writer) const; ///< the same, once all particles of now are dead
     /// @param now [tick] local time of the state: what is alive was born before it and dies after it
     void restore(StateReader& reader, base::Ticks now);
 

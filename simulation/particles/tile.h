@@ -78,7 +78,7 @@ struct TileContact
     float share;        ///< [1] 0..1 of the row's part of the step
     float speed;        ///< [m/s] >= 0 against the surface, along its normal, just before
     glm::vec3 position; ///< [m]
-    glm::vec3 velocity; ///< [m/s] just after; of who is killed, just before
+    glm::vec3 velocity; ///< [m/s] just after; of killed particles, just before
     bool isLast;        ///< the row is killed or sticks
     uint32_t number;    ///< contacts of the row in this step before this one, at least
 };
@@ -102,7 +102,7 @@ struct TileContext
     glm::vec3 wind;                      ///< [m/s] effect's, host's and emitter's
     double begin;                        ///< [s] local time at which the step begins
     float seconds;                       ///< [s] its length
-    ContactListener* listener = nullptr; ///< null: nobody asks about contacts
+    ContactListener* listener = nullptr; ///< null: contacts are not collected
 };
 
 /// When a module runs within the step of a tile.
@@ -132,11 +132,11 @@ public:
     virtual size_t scratchBytes() const { return 0; }
     virtual void prepare(const TileContext&, void* /*scratch*/) const {}
     virtual void run(const TileContext& context, const void* scratch, Tile& tile) const = 0;
-    /// For how far particles may get; without one nobody knows.
+    /// Bound on the distance of particles; unknown without one.
     virtual TileBound bound() const { return {}; }
     /// True when the tile flags Stuck or Collided must survive the step.
     virtual bool keepsFlags() const { return false; }
-    /// True when it heeds StepContext::collider.
+    /// True when it depends on StepContext::collider.
     virtual bool collides() const { return false; }
 };
 
@@ -155,7 +155,7 @@ public:
         uint32_t count;
     };
     virtual void sample(const Births& births) const = 0;
-    /// [m] no birth is farther from the origin; infinite when nobody knows.
+    /// [m] no birth is farther from the origin; infinite when unknown.
     virtual float extent() const { return std::numeric_limits<float>::infinity(); }
 };
 

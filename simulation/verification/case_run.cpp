@@ -15,8 +15,7 @@ namespace {
 struct Stopped
 {};
 
-/// Passes loops on and leaves by an exception when somebody wants to stop: the one place that a long step
-/// comes by again and again.
+/// Forwards loops, and throws when a stop is requested: a long step calls it again and again.
 class WatchedRunner final : public base::TaskRunner
 {
 public:

@@ -89,7 +89,7 @@ class GasCase
 public:
     virtual ~GasCase() = default;
 
-    /// The dynamics that the case asks for; capacity is the number of particles.
+    /// The dynamics that the case needs; capacity is the number of particles.
     virtual const GasDynamicsDef& dynamics() const = 0;
     virtual const std::vector<GasParticle>& particles() const = 0;
     /// [s] ascending; the last is the end.

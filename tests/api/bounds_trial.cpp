@@ -117,7 +117,7 @@ FxInstanceDef BoundsTrialTest::randomInstance(Dice& dice, FxPresetId preset) con
     return def;
 }
 
-/// Emitters are computed on the GPU when a view has drawn lately and nobody has asked for rows.
+/// Emitters are computed on the GPU when a view has drawn lately and no reader has requested rows.
 void BoundsTrialTest::waitForGpu()
 {
     constexpr int kUpdates = 241;

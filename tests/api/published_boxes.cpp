@@ -190,7 +190,7 @@ std::vector<PublishedBox> PublishedBoxes::boxes(Without what) const
             box.place = box.other;
         else if (what == Without::OlderPlace)
             box.other = box.place;
-        // How far the corners of a mesh are from its middle is told to nobody.
+        // The distance of a mesh's corners from its middle is not published.
         const bool isMesh =
             isOfKind(group.info, "particle") &&
             group.info.constants[constant::Shape] == float(uint32_t(base::ParticleShape::Mesh));

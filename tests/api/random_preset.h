@@ -1,5 +1,5 @@
 /// @file random_preset.h
-/// Presets that nobody has thought of: any shape, force and appearance, within bounds that a camera can see.
+/// Random presets: any shape, force and appearance, within bounds that a camera can see.
 #pragma once
 
 #include <cstdint>

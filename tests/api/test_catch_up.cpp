@@ -11,7 +11,7 @@ using sim::CatchUp;
 
 namespace {
 
-/// Two scenes that are told the same; only one of them heeds its cameras.
+/// Two scenes with the same calls; only one of them uses its cameras.
 class VisibilityScript
 {
 public:

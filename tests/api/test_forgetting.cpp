@@ -63,7 +63,7 @@ TEST(Forgetting, thoseOfLongLivesAreGivenBackWhenTheirTimeIsOver)
             stage.add(fountainEffect(curls, 4.0f), kFar, uint64_t(i));
         stage.play(3 * kSecond);
         stage.look(kBehind);
-        stage.play(3 * kSecond + 5); // solvers have gone, those who lived may yet be seen
+        stage.play(3 * kSecond + 5); // solvers are released, their particles may yet be seen
         const uint64_t before = stage.memory().bytesInUse();
         stage.play(4 * kSecond);
         EXPECT_LT(stage.memory().bytesInUse() + kManyInstances * 5000u, before) << curls;

@@ -75,7 +75,7 @@ protected:
         const std::vector<std::byte> before = state();
         EXPECT_GT(refuseEach(memory_, action, [&] { return state() == before; }), 0u);
     }
-    /// The same over a call that may divide simulations that instances share, which nobody can tell.
+    /// The same over a call that may divide simulations that instances share, without changing results.
     template <class Action>
     uint64_t sweepChange(Action&& action)
     {

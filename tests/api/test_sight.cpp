@@ -1,4 +1,4 @@
-// Who is in sight, and that nobody else costs anything.
+// Which instances are in sight, and that no other instance costs anything.
 #include "tests/api/sight_stage.h"
 
 #include <gtest/gtest.h>
@@ -217,7 +217,7 @@ TEST(Sight, aReturnThatPassesTheEndOfTheEffectEndsIt)
     stage.look(0);
     const auto id = stage.add(toyEffect({false, 4, 0, 10 * kStep}), -kAhead);
     stage.play(50);
-    EXPECT_EQ(stage.state(id), InstanceState::Hidden); // nobody knows yet
+    EXPECT_EQ(stage.state(id), InstanceState::Hidden); // not known yet
     stage.look(kBehind);
     stage.play(1);
     EXPECT_EQ(stage.state(id), InstanceState::Finished);

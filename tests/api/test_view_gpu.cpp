@@ -100,7 +100,7 @@ TEST_F(ViewGpu, handsOutRowsAllTheSameAndLeavesThemToTheCpuForAWhile)
 
 TEST_F(ViewGpu, isLeftAloneWithoutAView)
 {
-    update(60); // nobody draws
+    update(60); // without drawing
     uint32_t rows = 0, living = 0;
     countRows(rows, living);
     EXPECT_GT(living, 150u);

@@ -1,5 +1,5 @@
 // Presets made at random, at any moment and from anywhere: what is drawn lies inside of the bounds that their
-// snapshots tell, and inside of the ball that decides whether anybody can see them. Bounds that lack one of
+// snapshots tell, and inside of the sphere that decides whether they are visible. Bounds that lack one of
 // their parts are found out.
 #include "tests/api/bounds_trial.h"
 
@@ -122,7 +122,7 @@ TEST_F(RandomBounds, holdEveryPixelThatIsDrawn)
     for (const Without what : {Without::Size, Without::Children, Without::Trails}) // the control
         EXPECT_GE(totals.outside[size_t(what)], 2 * hundreds) << nameOf(what);
     for (auto& [kind, ratios] : totals.tight)
-        EXPECT_LT(quantile(ratios, 0.5), 5.0) << kind; // nobody gains by bounds that hold the world
+        EXPECT_LT(quantile(ratios, 0.5), 5.0) << kind; // bounds of the whole world would be useless
 }
 
 TEST_F(RandomBounds, thatLackAPartAreFoundOut) // of few solid particles one can see where they end

@@ -55,7 +55,7 @@ TEST_F(ViewSight, whatIsHiddenAddsNeitherPassesNorCallsAndComesBackWithoutCompil
 
     for (int i = 0; i < 300; ++i)
         ASSERT_EQ(fxView_Render(view_, &def), FX_OK);
-    EXPECT_EQ(statistics().textureBytes, 0u); // given back, since nobody has used them for long
+    EXPECT_EQ(statistics().textureBytes, 0u); // released, since they have not been used for long
 
     const FxFocus there = focusOf(def, false);
     ASSERT_EQ(fxScene_SetFocus(scene_, &there, 1), FX_OK);

@@ -89,7 +89,7 @@ public:
         instances_.clear();
         setWall(false);
     }
-    /// After a frame of a view, so that the scene knows that somebody can compute for it.
+    /// After a frame of a view, so that the scene may use the GPU.
     void play(int frames)
     {
         draw(1);
@@ -225,7 +225,7 @@ TEST(ViewTechniques, memoryIsGivenBackAfterAWhileAndComesBackWithoutCompiling)
 {
     for (const Row& row : test::techniqueRows()) {
         if (isSetting(row))
-            continue; // somebody has asked for it: it is never idle
+            continue; // requested by the host: it is never idle
         Host host(false);
         host.load(row); // programs of particles on the GPU are known by preset
         host.warmUp();

@@ -161,7 +161,7 @@ TEST_F(ViewThreads, viewsDrawWhileTheirScenesAreChangedReadAndLoadedFor)
     EXPECT_GT(passes_, 0u);
     for (const float value : render::readTexture(*device_, color_.name(), kSize, kSize, 4))
         ASSERT_TRUE(std::isfinite(value));
-    for (uint32_t i = 0; i < kContexts; ++i) { // neither who draws nor who reads decides what there is
+    for (uint32_t i = 0; i < kContexts; ++i) { // neither drawing nor reading changes the state
         FxContextDef def = fxDefaultContextDef();
         def.workers = 1;
         FxContext* context = nullptr;

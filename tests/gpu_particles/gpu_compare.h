@@ -23,7 +23,7 @@ inline float farthest(const Rows& rows)
     return most;
 }
 
-/// What is published for the GPU is seen by nobody, so its bounds are those of all that there could be.
+/// The CPU does not have the particles of GPU emitters, so their bounds are those of all possible particles.
 inline void expectInside(const base::Bounds& seen, const base::Bounds& possible)
 {
     if (seen.empty())

@@ -78,7 +78,7 @@ TEST_F(GpuDepthContacts, haveTheNormalOfTheirOwnSurfaceBesideAnEdge)
     EXPECT_GT(fallen, 50u);
 }
 
-/// While the camera and what it sees stand still, nobody can tell when a view has looked.
+/// While camera and picture stand still, the time at which a view has read the depth does not matter.
 TEST_F(GpuDepthContacts, areTheSameForViewsThatLookSeldomOrLate)
 {
     see(cameras()[0].camera, {{kPlanes[1].normal, kPlanes[1].offset}});
@@ -143,7 +143,7 @@ TEST_F(GpuDepthContacts, areDrawn)
     const Picture plane = pictureOf(planeMember(kPlanes[2], answer), "cpu");
     const Picture seen = pictureOf(depthMember(answer), "gpu");
     EXPECT_GT(view_->statistics().gpuParticles, 0u);
-    const Picture freely = pictureOf(depthMember(answer), "cpu"); // most are below, where nobody sees them
+    const Picture freely = pictureOf(depthMember(answer), "cpu"); // most are below the surface and invisible
     double brightness = 0, difference = 0, without = 0;
     for (size_t i = 0; i < plane.texels.size(); ++i) {
         brightness += double(plane.texels[i]);

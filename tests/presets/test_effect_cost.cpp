@@ -44,7 +44,7 @@ std::string listOf(int count, const std::string& element)
     return "[" + list + "]";
 }
 
-/// A preset that asks for more than anybody has, and where its author is told so.
+/// A preset that needs more than any machine has, and the position of its warning.
 struct Endless
 {
     const char* name;

@@ -198,7 +198,7 @@ std::string chainOf(int emitters, int rules)
 
 TEST(EmitterAdvice, longChainsOfManyRulesAreCountedOnceAnEmitter)
 {
-    // 32^63 ways lead to the last emitter: whoever followed each of them would never come to an end.
+    // 32^63 ways lead to the last emitter: following each of them would never end.
     const auto loaded = load(chainOf(64, 32));
     ASSERT_TRUE(loaded.ok()) << loaded.status().message();
     EXPECT_EQ(loaded->effect->solvers.size(), 64u);

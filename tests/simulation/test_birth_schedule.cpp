@@ -209,7 +209,7 @@ TEST(BirthSchedule, idleStepsLeaveTheSameStateAsOneLongWindow)
         BirthSchedule schedule(emission, std::pmr::get_default_resource());
         schedule.setPhase(0.25f);
         const Ticks change = 3 * kTicksPerSecond, end = 5 * kTicksPerSecond;
-        for (Ticks at = 0; at < end; at += step) // the rate changes while nobody is born
+        for (Ticks at = 0; at < end; at += step) // the rate changes between births
             schedule.advance({at, at + step, at < change ? 1.0 : 0.4, true}, {});
         StateBuffer state(std::pmr::get_default_resource());
         schedule.save(state);

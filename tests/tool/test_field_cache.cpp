@@ -69,7 +69,7 @@ TEST(FieldCache, whatWasMadeOnceIsReadFromThenOn)
     EXPECT_EQ(fs::file_size(file), kHeader + 4 * made->grid().count());
     EXPECT_EQ(fieldFrom(ball(), file)->hash(), ballHash());
 
-    test::writeText(file, shiftedFile(bytesOf(file), *made)); // only who reads it gets this one
+    test::writeText(file, shiftedFile(bytesOf(file), *made)); // only a reader gets this one
     const auto read = fieldFrom(ball(), file);
     EXPECT_FLOAT_EQ(read->values()[5], made->values()[5] - 1e-3f);
 }

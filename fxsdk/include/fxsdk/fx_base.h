@@ -1,5 +1,5 @@
 /// @file fx_base.h
-/// What every other header of the C API stands on: export macro, version, result codes, ids and time.
+/// Base of all other headers of the C API: export macro, version, result codes, ids and time.
 ///
 /// Threads: everything here may be called from any thread.
 /// Ownership: all strings returned here belong to the library; none is freed by the caller.
@@ -7,17 +7,15 @@
 /// Conventions of the whole API
 ///   Units       metre, second, kilogram, kelvin, cd/m2. Light is linear Rec. 709.
 ///   Axes        right-handed, +Y up; a camera looks along -Z. Matrices are float[16], column-major.
-///   Errors      a call that fails changes nothing, leaves its outputs untouched and leaves a message that
-///               fxGetLastErrorMessage() returns on the same thread. Nothing prints, aborts or throws.
+///   Errors      a failed call changes nothing and leaves its outputs untouched. fxGetLastErrorMessage()
+///               returns its message on the same thread. The library never prints, aborts or throws.
 ///   Structs     every definition starts with structSize and grows only at its end. A shorter one, from an
-///   older
-///               header, is completed with defaults; a longer one is taken only if what is unknown is all
-///               zero.
-///   Thread tags [any] any thread · [scene thread] the thread the scene belongs to · [GL thread] the thread
-///   on which
-///               the context's OpenGL context is current. A wrong thread gives FX_ERROR_WRONG_THREAD.
-///   Callbacks   run inside the call that needs them. Calling the same object from there gives
-///   FX_ERROR_RE_ENTRANT.
+///               older header, is completed with defaults; a longer one is accepted only if its unknown
+///               members are zero.
+///   Thread tags [any] any thread; [scene thread] the thread of the scene; [GL thread] the thread on which
+///               the context's OpenGL context is current. Another thread gets FX_ERROR_WRONG_THREAD.
+///   Callbacks   run inside the call that needs them. A call of the same object from a callback gets
+///               FX_ERROR_RE_ENTRANT.
 #ifndef FXSDK_FX_BASE_H
 #define FXSDK_FX_BASE_H
 
@@ -60,22 +58,22 @@ typedef enum FxResult
 {
     FX_OK = 0,
     FX_ERROR_INVALID_ARGUMENT = -1, ///< an argument is null, not finite, or outside its range
-    FX_ERROR_STALE_ID = -2,      ///< an id names nothing, something destroyed, or something of another owner
-    FX_ERROR_WRONG_THREAD = -3,  ///< called from a thread that the function's tag forbids
-    FX_ERROR_OUT_OF_MEMORY = -4, ///< the allocator returned null
-    FX_ERROR_CAPACITY = -5,      ///< a stated capacity is used up
-    FX_ERROR_NOT_FOUND = -6,     ///< a file, an asset or a name does not exist
-    FX_ERROR_TOO_LARGE = -7,     ///< an input exceeds its documented size limit and was not read
-    FX_ERROR_PARSE = -8,         ///< a text is not well formed
-    FX_ERROR_SCHEMA = -9,        ///< a preset is well formed but says something that is not allowed
-    FX_ERROR_VERSION = -10,      ///< a struct, preset or header of a version that this library cannot take
+    FX_ERROR_STALE_ID = -2, ///< the object of an id never existed, was destroyed, or belongs to another owner
+    FX_ERROR_WRONG_THREAD = -3,     ///< called from a thread that the function's tag forbids
+    FX_ERROR_OUT_OF_MEMORY = -4,    ///< the allocator returned null
+    FX_ERROR_CAPACITY = -5,         ///< a stated capacity is used up
+    FX_ERROR_NOT_FOUND = -6,        ///< a file, an asset or a name does not exist
+    FX_ERROR_TOO_LARGE = -7,        ///< an input exceeds its documented size limit and was not read
+    FX_ERROR_PARSE = -8,            ///< a text is not well formed
+    FX_ERROR_SCHEMA = -9,           ///< a preset is well-formed JSON but violates its schema
+    FX_ERROR_VERSION = -10,         ///< a struct, preset or header of a version that this library cannot take
     FX_ERROR_GL_UNSUPPORTED = -11,  ///< the GL context lacks a version or function that is required
     FX_ERROR_GL_FAILED = -12,       ///< GL refused a shader, a framebuffer or an allocation
     FX_ERROR_NO_GL = -13,           ///< the context was created without GL, so it cannot draw
     FX_ERROR_RE_ENTRANT = -14,      ///< a callback called back into the object that is calling it
     FX_ERROR_IO = -15,              ///< the operating system refused to read or write
     FX_ERROR_INTERRUPTED = -16,     ///< the user stopped it
-    FX_ERROR_HOST_ANSWER = -17,     ///< a callback of the host gave an answer that is none
+    FX_ERROR_HOST_ANSWER = -17,     ///< a callback of the host returned an invalid value
     FX_ERROR_INTERNAL = -99,        ///< a defect of the library
     FX_RESULT_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never returned
 } FxResult;
@@ -98,11 +96,11 @@ typedef struct FxSnapshotId
     uint64_t bits; ///< opaque; differs from run to run
 } FxSnapshotId;
 
-/// Everything hangs on a context; see fx_context.h.
+/// Owns presets, scenes and views; see fx_context.h.
 typedef struct FxContext FxContext;
 /// Instances and a clock; see fx_scene.h.
 typedef struct FxScene FxScene;
-/// One way of looking at a scene; see fx_view.h.
+/// Renders a scene; see fx_view.h.
 typedef struct FxView FxView;
 
 /// Version of the library that is loaded, in the form of FX_VERSION. [any]
@@ -112,8 +110,8 @@ FX_API uint32_t fxGetVersion(void);
 /// @return a constant string, never null
 FX_API const char* fxResultName(FxResult result);
 
-/// What went wrong in the last call of this thread that failed: the function, the argument and the remedy.
-/// [any] Calls that succeed leave the message as it is.
+/// Message of the last failed call on this thread: the function, the argument and the remedy. Successful
+/// calls do not change it. [any]
 /// @return UTF-8 text, empty when no call of this thread has failed; valid until the next failure on this
 /// thread
 FX_API const char* fxGetLastErrorMessage(void);

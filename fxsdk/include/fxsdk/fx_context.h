@@ -2,10 +2,10 @@
 /// A context holds the host's hooks, the loaded presets and the GPU programs. Include this to start and stop
 /// fxsdk.
 ///
-/// Threads: a context may be used from any thread unless a function says otherwise. What touches OpenGL
-/// belongs to the thread that created the context, until fxContext_AdoptGlThread() moves it. Contexts are
-/// independent. Ownership: the caller owns the FxContext*; destroying it destroys its presets, scenes and
-/// views.
+/// Threads: a context may be used from any thread unless a function says otherwise. A function that uses
+/// OpenGL is called on the GL thread: the thread that created the context, until fxContext_AdoptGlThread()
+/// changes it. Contexts are independent. Ownership: the caller owns the FxContext*; destroying it destroys
+/// its presets, scenes and views.
 #ifndef FXSDK_FX_CONTEXT_H
 #define FXSDK_FX_CONTEXT_H
 
@@ -15,14 +15,17 @@
 extern "C" {
 #endif
 
-/// The host's memory. Both functions or none; none means the C++ runtime's memory. Called from several
-/// threads at once when a preset is loaded on one thread while a scene advances on another.
+/// Memory functions of the host. Set both or none; without them the C++ runtime allocates. Called from
+/// several threads at once when a preset is loaded on one thread while a scene advances on another.
 typedef struct FxAllocator
 {
-    void* user; ///< passed back unchanged
+    /// Passed back unchanged.
+    void* user;
+
     /// @param size [byte] > 0 @param alignment a power of two, at most 4096
     /// @return memory, or null when there is none
     void* (*allocate)(void* user, size_t size, size_t alignment);
+
     /// @param memory not null; size and alignment are what allocate was given
     void (*release)(void* user, void* memory, size_t size, size_t alignment);
 } FxAllocator;
@@ -33,7 +36,9 @@ typedef void (*FxLoopBody)(void* argument, uint32_t begin, uint32_t end);
 /// The host's parallel loop; null means the library's own threads.
 typedef struct FxParallelFor
 {
-    void* user; ///< passed back unchanged
+    /// Passed back unchanged.
+    void* user;
+
     /// Must call body so that every index in [0, count) is covered exactly once, by ranges of at least
     /// minBatch indices (the last may be shorter), and return when all of these calls have returned. How the
     /// range is cut and on how many threads never changes a result.
@@ -49,35 +54,42 @@ typedef enum FxLogLevel
     FX_LOG_LEVEL_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never sent
 } FxLogLevel;
 
-/// Where messages go; null means nowhere. Called on the thread of the call that has something to say.
+/// Receives log messages; null discards them. Called on the thread of the API call that logs.
 typedef struct FxLog
 {
-    void* user; ///< passed back unchanged
+    /// Passed back unchanged.
+    void* user;
+
     /// @param message UTF-8, valid during the call
     void (*write)(void* user, FxLogLevel level, FxResult code, const char* message);
 } FxLog;
 
-/// Finds OpenGL functions; null means a context without GL, which simulates and hands out snapshots only.
+/// Loads OpenGL functions; null creates a context without GL, for simulation and snapshots only.
 typedef struct FxGlLoader
 {
-    void* user; ///< passed back unchanged
+    /// Passed back unchanged.
+    void* user;
+
     /// @param name such as "glCreateTextures" @return the function's address, or null when it does not exist
     void* (*getProcAddress)(void* user, const char* name);
 } FxGlLoader;
 
-/// Finds preset files for hosts with an archive of their own; null means the file system. It is asked before
-/// the file system for every relative name without ".." that fxLoadPresetFile() is given.
+/// Finds preset files for hosts with an archive of their own; null means the file system. It is called before
+/// the file system for every relative name without ".." that is passed to fxLoadPresetFile().
 typedef struct FxAssetHook
 {
-    void* user; ///< passed back unchanged
+    /// Passed back unchanged.
+    void* user;
+
     /// @param name relative, '/'-separated, without ".." @param outSize [byte] receives the length
     /// @return the bytes, or null when there is no such asset
     const void* (*open)(void* user, const char* name, size_t* outSize);
+
     /// Called once for every successful open, with what it returned.
     void (*close)(void* user, const void* data, size_t size);
 } FxAssetHook;
 
-/// What a context does otherwise than usual.
+/// Options of a context.
 typedef enum FxContextFlag
 {
     /// An image or mesh of a preset that is missing or damaged is a warning, and a magenta checkerboard or a
@@ -88,17 +100,33 @@ typedef enum FxContextFlag
 /// How a context starts. Fill with fxDefaultContextDef(), then change what you need.
 typedef struct FxContextDef
 {
-    uint32_t structSize; ///< set by fxDefaultContextDef(); do not touch
-    uint32_t
-        headerVersion; ///< set by fxDefaultContextDef(): FX_VERSION of the header the caller was built with
-    FxAllocator allocator;     ///< default: the C++ runtime's
-    FxParallelFor parallelFor; ///< default: the library's own threads
-    FxLog log;                 ///< default: silence
-    FxGlLoader gl;             ///< default: no GL
-    FxAssetHook assets;        ///< default: files
-    uint32_t workers; ///< most threads to use without parallelFor, 0..256, and never more than the machine
-                      ///< has; 0 (default): as many as it has
-    uint32_t flags;   ///< FxContextFlag, added up; default 0
+    /// Set by fxDefaultContextDef(); do not touch.
+    uint32_t structSize;
+
+    /// Set by fxDefaultContextDef(): FX_VERSION of the header the caller was built with.
+    uint32_t headerVersion;
+
+    /// Default: the C++ runtime's.
+    FxAllocator allocator;
+
+    /// Default: the library's own threads.
+    FxParallelFor parallelFor;
+
+    /// Default: silence.
+    FxLog log;
+
+    /// Default: no GL.
+    FxGlLoader gl;
+
+    /// Default: files.
+    FxAssetHook assets;
+
+    /// Most threads to use without parallelFor, 0..256, and never more than the machine has; 0 (default): as
+    /// many as it has.
+    uint32_t workers;
+
+    /// FxContextFlag, added up; default 0.
+    uint32_t flags;
 } FxContextDef;
 
 /// The definition of a context that simulates on the library's own threads, without GL.
@@ -128,15 +156,15 @@ typedef struct FxMemoryStats
 ///         FX_ERROR_GL_UNSUPPORTED (the message names the version or function), FX_ERROR_OUT_OF_MEMORY
 FX_API FxResult fxCreateContext(const FxContextDef* def, FxContext** outContext);
 
-/// Destroys a context with all that is in it; its pointers and ids are invalid afterwards. Null is allowed
-/// and does nothing. No other call on anything of the context may be in progress. Callbacks that it makes,
-/// such as to give memory back, must not use what is in the context; they are refused by the context itself.
-/// [GL thread when it has GL, else any]
+/// Destroys a context with all objects in it; its pointers and ids are invalid afterwards. Null is allowed
+/// and does nothing. No other call on an object of the context may be in progress. Callbacks during the call,
+/// such as FxAllocator::release, must not use objects of the context; the context refuses such calls. [GL
+/// thread when it has GL, else any]
 /// @return FX_OK, FX_ERROR_WRONG_THREAD or FX_ERROR_RE_ENTRANT (nothing was destroyed)
 FX_API FxResult fxDestroyContext(FxContext* context);
 
-/// Compiles every GPU program that a view can ever need, so that no frame compiles. Repeating it costs
-/// nothing. [GL thread]
+/// Compiles all GPU programs of all views, so that no frame compiles programs. Further calls cost nothing.
+/// [GL thread]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NO_GL, FX_ERROR_GL_FAILED (the message has the
 /// compiler's log),
 ///         FX_ERROR_WRONG_THREAD, FX_ERROR_OUT_OF_MEMORY. After a failure it may be called again.

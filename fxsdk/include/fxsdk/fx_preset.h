@@ -1,9 +1,8 @@
 /// @file fx_preset.h
 /// A preset is an effect as its author described it (*.fx.json), ready to be placed any number of times.
 ///
-/// Threads: presets may be loaded and unloaded from any thread; loads of one context wait for each other.
-/// Ownership: the context owns its presets. Instances share what a preset says: unloading it does not disturb
-/// them.
+/// Threads: presets may be loaded and unloaded from any thread; loads of one context are serialized.
+/// Ownership: the context owns its presets. Instances keep the data of their preset when it is unloaded.
 #ifndef FXSDK_FX_PRESET_H
 #define FXSDK_FX_PRESET_H
 
@@ -13,23 +12,38 @@
 extern "C" {
 #endif
 
-/// What a loaded preset is. Fill structSize with sizeof before the call.
+/// Properties of a loaded preset. Fill structSize with sizeof before the call.
 typedef struct FxPresetInfo
 {
-    uint32_t structSize;   ///< set by the caller
-    uint32_t solverCount;  ///< emitters and gases
-    int64_t durationTicks; ///< [tick] length of the effect's life; 0: until its last particle is gone
-    uint64_t capacity;     ///< most particles alive at once in one instance
-    char name[64];         ///< UTF-8, zero-terminated; longer names are cut
-    // What an instance is expected to need at medium quality: estimates, for comparing presets.
-    uint64_t memoryBytes; ///< [byte] when all that can live does, what is shown of it included
-    uint64_t stepWork;    ///< work units of its most expensive step of 1/60 s, see FxSceneDef::workBudget
-    uint64_t startWork;   ///< work units of its prewarm
+    /// Set by the caller.
+    uint32_t structSize;
+
+    /// Emitters and gases.
+    uint32_t solverCount;
+
+    /// [tick] length of the effect's life; 0: until its last particle is gone.
+    int64_t durationTicks;
+
+    /// Most particles alive at once in one instance.
+    uint64_t capacity;
+
+    /// UTF-8, zero-terminated; longer names are cut.
+    char name[64];
+
+    // The members below are estimates for one instance at medium quality.
+    /// [byte] at full capacity, snapshots included.
+    uint64_t memoryBytes;
+
+    /// Work units of its most expensive step of 1/60 s, see FxSceneDef::workBudget.
+    uint64_t stepWork;
+
+    /// Work units of its prewarm.
+    uint64_t startWork;
 } FxPresetInfo;
 
 /// Loads a preset from a file of at most 4 MiB. Warnings go to the log. [any]
-/// @param path      UTF-8; a relative one without ".." is asked of the context's asset hook before the file
-/// system
+/// @param path      UTF-8; a relative one without ".." is passed to the context's asset hook before the file
+///             system
 /// @param outPreset receives the id; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NOT_FOUND, FX_ERROR_IO, FX_ERROR_TOO_LARGE,
 /// FX_ERROR_PARSE,
@@ -52,11 +66,11 @@ FX_API FxResult fxLoadPresetText(FxContext* context, const char* text, size_t le
 /// @return as fxLoadPresetFile; FX_ERROR_NOT_FOUND when the library has no such preset
 FX_API FxResult fxLoadPresetLibrary(FxContext* context, const char* name, FxPresetId* outPreset);
 
-/// Forgets a preset; the id is stale afterwards, instances made from it live on. [any]
+/// Unloads a preset; the id is stale afterwards, existing instances continue. [any]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxUnloadPreset(FxContext* context, FxPresetId preset);
 
-/// Tells what a preset is. [any]
+/// Reads properties of a preset. [any]
 /// @param ioInfo structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_VERSION (structSize),
 /// FX_ERROR_RE_ENTRANT

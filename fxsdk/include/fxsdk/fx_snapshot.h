@@ -1,11 +1,11 @@
 /// @file fx_snapshot.h
-/// Snapshots hand the particles of a scene to hosts that draw or analyse them themselves, with or without GL.
+/// Snapshots give the particles of a scene to hosts that draw or analyze them, with or without GL.
 ///
-/// A snapshot holds the last two steps of a scene as lists of groups; a group is what one solver of one
-/// instance published: columns of numbers, an id per element by which it is found in the other step, and a
-/// placement: world = position + rotation * (scale * local). Threads: everything here may be called from any
-/// thread, also while the scene thread updates the scene. Ownership: pointers into a snapshot stay valid
-/// until it is released. At most 16 snapshots of a scene are held at once.
+/// A snapshot holds the last two steps of a scene as lists of groups; a group is the output of one solver of
+/// one instance: columns of numbers, an id per element that identifies it in both steps, and a placement:
+/// world = position + rotation * (scale * local). Threads: everything here may be called from any thread,
+/// also while the scene thread updates the scene. Ownership: pointers into a snapshot stay valid until it is
+/// released. At most 16 snapshots of a scene are held at once.
 #ifndef FXSDK_FX_SNAPSHOT_H
 #define FXSDK_FX_SNAPSHOT_H
 
@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/// Which of the two steps of a snapshot is meant.
+/// Selects one of the two steps of a snapshot.
 typedef enum FxSnapshotStep
 {
     FX_SNAPSHOT_NEWER = 0,                 ///< the last step
@@ -23,17 +23,29 @@ typedef enum FxSnapshotStep
     FX_SNAPSHOT_STEP_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never valid
 } FxSnapshotStep;
 
-/// What a snapshot holds. Fill structSize with sizeof before the call.
+/// Contents of a snapshot. Fill structSize with sizeof before the call.
 typedef struct FxSnapshotInfo
 {
-    uint32_t structSize;  ///< set by the caller
-    uint32_t groupsNewer; ///< groups of the newer step
-    uint32_t groupsOlder; ///< groups of the older step; 0 before the second step
-    uint32_t reserved;    ///< 0
-    int64_t tickNewer;    ///< [tick] end of the newer step; of an earlier one while nothing is to be seen
-    int64_t tickOlder;    ///< [tick] end of the older step
-    double interpolation; ///< [0, 1) where scene time lay between the two steps: 0 shows the older, 1 would
-                          ///< show the newer
+    /// Set by the caller.
+    uint32_t structSize;
+
+    /// Groups of the newer step.
+    uint32_t groupsNewer;
+
+    /// Groups of the older step; 0 before the second step.
+    uint32_t groupsOlder;
+
+    /// Reserved; 0.
+    uint32_t reserved;
+
+    /// [tick] end of the newer step; that of an earlier step while no instance is visible.
+    int64_t tickNewer;
+
+    /// [tick] end of the older step.
+    int64_t tickOlder;
+
+    /// [0, 1) position of the scene time between the two steps: 0 is the older, 1 the newer.
+    double interpolation;
 } FxSnapshotInfo;
 
 /// One group. Fill structSize with sizeof before the call.
@@ -42,7 +54,7 @@ typedef struct FxSnapshotGroup
     uint32_t structSize;    ///< set by the caller
     uint32_t count;         ///< elements
     const char* kind;       ///< such as "blob"; constant string
-    FxInstanceId instance;  ///< whose particles these are; may have been destroyed since
+    FxInstanceId instance;  ///< instance of the particles; may have been destroyed since
     uint32_t solver;        ///< position of the solver in its preset
     float scale;            ///< [1] of the placement, > 0
     double position[3];     ///< [m] world, of the placement
@@ -58,24 +70,35 @@ typedef struct FxSnapshotGroup
 /// One column of a group. Fill structSize with sizeof before the call.
 typedef struct FxSnapshotColumn
 {
-    uint32_t structSize; ///< set by the caller
-    uint32_t count;      ///< elements
-    const char* name;    ///< such as "radius"; constant string
-    const char* unit;    ///< SI unit such as "m", "1" for none; constant string
-    const float* values; ///< count values; null when the column is one of 64 bits, or absent (count is 0)
-    const uint64_t* values64; ///< count values of 64 bits; null when the column holds floats, or is absent
+    /// Set by the caller.
+    uint32_t structSize;
+
+    /// Elements.
+    uint32_t count;
+
+    /// Such as "radius"; constant string.
+    const char* name;
+
+    /// SI unit such as "m", "1" for none; constant string.
+    const char* unit;
+
+    /// Count values; null when the column is one of 64 bits, or absent (count is 0).
+    const float* values;
+
+    /// Count values of 64 bits; null when the column holds floats, or is absent.
+    const uint64_t* values64;
 } FxSnapshotColumn;
 
-/// Holds on to the newest two steps of a scene. Release it soon: every held snapshot keeps its memory. [any]
+/// Acquires the newest two steps of a scene. Release it soon: every held snapshot keeps its memory. [any]
 /// @param outSnapshot receives the id; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_CAPACITY (16 are held)
 FX_API FxResult fxScene_AcquireSnapshot(FxScene* scene, FxSnapshotId* outSnapshot);
 
-/// Lets go of a snapshot; its id is stale and its pointers are invalid afterwards. [any]
+/// Releases a snapshot; its id is stale and its pointers are invalid afterwards. [any]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID
 FX_API FxResult fxScene_ReleaseSnapshot(FxScene* scene, FxSnapshotId snapshot);
 
-/// Tells what a snapshot holds. [any]
+/// Reads the contents of a snapshot. [any]
 /// @param ioInfo structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_VERSION (structSize)
 FX_API FxResult fxScene_GetSnapshotInfo(FxScene* scene, FxSnapshotId snapshot, FxSnapshotInfo* ioInfo);

@@ -10,10 +10,13 @@
 
 #include "fxsdk/fx_activation.h"
 #include "fxsdk/fx_base.h"
+#include "fxsdk/fx_collision.h"
 #include "fxsdk/fx_context.h"
 #include "fxsdk/fx_preset.h"
 #include "fxsdk/fx_scene.h"
 #include "fxsdk/fx_snapshot.h"
+#include "fxsdk/fx_state.h"
 #include "fxsdk/fx_view.h"
+#include "fxsdk/fx_view_quality.h"
 
 #endif

@@ -20,7 +20,7 @@ namespace fx::render {
 ///   glare  level   what is dealt: over times the sensor's gain, at most S_0
 ///   S_i    level   headroom of all pixels of level i and above, sum over j >= i of c_j (255 - j)
 /// @derivation
-///   Each pixel of level i wants glare (255 - i) / S_0. Levels are dealt from the brightest down; level i
+///   Each pixel of level i is due glare (255 - i) / S_0. Levels are dealt from the brightest down; level i
 ///   gets
 ///       q_i = floor(glare S_i / S_0) - floor(glare S_(i+1) / S_0)                               (1)
 ///   so that the q_i sum to glare exactly. Its pixels get floor(q_i / c_i), and the rest is spread evenly:

@@ -409,7 +409,7 @@ void IntervalWalk<V, kDegree, kProduct>::stepTo(T low, T high)
     uint64_t* bits = scratch_.candidates.data();
     for (; entered_ < count_ && !(high < scratch_.first[scratch_.byFirst[entered_]]); ++entered_)
         bits[scratch_.byFirst[entered_] / 64] |= uint64_t(1) << (scratch_.byFirst[entered_] % 64);
-    // Who has left has entered before, since no blob ends before it begins.
+    // A blob that has ended has begun before, since no blob ends before it begins.
     for (; left_ < count_ && !(low < scratch_.last[scratch_.byLast[left_]]); ++left_)
         bits[scratch_.byLast[left_] / 64] &= ~(uint64_t(1) << (scratch_.byLast[left_] % 64));
 }

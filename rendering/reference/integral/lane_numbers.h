@@ -1,5 +1,5 @@
 /// @file lane_numbers.h
-/// What the integral asks of a number, answered for plain scalars. pack-inl.h answers it for SIMD vectors.
+/// The number operations that the integral needs, for plain scalars; pack-inl.h has them for SIMD vectors.
 ///
 /// The text of the integral (*.inl) is written for "numbers" V: float, double and __float128, or a vector of
 /// them, one ray in each lane. Every operation works on lanes alone, nothing is fused, so that a lane has the

@@ -24,7 +24,7 @@ namespace fx::render {
 ///   Light scattered into the ray at t: j = sum over i and l of a_i rho_i p_i(cosine) E_l T_l        (1)
 ///   S = integral of T j dt                                                                     (2)
 ///   The integrand is smooth between the places where blobs begin and end: 3 Gauss-Legendre nodes there, in
-///   as many parts as the optical depth asks for. T and T_l are exact sums of polynomials.
+///   as many parts as the optical depth requires. T and T_l are exact sums of polynomials.
 /// @source    [HG41] for the phase function; (1) and (2) are the textbook integral
 /// @deviation glowing groups are balls: what is inside their radius is taken as already counted in their
 /// light

@@ -70,7 +70,7 @@ struct ContactList
 
 /// @param state free end of the step
 /// @param seconds length of the step, > 0
-/// @param list receives the contacts; null: nobody asks
+/// @param list receives the contacts; null: none are collected
 ContactState followPath(std::span<const ObstacleEntry> obstacles, const StepContext& step,
                         const glm::vec3& from, const ContactState& state, float seconds,
                         ContactList* list = nullptr);

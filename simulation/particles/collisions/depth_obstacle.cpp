@@ -5,7 +5,7 @@ namespace fx::sim {
 
 namespace {
 
-/// What a view's depth texture shows. Only the GPU knows it: on the CPU particles move freely.
+/// The surfaces of a view's depth texture. Only the GPU has it: on the CPU particles move freely.
 class DepthObstacle final : public Obstacle
 {
 public:

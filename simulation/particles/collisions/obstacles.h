@@ -49,12 +49,12 @@ public:
     virtual bool isThere(const StepContext&) const { return true; }
     virtual Clearance clearance(const StepContext& step, const glm::vec3& p) const = 0;
     virtual LegContact meet(const StepContext& step, const ContactLeg& leg) const = 0;
-    /// What particles far from it can be told by, many at once.
+    /// A bound that rejects particles far from it, many at once.
     struct Outline
     {
         enum Form : uint8_t
         {
-            Everywhere, ///< it cannot be told
+            Everywhere, ///< there is no bound
             Plane,
             Ball
         } form = Everywhere;

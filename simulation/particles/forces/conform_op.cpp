@@ -7,7 +7,7 @@
 ///   k, c    1/s2, 1/s stiffness and damping
 ///   T       s      length of the step
 /// @derivation
-///   The implicit step, which asks for the force at the end, v' = v - T (k (d + T v') + c v'), has
+///   The implicit step, with the force at the end, v' = v - T (k (d + T v') + c v'), has
 ///       a = (v' - v) / T = -(k d + (c + k T) v) / (1 + c T + k T^2)                             (1)
 ///   With d' = d + v T + a T^2 / 2 the step has the determinant 1 - C + K/2 and the trace 2 - C - K/2, where
 ///   K = k T^2 / (1 + c T + k T^2) < 1 and K/2 < C <= 1, so both eigenvalues stay inside of the unit circle

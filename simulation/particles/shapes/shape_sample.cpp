@@ -207,7 +207,7 @@ float extentOf(const ShapeDef& def)
     }
 }
 
-/// A shape as tile.h asks for it.
+/// A shape in the form that tile.h requires.
 class ShapeSampler final : public ShapeOp
 {
 public:

@@ -11,7 +11,7 @@ namespace fx::sim {
 template <class T>
 void evaluateDensity(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Densities of `places` from the lists that exist. True when a support wants to grow beyond them.
+/// Densities of `places` from the lists that exist. True when a support has to grow beyond them.
 template <class T>
 bool sumDensities(DynamicsState<T>& state, std::span<const uint32_t> places, double reach,
                   base::TaskRunner& tasks);

@@ -64,7 +64,7 @@ void heatNow(DynamicsState<T>& s, base::TaskRunner& tasks)
     evaluateForces(s, tasks);
 }
 
-/// Everybody ends the step at `end`.
+/// All particles end their step at `end`.
 template <class T>
 void truncateAll(DynamicsState<T>& s, uint64_t end)
 {
@@ -73,7 +73,7 @@ void truncateAll(DynamicsState<T>& s, uint64_t end)
             shortenStep(s, i, end);
 }
 
-/// One sub-step, to the next end of anybody's step. @return active particles
+/// One sub-step, to the next end of any particle's step. @return active particles
 template <class T>
 uint32_t subStep(DynamicsState<T>& s, bool isLast, base::TaskRunner& tasks)
 {
@@ -133,8 +133,8 @@ void prepare(DynamicsState<T>& s, base::TaskRunner& tasks)
     if (s.fresh)
         findFirstDensities(s, tasks);
     s.heatedNow = s.shaken;
-    lookAround(s, tasks);  // everybody is active: steps of no length end now
-    measureWays(s, tasks); // whoever wrote may have moved particles
+    lookAround(s, tasks);  // all are active: steps of no length end now
+    measureWays(s, tasks); // outer physics may have moved particles
     evaluateActive(s, tasks);
     limitWantedSteps(s, tasks);
     rest(s);

@@ -3,9 +3,9 @@
 /// support, entropy form, viscosity with a switch, kick-drift-kick with one step for all or a hierarchy of
 /// steps.
 ///
-/// Knows nothing of presets, pictures or verification cases; all of them stand on it. One thread at a time
-/// calls a GasDynamics; it spreads its loops over the task runner it is given, and gives the same bits for
-/// any runner. All memory comes from the resource given at the beginning, except for save().
+/// Independent of presets, pictures and verification cases, which all use it. One thread at a time calls a
+/// GasDynamics; it spreads its loops over the task runner it is given, and gives the same bits for any
+/// runner. All memory comes from the resource given at the beginning, except for save().
 #pragma once
 
 #include "foundation/result/status.h"
@@ -114,7 +114,7 @@ struct AdvanceReport
 
 /// What outer physics (drag, buoyancy, combustion) sees and may change between two calls of advance. Arrays
 /// are indexed by place, an order that changes with every advance; id[place] is the index with which the
-/// particle was added. Whoever writes must call edited() afterwards.
+/// particle was added. After writing, call edited().
 template <class T>
 struct GasView
 {

@@ -79,7 +79,7 @@ void fillRecord(DynamicsState<T>& s, uint32_t i)
 constexpr uint32_t kFewest = 6; ///< all records are filled where more than one in so many is active
 constexpr uint32_t kPairBatch = 128;
 
-/// Fills the record of `i` if it belongs to an earlier prediction; one thread does it, whoever comes first.
+/// Fills the record of `i` if it belongs to an earlier prediction; done once, by the first thread.
 template <class T>
 void fillOnce(DynamicsState<T>& s, uint32_t i)
 {
@@ -98,7 +98,7 @@ struct BlockSummary
     T speed = 0; ///< [1/s2]
 };
 
-/// Whether all steps in a block go on and nobody has moved by more than kStill since it was looked at.
+/// Whether all steps in a block go on and no particle has moved by more than kStill since its last visit.
 template <class T>
 bool canPassOver(const DynamicsState<T>& s, uint32_t b)
 {

@@ -43,7 +43,7 @@ void offerLimits(DynamicsState<T>& s, uint32_t difference, base::TaskRunner& tas
             const uint32_t i = s.active[k];
             const uint8_t limit = uint8_t(std::min(s.gas.level[i] + difference, uint32_t(kNoLimit)));
             if (limit >= longest)
-                continue; // nobody's step is long enough
+                continue; // no step is long enough
             s.lists.forEachPiece(i, [&](const uint32_t* entries, uint32_t count, bool) {
                 for (uint32_t n = 0; n < count; ++n) {
                     const uint32_t j = entries[n] & kPlaceMask;
@@ -103,7 +103,7 @@ uint32_t wakeNeighbors(DynamicsState<T>& s, base::TaskRunner& tasks)
                 nextEnd = std::min(nextEnd, s.gas.end[j]);
                 s.levelLimit[j] = kNoLimit;
             } else
-            { // asleep, in a long step, however soon it ends. Heat that has come now has moved nobody yet
+            { // asleep, in a long step, however soon it ends. Heat of this tick has moved no particle yet
                 endStepNow(s, j, s.heatedNow ? 0 : uint64_t(1) << (s.levelLimit[j] - difference));
             }
         }

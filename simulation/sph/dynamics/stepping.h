@@ -24,7 +24,7 @@
 /// @source    [SPR05] section 4 for (1), (2); [SM09] for the limiter, [DDV12] section 2.2 for (3), (4)
 /// @deviation (5) instead of ending the sleeper's step at the next multiple of the shorter step: half of a
 /// long
-///            step with the rates of a shock that has just arrived would be work that nobody has done, and
+///            step with the rates of a shock that has just arrived would add energy without work, and
 ///            forces between the caller and a sleeper would not be opposite. Waking reaches direct neighbors;
 ///            theirs follow when they are active
 /// @valid     r a power of two, or infinite: no limiter
@@ -52,7 +52,7 @@ void shortenStep(DynamicsState<T>& state, uint32_t place, uint64_t end);
 template <class T>
 void endStepNow(DynamicsState<T>& state, uint32_t place, uint64_t lately);
 
-/// Begins a frame of `seconds`: everybody opens a step.
+/// Begins a frame of `seconds`: all particles begin a step.
 template <class T>
 void openFrame(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks);
 

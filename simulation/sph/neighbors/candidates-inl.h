@@ -68,7 +68,7 @@ private:
 };
 
 /// Candidates of all images in turn. Every segment starts at a multiple of the vector's width and is filled
-/// up with candidates at NaN, which are near nobody.
+/// up with candidates at NaN, which are near no particle.
 template <class T>
 struct Candidates
 {

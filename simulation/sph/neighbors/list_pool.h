@@ -12,8 +12,8 @@
 
 namespace fx::sim {
 
-/// Lists of entries, by place. Who finds no room depends on which thread comes first; what a list holds does
-/// not, because it can always be searched anew.
+/// Lists of entries, by place. Which lists find no room depends on the order of threads; their contents do
+/// not, because a list can always be searched again.
 class ListPool
 {
 public:
@@ -100,7 +100,7 @@ private:
         exhausted_ = end_ - next_ < entries;
         return !exhausted_;
     }
-    /// The rest of the block, when nobody has taken the next one since.
+    /// The rest of the block, when the next one has not been taken since.
     void giveBack()
     {
         uint64_t expected = end_;

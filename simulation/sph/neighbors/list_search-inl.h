@@ -164,7 +164,7 @@ private:
             uint32_t next = own;
             while (next < candidates->count && candidates->entry[next] != place)
                 ++next;
-            if (next == candidates->count) { // at NaN: near nobody, not even itself
+            if (next == candidates->count) { // at NaN: near no particle, not even itself
                 writer_.leaveUnlisted(place);
                 continue;
             }
@@ -182,7 +182,7 @@ private:
             return;
         }
         const T x = candidates.at[0][own];
-        candidates.at[0][own] = std::numeric_limits<T>::quiet_NaN(); // nobody is his own neighbor
+        candidates.at[0][own] = std::numeric_limits<T>::quiet_NaN(); // no particle is its own neighbor
         uint32_t found = 0;
         for (uint32_t k = 0; k < setup_.imageCount; ++k) {
             const SeenImage<T>& image = setup_.images[k];

@@ -1,5 +1,5 @@
 /// @file neighbor_lists.h
-/// Who is near whom: lists of neighbors, kept while nobody has moved too far.
+/// Lists of neighbors, kept until a particle has moved too far.
 #pragma once
 
 #include "simulation/sph/neighbors/neighbor_search.h"
@@ -8,8 +8,8 @@
 
 namespace fx::sim {
 
-/// Neighbors of particles, found at once for all and kept while nobody has moved too far: lists built with
-/// `margin` hold all pairs nearer than max(support) as long as for every particle
+/// Neighbors of particles, found for all at once and kept until a particle has moved too far: lists built
+/// with `margin` hold all pairs nearer than max(support) as long as for every particle
 ///     support now + 2 (largest distance that any particle has moved since) <= (1 + margin) support then.
 template <class T>
 class NeighborLists
@@ -50,7 +50,7 @@ public:
     }
 
     /// Owners of the last build for whose lists there was no room, or who have more than some two thousand
-    /// neighbors: every time that their lists are asked for costs about as much as ten searches.
+    /// neighbors: each read of their lists costs about as much as ten searches.
     uint32_t unlisted() const { return pool_.unlisted(); }
     /// Entries of all lists of the last build, without padding; those of unlisted owners not counted.
     uint64_t entries() const { return pool_.total(); }

@@ -61,7 +61,7 @@ public:
     /// Decides the order of the particles and the cells of the tree. order()[place] is the index of the
     /// particle of `points` that belongs at `place`; the caller moves its columns accordingly and then calls
     /// refit. Ties are broken by index, so that equal input gives equal order for any number of workers.
-    /// Particles at NaN are allowed: they are near nobody.
+    /// Particles at NaN are allowed: they have no neighbors.
     void sort(const PointColumns<T>& points, const Domain& domain, base::TaskRunner& tasks);
     std::span<const uint32_t> order() const { return sort_.order(); }
 

@@ -68,7 +68,7 @@ public:
             auto near = isNear<!kPlain>(setup_, owner_, d, shown(d, 0, place), shown(d, 1, place),
                                         shown(d, 2, place), hn::Mul(reach, reach));
             near = hn::And(near, hn::FirstN(d, end - place));
-            if (image_.bits == 0 && place_ - place < lanes) // nobody is his own neighbor
+            if (image_.bits == 0 && place_ - place < lanes) // no particle is its own neighbor
                 near = hn::And(near, hn::Not(hn::And(hn::FirstN(d, place_ - place + 1),
                                                      hn::Not(hn::FirstN(d, place_ - place)))));
             const Packing packing(d, near);

@@ -49,7 +49,8 @@ struct ForceRules
     SphKernel kernel = SphKernel::WendlandC2; ///< unstable beyond kernelFacts(kernel).largestNeighbors
     double beta = 3;                          ///< [1] of the signal speed
     double conductivity = 1;                  ///< [1] 0 for none
-    /// By place: who a particle is, for the direction in which coincident ones part. Null: its place.
+    /// By place: the identity of a particle, for the direction in which coincident ones part. Null: its
+    /// place.
     const uint32_t* ids = nullptr;
 };
 

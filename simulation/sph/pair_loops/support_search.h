@@ -73,7 +73,7 @@ private:
     {
         if (isNewton(mass, growth))
             return support_ * (T(1) + (want_ - mass) / growth); // (3)
-        if (!(growth > T(0)))                                   // nobody between here and the center
+        if (!(growth > T(0)))                                   // no neighbor between here and the center
             return mass < want_ ? top_ : bottom_;
         return support_ * static_cast<T>(base::cubeRoot(static_cast<double>(want_ / mass))); // S grows as H^3
     }

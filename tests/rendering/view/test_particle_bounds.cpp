@@ -167,7 +167,7 @@ TEST_F(ParticleBoundsTest, everyDrawnPixelLiesInsideTheProjectedBounds)
         for (TestParticle& p : after) {
             p.age += float(kStep);
             p.center += p.velocity * dice.between(0.0f, 0.3f);
-            if (dice.below(3) == 0) { // somebody else in the same row
+            if (dice.below(3) == 0) { // another particle in the same row
                 p = randomParticle(dice);
                 p.age = dice.between(0.0f, float(kStep));
             }

@@ -39,7 +39,7 @@ TEST(GasDynamics, idsStayWithTheirParticles)
 
 TEST(GasDynamics, listsThatServeSeveralStepsMissNobody)
 {
-    // Slow shear over many steps; then everybody's density as somebody sees it who has just come.
+    // Slow shear over many steps; then the density of all as a particle computes it that has just been added.
     GasDynamicsDef def = periodicBox(10);
     def.viscosity = {0.0, 0.0, 0.1, 0.0, 0.0, false};
     std::vector<GasParticle> particles = lattice(10, 1.0);
@@ -60,7 +60,7 @@ TEST(GasDynamics, isolatedParticlesFlyStraight)
     for (const double distance : {1.0, 1e3, 1e8}) {
         GasDynamicsDef def;
         def.capacity = 3;
-        def.largestSupport = 0.4; // below the distances: nobody meets anybody
+        def.largestSupport = 0.4; // below the distances: no pairs
         const std::vector<GasParticle> particles{
             warm({0, 0, 0}, {1, 2, 3}), warm({distance, 0, 0}, {1, 0, 0}), warm({0, distance, 0}, {0, 1, 0})};
         GasStage<double> stage(def, particles);

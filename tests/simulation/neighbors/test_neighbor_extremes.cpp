@@ -46,7 +46,8 @@ TEST(NeighborExtremes, aMillionInOneSmallCellBesideAWideCloudAreFoundInBoundedMe
     tree.refit(s.cloud.columns(), *tasks);
     lists.build(tree, {}, everyone(cloud.count()), 0.0f, *tasks);
     EXPECT_EQ(memory.calls, calls) << "allocated while searching";
-    // Whoever reaches across the whole cluster has too many neighbors for a list; nobody else may lose his.
+    // Particles that reach across the whole cluster have too many neighbors for a list; no other list may be
+    // lost.
     EXPECT_LE(lists.unlisted(), 2'000u);
     for (uint32_t place = 0; place < cloud.count(); place += 20'011) {
         if (s.cloud.support[place] > 1)

@@ -1,4 +1,4 @@
-// Instances that are alike share a run in the world; nobody can tell from the results.
+// Equal instances share a run in the world; the results are the same as without sharing.
 #include "tests/simulation/busy_effect.h"
 
 #include <gtest/gtest.h>

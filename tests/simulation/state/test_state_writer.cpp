@@ -50,7 +50,7 @@ TEST(StateWriter, writesValuesWithoutGaps)
 TEST(StateWriter, takesOnlyTypesWhoseEveryBitIsPartOfTheValue)
 {
     static_assert(Writable<float> && Writable<uint64_t> && Writable<Shade> && Writable<std::byte>);
-    static_assert(!Writable<Padded>);       // has bytes that nobody sets
+    static_assert(!Writable<Padded>);       // has uninitialized padding
     static_assert(!Writable<const float*>); // an address differs from run to run
     static_assert(!Writable<bool>);         // other values than 0 and 1 could be read back: see flag()
     static_assert(!Writable<long double>);  // 10 of 16 bytes

@@ -91,7 +91,7 @@ public:
                 seen_.push_back(word);
             most_ = std::max(most_, world_.pooled());
             now_ += ticks;
-            if (i % 7 != 0) // snapshots are made that nobody looks at
+            if (i % 7 != 0) // some snapshots are not read
                 publish();
             if (i % 3 == 0)
                 seen_.push_back(snapshot_.hash());

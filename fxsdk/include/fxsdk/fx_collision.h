@@ -1,0 +1,113 @@
+/// @file fx_collision.h
+/// Geometry of the host that effects collide with: a mesh, or a callback. fx_scene.h includes this.
+///
+/// Threads: [scene thread] for all functions; the callback runs on several threads. Ownership: the library
+/// copies the mesh; the host keeps the callback alive.
+#ifndef FXSDK_FX_COLLISION_H
+#define FXSDK_FX_COLLISION_H
+
+#include "fxsdk/fx_base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Triangles of static geometry that effects collide with. Fill with fxDefaultCollisionMesh(), then set
+/// positions and vertexCount.
+typedef struct FxCollisionMesh
+{
+    /// Set by fxDefaultCollisionMesh(); do not touch.
+    uint32_t structSize;
+
+    /// [m] cell size of the grid that represents the mesh, 1e-3..1e3; smaller details are lost. Default 0:
+    /// the smallest size with which four million cells suffice.
+    float cellSize;
+
+    /// [m] world position that positions are relative to, each within +-1e9; default 0.
+    double origin[3];
+
+    /// [m] x, y, z of each vertex, each within +-1e5; read during the call only.
+    const float* positions;
+
+    /// Three per triangle, counter-clockwise seen from outside; read during the call only. Null (default):
+    /// three consecutive vertices per triangle.
+    const uint32_t* indices;
+
+    /// 3..2^24.
+    uint32_t vertexCount;
+
+    /// Three times the number of triangles, which is at most 2^22; 0 without indices.
+    uint32_t indexCount;
+} FxCollisionMesh;
+
+/// An empty mesh.
+static inline FxCollisionMesh fxDefaultCollisionMesh(void)
+{
+    FxCollisionMesh mesh = FX_ZEROED;
+    mesh.structSize = sizeof(FxCollisionMesh);
+    return mesh;
+}
+
+/// Callback of the host: intersects the path of one particle with the host's geometry. It must not throw,
+/// block for long, or change the geometry.
+///
+/// Threads: called by several threads at once, those of the context's tasks and the scene thread, while
+/// fxScene_Update() or fxScene_SeekInstance() runs. It may not call functions of this scene: they fail with
+/// FX_ERROR_RE_ENTRANT on the scene thread and with FX_ERROR_WRONG_THREAD on others, and change nothing.
+/// Equal arguments must give equal results during a whole API call, and always if bits are to be equal on
+/// every machine. When hidden instances are replayed, the callback receives paths of the past.
+/// @param user FxContactHook::user
+/// @param from, to [m] world, a straight path of at most one step
+/// @param outShare  [1] 0..1, free share of the path
+/// @param outNormal normal of the surface at the contact, world, of any length above 0, against the path
+/// @return 0 when the path is free, then the outputs are ignored; otherwise 1
+typedef int (*FxContactFunction)(void* user, const double from[3], const double to[3], float* outShare,
+                                 float outNormal[3]);
+
+/// Geometry of the host behind a callback, for presets with an obstacle of the shape "hook". Fill with
+/// fxDefaultContactHook().
+typedef struct FxContactHook
+{
+    uint32_t structSize;    ///< set by fxDefaultContactHook(); do not touch
+    uint32_t reserved;      ///< 0
+    FxContactFunction meet; ///< required
+    void* user;             ///< passed to `meet`; default null
+} FxContactHook;
+
+/// A hook without a function.
+static inline FxContactHook fxDefaultContactHook(void)
+{
+    FxContactHook hook = FX_ZEROED;
+    hook.structSize = sizeof(FxContactHook);
+    return hook;
+}
+
+/// Replaces the geometry that gases, fragments and bouncing particles collide with, from the next step on.
+/// Closed surfaces are solid. Behind open surfaces two cells are solid; the front is the side on which
+/// vertices run counter-clockwise. Walls thinner than a cell are thickened, so that no particle tunnels
+/// through. This call converts the mesh to a signed distance field on the threads of the context. That takes
+/// seconds for a large mesh, 4 bytes per cell (at most 64 MiB) and, during the call, 300 bytes per triangle.
+/// Steps then cost a few samples per particle and allocate nothing. With geometry, colliding instances share
+/// a simulation only at equal placements. A saved state does not contain the mesh, only a hash of it. [scene
+/// thread]
+/// @param mesh not kept; null: no geometry
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, not finite or out of range; an index beyond the vertices;
+///         no triangle with an area), FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (more than 2^24 cells:
+///         the message says how many), FX_ERROR_OUT_OF_MEMORY, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT.
+///         A failure leaves the scene as it was.
+FX_API FxResult fxScene_SetCollisionMesh(FxScene* scene, const FxCollisionMesh* mesh);
+
+/// Sets the contact callback from the next step on. It is called for presets with an obstacle of the shape
+/// "hook". Saved states do not contain it: set it before restoring one. [scene thread]
+/// @param hook null removes the callback. The function must be callable until another is set or the scene is
+///             destroyed
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null or without a function), FX_ERROR_VERSION (structSize),
+///         FX_ERROR_OUT_OF_MEMORY, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT. A failure leaves the scene as
+///         it was.
+FX_API FxResult fxScene_SetContactHook(FxScene* scene, const FxContactHook* hook);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
