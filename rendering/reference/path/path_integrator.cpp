@@ -182,7 +182,10 @@ PathResult PathIntegrator::trace(const TraceRay& camera, double begin, PathSampl
                 hit.isHit() ? 1.0 : 1.0 - sum(transmittance(ray, begin, hit.distance, sampler)) / 3.0;
         const Flight flight = fly(ray, begin, hit.distance, sampler, throughput, result.luminance);
         const bool escapes = !flight.isScattered && !hit.isHit();
-        if (escapes && scene_.sky)
+        if (escapes && bounce == 0) {
+            result.sawBackground = true;
+            result.throughput = throughput;
+        } else if (escapes && scene_.sky)
             result.luminance += throughput * scene_.sky->luminance(ray.direction);
         if (escapes || bounce == settings_.bounces)
             return result;

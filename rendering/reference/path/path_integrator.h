@@ -61,7 +61,9 @@ struct PathResult
 {
     glm::dvec3 luminance{0.0}; ///< [cd/m2]
     double opacity =
-        0.0; ///< [1] 1 - transmittance of the camera's ray, 1 in front of a surface; mean channel
+        0.0; ///< [1] 1 - transmittance of the eye's ray, 1 in front of a surface; mean of the channels
+    bool sawBackground = false; ///< the ray from the eye met nothing: what stands behind is seen ...
+    glm::dvec3 throughput{0.0}; ///< [1] ... by this share, and no light of the sky is in `luminance`
 };
 
 /// @formula spectral-tracking
