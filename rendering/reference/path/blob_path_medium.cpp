@@ -1,0 +1,179 @@
+#include "rendering/reference/path/blob_path_medium.h"
+
+#include "rendering/reference/trace/ray_query.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fx::render {
+
+namespace {
+
+constexpr double kMargin = 1.0 + 1e-12; ///< of majorants against rounding
+constexpr double kMostAnisotropy = 0.999;
+
+/// A ball whose chord contains the current segment.
+struct MetBall
+{
+    double nearest, chord2; ///< [m], [m2]
+    uint32_t place;
+};
+
+class BlobWalk final : public MediumWalk
+{
+public:
+    explicit BlobWalk(const BlobPathMedium& medium) : medium_(medium) {}
+
+    void start(const TraceRay& ray, double begin, double end) override
+    {
+        findHits(medium_.tree(), ray, begin, end, hits_);
+        hits_.sort();
+        met_.clear();
+        entered_ = 0;
+        at_ = begin;
+        end_ = end;
+    }
+
+    bool next(MajorantSegment& out) override
+    {
+        while (at_ < end_) {
+            std::erase_if(met_, [&](const MetBall& ball) { return exitOf(ball) <= at_; });
+            if (met_.empty()) {
+                if (entered_ == hits_.size())
+                    return false;
+                at_ = std::max(at_, hits_.enter[entered_]);
+            }
+            for (; entered_ < hits_.size() && hits_.enter[entered_] <= at_; ++entered_) {
+                const MetBall ball{hits_.nearest[entered_], hits_.chordSquare[entered_],
+                                   hits_.place[entered_]};
+                if (exitOf(ball) > at_)
+                    met_.push_back(ball);
+            }
+            double to = entered_ < hits_.size() ? std::min(hits_.enter[entered_], end_) : end_;
+            for (const MetBall& ball : met_)
+                to = std::min(to, exitOf(ball));
+            if (met_.empty() || !(to > at_))
+                continue;
+            out = {at_, to, majorantOf(at_, to)};
+            at_ = to;
+            if (out.majorant > 0.0)
+                return true;
+        }
+        return false;
+    }
+
+    MediumPoint at(double parameter, double choice) override
+    {
+        MediumPoint point;
+        double scattered = 0.0;
+        for (const MetBall& ball : met_) {
+            const BlobPathMedium::Substance& substance = medium_.substance(ball.place);
+            const double extinction = extinctionOf(ball, substance, parameter);
+            point.extinction += extinction;
+            point.scattering += extinction * substance.albedo;
+            point.emission += extinction * substance.source;
+            scattered += extinction * strength(substance);
+        }
+        if (met_.empty())
+            return point;
+        point.phase = medium_.substance(met_.front().place).phase;
+        if (!medium_.hasOnePhase() && scattered > 0.0)
+            choose(parameter, choice * scattered, scattered, point);
+        return point;
+    }
+
+    bool opticalDepth(const TraceRay& ray, double begin, double end, glm::dvec3& out) override
+    {
+        findHits(medium_.tree(), ray, begin, end, depthHits_);
+        double depth = 0.0;
+        for (size_t i = 0; i < depthHits_.size(); ++i) {
+            const BlobPathMedium::Substance& substance = medium_.substance(depthHits_.place[i]);
+            const double half = std::sqrt(depthHits_.chordSquare[i]);
+            const double from = std::clamp((begin - depthHits_.nearest[i]) / half, -1.0, 1.0);
+            const double to = std::clamp((end - depthHits_.nearest[i]) / half, -1.0, 1.0);
+            const double chord = depthHits_.chordSquare[i] * substance.inverseRadius2;
+            depth += substance.extinction * chord * chord * half * (kernelTo(to) - kernelTo(from));
+        }
+        out = glm::dvec3(std::max(0.0, depth));
+        return true;
+    }
+
+private:
+    /// Integral of (1 - u^2)^2 from 0 to u.
+    static double kernelTo(double u)
+    {
+        const double u2 = u * u;
+        return u * (1.0 - u2 * (2.0 / 3.0 - 0.2 * u2));
+    }
+    static double exitOf(const MetBall& ball) { return ball.nearest + std::sqrt(ball.chord2); }
+    static double strength(const BlobPathMedium::Substance& substance)
+    {
+        return substance.albedo.x + substance.albedo.y + substance.albedo.z;
+    }
+    static double extinctionOf(const MetBall& ball, const BlobPathMedium::Substance& substance,
+                               double parameter)
+    {
+        const double along = parameter - ball.nearest;
+        const double q = std::max(0.0, ball.chord2 - along * along) * substance.inverseRadius2;
+        return substance.extinction * q * q; // (1)
+    }
+    double majorantOf(double from, double to) const
+    {
+        double sum = 0.0;
+        for (const MetBall& ball : met_)
+            sum += extinctionOf(ball, medium_.substance(ball.place),
+                                std::clamp(ball.nearest, from, to)); // (2), (3)
+        return sum * kMargin;
+    }
+    void choose(double parameter, double chosen, double scattered, MediumPoint& io) const
+    {
+        for (const MetBall& ball : met_) {
+            const BlobPathMedium::Substance& substance = medium_.substance(ball.place);
+            const double extinction = extinctionOf(ball, substance, parameter);
+            const double share = extinction * strength(substance);
+            if (chosen < share) {
+                io.scattering = extinction * substance.albedo * (scattered / share);
+                io.phase = substance.phase;
+                return;
+            }
+            chosen -= share;
+        }
+    }
+
+    const BlobPathMedium& medium_;
+    RayHits hits_, depthHits_;
+    std::vector<MetBall> met_;
+    size_t entered_ = 0; ///< of `hits_`, those that the ray has met so far
+    double at_ = 0.0, end_ = 0.0;
+};
+
+} // namespace
+
+BlobPathMedium::BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye,
+                               base::TaskRunner& tasks)
+{
+    std::vector<TraceBall> balls;
+    balls.reserve(blobs.size());
+    for (const MediumBlob& blob : blobs)
+        balls.push_back({blob.center, blob.radius});
+    tree_.build(balls, eye, tasks);
+    substances_.resize(tree_.leaves().size() * BallTree::kWidth);
+    for (uint32_t place = 0; place < tree_.count(); ++place) {
+        const MediumBlob& blob = blobs[tree_.ballAt(place)];
+        const double r = blob.radius;
+        const double g = std::clamp(blob.anisotropy, -kMostAnisotropy, kMostAnisotropy);
+        substances_[place] = {105.0 * blob.crossSection / (32.0 * std::numbers::pi * r * r * r),
+                              1.0 / (r * r), blob.albedo, blob.source, PhaseFunction::henyeyGreenstein(g)};
+        hasOnePhase_ &= substances_[place].phase == substances_[0].phase;
+    }
+}
+
+std::unique_ptr<MediumWalk> BlobPathMedium::walk() const
+{
+    return std::make_unique<BlobWalk>(*this);
+}
+
+} // namespace fx::render

@@ -1,0 +1,56 @@
+/// @file blob_path_medium.h
+/// Balls with the quartic kernel as the path tracer's medium.
+#pragma once
+
+#include "rendering/reference/path/path_medium.h"
+#include "rendering/reference/render/medium_blobs.h"
+#include "rendering/reference/trace/ball_tree.h"
+
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// @formula blob-majorant
+/// Upper bound of the extinction between two places where a ray enters or leaves a ball.
+///
+/// symbol   unit   meaning
+///   e_i    1/m    extinction at the center of ball i, 105 s / (32 pi R^3) with cross section s and radius R
+///   h_i    m      half the chord of the ray in ball i; c_i [m] the ray parameter nearest to the center
+///   d_i    m      distance of the segment [a, b] from c_i along the ray, 0 when c_i is inside
+/// @derivation
+///   extinction of ball i at t: e_i ((h_i^2 - (t - c_i)^2) / R_i^2)^2                              (1)
+///   it falls with |t - c_i|, so its largest value on [a, b] is (1) at distance d_i                (2)
+///   majorant = sum of (2) over the balls whose chords contain [a, b]                              (3)
+/// @source    [UBT96] eq. (1) for the kernel in (1); (2) and (3) follow from it
+/// @deviation none
+/// @valid     finite balls
+/// @accuracy  a true bound but for rounding, which a factor of 1 + 1e-12 covers
+/// @tests     tests/rendering/reference/path/test_path_media.cpp
+class BlobPathMedium final : public PathMedium
+{
+public:
+    /// @param eye [m] world position that rays are relative to
+    BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks);
+    std::unique_ptr<MediumWalk> walk() const override;
+
+    /// One ball, in the order of the tree.
+    struct Substance
+    {
+        double extinction;     ///< [1/m] at the center
+        double inverseRadius2; ///< [1/m2]
+        glm::dvec3 albedo;     ///< [1]
+        glm::dvec3 source;     ///< [cd/m2] emitted light per optical depth
+        PhaseFunction phase;
+    };
+    const BallTree& tree() const { return tree_; }
+    const Substance& substance(uint32_t place) const { return substances_[place]; }
+    bool hasOnePhase() const { return hasOnePhase_; }
+
+private:
+    BallTree tree_;
+    std::vector<Substance> substances_;
+    bool hasOnePhase_ = true;
+};
+
+} // namespace fx::render

@@ -1,0 +1,88 @@
+#include "rendering/reference/path/path_lights.h"
+
+#include "rendering/reference/path/path_phase.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fx::render {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+} // namespace
+
+SunLight::SunLight(const glm::dvec3& direction, const glm::dvec3& illuminance, double angularRadius)
+    : direction_(direction), illuminance_(illuminance), cosine_(std::cos(angularRadius)),
+      scale_(2.0 /
+             (1.0 +
+              cosine_)) // the disc as a surface sees it that faces its middle: mean cosine (1 + cosine) / 2
+{}
+
+LightSample SunLight::sample(const glm::dvec3&, const std::array<double, 2>& u) const
+{
+    LightSample sample;
+    const double cosine = 1.0 - u[0] * (1.0 - cosine_);
+    sample.direction = cosine < 1.0 ? PhaseFunction::around(direction_, cosine, u[1]) : direction_;
+    sample.illuminance = illuminance_ * scale_;
+    return sample;
+}
+
+BallPathLight::BallPathLight(const glm::dvec3& center, const glm::dvec3& intensity, double radius)
+    : center_(center), luminance_(intensity / (kPi * radius * radius)), radius_(radius)
+{}
+
+LightSample BallPathLight::sample(const glm::dvec3& position, const std::array<double, 2>& u) const
+{
+    LightSample sample;
+    const glm::dvec3 toCenter = center_ - position;
+    const double distance2 = glm::dot(toCenter, toCenter);
+    const double outside2 = distance2 - radius_ * radius_;
+    if (outside2 <= 0.0) {
+        sample.direction = PhaseFunction::around({0.0, 1.0, 0.0}, 1.0 - 2.0 * u[0], u[1]);
+        const double along = glm::dot(toCenter, sample.direction);
+        sample.distance = along + std::sqrt(std::max(0.0, along * along - outside2));
+        sample.illuminance = luminance_ * (4.0 * kPi);
+        return sample;
+    }
+    const double sine2 = radius_ * radius_ / distance2;
+    const double oneLessCosine =
+        sine2 / (1.0 + std::sqrt(1.0 - sine2)); // without cancellation for what is far
+    sample.direction =
+        PhaseFunction::around(toCenter / std::sqrt(distance2), 1.0 - u[0] * oneLessCosine, u[1]);
+    const double along = glm::dot(toCenter, sample.direction);
+    sample.distance = along - std::sqrt(std::max(0.0, along * along - outside2));
+    sample.illuminance = luminance_ * (2.0 * kPi * oneLessCosine);
+    return sample;
+}
+
+SpotPathLight::SpotPathLight(const glm::dvec3& position, const glm::dvec3& direction,
+                             const glm::dvec3& intensity, double inner, double outer)
+    : position_(position), direction_(direction), intensity_(intensity), cosInner_(std::cos(inner)),
+      cosOuter_(std::cos(outer))
+{}
+
+LightSample SpotPathLight::sample(const glm::dvec3& position, const std::array<double, 2>&) const
+{
+    LightSample sample;
+    const glm::dvec3 toLight = position_ - position;
+    const double distance2 = glm::dot(toLight, toLight);
+    if (!(distance2 > 0.0))
+        return sample;
+    sample.distance = std::sqrt(distance2);
+    sample.direction = toLight / sample.distance;
+    const double cosine = -glm::dot(sample.direction, direction_);
+    double share = cosine >= cosOuter_ ? 1.0 : 0.0;
+    if (cosine < cosInner_ && cosInner_ > cosOuter_) {
+        const double x = std::clamp((cosine - cosOuter_) / (cosInner_ - cosOuter_), 0.0, 1.0);
+        share = x * x * (3.0 - 2.0 * x);
+    }
+    sample.illuminance = intensity_ * (share / distance2);
+    return sample;
+}
+
+} // namespace fx::render

@@ -1,0 +1,117 @@
+#include "rendering/reference/render/reference_scene.h"
+
+#include "foundation/math/bits.h"
+#include "rendering/reference/integral/ray_packet.h"
+
+#include <algorithm>
+
+namespace fx::render {
+
+namespace {
+
+constexpr int kMaxSize = 16384; ///< [pixel]
+
+bool isUsable(const MediumBlob& blob)
+{
+    const double sum = blob.center.x + blob.center.y + blob.center.z + blob.radius + blob.crossSection +
+                       blob.source.x + blob.source.y + blob.source.z;
+    return base::isFinite(sum) && blob.radius > 0.0 && blob.crossSection >= 0.0 && blob.source.x >= 0.0 &&
+           blob.source.y >= 0.0 && blob.source.z >= 0.0;
+}
+
+uint64_t digestOf(std::span<const MediumBlob> blobs)
+{
+    KeyHash hash;
+    for (const MediumBlob& blob : blobs) {
+        hash.add(blob.center);
+        hash.add(blob.radius);
+        hash.add(blob.crossSection);
+        hash.add(blob.source);
+        hash.add(blob.albedo);
+        hash.add(blob.anisotropy);
+        hash.add(blob.fireShare);
+        hash.add(double(blob.layer));
+    }
+    return hash.value();
+}
+
+/// Of all blobs, part by part on all threads.
+std::vector<uint64_t> digestsOf(std::span<const MediumBlob> blobs, base::TaskRunner& tasks)
+{
+    constexpr size_t kPart = 4096;
+    std::vector<uint64_t> digests((blobs.size() + kPart - 1) / kPart);
+    tasks.parallelFor(uint32_t(digests.size()), 1, [&](uint32_t first, uint32_t last) {
+        for (size_t part = first; part < last; ++part)
+            digests[part] =
+                digestOf(blobs.subspan(part * kPart, std::min(kPart, blobs.size() - part * kPart)));
+    });
+    return digests;
+}
+
+void addOpaque(KeyHash& hash, const OpaqueScene& scene)
+{
+    hash.add(scene.mesh.origin);
+    for (const auto& column :
+         {scene.mesh.positions, scene.mesh.normals, scene.mesh.colors, scene.background.image})
+        hash.addBytes(column);
+    const OpaqueBackground& b = scene.background;
+    for (const glm::vec3& v : {b.luminance, b.horizon, scene.lighting.sunDirection,
+                               scene.lighting.sunIlluminance, scene.lighting.skyLuminance})
+        hash.add(glm::dvec3(v));
+    for (const double number : {double(b.width), double(b.height), double(b.panorama),
+                                double(scene.lighting.groundAlbedo), double(scene.isEmpty)})
+        hash.add(number);
+    for (const EffectLight& light : scene.lights) {
+        hash.add(light.position);
+        hash.add(glm::dvec3(light.intensity));
+        hash.add(double(light.radius));
+    }
+}
+
+base::Status refused(const char* what)
+{
+    return {base::Code::InvalidArgument, what};
+}
+
+} // namespace
+
+void addScene(KeyHash& io, const ReferenceScene& scene, base::TaskRunner& tasks)
+{
+    for (const uint64_t part : digestsOf(scene.blobs, tasks))
+        io.addWord(part);
+    addOpaque(io, scene.opaque);
+    const ReferenceCamera& c = scene.camera;
+    for (const glm::dvec3& v : {c.eye, c.right, c.up, c.forward})
+        io.add(v);
+    for (const double number : {double(c.orthographic), c.halfHeight, c.nearDistance})
+        io.add(number);
+}
+
+base::Status checkScene(const ReferenceScene& scene, int width, int height)
+{
+    if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize)
+        return refused("width and height must be 1..16384");
+    if (!std::all_of(scene.blobs.begin(), scene.blobs.end(), isUsable))
+        return refused("a blob's numbers must be finite, its radius positive, the others not negative");
+    const ReferenceCamera& c = scene.camera;
+    for (const glm::dvec3& axis : {c.right, c.up, c.forward})
+        if (!unitDirection({axis.x, axis.y, axis.z}).ok())
+            return refused("the camera's axes must be finite and not 0");
+    if (!base::isFinite(c.eye.x + c.eye.y + c.eye.z) || !base::isFinite(c.halfHeight) ||
+        !(c.halfHeight > 0.0) || !base::isFinite(c.nearDistance) || !(c.nearDistance >= 0.0))
+        return refused(
+            "the camera's eye must be finite, its height above 0 and its near distance at least 0");
+    return {};
+}
+
+ReferenceCamera withUnitAxes(const ReferenceCamera& camera)
+{
+    ReferenceCamera result = camera;
+    for (glm::dvec3* axis : {&result.right, &result.up, &result.forward}) {
+        const auto unit = *unitDirection({axis->x, axis->y, axis->z});
+        *axis = {unit[0], unit[1], unit[2]};
+    }
+    return result;
+}
+
+} // namespace fx::render

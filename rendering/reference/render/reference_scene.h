@@ -1,0 +1,70 @@
+/// @file reference_scene.h
+/// What a picture of the reference renderer or the path tracer is made of, and its identity.
+#pragma once
+
+#include "foundation/math/hash.h"
+#include "foundation/result/status.h"
+#include "foundation/tasks/task_runner.h"
+#include "rendering/reference/render/medium_blobs.h"
+#include "rendering/reference/render/opaque_view.h"
+#include "rendering/reference/render/reference_camera.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// All that a picture is made of. Spans in `opaque` must stay valid.
+struct ReferenceScene
+{
+    std::vector<MediumBlob> blobs;
+    OpaqueScene opaque;
+    ReferenceCamera camera;
+};
+
+/// Hashes what the picture depends on, number by number: structs have gaps. Four chains in turn, since a
+/// processor waits for each word of one.
+class KeyHash
+{
+public:
+    /// Of the arithmetic: another picture from the same input gets another number.
+    static constexpr uint64_t kVersion = 3;
+
+    void add(double x) { addWord(std::bit_cast<uint64_t>(x)); }
+    void add(const glm::dvec3& v)
+    {
+        add(v.x);
+        add(v.y);
+        add(v.z);
+    }
+    void addWord(uint64_t word)
+    {
+        uint64_t& chain = chains_[next_++ % chains_.size()];
+        chain = base::hashWord(chain, word);
+    }
+    template <class T>
+    void addBytes(std::span<const T> values)
+    {
+        addWord(base::hashBytes(kVersion, values.data(), values.size_bytes()));
+    }
+    uint64_t value() const { return base::hashBytes(next_, chains_.data(), sizeof(chains_)); }
+
+private:
+    std::array<uint64_t, 4> chains_{kVersion, kVersion, kVersion, kVersion};
+    size_t next_ = 0;
+};
+
+/// Hashes the scene. The same bits for any number of threads.
+void addScene(KeyHash& io, const ReferenceScene& scene, base::TaskRunner& tasks);
+
+/// @return InvalidArgument for a size of a picture outside 1..16384, or a blob or camera with impossible
+/// numbers
+base::Status checkScene(const ReferenceScene& scene, int width, int height);
+
+/// The camera with axes exactly as long as formulas assume. @param camera checked
+ReferenceCamera withUnitAxes(const ReferenceCamera& camera);
+
+} // namespace fx::render
