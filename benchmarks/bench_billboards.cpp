@@ -5,12 +5,12 @@
 // form: relative errors of the channels that are brighter than a thousandth of the brightest, and the least
 // time of a frame (not of those in wrong order: a view sorts, so that each blob is drawn in a frame of its
 // own there).
+#include "benchmarks/accuracy/accuracy_errors.h"
 #include "benchmarks/bench_failure.h"
+#include "benchmarks/scenes/cards.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/frame_snapshot.h"
-#include "fxsdk/cli/accuracy_cards.h"
-#include "fxsdk/cli/accuracy_errors.h"
-#include "fxsdk/cli/json_line.h"
+#include "fxsdk/cli/support/json_line.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/gl/gl_texture.h"

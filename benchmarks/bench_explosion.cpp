@@ -9,8 +9,8 @@
 // --start: the first second instead, nine times, of which the least time of each update counts: the largest
 // update against the median one, in milliseconds and in sub-steps, and what it takes to make the solver.
 #include "benchmarks/bench_failure.h"
-#include "fxsdk/cli/explosion_run.h"
-#include "fxsdk/cli/json_line.h"
+#include "benchmarks/scenes/explosion_run.h"
+#include "fxsdk/cli/support/json_line.h"
 
 #include <algorithm>
 #include <chrono>

@@ -8,7 +8,7 @@
 #include "foundation/random/philox.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/frame_snapshot.h"
-#include "fxsdk/cli/json_line.h"
+#include "fxsdk/cli/support/json_line.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/gl/gl_texture.h"

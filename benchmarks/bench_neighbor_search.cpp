@@ -9,7 +9,7 @@
 #include "foundation/math/hash.h"
 #include "foundation/random/philox.h"
 #include "foundation/simd/instruction_set.h"
-#include "fxsdk/cli/json_line.h"
+#include "fxsdk/cli/support/json_line.h"
 #include "simulation/sph/neighbors/neighbor_lists.h"
 
 #include <algorithm>

@@ -12,7 +12,7 @@
 #include "benchmarks/machine_peak.h"
 #include "foundation/math/hash.h"
 #include "foundation/simd/instruction_set.h"
-#include "fxsdk/cli/json_line.h"
+#include "fxsdk/cli/support/json_line.h"
 #include "tests/simulation/pair_loops/gas_stage.h"
 
 #include <algorithm>

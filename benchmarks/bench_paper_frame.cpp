@@ -6,7 +6,7 @@
 // number of layers over each covered pixel, so that the figure cannot be had by drawing little. Times are of
 // this machine; the paper's 15 s are of a CM-5 with 32 processors.
 #include "benchmarks/bench_failure.h"
-#include "fxsdk/cli/json_line.h"
+#include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/fxsdk.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_texture.h"

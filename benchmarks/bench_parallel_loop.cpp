@@ -9,7 +9,7 @@
 // --small: three repeats after short pauses, to see that the program works.
 #include "benchmarks/bench_failure.h"
 #include "foundation/tasks/task_runner.h"
-#include "fxsdk/cli/json_line.h"
+#include "fxsdk/cli/support/json_line.h"
 
 #include <algorithm>
 #include <chrono>

@@ -14,7 +14,7 @@
 #include "foundation/math/hash.h"
 #include "foundation/simd/instruction_set.h"
 #include "foundation/tasks/task_runner.h"
-#include "fxsdk/cli/json_line.h"
+#include "fxsdk/cli/support/json_line.h"
 #include "rendering/reference/integral/accuracy_cases.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 // medium, and a ray meets as many blobs; what differs is the scene around it. Prints one JSON object: least
 // time of `repeat` runs, of building and of rendering, work, and a hash of the picture.
 #include "foundation/math/hash.h"
-#include "fxsdk/cli/json_line.h"
+#include "fxsdk/cli/support/json_line.h"
 #include "rendering/reference/render/reference_renderer.h"
 #include "tests/rendering/reference/trace/ball_scenes.h"
 

@@ -4,7 +4,7 @@
 // dominates, N updates each. Prints one JSON object a kind: units and nanoseconds of processor time an update
 // at the median, and their quotient, which is meant to be about 10. What the kinds count was fitted with it.
 #include "benchmarks/bench_failure.h"
-#include "fxsdk/cli/json_line.h"
+#include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/fxsdk.h"
 
 #include <algorithm>
