@@ -2,6 +2,7 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "fxsdk/presets/preset_loader.h"
+#include "fxsdk/techniques.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +15,10 @@ namespace {
 constexpr base::Ticks kStep = base::kTicksPerSecond / kExplosionFrames;
 constexpr uint64_t kSeed = 7;
 
-base::SnapshotSchema blobs()
+base::SnapshotSchema allKinds()
 {
     base::SnapshotSchema schema;
-    schema.add(base::kBlobKind);
+    preset::registerKinds(schema);
     return schema;
 }
 
@@ -53,7 +54,7 @@ base::Result<std::unique_ptr<ExplosionRun>> ExplosionRun::create(const Explosion
 }
 
 ExplosionRun::ExplosionRun(const sim::GasDef& gas, const sim::Quality& quality, base::TaskRunner& tasks)
-    : def_(gas), tasks_(tasks), schema_(blobs()), solver_(def_.create(schema_, quality, &memory_)),
+    : def_(gas), tasks_(tasks), schema_(allKinds()), solver_(def_.create(schema_, quality, &memory_)),
       arena_(&memory_, 1 << 20), snapshot_(&schema_, &memory_)
 {}
 

@@ -1,8 +1,7 @@
 #include "benchmarks/bench/particles/bench_stage.h"
 
 #include "foundation/math/hash.h"
-#include "foundation/snapshot/blob_kind.h"
-#include "foundation/snapshot/gpu_particles.h"
+#include "fxsdk/techniques.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,9 +22,7 @@ constexpr uint32_t kCopyParts = 64;
 base::SnapshotSchema allKinds()
 {
     base::SnapshotSchema schema;
-    schema.add(base::kBlobKind);
-    schema.add(base::kParticleKind);
-    schema.add(base::kGpuParticleKind);
+    preset::registerKinds(schema);
     return schema;
 }
 

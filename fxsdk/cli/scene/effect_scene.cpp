@@ -6,10 +6,12 @@
 #include "fxsdk/cli/scene/api_status.h"
 #include "fxsdk/cli/scene/field_cache.h"
 #include "fxsdk/cli/support/interrupt.h"
+#include "fxsdk/techniques.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <memory_resource>
+#include <string_view>
 #include <vector>
 
 namespace fx::cli {
@@ -62,6 +64,12 @@ base::Status copyGroup(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, uin
     return {};
 }
 
+/// Media and the lights that they shed; nothing else is shown without a view.
+bool isCopied(std::string_view kind)
+{
+    return kind == base::kBlobKind.name || kind == base::kLightKind.name;
+}
+
 base::Status copyGroups(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, const FxSnapshotInfo& info,
                         base::FrameSnapshot& target)
 {
@@ -74,7 +82,7 @@ base::Status copyGroups(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, co
         if (FxResult result = fxScene_GetSnapshotGroup(scene, id, step, i, &group); result != FX_OK)
             return toStatus(result);
         const base::KindId kind = target.schema().find(group.kind);
-        if (kind == base::kNoKind)
+        if (kind == base::kNoKind || !isCopied(group.kind))
             continue;
         if (base::Status status = copyGroup(scene, id, step, i, group, target.addGroup(kind, group.count));
             !status)
@@ -117,8 +125,7 @@ base::Status addPlaces(FxScene* scene, FxSnapshotId id, uint32_t index, std::vec
 
 EffectScene::EffectScene()
 {
-    schema_.add(base::kBlobKind);
-    schema_.add(base::kLightKind);
+    preset::registerKinds(schema_);
     copy_ = std::make_unique<base::FrameSnapshot>(&schema_, std::pmr::get_default_resource());
     older_ = std::make_unique<base::FrameSnapshot>(&schema_, std::pmr::get_default_resource());
 }

@@ -1,24 +1,28 @@
-// bench_work_units [--updates=N] [--small]
-//
-// How long the work units of base::WorkBudget take, on one thread: presets in which one kind of work
-// dominates, N updates each. Prints one JSON object a kind: units and nanoseconds of processor time an update
-// at the median, and their quotient, which is meant to be about 10. What the kinds count was fitted with it.
-#include "benchmarks/bench_failure.h"
+// fx bench work-units: how long the work units of base::WorkBudget take, on one thread: presets in which one
+// kind of work dominates, N updates each. Prints one JSON object a kind: units and nanoseconds of processor
+// time an update at the median, and their quotient, which is meant to be about 10. What the kinds count was
+// fitted with it.
+#include "benchmarks/bench/bench_measurement.h"
+#include "benchmarks/bench/bench_program.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/fxsdk.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
-#include <cstdlib>
-#include <cstring>
 #include <ctime>
+#include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
+namespace fx::cli {
 namespace {
 
-using namespace fx;
-using bench::fail;
+struct Options
+{
+    int updates = 60;
+    bool isSmall = false;
+};
 
 struct Kind
 {
@@ -66,7 +70,7 @@ T medianOf(std::vector<T> values)
     return values[values.size() / 2];
 }
 
-nlohmann::json measure(const Kind& kind, int updates)
+nlohmann::json measureKind(const Kind& kind, int updates)
 {
     FxContextDef contextDef = fxDefaultContextDef();
     contextDef.workers = 1;
@@ -101,22 +105,29 @@ nlohmann::json measure(const Kind& kind, int updates)
             {"units", work},        {"ns", ns},          {"ns_per_unit", ns / double(work)}};
 }
 
+void measure(Options options)
+{
+    if (options.isSmall)
+        options.updates = 2;
+    const Machine machine = readMachine();
+    for (const Kind& kind : kKinds)
+        printJsonLine(withMachine(measureKind(kind, options.updates), machine));
+}
+
+void addOptions(CLI::App& command, int& outExitCode)
+{
+    auto options = std::make_shared<Options>();
+    command.add_option("--updates", options->updates, "Of each kind")->check(CLI::Range(1, 1000));
+    addSmallOption(command, options->isSmall);
+    setMeasurement(command, outExitCode, [options] { measure(*options); });
+}
+
 } // namespace
 
-int main(int argc, char** argv)
+BenchMeasurement workUnitsBench()
 {
-    int updates = 60;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view a = argv[i];
-        if (a == "--small")
-            updates = 2;
-        else if (a.starts_with("--updates="))
-            updates = std::clamp(std::atoi(a.data() + 10), 1, 1000);
-        else
-            fail("usage: bench_work_units [--updates=1..1000] [--small]");
-    }
-    const cli::Machine machine = cli::readMachine();
-    for (const Kind& kind : kKinds)
-        cli::printJsonLine(cli::withMachine(measure(kind, updates), machine));
-    return 0;
+    return {"work-units",
+            "What the units take in which the work of updates is counted, for each kind of work", addOptions};
 }
+
+} // namespace fx::cli

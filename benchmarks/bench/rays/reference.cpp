@@ -1,26 +1,25 @@
-// bench_reference [--blobs=N] [--cover=C] [--depth=D] [--size=WxH] [--threads=N] [--repeat=N] [--float]
-//                 [--small]
-//
-// Times a whole picture of the reference renderer: N blobs in a unit ball, that cover its cross-section C
-// times and have the mean optical depth D over it, whatever N is. So pictures of different N show as much
-// medium, and a ray meets as many blobs; what differs is the scene around it. Prints one JSON object: least
-// time of `repeat` runs, of building and of rendering, work, and a hash of the picture.
+// fx bench reference: times a whole picture of the reference renderer: N blobs in a unit ball, that cover its
+// cross-section C times and have the mean optical depth D over it, whatever N is. So pictures of different N
+// show as much medium, and a ray meets as many blobs; what differs is the scene around it. Prints one JSON
+// object: least time of `repeat` runs, of building and of rendering, work, and a hash of the picture.
+#include "benchmarks/bench/bench_measurement.h"
+#include "benchmarks/bench/bench_program.h"
 #include "foundation/math/hash.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "rendering/reference/render/reference_renderer.h"
 #include "tests/rendering/reference/trace/ball_scenes.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
+#include <memory>
 #include <numbers>
-#include <string_view>
 
+namespace fx::cli {
 namespace {
-
-using namespace fx;
 
 struct Options
 {
@@ -32,35 +31,8 @@ struct Options
     uint32_t threads = 2;
     int repeat = 5;
     bool isSingle = false;
+    bool isSmall = false;
 };
-
-bool parse(int argc, char** argv, Options& options)
-{
-    for (int i = 1; i < argc; ++i) {
-        if (std::sscanf(argv[i], "--blobs=%zu", &options.blobs) == 1 ||
-            std::sscanf(argv[i], "--cover=%lf", &options.cover) == 1 ||
-            std::sscanf(argv[i], "--depth=%lf", &options.depth) == 1 ||
-            std::sscanf(argv[i], "--size=%dx%d", &options.width, &options.height) == 2 ||
-            std::sscanf(argv[i], "--threads=%u", &options.threads) == 1 ||
-            std::sscanf(argv[i], "--repeat=%d", &options.repeat) == 1)
-            continue;
-        if (std::string_view(argv[i]) == "--float") {
-            options.isSingle = true;
-            continue;
-        }
-        if (std::string_view(argv[i]) == "--small") { // to see that the program works
-            options.blobs = 1000;
-            options.width = 64;
-            options.height = 36;
-            options.repeat = 1;
-            continue;
-        }
-        std::fprintf(stderr, "bench_reference [--blobs=N] [--cover=C] [--depth=D] [--size=WxH] [--threads=N] "
-                             "[--repeat=N] [--float] [--small]\n");
-        return false;
-    }
-    return options.blobs > 0 && options.cover > 0.0 && options.depth > 0.0 && options.repeat > 0;
-}
 
 render::ReferenceScene makeScene(const Options& options)
 {
@@ -135,38 +107,58 @@ bool runOnce(const render::ReferenceScene& scene, const Options& options, base::
     return true;
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+void measure(Options options)
 {
-    Options options;
-    if (!parse(argc, argv, options))
-        return 2;
+    if (options.isSmall)
+        options.blobs = 1000, options.width = 64, options.height = 36, options.repeat = 1;
     const render::ReferenceScene scene = makeScene(options);
     const auto tasks = base::makeTbbRunner(options.threads);
     Result result;
     for (int i = 0; i < options.repeat; ++i)
-        if (!runOnce(scene, options, *tasks, result)) {
-            std::fprintf(stderr, "bench_reference: the renderer refuses the scene\n");
-            return 1;
-        }
-    char hash[32];
-    std::snprintf(hash, sizeof(hash), "0x%016llx", static_cast<unsigned long long>(result.hash));
-    cli::printJsonLine(cli::withMachine({{"name", "reference"},
-                                         {"variant", options.isSingle ? "float" : "double"},
-                                         {"blobs", options.blobs},
-                                         {"cover", options.cover},
-                                         {"threads", options.threads},
-                                         {"width", options.width},
-                                         {"height", options.height},
-                                         {"rays", result.work.rays},
-                                         {"hits", result.work.hits},
-                                         {"mean_depth", result.meanDepth},
-                                         {"ms_build", result.build * 1e3},
-                                         {"ms_render", result.render * 1e3},
-                                         {"ms_picture", (result.build + result.render) * 1e3},
-                                         {"ms_processor", result.cpu * 1e3},
-                                         {"hash", hash}},
-                                        cli::readMachine()));
-    return 0;
+        if (!runOnce(scene, options, *tasks, result))
+            fail("the renderer refuses the scene");
+    printJsonLine(withMachine({{"name", "reference"},
+                               {"variant", options.isSingle ? "float" : "double"},
+                               {"blobs", options.blobs},
+                               {"cover", options.cover},
+                               {"threads", options.threads},
+                               {"width", options.width},
+                               {"height", options.height},
+                               {"rays", result.work.rays},
+                               {"hits", result.work.hits},
+                               {"mean_depth", result.meanDepth},
+                               {"ms_build", result.build * 1e3},
+                               {"ms_render", result.render * 1e3},
+                               {"ms_picture", (result.build + result.render) * 1e3},
+                               {"ms_processor", result.cpu * 1e3},
+                               {"hash", hashText(result.hash)}},
+                              readMachine()));
 }
+
+void addOptions(CLI::App& command, int& outExitCode)
+{
+    auto options = std::make_shared<Options>();
+    command.add_option("--blobs", options->blobs, "In the ball")
+        ->check(CLI::Range(size_t(1), size_t(1) << 28));
+    command.add_option("--cover", options->cover, "[1] Cross-sections of the ball that they cover")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--depth", options->depth, "[1] Mean optical depth of the ball")
+        ->check(CLI::PositiveNumber);
+    addSizeOption(command, options->width, options->height);
+    command.add_option("--threads", options->threads, "Threads")->check(CLI::Range(0u, 1024u));
+    command.add_option("--repeat", options->repeat, "Runs of which the least time is taken")
+        ->check(CLI::Range(1, 1'000'000));
+    command.add_flag("--float", options->isSingle, "Rays in float instead of double");
+    addSmallOption(command, options->isSmall);
+    setMeasurement(command, outExitCode, [options] { measure(*options); });
+}
+
+} // namespace
+
+BenchMeasurement referenceBench()
+{
+    return {"reference", "A picture of the reference renderer of N blobs at equal covered optical depth",
+            addOptions};
+}
+
+} // namespace fx::cli

@@ -1,7 +1,7 @@
-#include "benchmarks/machine_peak.h"
+#include "benchmarks/bench/gas/machine_peak.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "benchmarks/machine_peak.cpp"
+#define HWY_TARGET_INCLUDE "benchmarks/bench/gas/machine_peak.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
 #include "foundation/simd/instruction_set.h"
@@ -13,7 +13,7 @@
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();
-namespace fx::bench::HWY_NAMESPACE {
+namespace fx::cli::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -66,11 +66,11 @@ float readAll(const float* from, size_t count)
 }
 
 } // namespace
-} // namespace fx::bench::HWY_NAMESPACE
+} // namespace fx::cli::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace fx::bench {
+namespace fx::cli {
 
 namespace {
 
@@ -135,5 +135,5 @@ MachinePeak measureMachinePeak()
     return peak;
 }
 
-} // namespace fx::bench
+} // namespace fx::cli
 #endif

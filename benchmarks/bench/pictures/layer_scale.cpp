@@ -1,14 +1,15 @@
-// bench_layer_scale [--size=WxH] [--blobs=N] [--repeat=N] [--small]
-//
-// What drawing media at 1/2 and 1/4 of the picture's size saves and costs: a cloud seen from outside and from
-// inside, alone and among pillars before a wall. Prints one JSON object a case and scale: least wall time and
-// processor time of a frame, fragments estimated and counted, and errors against full size relative to the
-// brightest value. Fails when the estimate is no estimate or the picture is another one.
-#include "benchmarks/bench_failure.h"
+// fx bench layer-scale: what drawing media at 1/2 and 1/4 of the picture's size saves and costs: a cloud seen
+// from outside and from inside, alone and among pillars before a wall. Prints one JSON object a case and
+// scale: least wall time and processor time of a frame, fragments estimated and counted, and errors against
+// full size relative to the brightest value. Fails when the estimate is no estimate or the picture is another
+// one.
+#include "benchmarks/bench/bench_measurement.h"
+#include "benchmarks/bench/bench_program.h"
 #include "foundation/random/philox.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/frame_snapshot.h"
 #include "fxsdk/cli/support/json_line.h"
+#include "fxsdk/techniques.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/gl/gl_texture.h"
@@ -16,21 +17,19 @@
 #include "rendering/stage/stage_camera.h"
 #include "rendering/view/view_renderer.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
+namespace fx::cli {
 namespace {
-
-using namespace fx;
-using bench::fail;
-using bench::taken;
 
 constexpr float kNear = 0.1f;        ///< [m]
 constexpr double kWorstError = 0.15; ///< p99 at 1/4, of the brightest value
@@ -41,6 +40,7 @@ struct Options
     int height = 300;
     int blobs = 1000;
     int repeat = 5;
+    bool isSmall = false;
 };
 
 struct Case
@@ -59,21 +59,6 @@ struct Cost
     double wallMs = 1e30;
     double processorMs = 1e30; ///< of all threads
 };
-
-Options parse(int argc, char** argv)
-{
-    Options options;
-    for (int i = 1; i < argc; ++i)
-        if (std::string_view(argv[i]) == "--small") // to see that the program works
-            options = {240, 150, 1000, 1};
-        else if (std::sscanf(argv[i], "--size=%dx%d", &options.width, &options.height) != 2 &&
-                 std::sscanf(argv[i], "--blobs=%d", &options.blobs) != 1 &&
-                 std::sscanf(argv[i], "--repeat=%d", &options.repeat) != 1)
-            fail("usage: bench_layer_scale [--size=WxH] [--blobs=N] [--repeat=N] [--small]");
-    if (options.width < 8 || options.height < 8 || options.blobs < 1 || options.repeat < 1)
-        fail("sizes begin at 8x8, counts at 1");
-    return options;
-}
 
 /// Glowing smoke in a ball of 3 m, optical depth across about 3.
 base::FrameSnapshot cloud(const base::SnapshotSchema& schema, size_t count)
@@ -113,7 +98,7 @@ public:
           device_(taken(render::GlDevice::create(gl_->loader(), std::pmr::get_default_resource()))),
           color_(texture(GL_RGBA32F)), depth_(texture(GL_DEPTH_COMPONENT32F))
     {
-        schema_.add(base::kBlobKind);
+        preset::registerKinds(schema_);
         snapshot_.emplace_back(cloud(schema_, size_t(options.blobs)));
         view_ =
             std::make_unique<render::ViewRenderer>(device_.get(), &schema_, std::pmr::get_default_resource());
@@ -202,13 +187,14 @@ std::vector<double> errorsOf(const std::vector<float>& picture, const std::vecto
     return errors;
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+void measure(Options options)
 {
-    const Options options = parse(argc, argv);
+    if (options.isSmall)
+        options.width = 240, options.height = 150, options.blobs = 1000, options.repeat = 1;
+    if (options.width < 8 || options.height < 8)
+        fail("--size: 8x8 or more");
     Drawing drawing(options);
-    cli::Machine machine = cli::readMachine();
+    Machine machine = readMachine();
     machine.glRenderer = drawing.name();
     bool asStated = true;
     for (const Case& scene : kCases) {
@@ -236,9 +222,32 @@ int main(int argc, char** argv)
                                          {"error_p50", errors[errors.size() / 2]},
                                          {"error_p99", p99},
                                          {"error_max", errors.back()}};
-            cli::printJsonLine(cli::withMachine(line, machine));
+            printJsonLine(withMachine(line, machine));
         }
     }
     if (!asStated)
         fail("the estimate or the picture is not what it is said to be");
 }
+
+void addOptions(CLI::App& command, int& outExitCode)
+{
+    auto options = std::make_shared<Options>();
+    addSizeOption(command, options->width, options->height);
+    command.add_option("--blobs", options->blobs, "Of the cloud")->check(CLI::Range(1, 10'000'000));
+    command.add_option("--repeat", options->repeat, "Frames of which the least time is taken")
+        ->check(CLI::Range(1, 1'000'000));
+    addSmallOption(command, options->isSmall);
+    setMeasurement(command, outExitCode, [options] { measure(*options); });
+}
+
+} // namespace
+
+BenchMeasurement layerScaleBench()
+{
+    return {
+        "layer-scale",
+        "A cloud drawn at 1/2 and 1/4 of the picture's size: time, fragments and errors against full size",
+        addOptions};
+}
+
+} // namespace fx::cli

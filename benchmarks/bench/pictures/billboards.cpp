@@ -1,16 +1,16 @@
-// bench_billboards [--size=WxH] [--repeat=N] [--small]
-//
-// The GPU's billboards against the reference renderer: 1, 10 and 270 blobs that stand alone, that overlap,
-// and that overlap and are drawn front to back instead of back to front. Prints one JSON object a case and
-// form: relative errors of the channels that are brighter than a thousandth of the brightest, and the least
-// time of a frame (not of those in wrong order: a view sorts, so that each blob is drawn in a frame of its
-// own there).
+// fx bench billboards: the GPU's billboards against the reference renderer: 1, 10 and 270 blobs that stand
+// alone, that overlap, and that overlap and are drawn front to back instead of back to front. Prints one JSON
+// object a case and form: relative errors of the channels that are brighter than a thousandth of the
+// brightest, and the least time of a frame (not of those in wrong order: a view sorts, so that each blob is
+// drawn in a frame of its own there).
 #include "benchmarks/accuracy/accuracy_errors.h"
-#include "benchmarks/bench_failure.h"
+#include "benchmarks/bench/bench_measurement.h"
+#include "benchmarks/bench/bench_program.h"
 #include "benchmarks/scenes/cards.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/frame_snapshot.h"
 #include "fxsdk/cli/support/json_line.h"
+#include "fxsdk/techniques.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/gl/gl_texture.h"
@@ -19,21 +19,19 @@
 #include "rendering/stage/stage_camera.h"
 #include "rendering/view/view_renderer.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 
+namespace fx::cli {
 namespace {
 
-using namespace fx;
-using bench::fail;
-using bench::taken;
-using Cards = std::vector<cli::Card>;
+using Cards = std::vector<Card>;
 
 constexpr float kField = 2.4f;          ///< [m] that the width of the picture shows
 constexpr double kExposure = 1.0 / 1.2; ///< of EV 0
@@ -43,25 +41,12 @@ struct Options
     int width = 480;
     int height = 300;
     int repeat = 5;
+    bool isSmall = false;
 };
-
-Options parse(int argc, char** argv)
-{
-    Options options;
-    for (int i = 1; i < argc; ++i)
-        if (std::string_view(argv[i]) == "--small") // to see that the program works
-            options = {240, 150, 1};
-        else if (std::sscanf(argv[i], "--size=%dx%d", &options.width, &options.height) != 2 &&
-                 std::sscanf(argv[i], "--repeat=%d", &options.repeat) != 1)
-            fail("usage: bench_billboards [--size=WxH] [--repeat=N] [--small]");
-    if (options.width < 1 || options.height < 1 || options.repeat < 1)
-        fail("sizes and repetitions begin at 1");
-    return options;
-}
 
 /// Cards stand in front of the eye, their z along the view. No two snapshots have the same number: a view
 /// takes what it made from one for another of the same number.
-base::FrameSnapshot snapshotOf(const base::SnapshotSchema& schema, std::span<const cli::Card> cards)
+base::FrameSnapshot snapshotOf(const base::SnapshotSchema& schema, std::span<const Card> cards)
 {
     namespace column = base::blob_column;
     static uint64_t published = 0;
@@ -71,7 +56,7 @@ base::FrameSnapshot snapshotOf(const base::SnapshotSchema& schema, std::span<con
     for (size_t c = 0; c < column::Count; ++c)
         std::fill_n(group.editColumn(c).begin(), cards.size(), 0.0f);
     for (size_t i = 0; i < cards.size(); ++i) {
-        const cli::Card& card = cards[i];
+        const Card& card = cards[i];
         const auto set = [&](size_t c, float value) { group.editColumn(c)[i] = value; };
         set(column::PositionX, card.x);
         set(column::PositionY, card.y);
@@ -121,7 +106,7 @@ public:
           color_(taken(
               render::GlTexture::create(*device_, options.width, options.height, GL_RGBA32F, "picture")))
     {
-        schema_.add(base::kBlobKind);
+        preset::registerKinds(schema_);
         view_ =
             std::make_unique<render::ViewRenderer>(device_.get(), &schema_, std::pmr::get_default_resource());
         view_->settings().dazzle.enabled = false;
@@ -189,11 +174,11 @@ std::vector<Case> allCases()
 {
     std::vector<Case> cases;
     for (const uint32_t count : {1u, 10u, 270u})
-        cases.push_back({"isolated-" + std::to_string(count), cli::isolatedCards(count)});
+        cases.push_back({"isolated-" + std::to_string(count), isolatedCards(count)});
     for (const bool isWrong : {false, true})
         for (const uint32_t count : {10u, 270u})
             cases.push_back({(isWrong ? "sorted-wrong-" : "overlapping-") + std::to_string(count),
-                             cli::overlappingCards(count), isWrong});
+                             overlappingCards(count), isWrong});
     return cases;
 }
 
@@ -210,33 +195,31 @@ double drawCase(Drawing& drawing, const Case& scene, int repeat)
         return least;
     }
     Cards cards = scene.cards;
-    std::stable_sort(cards.begin(), cards.end(),
-                     [](const cli::Card& a, const cli::Card& b) { return a.z < b.z; });
+    std::stable_sort(cards.begin(), cards.end(), [](const Card& a, const Card& b) { return a.z < b.z; });
     drawing.clear();
-    for (const cli::Card& card : cards)
+    for (const Card& card : cards)
         drawing.draw(snapshotOf(drawing.schema(), {&card, 1}));
     return 0.0;
 }
 
-cli::AccuracySample errorsOf(const std::vector<double>& drawn, const std::vector<double>& reference)
+AccuracySample errorsOf(const std::vector<double>& drawn, const std::vector<double>& reference)
 {
     const double brightest = *std::max_element(reference.begin(), reference.end());
     std::vector<double> errors;
     for (size_t i = 0; i < reference.size(); ++i)
         if (reference[i] > 1e-3 * brightest)
             errors.push_back(drawn[i] / reference[i] - 1.0);
-    cli::AccuracySample sample;
-    cli::storeErrors(std::move(errors), sample);
+    AccuracySample sample;
+    storeErrors(std::move(errors), sample);
     return sample;
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+void measure(Options options)
 {
-    const Options options = parse(argc, argv);
+    if (options.isSmall)
+        options.width = 240, options.height = 150, options.repeat = 1;
     Drawing drawing(options);
-    cli::Machine machine = cli::readMachine();
+    Machine machine = readMachine();
     machine.glRenderer = drawing.name();
     constexpr std::pair<const char*, render::BillboardForm> kForms[] = {
         {"kernel", render::BillboardForm::Kernel},
@@ -249,7 +232,7 @@ int main(int argc, char** argv)
         for (const auto& [form, value] : kForms) {
             drawing.setForm(value);
             const double milliseconds = drawCase(drawing, scene, options.repeat);
-            const cli::AccuracySample sample = errorsOf(drawing.read(), reference);
+            const AccuracySample sample = errorsOf(drawing.read(), reference);
             nlohmann::json line = {{"name", "billboards_gl"},
                                    {"scene", scene.name},
                                    {"variant", form},
@@ -262,7 +245,7 @@ int main(int argc, char** argv)
                                    {"bias", sample.bias}};
             if (milliseconds > 0.0)
                 line["ms_frame"] = milliseconds;
-            cli::printJsonLine(cli::withMachine(line, machine));
+            printJsonLine(withMachine(line, machine));
             asStated = asStated && (value != render::BillboardForm::Kernel ||
                                     scene.name.rfind("isolated", 0) != 0 || sample.errorP99 < 1e-3);
         }
@@ -270,3 +253,24 @@ int main(int argc, char** argv)
     if (!asStated)
         fail("a blob that stands alone must be what the reference shows");
 }
+
+void addOptions(CLI::App& command, int& outExitCode)
+{
+    auto options = std::make_shared<Options>();
+    addSizeOption(command, options->width, options->height);
+    command.add_option("--repeat", options->repeat, "Frames of which the least time is taken")
+        ->check(CLI::Range(1, 1'000'000));
+    addSmallOption(command, options->isSmall);
+    setMeasurement(command, outExitCode, [options] { measure(*options); });
+}
+
+} // namespace
+
+BenchMeasurement billboardsBench()
+{
+    return {"billboards",
+            "Errors of the GPU's billboards against the reference renderer, and the time of a frame",
+            addOptions};
+}
+
+} // namespace fx::cli

@@ -1,25 +1,27 @@
-// bench_trace [--balls=N] [--size=WxH] [--repeat=N] [--fill=F] [--small]
-//
-// Times finding all balls that every ray of a picture meets, with where it enters them, among `balls` balls
-// that fill a unit ball `fill` times over: the tree is built anew each time, with caches that hold something
-// else. One thread, CPU time, minimum of `repeat` runs. Prints one JSON object with a hash of the hits.
+// fx bench trace: times finding all balls that every ray of a picture meets, with where it enters them, among
+// `balls` balls that fill a unit ball `fill` times over: the tree is built anew each time, with caches that
+// hold something else. One thread, CPU time, minimum of `repeat` runs. Prints one JSON object with a hash of
+// the hits.
+#include "benchmarks/bench/bench_measurement.h"
+#include "benchmarks/bench/bench_program.h"
 #include "foundation/math/hash.h"
 #include "foundation/simd/instruction_set.h"
 #include "rendering/reference/trace/tile_walk.h"
 #include "tests/rendering/reference/trace/ball_scenes.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <limits>
+#include <memory>
 #include <string>
 
+namespace fx::cli {
 namespace {
-
-using namespace fx;
 
 struct Options
 {
@@ -28,6 +30,7 @@ struct Options
     int height = 360;
     int repeat = 5;
     double fill = 8.0; ///< sum of ball volumes per volume of the unit ball
+    bool isSmall = false;
 };
 
 double cpuSeconds()
@@ -104,34 +107,10 @@ void runOnce(const test::Balls& balls, const Options& options, Result& result)
     result.hash = base::hashWord(base::hashWord(0, hits), bits);
 }
 
-bool parse(int argc, char** argv, Options& options)
+void measure(Options options)
 {
-    for (int i = 1; i < argc; ++i) {
-        if (std::sscanf(argv[i], "--balls=%zu", &options.balls) == 1 ||
-            std::sscanf(argv[i], "--size=%dx%d", &options.width, &options.height) == 2 ||
-            std::sscanf(argv[i], "--repeat=%d", &options.repeat) == 1 ||
-            std::sscanf(argv[i], "--fill=%lf", &options.fill) == 1)
-            continue;
-        if (std::strcmp(argv[i], "--small") == 0) { // to see that the program works
-            options.balls = 2000;
-            options.width = 64;
-            options.height = 36;
-            options.repeat = 1;
-            continue;
-        }
-        std::fprintf(stderr, "bench_trace [--balls=N] [--size=WxH] [--repeat=N] [--fill=F] [--small]\n");
-        return false;
-    }
-    return options.balls > 0 && options.width > 0 && options.height > 0 && options.repeat > 0;
-}
-
-} // namespace
-
-int main(int argc, char** argv)
-{
-    Options options;
-    if (!parse(argc, argv, options))
-        return 2;
+    if (options.isSmall)
+        options.balls = 2000, options.width = 64, options.height = 36, options.repeat = 1;
     const test::Balls balls = makeBalls(options);
     Result result;
     for (int i = 0; i < options.repeat; ++i)
@@ -146,5 +125,29 @@ int main(int argc, char** argv)
         options.width * options.height, result.hits, hits / (options.width * options.height),
         result.build * 1e9 / double(options.balls), result.find * 1e9 / hits,
         (result.build + result.find) * 1e9 / hits, result.build * 1e3, result.find * 1e3, result.hash);
-    return 0;
 }
+
+void addOptions(CLI::App& command, int& outExitCode)
+{
+    auto options = std::make_shared<Options>();
+    command.add_option("--balls", options->balls, "To be found")
+        ->check(CLI::Range(size_t(1), size_t(1) << 28));
+    addSizeOption(command, options->width, options->height);
+    command.add_option("--repeat", options->repeat, "Runs of which the least time is taken")
+        ->check(CLI::Range(1, 1'000'000));
+    command.add_option("--fill", options->fill, "[1] Their volume over that of the unit ball around them")
+        ->check(CLI::PositiveNumber);
+    addSmallOption(command, options->isSmall);
+    setMeasurement(command, outExitCode, [options] { measure(*options); });
+}
+
+} // namespace
+
+BenchMeasurement traceBench()
+{
+    return {"trace",
+            "Finding all blobs that rays meet: nanoseconds a blob to build the tree, and a hit to find it",
+            addOptions};
+}
+
+} // namespace fx::cli

@@ -1,32 +1,29 @@
-// bench_pair_loops [--size=N] [--repeat=N] [--neighbors=N] [--reach=R] [--widest] [--small]
-//                  [--validate-hash=0x...]
-//
-// Times the sums over neighbors of a jittered periodic lattice of N^3 particles that stand in the order of
-// the tree: density with its search for the support, and forces. One thread, CPU time of the fastest of
-// `repeat` runs, instruction sets interleaved (or only the widest). Supports start 1 % beside their solution,
-// as a time step leaves them. Prints one JSON object per case. The hash of all results must be the same for
-// every instruction set. `share_of_flops` compares the operations with what the same instruction set does at
-// most in multiplications and additions that are not fused, `share_of_reading` the records read with what one
-// thread reads from 1 MiB of memory nearby, both measured at the end.
-// --small: 12^3 particles once, to see that the program works.
-#include "benchmarks/machine_peak.h"
+// fx bench pair-loops: times the sums over neighbors of a jittered periodic lattice of N^3 particles that
+// stand in the order of the tree: density with its search for the support, and forces. One thread, CPU time
+// of the fastest of `repeat` runs, instruction sets interleaved (or only the widest). Supports start 1 %
+// beside their solution, as a time step leaves them. Prints one JSON object per case. The hash of all results
+// must be the same for every instruction set. `share_of_flops` compares the operations with what the same
+// instruction set does at most in multiplications and additions that are not fused, `share_of_reading` the
+// records read with what one thread reads from 1 MiB of memory nearby, both measured at the end.
+// --small: 12^3 particles once.
+#include "benchmarks/bench/bench_measurement.h"
+#include "benchmarks/bench/bench_program.h"
+#include "benchmarks/bench/gas/machine_peak.h"
 #include "foundation/math/hash.h"
 #include "foundation/simd/instruction_set.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "tests/simulation/pair_loops/gas_stage.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <array>
-#include <cinttypes>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <ctime>
+#include <memory>
 #include <string>
 
+namespace fx::cli {
 namespace {
-
-using namespace fx;
 
 struct Options
 {
@@ -35,7 +32,8 @@ struct Options
     double neighbors = 58;
     double reach = 0.05;
     bool onlyWidest = false;
-    uint64_t validateHash = 0;
+    uint64_t validateHash = 0; ///< 0: nothing
+    bool isSmall = false;
 };
 
 double cpuSeconds()
@@ -106,17 +104,10 @@ Case timeForces(const test::GasStage<T>& stage)
     return result;
 }
 
-const cli::Machine& machine()
+const Machine& machine()
 {
-    static const cli::Machine read = cli::readMachine();
+    static const Machine read = readMachine();
     return read;
-}
-
-std::string hexadecimal(uint64_t hash)
-{
-    char text[19];
-    std::snprintf(text, sizeof text, "0x%016" PRIx64, hash);
-    return text;
 }
 
 /// What a loop does for each entry of a list, and what the machine can do at most.
@@ -132,23 +123,23 @@ void print(const char* name, const char* precision, base::InstructionSet set, co
            const Case& c, double entries, const Work& work)
 {
     const double particles = double(options.size) * options.size * options.size;
-    cli::printJsonLine(cli::withMachine(
-        {{"name", name},
-         {"variant", std::string(precision) + "." + std::string(base::instructionSetName(set))},
-         {"particles", uint64_t(particles)},
-         {"threads", 1},
-         {"repeat", options.repeat},
-         {"ns_per_particle", 1e9 * c.seconds / particles},
-         {"ns_per_pair", 1e9 * c.seconds / double(c.pairs)},
-         {"pairs_per_particle", double(c.pairs) / particles},
-         {"entries_per_particle", entries / particles},
-         {"gflops", 1e-9 * work.flops * entries / c.seconds},
-         {"gflops_at_most", 1e-9 * work.peakFlops},
-         {"share_of_flops", work.flops * entries / c.seconds / work.peakFlops},
-         {"bytes_per_entry", work.bytes},
-         {"share_of_reading", work.bytes * entries / c.seconds / work.peakBytes},
-         {"hash", hexadecimal(c.hash)}},
-        machine()));
+    printJsonLine(
+        withMachine({{"name", name},
+                     {"variant", std::string(precision) + "." + std::string(base::instructionSetName(set))},
+                     {"particles", uint64_t(particles)},
+                     {"threads", 1},
+                     {"repeat", options.repeat},
+                     {"ns_per_particle", 1e9 * c.seconds / particles},
+                     {"ns_per_pair", 1e9 * c.seconds / double(c.pairs)},
+                     {"pairs_per_particle", double(c.pairs) / particles},
+                     {"entries_per_particle", entries / particles},
+                     {"gflops", 1e-9 * work.flops * entries / c.seconds},
+                     {"gflops_at_most", 1e-9 * work.peakFlops},
+                     {"share_of_flops", work.flops * entries / c.seconds / work.peakFlops},
+                     {"bytes_per_entry", work.bytes},
+                     {"share_of_reading", work.bytes * entries / c.seconds / work.peakBytes},
+                     {"hash", hashText(c.hash)}},
+                    machine()));
 }
 
 /// Runs all instruction sets of one precision. False when their results differ.
@@ -173,7 +164,7 @@ bool runPrecision(const char* precision, const Options& options, uint64_t& ioHas
     const double entries = double(stage.entries());
     for (uint32_t set = first; set <= uint32_t(widest); ++set) {
         base::limitInstructionSet(base::InstructionSet(set));
-        const bench::MachinePeak peak = bench::measureMachinePeak();
+        const MachinePeak peak = measureMachinePeak();
         const double flops = sizeof(T) == sizeof(float) ? peak.floatFlops : peak.doubleFlops;
         print("pair_loops.density", precision, base::InstructionSet(set), options, density[set], entries,
               {kMassFlops + kAllFlops, kDensityNumbers * sizeof(T), flops, peak.nearBytes});
@@ -186,49 +177,43 @@ bool runPrecision(const char* precision, const Options& options, uint64_t& ioHas
     return isSame;
 }
 
-bool read(const char* argument, const char* name, std::string& outValue)
+void measure(Options options)
 {
-    const size_t length = std::strlen(name);
-    if (std::strncmp(argument, name, length) != 0)
-        return false;
-    outValue = argument + length;
-    return true;
-}
-
-} // namespace
-
-int main(int count, char** arguments)
-{
-    Options options;
-    for (int i = 1; i < count; ++i) {
-        std::string value;
-        if (read(arguments[i], "--size=", value))
-            options.size = uint32_t(std::strtoul(value.c_str(), nullptr, 10));
-        else if (read(arguments[i], "--repeat=", value))
-            options.repeat = uint32_t(std::strtoul(value.c_str(), nullptr, 10));
-        else if (read(arguments[i], "--neighbors=", value))
-            options.neighbors = std::strtod(value.c_str(), nullptr);
-        else if (read(arguments[i], "--reach=", value))
-            options.reach = std::strtod(value.c_str(), nullptr);
-        else if (!std::strcmp(arguments[i], "--widest"))
-            options.onlyWidest = true;
-        else if (!std::strcmp(arguments[i], "--small"))
-            options.size = 12, options.repeat = 1;
-        else if (read(arguments[i], "--validate-hash=", value))
-            options.validateHash = std::strtoull(value.c_str(), nullptr, 16);
-        else {
-            std::fprintf(stderr, "bench_pair_loops: unknown argument '%s'\n", arguments[i]);
-            return 2;
-        }
-    }
+    if (options.isSmall)
+        options.size = 12, options.repeat = 1;
     machine(); // before the instruction sets are limited
     uint64_t hash = 0;
     const bool sameFloats = runPrecision<float>("float", options, hash);
     const bool isSame = runPrecision<double>("double", options, hash) && sameFloats;
     if (!isSame)
-        std::fprintf(stderr, "bench_pair_loops: instruction sets differ in their results\n");
-    const bool isExpected = options.validateHash == 0 || options.validateHash == hash;
-    if (!isExpected)
-        std::fprintf(stderr, "bench_pair_loops: hash is 0x%016" PRIx64 "\n", hash);
-    return isSame && isExpected ? 0 : 1;
+        fail("instruction sets differ in their results");
+    if (options.validateHash != 0 && options.validateHash != hash)
+        fail("hash is " + hashText(hash));
 }
+
+void addOptions(CLI::App& command, int& outExitCode)
+{
+    auto options = std::make_shared<Options>();
+    command.add_option("--size", options->size, "Particles along an edge")->check(CLI::Range(4u, 256u));
+    command.add_option("--repeat", options->repeat, "Runs of which the least time is taken")
+        ->check(CLI::Range(1u, 1'000'000u));
+    command.add_option("--neighbors", options->neighbors, "4/3 pi n H^3, the neighbors within the support")
+        ->check(CLI::Range(1.0, 1000.0));
+    command.add_option("--reach", options->reach, "[1] Lists reach so much farther than supports")
+        ->check(CLI::Range(0.0, 10.0));
+    command.add_flag("--widest", options->onlyWidest, "Only the widest instruction set");
+    addHashOption(command, options->validateHash);
+    addSmallOption(command, options->isSmall);
+    setMeasurement(command, outExitCode, [options] { measure(*options); });
+}
+
+} // namespace
+
+BenchMeasurement pairLoopsBench()
+{
+    return {"pair-loops",
+            "Density and forces of a gas: nanoseconds a particle and a pair for every instruction set",
+            addOptions};
+}
+
+} // namespace fx::cli

@@ -1,69 +1,45 @@
-// bench_ray_integral [--repeat=N] [--width=W] [--height=H] [--small] [--validate-hash=0x...]
-//
-// The integration alone of a picture of 270 overlapping blobs in a ball whose diameter is the picture's
-// width: blobs of every ray are found beforehand. One JSON object a case: scheme, optical depth, processor
-// time of one thread (the least of N interleaved runs) a frame, a ray and a blob that a ray meets, its ratio
-// to the default scheme in the same run, the wall time on two threads, work counters, and a hash of the
-// picture. The packets of a picture are 20 MB: they stream through the caches as they do in a renderer.
+// fx bench ray-integral: the integration alone of a picture of 270 overlapping blobs in a ball whose diameter
+// is the picture's width: blobs of every ray are found beforehand. One JSON object a case: scheme, optical
+// depth, processor time of one thread (the least of N interleaved runs) a frame, a ray and a blob that a ray
+// meets, its ratio to the default scheme in the same run, the wall time on two threads, work counters, and a
+// hash of the picture. The packets of a picture are 20 MB: they stream through the caches as they do in a
+// renderer.
 //
 // Then, for the default and the high scheme, ray marching at equal error: the longest step, within 5 %, whose
 // 99th percentile of the relative error (against reference_integral.h, on every 37th packet) is no larger,
 // both in double, since sums of many small steps in float never get there; the ratio of the two times. Where
 // even steps of 0.1 mm do not reach it, the ratio is a lower bound.
-#include "benchmarks/bench_failure.h"
+#include "benchmarks/bench/bench_measurement.h"
+#include "benchmarks/bench/bench_program.h"
 #include "foundation/math/hash.h"
 #include "foundation/simd/instruction_set.h"
 #include "foundation/tasks/task_runner.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "rendering/reference/integral/accuracy_cases.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <time.h>
 #include <vector>
 
+namespace fx::cli {
 namespace {
-
-using namespace fx;
-using bench::fail;
 
 struct Options
 {
     int repeat = 7;
-    uint32_t width = 480, height = 300;
-    uint64_t validate = 0; ///< 0: nothing
+    uint32_t width = 480, height = 300; ///< [pixel] rounded down to multiples of 4
+    uint64_t validate = 0;              ///< 0: nothing
+    bool isSmall = false;
 };
 
-Options parse(int argc, char** argv)
+const Machine& machine()
 {
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view a = argv[i];
-        if (a.starts_with("--repeat="))
-            options.repeat = std::max(std::atoi(a.data() + 9), 1);
-        else if (a.starts_with("--width="))
-            options.width = uint32_t(std::max(std::atoi(a.data() + 8) / 4, 1)) * 4;
-        else if (a.starts_with("--height="))
-            options.height = uint32_t(std::max(std::atoi(a.data() + 9) / 4, 1)) * 4;
-        else if (a.starts_with("--validate-hash="))
-            options.validate = std::strtoull(a.data() + 16, nullptr, 16);
-        else if (a == "--small")
-            options.width = 32, options.height = 16, options.repeat = 1;
-        else
-            fail("usage: bench_ray_integral [--repeat=N] [--width=W] [--height=H] [--small] "
-                 "[--validate-hash=0x...]");
-    }
-    return options;
-}
-
-const cli::Machine& machine()
-{
-    static const cli::Machine read = cli::readMachine();
+    static const Machine read = readMachine();
     return read;
 }
 
@@ -125,27 +101,25 @@ uint64_t run(const Options& options, double depth)
         for (const render::PacketLight<float>& light : lights)
             hash = base::hashBytes(hash, light.radiance, sizeof(light.radiance));
         all = base::hashWord(all, hash);
-        char text[32];
-        std::snprintf(text, sizeof(text), "0x%016llx", static_cast<unsigned long long>(hash));
-        cli::printJsonLine(
-            cli::withMachine({{"name", "ray_integral"},
-                              {"variant", variant.name},
-                              {"simd", base::instructionSetName(base::instructionSet())},
-                              {"tau", depth},
-                              {"ms_per_frame_one_thread", variant.seconds * 1e3},
-                              {"ms_per_frame_two_threads", variant.wall * 1e3},
-                              {"ns_per_ray", variant.seconds * 1e9 / double(work.rays)},
-                              {"ns_per_hit", variant.seconds * 1e9 / double(work.hits)},
-                              {"ratio_to_default", variant.seconds / variants.front().seconds},
-                              {"rays", work.rays},
-                              {"hits", work.hits},
-                              {"intervals", work.intervals},
-                              {"parts", work.parts},
-                              {"blobs_per_interval",
-                               work.intervals > 0 ? double(work.blobSums) / double(work.intervals) : 0.0},
-                              {"nodes", work.nodes},
-                              {"hash", text}},
-                             machine()));
+        printJsonLine(
+            withMachine({{"name", "ray_integral"},
+                         {"variant", variant.name},
+                         {"simd", base::instructionSetName(base::instructionSet())},
+                         {"tau", depth},
+                         {"ms_per_frame_one_thread", variant.seconds * 1e3},
+                         {"ms_per_frame_two_threads", variant.wall * 1e3},
+                         {"ns_per_ray", variant.seconds * 1e9 / double(work.rays)},
+                         {"ns_per_hit", variant.seconds * 1e9 / double(work.hits)},
+                         {"ratio_to_default", variant.seconds / variants.front().seconds},
+                         {"rays", work.rays},
+                         {"hits", work.hits},
+                         {"intervals", work.intervals},
+                         {"parts", work.parts},
+                         {"blobs_per_interval",
+                          work.intervals > 0 ? double(work.blobSums) / double(work.intervals) : 0.0},
+                         {"nodes", work.nodes},
+                         {"hash", hashText(hash)}},
+                        machine()));
     }
     return all;
 }
@@ -190,24 +164,25 @@ void runMarching(const Options& options, double depth)
             }
         }
         const double ratio = secondsOf(options, picture, march) / secondsOf(options, picture, own);
-        cli::printJsonLine(cli::withMachine({{"name", "marching_at_equal_error"},
-                                             {"variant", name},
-                                             {"precision", "double"},
-                                             {"tau", depth},
-                                             {"error_p99", wanted},
-                                             {"march_step", march.scheme.step},
-                                             {"march_error_p99", reached},
-                                             {"march_reaches_it", reached <= wanted},
-                                             {"time_ratio", ratio}},
-                                            machine()));
+        printJsonLine(withMachine({{"name", "marching_at_equal_error"},
+                                   {"variant", name},
+                                   {"precision", "double"},
+                                   {"tau", depth},
+                                   {"error_p99", wanted},
+                                   {"march_step", march.scheme.step},
+                                   {"march_error_p99", reached},
+                                   {"march_reaches_it", reached <= wanted},
+                                   {"time_ratio", ratio}},
+                                  machine()));
     }
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+void measure(Options options)
 {
-    const Options options = parse(argc, argv);
+    if (options.isSmall)
+        options.width = 32, options.height = 16, options.repeat = 1;
+    options.width = std::max(options.width / 4, 1u) * 4;
+    options.height = std::max(options.height / 4, 1u) * 4;
     uint64_t hash = 0;
     for (const double depth : {0.1, 1.0, 10.0, 100.0}) {
         hash = base::hashWord(hash, run(options, depth));
@@ -215,5 +190,27 @@ int main(int argc, char** argv)
     }
     if (options.validate != 0 && hash != options.validate)
         fail("the pictures differ from those of --validate-hash");
-    return 0;
 }
+
+void addOptions(CLI::App& command, int& outExitCode)
+{
+    auto options = std::make_shared<Options>();
+    command.add_option("--repeat", options->repeat, "Interleaved runs of which the least time is taken")
+        ->check(CLI::Range(1, 1'000'000));
+    command.add_option("--width", options->width, "[pixel] Of the picture")->check(CLI::Range(1u, 16'384u));
+    command.add_option("--height", options->height, "[pixel] Of the picture")->check(CLI::Range(1u, 16'384u));
+    addHashOption(command, options->validate);
+    addSmallOption(command, options->isSmall);
+    setMeasurement(command, outExitCode, [options] { measure(*options); });
+}
+
+} // namespace
+
+BenchMeasurement rayIntegralBench()
+{
+    return {"ray-integral",
+            "The light of 270 overlapping blobs: time of every scheme, and of ray marching at equal error",
+            addOptions};
+}
+
+} // namespace fx::cli

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace fx::bench {
+namespace fx::cli {
 
 struct MachinePeak
 {
@@ -18,4 +18,4 @@ struct MachinePeak
 /// several runs, about half a second.
 MachinePeak measureMachinePeak();
 
-} // namespace fx::bench
+} // namespace fx::cli

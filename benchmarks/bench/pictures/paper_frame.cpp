@@ -1,33 +1,34 @@
-// bench_paper_frame [--frames=N] [--form=planar|constant|kernel] [--detail] [--size=WxH] [--small]
-//
-// The case of the paper [UBT96]: an explosion of 270 blobs, simulated, drawn and dazzled at 480x300. Prints
-// one JSON object: time of each stage (median of N frames), frames a second of the whole (of the mean frame,
-// simulation steps included), and what was drawn: the share of the picture that gas covers and the mean
-// number of layers over each covered pixel, so that the figure cannot be had by drawing little. Times are of
-// this machine; the paper's 15 s are of a CM-5 with 32 processors.
-#include "benchmarks/bench_failure.h"
+// fx bench paper-frame: the case of the paper [UBT96], an explosion of 270 blobs, simulated, drawn and
+// dazzled at 480x300. Prints one JSON object: time of each stage (median of N frames), frames a second of the
+// whole (of the mean frame, simulation steps included), and what was drawn: the share of the picture that gas
+// covers and the mean number of layers over each covered pixel, so that the figure cannot be had by drawing
+// little. Times are of this machine; the paper's 15 s are of a CM-5 with 32 processors.
+#include "benchmarks/bench/bench_measurement.h"
+#include "benchmarks/bench/bench_program.h"
 #include "fxsdk/cli/support/json_line.h"
+#include "fxsdk/cli/support/named_choice.h"
 #include "fxsdk/fxsdk.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_texture.h"
 #include "rendering/platform/gl_context.h"
 #include "rendering/stage/stage_camera.h"
 
+#include <CLI/CLI.hpp>
+
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+namespace fx::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using fx::bench::fail;
 
 constexpr std::string_view kPreset = R"({
   "version": 1, "name": "paper",
@@ -41,8 +42,9 @@ struct Options
     int frames = 60; // one second: the fireball stays in the picture
     int width = 480;
     int height = 300;
-    uint32_t form = FX_BILLBOARD_KERNEL;
+    std::string form = "kernel";
     bool detail = false;
+    bool isSmall = false;
 };
 
 /// Milliseconds of the stages of one frame.
@@ -52,35 +54,17 @@ struct FrameTime
     double total() const { return update + submit + finish; }
 };
 
+uint32_t formOf(const std::string& name)
+{
+    return name == "planar"     ? uint32_t(FX_BILLBOARD_PLANAR)
+           : name == "constant" ? uint32_t(FX_BILLBOARD_CONSTANT)
+                                : uint32_t(FX_BILLBOARD_KERNEL);
+}
+
 void check(FxResult result, const char* what)
 {
     if (result != FX_OK)
         fail(std::string(what) + ": " + fxGetLastErrorMessage());
-}
-
-Options parse(int argc, char** argv)
-{
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view a = argv[i];
-        if (a.starts_with("--frames="))
-            options.frames = std::max(std::atoi(a.data() + 9), 1);
-        else if (a.starts_with("--size=") &&
-                 std::sscanf(a.data() + 7, "%dx%d", &options.width, &options.height) == 2)
-            continue;
-        else if (a == "--small") // to see that the program works
-            options.frames = 4, options.width = 120, options.height = 75;
-        else if (a == "--form=planar")
-            options.form = FX_BILLBOARD_PLANAR;
-        else if (a == "--form=constant")
-            options.form = FX_BILLBOARD_CONSTANT;
-        else if (a == "--detail")
-            options.detail = true;
-        else if (a != "--form=kernel")
-            fail("usage: bench_paper_frame [--frames=N] [--form=planar|constant|kernel] [--detail] "
-                 "[--size=WxH] [--small]");
-    }
-    return options;
 }
 
 double milliseconds(Clock::time_point from, Clock::time_point to)
@@ -98,14 +82,14 @@ double percentile(std::vector<double> values, double share)
 class PaperCase
 {
 public:
-    PaperCase(const Options& options, fx::render::GlContext& gl, fx::render::GlDevice& device)
+    PaperCase(const Options& options, render::GlContext& gl, render::GlDevice& device)
         : options_(options), device_(device)
     {
         FxContextDef def = fxDefaultContextDef();
         loader_ = gl.loader();
         def.gl.user = &loader_;
         def.gl.getProcAddress = [](void* user, const char* name) {
-            const auto& loader = *static_cast<fx::render::GlLoader*>(user);
+            const auto& loader = *static_cast<render::GlLoader*>(user);
             return loader.getProcAddress(loader.user, name);
         };
         check(fxCreateContext(&def, &context_), "context");
@@ -122,7 +106,7 @@ public:
         settings_ = fxDefaultViewSettings();
         settings_.exposureEv100 = 12.0f;
         settings_.dazzleA = 0.02f;
-        settings_.billboardForm = options.form;
+        settings_.billboardForm = formOf(options.form);
         settings_.detail = options.detail ? 1 : 0;
         check(fxCreateView(context_, scene_, &settings_, &view_), "view");
         for (int i = 0; i < 15; ++i) // a quarter of a second: the fireball has grown
@@ -176,8 +160,8 @@ public:
 private:
     void render(uint32_t color)
     {
-        const auto camera = fx::render::perspectiveView({{0.0, 0.4, 14.6}, {0.0, 0.4, 0.0}}, 0.75f,
-                                                        float(options_.width) / float(options_.height), 0.1f);
+        const auto camera = render::perspectiveView({{0.0, 0.4, 14.6}, {0.0, 0.4, 0.0}}, 0.75f,
+                                                    float(options_.width) / float(options_.height), 0.1f);
         FxFrameDef frame = fxDefaultFrameDef();
         std::copy_n(glm::value_ptr(camera.origin), 3, frame.origin);
         std::copy_n(glm::value_ptr(camera.view), 16, frame.view);
@@ -189,32 +173,25 @@ private:
     }
 
     Options options_;
-    fx::render::GlDevice& device_;
-    fx::render::GlLoader loader_;
+    render::GlDevice& device_;
+    render::GlLoader loader_;
     FxContext* context_ = nullptr;
     FxScene* scene_ = nullptr;
     FxView* view_ = nullptr;
     FxViewSettings settings_;
 };
 
-const char* formName(uint32_t form)
+void measure(Options options)
 {
-    return form == FX_BILLBOARD_PLANAR ? "planar" : form == FX_BILLBOARD_CONSTANT ? "constant" : "kernel";
-}
-
-} // namespace
-
-int main(int argc, char** argv)
-{
-    const Options options = parse(argc, argv);
-    auto gl = fx::render::createEglContext({});
+    if (options.isSmall)
+        options.frames = 4, options.width = 120, options.height = 75;
+    auto gl = render::createEglContext({});
     if (!gl)
         fail(gl.status().message());
-    auto device = fx::render::GlDevice::create((*gl)->loader(), std::pmr::get_default_resource());
+    auto device = render::GlDevice::create((*gl)->loader(), std::pmr::get_default_resource());
     if (!device)
         fail(device.status().message());
-    auto color =
-        fx::render::GlTexture::create(**device, options.width, options.height, GL_RGBA32F, "picture");
+    auto color = render::GlTexture::create(**device, options.width, options.height, GL_RGBA32F, "picture");
     if (!color)
         fail(color.status().message());
 
@@ -242,30 +219,53 @@ int main(int argc, char** argv)
     const auto overdraw = [](const FxViewStatistics& s) {
         return double(s.shadedFragments) / std::max(double(s.coveredPixels), 1.0);
     };
-    fx::cli::Machine machine = fx::cli::readMachine();
+    Machine machine = readMachine();
     machine.glRenderer = (*device)->limits().renderer;
-    fx::cli::printJsonLine(fx::cli::withMachine(
-        {{"name", "paper_frame"},
-         {"variant", std::string(formName(options.form)) + (options.detail ? "+detail" : "")},
-         {"count", 270},
-         {"blobs", last.blobs},
-         {"width", options.width},
-         {"height", options.height},
-         {"frames", options.frames},
-         {"ms_update", column([](const FrameTime& t) { return t.update; }, 0.5)},
-         {"ms_submit", column([](const FrameTime& t) { return t.submit; }, 0.5)},
-         {"ms_finish", column([](const FrameTime& t) { return t.finish; }, 0.5)},
-         {"ms_frame_median", column(total, 0.5)},
-         {"ms_frame_p95", column(total, 0.95)},
-         {"ms_frame_mean", mean},
-         {"frames_per_second", 1000.0 / mean},
-         {"coverage", std::min(coverage(first), coverage(last))},
-         {"overdraw", std::min(overdraw(first), overdraw(last))},
-         {"hash", paper.hash()}},
-        machine));
+    printJsonLine(withMachine({{"name", "paper_frame"},
+                               {"variant", options.form + (options.detail ? "+detail" : "")},
+                               {"count", 270},
+                               {"blobs", last.blobs},
+                               {"width", options.width},
+                               {"height", options.height},
+                               {"frames", options.frames},
+                               {"ms_update", column([](const FrameTime& t) { return t.update; }, 0.5)},
+                               {"ms_submit", column([](const FrameTime& t) { return t.submit; }, 0.5)},
+                               {"ms_finish", column([](const FrameTime& t) { return t.finish; }, 0.5)},
+                               {"ms_frame_median", column(total, 0.5)},
+                               {"ms_frame_p95", column(total, 0.95)},
+                               {"ms_frame_mean", mean},
+                               {"frames_per_second", 1000.0 / mean},
+                               {"coverage", std::min(coverage(first), coverage(last))},
+                               {"overdraw", std::min(overdraw(first), overdraw(last))},
+                               {"hash", paper.hash()}},
+                              machine));
     const bool asStated =
         std::min(coverage(first), coverage(last)) >= 0.5 && std::min(overdraw(first), overdraw(last)) >= 8.0;
     if (!asStated)
         fail(
             "the picture is not the paper's case: at least half of it must be covered, by at least 8 layers");
 }
+
+void addOptions(CLI::App& command, int& outExitCode)
+{
+    auto options = std::make_shared<Options>();
+    command.add_option("--frames", options->frames, "Of which the median is taken")
+        ->check(CLI::Range(1, 1'000'000));
+    command.add_option("--form", options->form, "Of the billboards: planar, constant or kernel")
+        ->check(oneOf({"planar", "constant", "kernel"}));
+    command.add_flag("--detail", options->detail, "Procedural detail");
+    addSizeOption(command, options->width, options->height);
+    addSmallOption(command, options->isSmall);
+    setMeasurement(command, outExitCode, [options] { measure(*options); });
+}
+
+} // namespace
+
+BenchMeasurement paperFrameBench()
+{
+    return {"paper-frame",
+            "The case of the paper [UBT96], an explosion of 270 blobs: time of each stage of a frame",
+            addOptions};
+}
+
+} // namespace fx::cli

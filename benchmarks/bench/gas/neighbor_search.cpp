@@ -1,33 +1,30 @@
-// bench_neighbor_search [--repeat=N] [--threads=T] [--neighbors=N] [--margin=M] [--small]
-//
-// The search for neighbors alone: sort (keys, order, cells), reorder (the caller's four columns), refit
-// (boxes), lists. One JSON object a case: nanoseconds per particle of each part, the least of N runs, whose
-// caches hold what 262144 particles leave in them; the mean length of a list; a hash of all lists. Search =
-// sort + refit + lists, what a library must do for unsorted particles. Fails when a sample of lists is not
-// what a trial of all pairs finds. --small: 8^3 and 16^3 particles once, to see that the program works.
-#include "benchmarks/bench_failure.h"
+// fx bench neighbor-search: the search for neighbors alone: sort (keys, order, cells), reorder (the caller's
+// four columns), refit (boxes), lists. One JSON object a case: nanoseconds per particle of each part, the
+// least of N runs, whose caches hold what 262144 particles leave in them; the mean length of a list; a hash
+// of all lists. Search = sort + refit + lists, what a library must do for unsorted particles. Fails when a
+// sample of lists is not what a trial of all pairs finds. --small: 8^3 and 16^3 particles once.
+#include "benchmarks/bench/bench_measurement.h"
+#include "benchmarks/bench/bench_program.h"
 #include "foundation/math/hash.h"
 #include "foundation/random/philox.h"
 #include "foundation/simd/instruction_set.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "simulation/sph/neighbors/neighbor_lists.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <string>
-#include <string_view>
 #include <time.h>
 #include <utility>
 #include <vector>
 
+namespace fx::cli {
 namespace {
-
-using namespace fx;
-using bench::fail;
 
 struct Options
 {
@@ -36,29 +33,8 @@ struct Options
     uint32_t threads = 0; ///< 0: one and two
     double neighbors = 58;
     double margin = 0;
+    bool isSmall = false;
 };
-
-Options parse(int argc, char** argv)
-{
-    Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view a = argv[i];
-        if (a.starts_with("--repeat="))
-            options.repeat = std::max(std::atoi(a.data() + 9), 1);
-        else if (a.starts_with("--threads="))
-            options.threads = uint32_t(std::atoi(a.data() + 10));
-        else if (a.starts_with("--neighbors="))
-            options.neighbors = std::atof(a.data() + 12);
-        else if (a.starts_with("--margin="))
-            options.margin = std::atof(a.data() + 9);
-        else if (a == "--small")
-            options.edge = 16, options.repeat = 1;
-        else
-            fail("usage: bench_neighbor_search [--repeat=N] [--threads=T] [--neighbors=N] [--margin=M] "
-                 "[--small]");
-    }
-    return options;
-}
 
 template <class T>
 struct Cloud
@@ -133,9 +109,9 @@ Cloud<T> contrast(uint32_t edge, double neighbors)
 }
 
 /// Read once, before anything is dispatched.
-const cli::Machine& machine()
+const Machine& machine()
 {
-    static const cli::Machine read = cli::readMachine();
+    static const Machine read = readMachine();
     return read;
 }
 
@@ -202,9 +178,7 @@ std::string hashOf(const sim::NeighborLists<T>& lists, uint32_t count)
         const auto list = listOf(lists, place);
         hash = base::hashBytes(hash, list.data(), list.size() * sizeof list[0]);
     }
-    char text[32];
-    std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(hash));
-    return text;
+    return hashText(hash);
 }
 
 template <class T>
@@ -232,25 +206,24 @@ void measure(const std::string& variant, const Cloud<T>& cloud, uint32_t threads
     }
     checkSample(sorted, lists, options.margin);
     const double ns = 1e9 / count;
-    cli::printJsonLine(
-        cli::withMachine({{"name", "neighbor_search"},
-                          {"variant", variant},
-                          {"precision", sizeof(T) == 4 ? "float" : "double"},
-                          {"simd", std::string(base::instructionSetName(base::instructionSet()))},
-                          {"count", count},
-                          {"threads", threads},
-                          {"clock", threads == 1 ? "processor" : "wall"},
-                          {"repeat", options.repeat},
-                          {"margin", options.margin},
-                          {"ns_sort", best.sort * ns},
-                          {"ns_reorder", best.reorder * ns},
-                          {"ns_refit", best.refit * ns},
-                          {"ns_lists", best.lists * ns},
-                          {"ns_search", (best.sort + best.refit + best.lists) * ns},
-                          {"neighbors", double(lists.entries()) / count},
-                          {"unlisted", lists.unlisted()},
-                          {"hash", hashOf(lists, count)}},
-                         machine()));
+    printJsonLine(withMachine({{"name", "neighbor_search"},
+                               {"variant", variant},
+                               {"precision", sizeof(T) == 4 ? "float" : "double"},
+                               {"simd", std::string(base::instructionSetName(base::instructionSet()))},
+                               {"count", count},
+                               {"threads", threads},
+                               {"clock", threads == 1 ? "processor" : "wall"},
+                               {"repeat", options.repeat},
+                               {"margin", options.margin},
+                               {"ns_sort", best.sort * ns},
+                               {"ns_reorder", best.reorder * ns},
+                               {"ns_refit", best.refit * ns},
+                               {"ns_lists", best.lists * ns},
+                               {"ns_search", (best.sort + best.refit + best.lists) * ns},
+                               {"neighbors", double(lists.entries()) / count},
+                               {"unlisted", lists.unlisted()},
+                               {"hash", hashOf(lists, count)}},
+                              machine()));
 }
 
 template <class T>
@@ -265,11 +238,10 @@ void measureAll(uint32_t threads, const Options& options)
     measure("contrast1e6." + large, contrast<T>(options.edge, options.neighbors), threads, options);
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+void measure(Options options)
 {
-    const Options options = parse(argc, argv);
+    if (options.isSmall)
+        options.edge = 16, options.repeat = 1;
     machine();
     for (const uint32_t threads : {1u, 2u}) {
         if (options.threads != 0 && options.threads != threads)
@@ -278,3 +250,28 @@ int main(int argc, char** argv)
         measureAll<double>(threads, options);
     }
 }
+
+void addOptions(CLI::App& command, int& outExitCode)
+{
+    auto options = std::make_shared<Options>();
+    command.add_option("--repeat", options->repeat, "Runs of which the least time is taken")
+        ->check(CLI::Range(1, 1'000'000));
+    command.add_option("--threads", options->threads, "1 or 2; 0, the default, for both")
+        ->check(CLI::Range(0u, 2u));
+    command.add_option("--neighbors", options->neighbors, "4/3 pi n H^3, the neighbors within the support")
+        ->check(CLI::Range(1.0, 1000.0));
+    command.add_option("--margin", options->margin, "[1] Lists reach so much farther than supports")
+        ->check(CLI::Range(0.0, 10.0));
+    addSmallOption(command, options->isSmall);
+    setMeasurement(command, outExitCode, [options] { measure(*options); });
+}
+
+} // namespace
+
+BenchMeasurement neighborSearchBench()
+{
+    return {"neighbor-search",
+            "The search for neighbors alone: nanoseconds a particle of sorting, boxes and lists", addOptions};
+}
+
+} // namespace fx::cli
