@@ -1,7 +1,6 @@
-# Options of the build. Every default works offline; tests, examples and benchmarks are only built when fxsdk is the top project.
+# Options of the build. Every default works offline; tests, examples and tools are only built when fxsdk is the top project.
 option(FXSDK_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(FXSDK_BUILD_EXAMPLES "Build the examples" ${PROJECT_IS_TOP_LEVEL})
-option(FXSDK_BUILD_BENCHMARKS "Build the benchmarks" ${PROJECT_IS_TOP_LEVEL})
 option(FXSDK_BUILD_TOOLS "Build the fx command and the modules only it needs (EXR, PNG, EGL, GLFW)" ${PROJECT_IS_TOP_LEVEL})
 option(FXSDK_GPU_PARTICLES "Compute particles of emitters that ask for it on the GPU" ON)
 option(FXSDK_WERROR "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})

@@ -3,7 +3,7 @@
 /// machine, with any number of threads.
 ///
 /// The unit is about 10 ns of one core of 2020: a particle that a force moves costs one or a few of them.
-/// What each piece of work counts was fitted with `bench_work_units`, see
+/// What each piece of work counts was fitted with `fx bench work-units`, see
 /// docs/howto/bounded-updates.md.
 #pragma once
 

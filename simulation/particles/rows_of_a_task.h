@@ -2,8 +2,8 @@
 /// How many rows of particles are worth another thread.
 ///
 /// Offering a loop to threads that have fallen asleep takes the caller 10 to 40 us, whether they come or not
-/// (`bench_parallel_loop`). When they come is the system's choice. Threads that are awake win from 50 to 70
-/// us of work on. A virtual machine with two cores wakes a thread on the caller's core and moves it to the
+/// (`fx bench parallel-loop`). When they come is the system's choice. Threads that are awake win from 50 to
+/// 70 us of work on. A virtual machine with two cores wakes a thread on the caller's core and moves it to the
 /// other one much later: there two threads won from 2 ms on after pauses of 1 ms, from 6 ms on after pauses
 /// of 4 ms. No size is right on both. A loop is cut where its parts move at least half of what takes 100 us:
 /// threads that come halve it, and threads that do not come make it dearer by a fifth (the same benchmark). A

@@ -1,5 +1,5 @@
 // Lists of blobs (*.blobs.csv) for the reference renderer.
-#include "fxsdk/cli/blob_list_reader.h"
+#include "fxsdk/cli/render/blob_list_reader.h"
 #include "tests/fuzz/fuzz_target.h"
 
 #include <cmath>

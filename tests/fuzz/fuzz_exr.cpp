@@ -1,5 +1,5 @@
 // OpenEXR pictures that `fx dazzle` reads.
-#include "fxsdk/cli/dazzle_image.h"
+#include "fxsdk/cli/dazzle/dazzle_image.h"
 #include "rendering/exr/exr_encoder.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/scratch_file.h"

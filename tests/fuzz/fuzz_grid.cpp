@@ -1,5 +1,5 @@
 // Grids of numbers: *.fxgrid files, and the lines and raw numbers that `fx grid` imports.
-#include "fxsdk/cli/grid_import.h"
+#include "fxsdk/cli/grid/grid_import.h"
 #include "tests/fuzz/fuzz_target.h"
 
 #include <algorithm>

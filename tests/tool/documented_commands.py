@@ -146,7 +146,9 @@ class Small:
 
 
 FEW = {"--count": "1000", "--steps": "1"}
-# Verdicts of --check hold for full sizes only; tests of their own ask for them (benchmarks/CMakeLists.txt, test_fx_*.py).
+HAVE_SMALL = ("paper-frame", "billboards", "layer-scale", "neighbor-search", "pair-loops", "explosion", "ray-integral", "trace",
+              "reference", "parallel-loop", "work-units")  # an option for it
+# Verdicts of --check hold for full sizes only; tests of their own ask for them (CMakeLists.txt, test_fx_*.py).
 SMALL = (
     Small(("fx", "render"), {"--size": "48x32"}, {"--frames": "0:1", "--time": "0.1"}),
     Small(("fx", "bench", "particles"), FEW),
@@ -154,6 +156,7 @@ SMALL = (
     Small(("fx", "bench", "sort"), FEW),
     Small(("fx", "bench", "emit"), FEW),
     Small(("fx", "bench", "frame"), FEW),
+    *(Small(("fx", "bench", name), {"--small": None}) for name in HAVE_SMALL),
     Small(("fx", "bench", "--plot"), {"--most": "1000"}),
     Small(("fx", "bench", "city"), {"--instances": "100", "--frames": "2"}, dropped=("--check",)),
     Small(("fx", "bench", "lod"), {"--instances": "2", "--size": "64", "--repeats": "1", "--flight": "2"}, dropped=("--check",)),
@@ -182,10 +185,8 @@ def set_option(words, option, value, only_present=False):
 
 
 def made_small(words):
-    """By the longest rule that fits; benchmark programs have an option for it. Small ones stay as they are."""
+    """By the longest rule that fits. Small ones stay as they are."""
     program = words[0].rpartition("/")[2]
-    if program.startswith("bench_"):
-        return set_option(words, "--small", None)
     fitting = [rule for rule in SMALL if (program, *words[1: len(rule.words)]) == rule.words]
     if not fitting:
         return words

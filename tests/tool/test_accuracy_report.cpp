@@ -1,8 +1,8 @@
-#include "fxsdk/cli/accuracy_callgrind.h"
-#include "fxsdk/cli/accuracy_curve.h"
-#include "fxsdk/cli/accuracy_errors.h"
-#include "fxsdk/cli/accuracy_labels.h"
-#include "fxsdk/cli/accuracy_measure.h"
+#include "benchmarks/accuracy/accuracy_curve.h"
+#include "benchmarks/accuracy/accuracy_errors.h"
+#include "benchmarks/accuracy/accuracy_measure.h"
+#include "benchmarks/measure/callgrind.h"
+#include "benchmarks/report/label_places.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fxsdk/cli/atomic_file.h"
+#include "fxsdk/cli/support/atomic_file.h"
 #include "tests/tool/temporary_folder.h"
 
 namespace fx::cli {

@@ -1,6 +1,6 @@
 // What the --check options of fx bench measure and ask.
-#include "fxsdk/cli/budget_check.h"
-#include "fxsdk/cli/flight_pop.h"
+#include "benchmarks/bench/instances/flight_pop.h"
+#include "benchmarks/bench/quality/budget_check.h"
 
 #include <gtest/gtest.h>
 

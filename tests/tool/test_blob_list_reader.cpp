@@ -1,6 +1,6 @@
 /// Lists of blobs: what is read, and messages that say where a list is wrong.
 
-#include "fxsdk/cli/blob_list_reader.h"
+#include "fxsdk/cli/render/blob_list_reader.h"
 
 #include <gtest/gtest.h>
 

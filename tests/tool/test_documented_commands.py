@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Every command of README.md, CONTRIBUTING.md, benchmarks/README.md and docs/ works, and so does every benchmark program.
+"""Every command of README.md, CONTRIBUTING.md, benchmarks/README.md and docs/ works, and so does every measurement of fx bench.
 
-Each runs once, at a small size. FX_BENCHMARKS names the benchmark programs, with colons between.
+Each runs once, at a small size.
 """
 import os
 import pathlib
@@ -19,7 +19,6 @@ from documented_commands import alternatives, commands_in, made_small, options_i
 from fx_program import FX, ROOT
 
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "benchmarks/README.md", *sorted((ROOT / "docs").rglob("*.md"))]
-BENCHMARKS = [pathlib.Path(name) for name in os.environ.get("FX_BENCHMARKS", "").split(":") if name]
 
 # What is not run here, and why.
 EXCEPTIONS = {
@@ -70,11 +69,11 @@ class Workplace:
         self.root = pathlib.Path(self._folder.name)
         for folder in ("build/bin", "out", "docs/plots"):
             (self.root / folder).mkdir(parents=True)
-        for program in (pathlib.Path(FX).resolve(), *BENCHMARKS):
-            stand_in = self.root / "build/bin" / program.name
-            stand_in.write_text(STAND_IN.format(python=sys.executable, folder=str(pathlib.Path(__file__).parent),
-                                                program=str(program), name=program.name))
-            stand_in.chmod(0o755)
+        program = pathlib.Path(FX).resolve()
+        stand_in = self.root / "build/bin" / program.name
+        stand_in.write_text(STAND_IN.format(python=sys.executable, folder=str(pathlib.Path(__file__).parent),
+                                            program=str(program), name=program.name))
+        stand_in.chmod(0o755)
         shutil.copytree(ROOT / "examples/scenes", self.root / "examples/scenes")
         subprocess.run([sys.executable, ROOT / "scripts/make_courtyard.py", self.root / "examples/scenes"], check=True,
                        stdout=subprocess.DEVNULL)
@@ -178,12 +177,14 @@ class DocumentedCommands(unittest.TestCase):
         self.assertGreater(count, 100)
         self.assertEqual("\n".join(faults), "")
 
-    def test_every_benchmark_works_at_a_small_size_and_is_in_the_table(self):
-        self.assertGreater(len(BENCHMARKS), 5)
-        for path in BENCHMARKS:
-            self.assertEqual(self.checker.run([f"build/bin/{path.name}"]), "")
-        table = re.findall(r"^\| `(bench_\w+)`", (ROOT / "benchmarks/README.md").read_text(), re.M)
-        self.assertEqual(sorted(table), sorted(path.name for path in BENCHMARKS))
+    def test_every_measurement_with_a_small_size_works_and_is_in_the_table(self):
+        names = re.findall(r"^  ([\w-]+)\s", self.checker.help_of(["fx", "bench"]).partition("Subcommands:\n")[2], re.M)
+        small = [name for name in names if "--small" in self.checker.help_of(["fx", "bench", name])]
+        self.assertGreater(len(small), 5)
+        for name in small:
+            self.assertEqual(self.checker.run(["fx", "bench", name]), "")
+        table = re.findall(r"^\| `fx bench ([\w-]+)` \|", (ROOT / "benchmarks/README.md").read_text(), re.M)
+        self.assertEqual(sorted(table), sorted(small))
 
     def test_exceptions_are_still_needed(self):
         shown = {command.text.split("  #")[0].rstrip() for path in DOCUMENTS
@@ -191,7 +192,7 @@ class DocumentedCommands(unittest.TestCase):
         self.assertEqual(set(EXCEPTIONS) - shown, set())
 
     def test_what_does_not_exist_or_fails_is_found(self):
-        for text in ("```sh\nbuild/bin/bench_nothing --form=kernel\n```\n", "```sh\nno_such_program\n```\n", "    fx rendr a.fx.json\n",
+        for text in ("```sh\nfx bench paper-frame --form=sphere\n```\n", "```sh\nno_such_program\n```\n", "    fx rendr a.fx.json\n",
                      "    fx render tiny.fx.json -o out/x.png --sise 9x9\n", "    fx validate missing.fx.json\n",
                      "text `fx verify sedo` text\n", "text `fx render --stat` text\n", "text `fx nothing` text\n",
                      "    fx render FILE -o OUT [--wrong N]\n", "    fx explain FILE\n                  [--wrong N]\n",

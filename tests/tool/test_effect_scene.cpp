@@ -1,6 +1,6 @@
 #include "foundation/snapshot/blob_kind.h"
-#include "fxsdk/cli/default_stage.h"
-#include "fxsdk/cli/effect_scene.h"
+#include "fxsdk/cli/scene/default_stage.h"
+#include "fxsdk/cli/scene/effect_scene.h"
 
 #include <gtest/gtest.h>
 

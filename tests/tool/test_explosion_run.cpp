@@ -1,4 +1,4 @@
-#include "fxsdk/cli/explosion_run.h"
+#include "benchmarks/scenes/explosion_run.h"
 
 #include "foundation/tasks/task_runner.h"
 

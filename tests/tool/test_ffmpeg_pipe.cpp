@@ -1,4 +1,4 @@
-#include "fxsdk/cli/ffmpeg_pipe.h"
+#include "fxsdk/cli/support/ffmpeg_pipe.h"
 #include "tests/tool/temporary_folder.h"
 
 #include <csignal>

@@ -1,6 +1,6 @@
 // Fields of distances beside their meshes: the same field, whatever lies there.
-#include "fxsdk/cli/effect_scene.h"
-#include "fxsdk/cli/field_cache.h"
+#include "fxsdk/cli/scene/effect_scene.h"
+#include "fxsdk/cli/scene/field_cache.h"
 #include "tests/simulation/collision/shapes.h"
 #include "tests/tool/temporary_folder.h"
 

@@ -1,6 +1,6 @@
 // EXR pictures through the dazzle of the fx command: what is read, what is refused, what is changed.
-#include "fxsdk/cli/dazzle_apply.h"
-#include "fxsdk/cli/dazzle_image.h"
+#include "fxsdk/cli/dazzle/dazzle_apply.h"
+#include "fxsdk/cli/dazzle/dazzle_image.h"
 #include "rendering/exr/exr_encoder.h"
 #include "tests/tool/temporary_folder.h"
 

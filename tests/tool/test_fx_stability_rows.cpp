@@ -1,7 +1,7 @@
 // Every hard case, swept at a fifth of its steps: it keeps its limit, and plain code in the same places does
 // not.
-#include "fxsdk/cli/stability_picture.h"
-#include "fxsdk/cli/stability_run.h"
+#include "benchmarks/stability/stability_picture.h"
+#include "benchmarks/stability/stability_run.h"
 
 #include <gtest/gtest.h>
 

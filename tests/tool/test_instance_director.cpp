@@ -1,5 +1,5 @@
 #include "foundation/snapshot/particle_kind.h"
-#include "fxsdk/cli/effect_scene.h"
+#include "fxsdk/cli/scene/effect_scene.h"
 #include "tests/presets/temp_folder.h"
 
 #include <gtest/gtest.h>

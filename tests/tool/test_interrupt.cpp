@@ -1,7 +1,7 @@
 // One signal stops the program, whether its work looks for it or not, and nothing temporary outlives it.
-#include "fxsdk/cli/atomic_file.h"
-#include "fxsdk/cli/exit_code.h"
-#include "fxsdk/cli/interrupt.h"
+#include "fxsdk/cli/support/atomic_file.h"
+#include "fxsdk/cli/support/exit_code.h"
+#include "fxsdk/cli/support/interrupt.h"
 #include "tests/tool/temporary_folder.h"
 
 #include <chrono>

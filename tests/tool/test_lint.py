@@ -62,6 +62,15 @@ class Lint(unittest.TestCase):
         self.refused("arrows", {"simulation/a.h": "", "foundation/b.h": '#include "simulation/world.h"\n'}, "foundation/b.h:1")
         self.accepted("arrows", {"foundation/b.h": "", "fxsdk/a.h": '#include "rendering/frame/view_types.h"\n'})
 
+    def test_only_measurements_include_measurements_and_only_tools_include_tools(self):
+        self.refused("arrows", {"fxsdk/api/a.h": '#include "fxsdk/cli/support/machine.h"\n'}, "fxsdk/ must not include fxsdk/cli/")
+        self.refused("arrows", {"fxsdk/api/a.h": "", "fxsdk/cli/render/a.cpp": '#include "benchmarks/bench/bench_row.h"\n'},
+                     "fxsdk/cli/ must not include benchmarks/")
+        self.refused("arrows", {"fxsdk/cli/render/a.cpp": "", "rendering/a.h": '#include "benchmarks/bench/bench_row.h"\n'},
+                     "rendering/ must not include benchmarks/")
+        self.accepted("arrows", {"rendering/a.h": "", "fxsdk/cli/render/a.cpp": '#include "fxsdk/cli/support/machine.h"\n',
+                                 "benchmarks/a.cpp": '#include "fxsdk/cli/support/machine.h"\n#include "benchmarks/b.h"\n'})
+
     def test_examples_include_what_a_host_can(self):
         public = {"fxsdk/include/fxsdk/fx_view.h": "", "fxsdk/cli/main.h": ""}
         for line in ('#include "rendering/gl/gl_device.h"', "#include <foundation/time/ticks.h>", '#include "fxsdk/cli/main.h"'):

@@ -1,4 +1,4 @@
-#include "fxsdk/cli/output_target.h"
+#include "fxsdk/cli/support/output_target.h"
 
 #include <gtest/gtest.h>
 

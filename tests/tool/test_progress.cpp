@@ -1,4 +1,4 @@
-#include "fxsdk/cli/progress.h"
+#include "fxsdk/cli/support/progress.h"
 
 #include <gtest/gtest.h>
 

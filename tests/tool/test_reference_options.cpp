@@ -1,6 +1,6 @@
 /// Arguments of the reference renderer.
 
-#include "fxsdk/cli/reference_options.h"
+#include "fxsdk/cli/render/reference_options.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "fxsdk/cli/render_options.h"
-#include "fxsdk/cli/view_settings.h"
+#include "fxsdk/cli/render/render_options.h"
+#include "fxsdk/cli/scene/view_settings.h"
 
 #include <gtest/gtest.h>
 

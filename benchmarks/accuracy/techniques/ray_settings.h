@@ -1,0 +1,17 @@
+/// @file ray_settings.h
+/// What the techniques that integrate along rays share.
+#pragma once
+
+#include "benchmarks/accuracy/accuracy_technique.h"
+#include "rendering/reference/integral/ray_records.h"
+
+#include <vector>
+
+namespace fx::cli {
+
+/// One for each of render::comparedSchemes(), the published scheme first; tiers as the product promises them.
+std::vector<AccuracySetting> schemeSettings(const nlohmann::json& parameters);
+
+nlohmann::json toJson(const render::RayWork& work);
+
+} // namespace fx::cli

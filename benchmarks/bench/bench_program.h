@@ -1,0 +1,52 @@
+/// @file bench_program.h
+/// What the measurements of fx bench share that have options of their own and print one JSON object a case.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace CLI {
+class App;
+}
+
+namespace fx::cli {
+
+/// Ends a measurement that cannot go on, or whose result is not the one that it claims to time.
+class BenchFailure : public std::runtime_error
+{
+public:
+    using std::runtime_error::runtime_error;
+};
+
+[[noreturn]] void fail(const std::string& what);
+
+template <class T>
+T taken(base::Result<T>&& result)
+{
+    if (!result.ok())
+        fail(result.status().message());
+    return std::move(*result);
+}
+
+/// The callback of a subcommand: calls `measure`, prints the message of a BenchFailure under the name of the
+/// subcommand, and stores the exit code, 0 or 1.
+void setMeasurement(CLI::App& command, int& outExitCode, std::function<void()> measure);
+
+/// --size WxH, each 1 to 16384 [pixel].
+void addSizeOption(CLI::App& command, int& width, int& height);
+
+/// --small: sizes at which a measurement ends in about a second, whatever the other options say.
+void addSmallOption(CLI::App& command, bool& isSmall);
+
+/// --validate-hash, hexadecimal with or without 0x.
+void addHashOption(CLI::App& command, uint64_t& hash);
+
+/// "0x0123456789abcdef"
+std::string hashText(uint64_t hash);
+
+} // namespace fx::cli

@@ -1,0 +1,71 @@
+/// @file bench_row.h
+/// Measurements of fx bench that count elements: variants, rows of results, and the options that they share.
+#pragma once
+
+#include "benchmarks/bench/bench_measurement.h"
+#include "foundation/result/status.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fx::cli {
+
+/// What the command line asked for.
+struct BenchSettings
+{
+    uint64_t count = 0;   ///< elements, 0: BenchEntry::usualCount
+    uint32_t threads = 1; ///< 0: as many as the machine has
+    uint32_t steps = 0;   ///< that are timed, 0: as many as take about a second
+    std::string variant;  ///< empty: all of the entry
+    bool gpu = false;     ///< particles are computed on the GPU where it can
+    bool gl = false;      ///< a view draws each frame as well
+};
+
+/// One measurement.
+struct BenchRow
+{
+    std::string name;
+    std::string variant;
+    uint64_t count = 0;
+    double medianNanoseconds = 0; ///< [ns] a particle and step
+    double p95Nanoseconds = 0;    ///< [ns] 19 of 20 steps are not slower
+    double bytesPerParticle = 0;  ///< [byte] that have to be moved; of the entry frame, uploaded
+    double bandwidthFraction =
+        0;               ///< [1] of what a copy of as many bytes reaches with as many threads; 0: none
+    uint64_t hash = 0;   ///< of everything that was published or ordered; of frame, of the simulation
+    nlohmann::json more; ///< other members of the line
+};
+
+struct BenchEntry
+{
+    std::string_view name;
+    std::string_view summary;
+    std::span<const std::string_view> variants;
+    bool hasThreads; ///< uses BenchSettings::threads
+    bool hasGpu;     ///< uses BenchSettings::gpu
+    bool hasGl;      ///< uses BenchSettings::gl
+    uint64_t usualCount;
+    uint64_t mostCount;
+    std::string_view elements; ///< what is counted, as errors say it
+    /// One variant.
+    /// @param settings with a count of 1 to mostCount
+    /// @return Interrupted after a signal
+    base::Result<BenchRow> (*measure)(const BenchSettings& settings, std::string_view variant);
+};
+
+/// The subcommand that measures `entry`, which must have static storage.
+BenchMeasurement measurementOf(const BenchEntry& entry);
+
+/// @return one row a variant asked for; InvalidArgument for more than entry.mostCount elements; the first
+///         error of a variant, Interrupted among them
+base::Result<std::vector<BenchRow>> measureVariants(const BenchEntry& entry, const BenchSettings& settings);
+
+nlohmann::json toJson(const BenchRow& row);
+std::string toText(const BenchRow& row);
+
+} // namespace fx::cli

@@ -1,0 +1,25 @@
+/// @file particle_rows.h
+/// What the measurements of particles share.
+#pragma once
+
+#include "benchmarks/bench/bench_row.h"
+#include "benchmarks/bench/particles/bench_stage.h"
+
+namespace fx::cli {
+
+/// Plays and times `steps` frames of a stage whose instances all show `effect`.
+/// @param row receives everything but name, variant and count, which measureVariants() sets
+/// @return Interrupted after a signal
+base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& effect, BenchRow& row);
+
+/// One variant of fx bench particles, computed on the CPU.
+base::Result<BenchRow> benchParticles(const BenchSettings& settings, std::string_view variant);
+std::span<const std::string_view> particleVariants();
+
+/// The same, computed on the GPU where it can; else as without.
+base::Result<BenchRow> measureOnGpu(const BenchSettings& settings, std::string_view variant);
+
+/// fx bench many-small with a view that draws.
+base::Result<BenchRow> benchManyDrawn(const BenchSettings& settings, std::string_view variant);
+
+} // namespace fx::cli

@@ -1,0 +1,30 @@
+/// @file callgrind.h
+/// Instructions where the system does not count them: on valgrind's simulated processor.
+#pragma once
+
+#include "foundation/result/status.h"
+
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+
+/// Whether the valgrind program is found in PATH.
+bool hasCallgrind();
+
+/// Runs this program again under callgrind with other arguments.
+/// @param function extern "C", called `calls` times: what happens inside is counted
+/// @return instructions, one for each call; Internal when callgrind's output is not understood
+base::Result<std::vector<double>> countUnderCallgrind(const std::vector<std::string>& arguments,
+                                                      const std::string& function, size_t calls);
+
+/// Runs this program again under callgrind, `fx accuracy TECHNIQUE --scene SCENE --count-work`, which calls
+/// fxAccuracyWork() once for each setting. The simulated processor has AVX2 at most.
+/// @return instructions, one for each setting; Internal when callgrind's output is not understood
+base::Result<std::vector<double>> countUnderCallgrind(const std::string& technique, const std::string& scene,
+                                                      size_t settings);
+
+/// Totals of the parts of a callgrind file, in order.
+std::vector<double> callgrindTotals(const std::string& text);
+
+} // namespace fx::cli

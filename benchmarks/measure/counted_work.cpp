@@ -1,0 +1,36 @@
+#include "benchmarks/measure/counted_work.h"
+
+#include "benchmarks/measure/instruction_counter.h"
+
+#include <ctime>
+
+extern "C" [[gnu::noinline]] void fxAccuracyWork(const std::function<void()>* work)
+{
+    (*work)();
+}
+
+namespace fx::cli {
+namespace {
+
+double threadSeconds()
+{
+    timespec time = {};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+} // namespace
+
+MeasuredWork measureWork(const std::function<void()>& work)
+{
+    static InstructionCounter counter; // of the thread that measures first, and of what it starts
+    MeasuredWork measured;
+    counter.start();
+    const double begin = threadSeconds();
+    fxAccuracyWork(&work);
+    measured.seconds = threadSeconds() - begin;
+    measured.instructions = counter.stop();
+    return measured;
+}
+
+} // namespace fx::cli

@@ -1,0 +1,90 @@
+/// @file quality_stage.h
+/// Real frames for measurements of quality: effects on a stage, drawn off screen with any settings again and
+/// again.
+///
+/// Threads: the thread that made it, which is its GL thread.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "fxsdk/api/view_object.h"
+#include "fxsdk/cli/scene/effect_scene.h"
+#include "rendering/gl/gl_device.h"
+#include "rendering/gl/gl_texture.h"
+#include "rendering/platform/gl_context.h"
+#include "rendering/stage/stage_renderer.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+
+/// By what frames are timed.
+enum class StageClock
+{
+    Gpu,      ///< timestamps of the GPU
+    Wall,     ///< from the call until the GPU has finished
+    Processor ///< processor time of all threads of this program: for software renderers on busy machines
+};
+const char* clockName(StageClock clock);
+/// [ms]
+double processorMilliseconds();
+
+class QualityStage
+{
+public:
+    /// @param file must outlive the stage
+    static base::Result<std::unique_ptr<QualityStage>> create(const scene_file::SceneFile& file, int width,
+                                                              int height);
+    ~QualityStage();
+    QualityStage(const QualityStage&) = delete;
+    QualityStage& operator=(const QualityStage&) = delete;
+
+    /// GPU timestamps of hardware, processor time of software.
+    StageClock bestClock() const;
+    /// Takes effect with the next frame. @param budget [ms] 0: none
+    base::Status setBudget(double budget, StageClock clock);
+
+    /// Simulates up to `tick`, which must not lie before the last one.
+    base::Status simulate(base::Ticks tick) { return effects_->showMoment(tick); }
+    /// Draws the stage as the camera sees it; frames are drawn over it until the next call.
+    base::Status look(const scene_file::CameraPath& camera);
+    /// Draws one frame and waits for it.
+    base::Status draw();
+
+    /// Of the frame that draw() has finished.
+    render::GroupTimes times() const { return times_; }
+    std::vector<float> picture();    ///< RGBA of the frame
+    std::vector<float> background(); ///< RGBA of the stage without effects
+    FxView& view() { return *view_; }
+    const std::string& rendererName() const { return device_->limits().renderer; }
+
+private:
+    QualityStage(const scene_file::SceneFile& file, int width, int height)
+        : file_(file), width_(width), height_(height)
+    {}
+    base::Status start();
+    base::Status makeView();
+
+    const scene_file::SceneFile& file_;
+    int width_, height_; ///< [pixel]
+    std::unique_ptr<render::GlContext> glContext_;
+    std::unique_ptr<render::GlDevice> device_;
+    std::unique_ptr<render::StageRenderer> stage_;
+    render::GlTexture color_;
+    std::unique_ptr<EffectScene> effects_;
+    FxView* view_ = nullptr;
+    render::CameraView camera_;
+    render::GroupTimes times_;
+};
+
+/// Measures of two pictures of media before the same background.
+struct PictureDifference
+{
+    double difference = 0; ///< sum of |a - b|
+    double light = 0;      ///< sum of |b - background|
+};
+PictureDifference compare(const std::vector<float>& a, const std::vector<float>& b,
+                          const std::vector<float>& background);
+
+} // namespace fx::cli

@@ -1,0 +1,59 @@
+/// @file stability_run.h
+/// Runs the sweeps of fx stability, and tells what came out.
+#pragma once
+
+#include "benchmarks/stability/stability_row.h"
+#include "foundation/result/status.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+
+/// The errors of a sweep, row by row of y.
+struct StabilityMap
+{
+    StabilitySweep sweep;
+    std::vector<double> errors;
+    double largest = 0; ///< infinity for what is not a number
+    double atX = 0;
+    double atY = 0;
+
+    bool exceedsLimit() const { return !(largest <= sweep.limit); }
+    /// Within the limit, or beyond it for a control.
+    bool isAsItMust() const { return exceedsLimit() == sweep.isControl; }
+};
+
+struct StabilityResult
+{
+    StabilityRow row;
+    std::vector<StabilityMap> maps;
+
+    bool isAsItMust() const;
+    /// The sweep that comes closest to its limit, or exceeds it most.
+    const StabilityMap& tightest() const;
+};
+
+struct RunWatch
+{
+    std::function<bool()> stop;
+    std::function<void(uint64_t done, uint64_t all)> progress; ///< places of the row
+};
+
+/// @return Interrupted
+base::Result<StabilityResult> runStability(const StabilityRow& row, bool isQuick, const RunWatch& watch);
+
+/// "R-01 ok  1.2e-07 of 4.8e-07 in float at s = 3, n = 8; controls break: naive 1.3"
+std::string toText(const StabilityResult& result);
+
+/// "  gauss-8, float: 2.1e-05 of 0.0001 at tau = 3, blobs = 1", a line a sweep.
+std::string sweepsText(const StabilityResult& result);
+
+/// One line a place: x, y, error. Comment lines say what it is.
+std::string mapCsv(const StabilityResult& result, const StabilityMap& map, const std::string& origin);
+
+/// "R-01-float"
+std::string fileStem(const StabilityResult& result, const StabilityMap& map);
+
+} // namespace fx::cli

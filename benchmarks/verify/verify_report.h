@@ -1,0 +1,31 @@
+/// @file verify_report.h
+/// The outcome of a gas case for people and for programs.
+#pragma once
+
+#include "benchmarks/verify/verify_options.h"
+#include "simulation/verification/case_run.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace fx::cli {
+
+/// The fields of a --json line but machine and version. What was not measured is null.
+nlohmann::json toJson(const VerifyPlan& plan, const sim::CaseReport& report);
+
+/// A table for the terminal.
+std::string toText(const VerifyPlan& plan, const sim::CaseReport& report);
+
+/// One row a particle: r[m],rho[kg/m3],v[m/s],p[Pa].
+std::string profileCsv(const sim::CaseReport& report);
+
+bool limitsHold(const sim::CaseReport& report);
+
+double nanosecondsPerParticleStep(const sim::CaseReport& report);
+double nanosecondsPerPair(const sim::CaseReport& report);
+
+/// The number, or null.
+nlohmann::json numberOrNull(double value);
+
+} // namespace fx::cli

@@ -1,0 +1,273 @@
+/// @file explain_command.cpp
+/// fx explain: what a moment of a scene costs, and which effect called for it.
+
+#include "fxsdk/cli/commands.h"
+#include "fxsdk/cli/render/frame_renderer.h"
+#include "fxsdk/cli/scene/api_status.h"
+#include "fxsdk/cli/scene/default_stage.h"
+#include "fxsdk/cli/support/exit_code.h"
+#include "fxsdk/cli/support/json_line.h"
+#include "fxsdk/techniques.h"
+#include "simulation/emitters/gpu_program.h"
+
+#include <CLI/CLI.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+struct ExplainOptions
+{
+    std::string input;
+    double time = 1.0;        ///< [s]
+    int size = 256;           ///< [pixel]
+    float lodBias = 0;        ///< [1]
+    float impostorPixels = 0; ///< [pixel]
+    bool everything = false;
+    bool json = false;
+};
+
+constexpr std::array<const char*, 6> kStates{"dormant", "active", "finished", "waking", "resting", "hidden"};
+constexpr std::array<const char*, 10> kReasons{
+    "",         "not started",       "outside of the view", "too far",       "too small",
+    "occluded", "beyond the budget", "catching up",         "nothing moves", "ended"};
+constexpr std::array<const char*, 5> kPolicies{"analytic", "replay", "coarse", "skip", "authoritative"};
+
+/// The scene's camera as the scene's only focus.
+base::Status lookThroughCamera(const scene_file::SceneFile& file, const ExplainOptions& options,
+                               FxScene* scene)
+{
+    FxFocus focus = fxDefaultFocus();
+    focus.height = float(options.size);
+    const glm::dvec3 eye = file.camera.at(options.time).position;
+    std::copy_n(glm::value_ptr(eye), 3, focus.origin);
+    std::copy_n(glm::value_ptr(file.camera.viewRotation(options.time)), 16, focus.view);
+    std::copy_n(glm::value_ptr(file.camera.projection(1.0f)), 16, focus.projection);
+    return toStatus(fxScene_SetFocus(scene, &focus, 1));
+}
+
+Json instancesOf(const scene_file::SceneFile& file, FxScene* scene, double time)
+{
+    std::vector<FxInstanceId> ids(file.instances.size());
+    uint32_t count = 0;
+    Json list = Json::array();
+    if (fxScene_GetInstances(scene, ids.data(), uint32_t(ids.size()), &count) != FX_OK)
+        return list;
+    for (uint32_t i = 0; i < count; ++i) {
+        FxInstanceActivity activity = {};
+        activity.structSize = sizeof activity;
+        if (fxScene_GetInstanceActivity(scene, ids[i], &activity) != FX_OK)
+            continue;
+        const scene_file::SceneInstance& instance = file.instances[i];
+        const glm::dvec3 place = instance.placementAt(time).position;
+        list.push_back({{"instance", i},
+                        {"position", {place.x, place.y, place.z}},
+                        {"speed", scene_file::valueAt(instance.play.speed, time, 1.0)},
+                        {"emitting", scene_file::valueAt(instance.play.emitting, time, 1.0) > 0.0},
+                        {"preset", file.presets[file.instances[i].preset].name},
+                        {"state", kStates.at(activity.state)},
+                        {"reason", kReasons.at(activity.reason)},
+                        {"offscreen", kPolicies.at(activity.policy)},
+                        {"particles", activity.particles},
+                        {"lag_s", base::toSeconds(activity.lagTicks)},
+                        {"significance", activity.significance},
+                        {"ms_estimated", activity.milliseconds}});
+    }
+    return list;
+}
+
+/// Presets of active instances that use a technique.
+Json callersOf(const preset::Technique& technique, const scene_file::SceneFile& file, const Json& instances)
+{
+    std::vector<std::string> names;
+    for (const Json& entry : instances) {
+        if (entry["state"] != "active")
+            continue;
+        const auto& used = file.presets[file.instances[entry["instance"].get<size_t>()].preset];
+        const Json text = Json::parse(used.text, nullptr, false);
+        const bool calls = technique.presetMember.empty()
+                               ? preset::isUsed(technique, *used.effect)
+                               : text.contains(std::string(technique.presetMember));
+        if (calls && std::find(names.begin(), names.end(), used.name) == names.end())
+            names.push_back(used.name);
+    }
+    return names;
+}
+
+/// Whether each emitter is computed on CPU or GPU, and the reason. Emitters move to the GPU once a view has
+/// drawn the scene, and while no reader requests rows.
+Json emittersOf(const scene_file::SceneFile& file)
+{
+    Json list = Json::array();
+    for (const scene_file::ScenePreset& preset : file.presets)
+        for (const sim::EmitterDef* const emitter : sim::emittersOf(*preset.effect)) {
+            if (!emitter)
+                continue;
+            const std::string_view why = sim::gpuObstacle(*emitter);
+            list.push_back({{"preset", preset.name},
+                            {"emitter", emitter->name},
+                            {"path", why.empty() ? "gpu" : "cpu"},
+                            {"meets_depth", emitter->meetsDepth && why.empty()},
+                            {"bytes", emitter->bytes()},
+                            {"why", std::string(why)}});
+        }
+    return list;
+}
+
+/// What an instance of each preset is expected to need.
+Json needsOf(const scene_file::SceneFile& file)
+{
+    Json list = Json::array();
+    for (const scene_file::ScenePreset& preset : file.presets) {
+        const sim::EffectCost& cost = preset.effect->cost;
+        list.push_back({{"preset", preset.name},
+                        {"bytes", cost.memory},
+                        {"work_step", cost.stepWork},
+                        {"ms_step", cost.stepWork * base::kSecondsPerUnit * 1e3},
+                        {"work_prewarm", cost.startWork},
+                        {"ms_prewarm", cost.startWork * base::kSecondsPerUnit * 1e3}});
+    }
+    return list;
+}
+
+Json techniquesOf(const scene_file::SceneFile& file, const Json& instances,
+                  const std::vector<std::string>& passes)
+{
+    Json list = Json::array();
+    for (const preset::Technique& technique : preset::techniques()) {
+        Json executed = Json::array();
+        for (const std::string_view pass : technique.passes)
+            if (std::find(passes.begin(), passes.end(), pass) != passes.end())
+                executed.push_back(std::string(pass));
+        const Json callers = callersOf(technique, file, instances);
+        const bool exists = !callers.empty() && (technique.passes.empty() || !executed.empty());
+        list.push_back({{"technique", std::string(technique.name)},
+                        {"exists", exists},
+                        {"passes", exists ? executed : Json::array()},
+                        {"called_by", exists ? callers : Json::array()}});
+    }
+    return list;
+}
+
+/// Groups of media by what is drawn of them.
+Json levelsOf(const FxViewStatistics& view)
+{
+    return {{"all", view.lodGroups[0]},   {"half", view.lodGroups[1]}, {"eighth", view.lodGroups[2]},
+            {"less", view.lodGroups[3]},  {"blobs_drawn", view.blobs}, {"blobs_thinned", view.blobsThinned},
+            {"impostors", view.impostors}};
+}
+
+void print(const Json& report)
+{
+    for (const Json& entry : report["instances"])
+        std::printf("%4d  %-24s %-9s %-20s %6u particles %8.4f ms\n", entry["instance"].get<int>(),
+                    entry["preset"].get<std::string>().c_str(), entry["state"].get<std::string>().c_str(),
+                    entry["reason"].get<std::string>().c_str(), entry["particles"].get<unsigned>(),
+                    entry["ms_estimated"].get<double>());
+    for (const Json& entry : report["emitters"])
+        std::printf("%-24s %-20s %s %9.1f KiB  %s\n", entry["preset"].get<std::string>().c_str(),
+                    entry["emitter"].get<std::string>().c_str(), entry["path"].get<std::string>().c_str(),
+                    entry["bytes"].get<double>() / 1024.0, entry["why"].get<std::string>().c_str());
+    for (const Json& entry : report["needs"])
+        std::printf("%-24s needs at most %.1f MiB, %.3g ms of a core a step, %.3g ms for its prewarm\n",
+                    entry["preset"].get<std::string>().c_str(), entry["bytes"].get<double>() / (1 << 20),
+                    entry["ms_step"].get<double>(), entry["ms_prewarm"].get<double>());
+    for (const Json& entry : report["techniques"])
+        std::printf("%-22s %s  passes %s  called by %s\n", entry["technique"].get<std::string>().c_str(),
+                    entry["exists"].get<bool>() ? "exists" : "absent", entry["passes"].dump().c_str(),
+                    entry["called_by"].dump().c_str());
+    std::printf("passes %s\nlevel of detail %s\n", report["passes"].dump().c_str(),
+                report["level_of_detail"].dump().c_str());
+    std::printf(
+        "%llu bytes of textures, %llu of them for the frame's passes (%llu if none shared memory), "
+        "%.4f ms of simulation a step (estimated)\n",
+        report["bytes_textures"].get<unsigned long long>(), report["bytes_frame"].get<unsigned long long>(),
+        report["bytes_frame_unshared"].get<unsigned long long>(), report["ms_estimated"].get<double>());
+}
+
+base::Status explain(const ExplainOptions& options)
+{
+    const bool isScene = options.input.ends_with(".scene.json");
+    auto file = isScene ? scene_file::loadSceneFile(options.input) : sceneOfPreset(options.input);
+    if (!file.ok())
+        return file.status();
+    FrameRendererOptions rendererOptions;
+    rendererOptions.width = rendererOptions.height = options.size;
+    rendererOptions.settings = file->view;
+    rendererOptions.settings.lod = {options.lodBias, options.impostorPixels};
+    auto renderer = FrameRenderer::create(*file, rendererOptions);
+    if (!renderer.ok())
+        return renderer.status();
+    FxScene* scene = (*renderer)->effects().scene();
+    if (!options.everything)
+        if (base::Status status = lookThroughCamera(*file, options, scene); !status)
+            return status;
+    if (base::Status status = (*renderer)->render(base::toTicks(options.time)); !status)
+        return status;
+    FxFrameStats stats = {};
+    stats.structSize = sizeof stats;
+    if (base::Status status = toStatus(fxScene_GetFrameStats(scene, &stats)); !status)
+        return status;
+    FxSceneStatistics statistics = {};
+    statistics.structSize = sizeof statistics;
+    if (base::Status status = toStatus(fxScene_GetStatistics(scene, &statistics)); !status)
+        return status;
+    const FrameCounters& counters = (*renderer)->counters();
+    const Json instances = instancesOf(*file, scene, options.time);
+    const Json report = {{"file", options.input},
+                         {"time", options.time},
+                         {"instances", instances},
+                         {"emitters", emittersOf(*file)},
+                         {"needs", needsOf(*file)},
+                         {"seconds_debt", base::toSeconds(statistics.timeDebtTicks)},
+                         {"techniques", techniquesOf(*file, instances, counters.passes)},
+                         {"passes", counters.passes},
+                         {"level_of_detail", levelsOf(counters.view)},
+                         {"bytes_textures", counters.view.textureBytes},
+                         {"bytes_frame", counters.view.sharedBytes},
+                         {"bytes_frame_unshared", counters.view.unsharedBytes},
+                         {"ms_estimated", stats.estimatedMilliseconds}};
+    if (options.json)
+        printJsonLine(withMachine(report, readMachine()));
+    else
+        print(report);
+    return {};
+}
+
+} // namespace
+
+void addExplainCommand(CLI::App& app, int& outExitCode)
+{
+    auto options = std::make_shared<ExplainOptions>();
+    CLI::App* command = app.add_subcommand(
+        "explain",
+        "Which instances of a scene are active and why others are not, and what exists because of them");
+    command->add_option("FILE", options->input, "*.scene.json, *.fx.json or library:NAME")->required();
+    command->add_option("--time", options->time, "[s] Moment to explain; default 1")
+        ->check(CLI::Range(0.0, 86400.0));
+    command->add_option("--size", options->size, "[pixel] Width and height of the picture; default 256")
+        ->check(CLI::Range(16, 4096));
+    command->add_option("--lod-bias", options->lodBias, "Level of detail, as of fx render; default 0")
+        ->check(CLI::Range(0.0f, 256.0f));
+    command->add_option("--impostors", options->impostorPixels, "As of fx render; default 0")
+        ->check(CLI::Range(0.0f, 13.0f));
+    command->add_flag("--everything", options->everything, "As if everything were in sight");
+    command->add_flag("--json", options->json, "One object");
+    command->callback([options, &outExitCode] {
+        const base::Status status = explain(*options);
+        if (!status.ok())
+            std::fprintf(stderr, "fx explain: %s\n", status.message().c_str());
+        outExitCode = status.ok() ? kSuccess : kFailed;
+    });
+}
+
+} // namespace fx::cli

@@ -1,0 +1,93 @@
+/// @file frame_renderer.h
+/// Draws moments of a scene without a window: the opaque stage first, then the effects over it.
+///
+/// Threads: the thread that made it, which is its GL thread.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "foundation/time/ticks.h"
+#include "fxsdk/cli/scene/effect_scene.h"
+#include "fxsdk/cli/scene/picture.h"
+#include "rendering/gl/gl_device.h"
+#include "rendering/platform/gl_context.h"
+#include "rendering/stage/stage_renderer.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+
+struct FrameRendererOptions
+{
+    int width = 0;  ///< [pixel]
+    int height = 0; ///< [pixel]
+    render::ViewSettings settings;
+    EffectSceneOptions scene; ///< its `gl` is filled in
+};
+
+/// The pictures of one frame; those besides `color` only with settings.layerOutputs.
+struct FrameLayers
+{
+    Picture color;                ///< RGBA, display-referred with settings.toneMap, otherwise linear
+    Picture background;           ///< RGBA, the stage without effects
+    std::array<Picture, 3> media; ///< RGBA of fire, smoke, dust
+    Picture depth;                ///< 1 channel [m]
+    Picture opticalDepth;         ///< 1 channel
+};
+
+/// Counters of the last frame.
+struct FrameCounters
+{
+    FxSceneStatistics scene;
+    FxViewStatistics view;
+    std::vector<std::string> passes;
+    double millisecondsSimulate = 0;
+    double millisecondsRender = 0; ///< stage and effects, until the GPU has finished
+};
+
+class FrameRenderer
+{
+public:
+    /// @param file must outlive the renderer
+    static base::Result<std::unique_ptr<FrameRenderer>> create(const scene_file::SceneFile& file,
+                                                               const FrameRendererOptions& options);
+    ~FrameRenderer();
+    FrameRenderer(const FrameRenderer&) = delete;
+    FrameRenderer& operator=(const FrameRenderer&) = delete;
+
+    /// Simulates up to `tick` and draws that moment. Ticks must not fall from call to call.
+    base::Status render(base::Ticks tick);
+    /// Copies the frame's pictures from the GPU.
+    base::Result<FrameLayers> read();
+
+    const FrameCounters& counters() const { return counters_; }
+    EffectScene& effects() { return *effects_; }
+    const std::string& rendererName() const { return device_->limits().renderer; }
+
+private:
+    explicit FrameRenderer(const scene_file::SceneFile& file) : file_(file) {}
+    base::Status start(const FrameRendererOptions& options);
+    base::Status keepOnGpu(base::Ticks tick);
+    base::Status lookThrough(const render::CameraView& camera);
+    base::Status drawStage(const render::CameraView& camera);
+    /// @param passed [s] since the picture before, which eyes have adapted in
+    base::Status drawEffects(const render::CameraView& camera, double passed);
+    base::Status count();
+    Picture readPicture(uint32_t texture, int channels, float whenAbsent = 0.0f);
+
+    const scene_file::SceneFile& file_;
+    FrameRendererOptions options_;
+    std::unique_ptr<render::GlContext> glContext_;
+    std::unique_ptr<render::GlDevice> device_;
+    std::unique_ptr<render::StageRenderer> stage_;
+    std::unique_ptr<EffectScene> effects_;
+    FxView* view_ = nullptr;
+    bool staysOnGpu_ = false;   ///< all particles are computed on the GPU as long as no reader requests rows
+    base::Ticks lastTick_ = -1; ///< of the frame before; -1: there was none
+    Picture background_;
+    FrameCounters counters_;
+};
+
+} // namespace fx::cli

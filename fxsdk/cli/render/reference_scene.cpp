@@ -1,0 +1,69 @@
+#include "fxsdk/cli/render/reference_scene.h"
+
+#include "rendering/lights/effect_lights.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace fx::cli {
+namespace {
+
+constexpr size_t kMaxLights = 8; // as many as the stage of the GL renderer has
+
+render::OpaqueScene opaqueOf(const scene_file::SceneFile& file)
+{
+    render::OpaqueScene scene;
+    scene.mesh = {file.mesh.origin, file.mesh.positions, file.mesh.normals, file.mesh.colors};
+    const render::StageBackground& b = file.background;
+    scene.background = {b.luminance, b.horizon, b.width, b.height, b.image, b.panorama};
+    scene.lighting = file.view.lighting;
+    return scene;
+}
+
+} // namespace
+
+render::ReferenceCamera cameraOf(const scene_file::CameraPath& path, double time)
+{
+    const scene_file::CameraPose pose = path.at(time);
+    auto camera = render::ReferenceCamera::lookAt(pose.position, pose.target, glm::dvec3(path.up));
+    camera.orthographic = path.orthographicHeight > 0.0f;
+    camera.halfHeight = camera.orthographic ? 0.5 * double(path.orthographicHeight)
+                                            : std::tan(double(path.fovYDegrees) * std::numbers::pi / 360.0);
+    camera.nearDistance = double(path.nearPlane);
+    return camera;
+}
+
+base::Result<std::unique_ptr<ReferenceSceneSource>>
+ReferenceSceneSource::create(const scene_file::SceneFile& file, const EffectSceneOptions& options)
+{
+    std::unique_ptr<ReferenceSceneSource> source(new ReferenceSceneSource(file));
+    auto effects = EffectScene::create(file, options);
+    if (!effects.ok())
+        return effects.status();
+    source->effects_ = std::move(*effects);
+    return source;
+}
+
+base::Result<ReferenceFrame> ReferenceSceneSource::frameAt(base::Ticks tick)
+{
+    if (base::Status status = effects_->showMoment(tick); !status)
+        return status;
+    const auto moment = effects_->moment();
+    if (!moment.ok())
+        return moment.status();
+    ReferenceFrame frame;
+    render::MediumList medium = render::mediumOf(moment->snapshots, moment->interpolation);
+    frame.scene.blobs = std::move(medium.blobs);
+    frame.nonFinite = medium.nonFinite;
+    frame.scene.opaque = opaqueOf(file_);
+    frame.scene.camera = cameraOf(file_.camera, base::toSeconds(tick));
+    if (moment->snapshots.newer) {
+        std::array<render::EffectLight, kMaxLights> lights;
+        const size_t count = render::effectLights(*moment->snapshots.newer, lights);
+        frame.scene.opaque.lights.assign(lights.begin(), lights.begin() + std::ptrdiff_t(count));
+    }
+    return frame;
+}
+
+} // namespace fx::cli

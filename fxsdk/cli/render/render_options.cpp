@@ -1,0 +1,270 @@
+#include "fxsdk/cli/render/render_options.h"
+
+#include "fxsdk/cli/support/named_choice.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+
+namespace fx::cli {
+namespace {
+
+constexpr int kMaxSize = 16384;      // [pixel]
+constexpr double kMaxTime = 3600.0;  // [s]
+constexpr double kDefaultTime = 0.5; // [s]
+constexpr int64_t kMaxFrames = 1'000'000;
+constexpr size_t kMaxTimes = 256;
+
+base::Status usage(const std::string& message)
+{
+    return {base::Code::InvalidArgument, message};
+}
+
+/// Two whole numbers around `separator`, nothing else.
+std::optional<std::pair<long, long>> parsePair(const std::string& text, char separator)
+{
+    const char* const begin = text.c_str();
+    char* end = nullptr;
+    const long first = std::strtol(begin, &end, 10);
+    if (end == begin || *end != separator)
+        return std::nullopt;
+    const char* const rest = end + 1;
+    const long second = std::strtol(rest, &end, 10);
+    if (end == rest || *end != '\0')
+        return std::nullopt;
+    return std::make_pair(first, second);
+}
+
+/// Frame k shows the k-th of the times. With one file it is a sheet of all of them.
+base::Status planTimes(const RenderArguments& arguments, RenderPlan& plan)
+{
+    if (!arguments.frames.empty() || arguments.time)
+        return usage(std::string("found both ") + (arguments.time ? "--time" : "--frames") +
+                     " and --times; give one of them");
+    if (plan.output.kind == OutputKind::Mp4 || (plan.output.kind == OutputKind::Exr && plan.output.isStill()))
+        return usage(
+            "--times needs a sequence (-o name.%d.png, -o name.%d.exr), or one PNG (-o name.png) that "
+            "shows all times side by side");
+    std::istringstream list(arguments.times + ",");
+    for (std::string text; std::getline(list, text, ',');) {
+        char* end = nullptr;
+        const double time = std::strtod(text.c_str(), &end);
+        if (text.empty() || *end != '\0' || !(time >= 0.0 && time <= kMaxTime))
+            return usage("--times " + arguments.times +
+                         ": expected numbers from 0 to 3600 with commas between");
+        const base::Ticks tick = base::toTicks(time);
+        if (!plan.frames.empty() && tick <= plan.frames.back().tick)
+            return usage("--times " + arguments.times + ": expected rising times");
+        plan.frames.push_back({int64_t(plan.frames.size()), tick});
+    }
+    if (plan.frames.size() > kMaxTimes)
+        return usage("--times: at most " + std::to_string(kMaxTimes) + " times");
+    plan.isSheet = plan.output.isStill();
+    if (plan.isSheet &&
+        (plan.width * plan.sheetColumns() > kMaxSize || plan.height * plan.sheetRows() > kMaxSize))
+        return usage("--times: the sheet would have a side of more than 16384 pixels; make --size smaller");
+    return {};
+}
+
+base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
+{
+    if (!arguments.times.empty())
+        return planTimes(arguments, plan);
+    if (plan.output.isStill()) {
+        if (!arguments.frames.empty())
+            return usage("--frames needs a sequence (-o name.%04d.png) or a video (-o name.mp4)");
+        plan.hasDefaultTime = !arguments.time.has_value();
+        plan.frames.push_back({0, base::toTicks(arguments.time.value_or(kDefaultTime))});
+        return {};
+    }
+    if (arguments.time)
+        return usage("--time needs one PNG or EXR; for a sequence or a video give --frames or --times");
+    std::pair<long, long> range{0, std::lround(2.0 * arguments.framesPerSecond) - 1};
+    if (!arguments.frames.empty()) {
+        const auto parsed = parsePair(arguments.frames, ':');
+        if (!parsed || parsed->first < 0 || parsed->second < parsed->first)
+            return usage("--frames " + arguments.frames + ": expected FIRST:LAST with 0 <= FIRST <= LAST");
+        range = *parsed;
+    }
+    if (range.second - range.first >= kMaxFrames ||
+        double(range.second) / arguments.framesPerSecond > kMaxTime)
+        return usage("--frames " + arguments.frames + ": at most a million frames within the first hour");
+    for (long number = range.first; number <= range.second; ++number)
+        plan.frames.push_back({number, base::toTicks(double(number) / arguments.framesPerSecond)});
+    return {};
+}
+
+/// What is drawn, of when, and where it goes.
+void addOutputOptions(CLI::App& command, RenderArguments& arguments)
+{
+    command
+        .add_option(
+            "FILE", arguments.input,
+            "A scene (*.scene.json), a preset (*.fx.json), library:NAME, or a list of blobs (*.blobs.csv); "
+            "a preset stands on a plain ground")
+        ->required();
+    command
+        .add_option("-o,--output", arguments.output,
+                    "NAME.png, NAME.exr, a sequence (NAME.%04d.png, NAME.%04d.exr) or "
+                    "NAME.mp4 (needs ffmpeg)")
+        ->required();
+    command.add_option("--size", arguments.size, "Picture size in pixels, WIDTHxHEIGHT")
+        ->capture_default_str();
+    command
+        .add_option("--time", arguments.time,
+                    "Scene time of a still [s] (default: of the preset's preview, or 0.5)")
+        ->check(CLI::Range(0.0, kMaxTime));
+    command.add_option("--frames", arguments.frames,
+                       "Frames of a sequence or video, FIRST:LAST, both included "
+                       "(default: 2 seconds)");
+    command.add_option("--times", arguments.times,
+                       "Scene times T,T,... [s] instead of frames: one file each with a sequence, a sheet of "
+                       "all of them with one PNG");
+    command.add_option("--fps", arguments.framesPerSecond, "Frames a second; frame N shows the time N / fps")
+        ->check(CLI::Range(0.1, 1000.0))
+        ->capture_default_str();
+}
+
+/// How it looks.
+void addLookOptions(CLI::App& command, RenderArguments& arguments)
+{
+    command
+        .add_option("--quality", arguments.quality,
+                    "low: homogeneous balls, no detail, no shimmer; medium: with "
+                    "shimmer; high: the gas's own kernel and detail; reference: as "
+                    "high, simulated at 120 steps a second")
+        ->check(oneOf({"low", "medium", "high", "reference"}))
+        ->capture_default_str();
+    command.add_option("--form", arguments.form, "Billboard form instead of the one that the quality says")
+        ->check(oneOf({"planar", "constant", "kernel"}));
+    command.add_option("--seed", arguments.seed, "Instance k gets the seed N + k instead of the file's")
+        ->check(CLI::Validator(
+            [](std::string& text) { return text.starts_with('-') ? "must not be negative" : ""; }, "UINT"));
+    command
+        .add_option("--compute", arguments.compute,
+                    "What computes the particles of all emitters instead of what presets say; the GPU does "
+                    "where it can, see fx explain")
+        ->check(oneOf({"cpu", "gpu", "auto"}));
+    command.add_option("--exposure", arguments.exposureEv100, "Exposure [EV100] instead of the scene's")
+        ->check(CLI::Range(-20.0, 40.0));
+    command.add_flag("--no-dazzle", arguments.noDazzle, "Without glare (EXR never has it)");
+    command.add_flag("--no-shimmer", arguments.noShimmer, "Without heat shimmer (EXR never has it)");
+    command
+        .add_option("--renderer", arguments.renderer,
+                    "gl, or reference: the ray integral on the processor, exact and slow, to EXR; draws "
+                    "*.blobs.csv too")
+        ->check(oneOf({"gl", "reference"}))
+        ->capture_default_str();
+    command.add_flag(
+        "--overlay", arguments.overlay,
+        "Look through the scene's camera only, and draw the boxes of all effects in the color of "
+        "their state: green active, red hidden, blue resting");
+}
+
+/// What may be saved in drawing.
+void addEconomyOptions(CLI::App& command, RenderArguments& arguments)
+{
+    command
+        .add_option("--layer-scale", arguments.layerScale,
+                    "Width and height at which particles are drawn, over those of the picture")
+        ->check(oneOf({"1", "0.5", "0.25"}))
+        ->capture_default_str();
+    command
+        .add_option("--fragment-budget", arguments.fragmentBudget,
+                    "Estimated fragments a frame above which the layer scale falls; 0: never")
+        ->check(CLI::Range(uint32_t(0), std::numeric_limits<uint32_t>::max()))
+        ->capture_default_str();
+    command
+        .add_option("--lod-bias", arguments.lodBias,
+                    "Pixels of a far effect for which one particle of its media is drawn; 0: all are")
+        ->check(CLI::Range(0.0f, 256.0f))
+        ->capture_default_str();
+    command
+        .add_option("--impostors", arguments.impostorPixels,
+                    "[pixel] Radius below which effects are drawn as pictures of themselves; 0: none")
+        ->check(CLI::Range(0.0f, 13.0f))
+        ->capture_default_str();
+}
+
+void addReportOptions(CLI::App& command, RenderArguments& arguments)
+{
+    command.add_option("--stats", arguments.statistics, "Write one JSON object a frame to this file");
+    command.add_flag("--overdraw", arguments.overdraw,
+                     "Count shaded fragments and covered pixels in the statistics");
+    command.add_flag("--json", arguments.json, "Print one JSON object a frame");
+}
+
+} // namespace
+
+void addRenderOptions(CLI::App& command, RenderArguments& arguments)
+{
+    addOutputOptions(command, arguments);
+    addLookOptions(command, arguments);
+    addEconomyOptions(command, arguments);
+    addReportOptions(command, arguments);
+    addReferenceOptions(command, arguments.reference);
+}
+
+int RenderPlan::sheetColumns() const
+{
+    return int(std::ceil(std::sqrt(double(frames.size()))));
+}
+
+base::Result<RenderPlan> planRender(const RenderArguments& arguments)
+{
+    RenderPlan plan;
+    auto output = parseOutputTarget(arguments.output);
+    if (!output.ok())
+        return output.status();
+    plan.output = *output;
+    const auto size = parsePair(arguments.size, 'x');
+    if (!size || size->first < 1 || size->second < 1 || size->first > kMaxSize || size->second > kMaxSize)
+        return usage("--size " + arguments.size + ": expected WIDTHxHEIGHT, each from 1 to 16384");
+    plan.width = int(size->first);
+    plan.height = int(size->second);
+    // CLI11's ranges let NaN through.
+    if (!std::isfinite(arguments.time.value_or(kDefaultTime)) || !std::isfinite(arguments.framesPerSecond) ||
+        !std::isfinite(arguments.exposureEv100.value_or(0.0f)))
+        return usage("--time, --fps and --exposure must be numbers");
+    plan.framesPerSecond = arguments.framesPerSecond;
+    plan.stepsPerSecond = arguments.quality == "reference" ? 120 : 60;
+    if (arguments.quality == "reference" || arguments.quality == "low")
+        plan.simulationQuality = arguments.quality == "low" ? FX_QUALITY_LOW : FX_QUALITY_REFERENCE;
+    if (base::Status status = planFrames(arguments, plan); !status)
+        return status;
+    return plan;
+}
+
+void applyArguments(const RenderArguments& arguments, OutputKind kind, render::ViewSettings& settings)
+{
+    const bool coarse = arguments.quality == "low" || arguments.quality == "medium";
+    if (coarse) {
+        settings.form = render::BillboardForm::Constant;
+        settings.detail = false;
+    }
+    if (arguments.form == "planar")
+        settings.form = render::BillboardForm::Planar;
+    else if (arguments.form == "constant")
+        settings.form = render::BillboardForm::Constant;
+    else if (arguments.form == "kernel")
+        settings.form = render::BillboardForm::Kernel;
+
+    const bool linear = kind == OutputKind::Exr;
+    if (linear || arguments.noShimmer || arguments.quality == "low")
+        settings.shimmer.strength = 0.0f;
+    if (linear || arguments.noDazzle)
+        settings.dazzle.enabled = false;
+    settings.toneMap = !linear;
+    settings.layerOutputs = linear;
+    settings.countOverdraw = arguments.overdraw;
+    settings.overlay = arguments.overlay;
+    settings.layerDivisor = int(std::lround(1.0 / std::stod(arguments.layerScale)));
+    settings.lod = {arguments.lodBias, arguments.impostorPixels};
+    settings.fragmentBudget = arguments.fragmentBudget;
+    settings.exposureEv100 = arguments.exposureEv100.value_or(settings.exposureEv100);
+}
+
+} // namespace fx::cli

@@ -1,0 +1,59 @@
+#include "fxsdk/cli/render/render_statistics.h"
+
+namespace fx::cli {
+
+nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool withOverdraw)
+{
+    const FxSceneStatistics& scene = counters.scene;
+    const FxViewStatistics& view = counters.view;
+    nlohmann::json json = {
+        {"time", time},
+        {"instances_active", scene.instancesActive},
+        {"instances_dormant", scene.instancesDormant},
+        {"instances_hidden", scene.instancesHidden},
+        {"instances_waking", scene.instancesWaking},
+        {"instances_resting", scene.instancesResting},
+        {"simulations", scene.simulations},
+        {"particles", scene.particles},
+        {"particles_gpu", view.gpuParticles},
+        {"particles_dropped", scene.dropped},
+        {"blobs", view.blobs},
+        {"blobs_culled", view.blobsCulled},
+        {"sprites", view.sprites},
+        {"meshes", view.meshes},
+        {"ribbon_pieces", view.ribbonPieces},
+        {"passes", counters.passes},
+        {"programs_compiled", view.programsCompiled},
+        {"gl_calls", view.glCalls},
+        {"draw_calls", view.drawCalls},
+        {"bytes_textures", view.textureBytes},
+        {"ms_simulate", counters.millisecondsSimulate},
+        {"ms_render", counters.millisecondsRender},
+        {"allocations", scene.updateAllocations + view.allocations},
+        {"nonfinite", view.blobsNonFinite},
+        {"estimated_fragments", view.estimatedFragments},
+        {"layer_scale", view.layerScale},
+        {"lists_kept", view.keptLists != 0},
+        {"bytes_uploaded", view.uploadedBytes},
+        {"particles_sorted", view.sortedParticles},
+        {"bytes_frame", view.sharedBytes},
+        {"bytes_frame_unshared", view.unsharedBytes},
+        {"blobs_thinned", view.blobsThinned},
+        {"particles_thinned", view.particlesThinned},
+        {"bytes_kept", view.keptRowBytes},
+        {"bytes_shared", view.sharedRowBytes},
+        {"impostors", view.impostors},
+        {"impostors_taken", view.impostorsTaken},
+        {"lod_groups", {view.lodGroups[0], view.lodGroups[1], view.lodGroups[2], view.lodGroups[3]}},
+        {"overflow", {view.overflow[0], view.overflow[1], view.overflow[2]}},
+    };
+    if (withOverdraw) {
+        json["covered_pixels"] = view.coveredPixels;
+        json["shaded_fragments"] = view.shadedFragments;
+        json["overdraw"] =
+            view.coveredPixels == 0 ? 0.0 : double(view.shadedFragments) / double(view.coveredPixels);
+    }
+    return json;
+}
+
+} // namespace fx::cli

@@ -1,0 +1,26 @@
+/// @file default_stage.h
+/// A stage for a preset that comes without a scene: plain ground, afternoon light, a camera that sees the
+/// effect.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "foundation/time/ticks.h"
+#include "fxsdk/cli/scene/effect_scene.h"
+#include "fxsdk/scene_file/preview.h"
+#include "fxsdk/scene_file/scene_file.h"
+
+#include <string>
+
+namespace fx::cli {
+
+/// A scene with one instance of the preset in the origin, or as its preview says.
+/// @param input      a file *.fx.json, or library:NAME
+/// @param outPreview receives what the preset says of its preview; may be null
+base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input,
+                                                  scene_file::Preview* outPreview = nullptr);
+
+/// Puts the camera where it sees most of the media between the start and `until`; simulates to find out.
+/// Does nothing when there are none.
+base::Status frameEffect(scene_file::SceneFile& scene, base::Ticks until, const EffectSceneOptions& options);
+
+} // namespace fx::cli

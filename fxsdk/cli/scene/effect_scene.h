@@ -1,0 +1,87 @@
+/// @file effect_scene.h
+/// The effects of a scene file, running behind the C API as they would in any host.
+///
+/// Threads: the thread that made it.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "foundation/snapshot/snapshot_ring.h"
+#include "foundation/time/ticks.h"
+#include "fxsdk/cli/scene/compute_override.h"
+#include "fxsdk/cli/scene/instance_director.h"
+#include "fxsdk/fxsdk.h"
+#include "fxsdk/scene_file/scene_file.h"
+
+#include <glm/vec4.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+
+struct EffectSceneOptions
+{
+    FxGlLoader gl{nullptr, nullptr}; ///< none: simulation only
+    int stepsPerSecond = 60;
+    uint32_t quality = FX_QUALITY_DEFAULT; ///< FxQuality of what is simulated
+    std::optional<uint64_t> seed;          ///< instance k gets seed + k instead of the file's
+    std::string compute = {}; ///< "cpu", "gpu" or "auto" instead of what emitters say; empty: as they say
+};
+
+/// What a view shows: a moment between two steps.
+struct SceneMoment
+{
+    base::SnapshotPair snapshots; ///< older is null before the second step
+    double interpolation = 0;     ///< 0 shows the older, 1 would show the newer
+};
+
+class EffectScene
+{
+public:
+    static base::Result<std::unique_ptr<EffectScene>> create(const scene_file::SceneFile& file,
+                                                             const EffectSceneOptions& options);
+    ~EffectScene();
+    EffectScene(const EffectScene&) = delete;
+    EffectScene& operator=(const EffectScene&) = delete;
+
+    /// Steps until a view shows exactly the moment `tick`, which must not lie before the last one. A view
+    /// shows a state between the last two steps, so the clock runs one step ahead of what is shown.
+    /// @return Interrupted when the user asked to stop
+    base::Status showMoment(base::Ticks tick);
+
+    /// Copies the last step into a snapshot as renderers know it. Valid until the next call.
+    base::Result<const base::FrameSnapshot*> snapshot();
+
+    /// Copies the last two steps: what a view would show now. Valid until the next call, of snapshot() too.
+    base::Result<SceneMoment> moment();
+
+    /// Center and radius [m] of every sprite and mesh of the last step, in the world.
+    base::Result<std::vector<glm::vec4>> places();
+
+    base::Result<FxSceneStatistics> statistics() const;
+    FxContext* context() const { return context_; }
+    FxScene* scene() const { return scene_; }
+
+    /// Length of a step.
+    base::Ticks step() const { return step_; }
+
+private:
+    EffectScene();
+    base::Status start(const scene_file::SceneFile& file, const EffectSceneOptions& options);
+    base::Status addCollisionMesh(const scene_file::SceneFile& file);
+    base::Status addInstances(const scene_file::SceneFile& file, const EffectSceneOptions& options);
+
+    ComputeOverride compute_{""};
+    FxContext* context_ = nullptr;
+    FxScene* scene_ = nullptr;
+    InstanceDirector director_;
+    base::Ticks step_ = 0;
+    base::Ticks now_ = 0;
+    base::SnapshotSchema schema_;
+    std::unique_ptr<base::FrameSnapshot> copy_;  ///< of the last step
+    std::unique_ptr<base::FrameSnapshot> older_; ///< of the step before
+};
+
+} // namespace fx::cli

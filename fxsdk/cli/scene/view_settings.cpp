@@ -1,0 +1,38 @@
+#include "fxsdk/cli/scene/view_settings.h"
+
+namespace fx::cli {
+
+FxViewSettings toApi(const render::ViewSettings& settings)
+{
+    FxViewSettings api = fxDefaultViewSettings();
+    api.exposureEv100 = settings.exposureEv100;
+    for (int i = 0; i < 3; ++i) {
+        api.sunDirection[i] = settings.lighting.sunDirection[i];
+        api.sunIlluminance[i] = settings.lighting.sunIlluminance[i];
+        api.skyLuminance[i] = settings.lighting.skyLuminance[i];
+    }
+    api.groundAlbedo = settings.lighting.groundAlbedo;
+    api.shimmerStrength = settings.shimmer.strength;
+    api.shimmerMaxOffset = settings.shimmer.maxOffset;
+    api.dazzle = settings.dazzle.enabled ? 1 : 0;
+    api.dazzleWhite = settings.dazzle.white;
+    api.dazzleA = settings.dazzle.a;
+    api.dazzleB = settings.dazzle.b;
+    api.dazzleC = settings.dazzle.c;
+    api.dazzleRiseTime = settings.dazzle.riseTime;
+    api.dazzleFallTime = settings.dazzle.fallTime;
+    api.billboardForm = uint32_t(settings.form);
+    api.saveState = settings.saveState ? 1 : 0;
+    api.detail = settings.detail ? 1 : 0;
+    api.toneMap = settings.toneMap ? 1 : 0;
+    api.layerOutputs = settings.layerOutputs ? 1 : 0;
+    api.countOverdraw = settings.countOverdraw ? 1 : 0;
+    api.activationOverlay = settings.overlay ? 1 : 0;
+    api.layerScale = 1.0f / float(settings.layerDivisor);
+    api.fragmentBudget = uint32_t(settings.fragmentBudget);
+    api.lodBias = settings.lod.bias;
+    api.lodImpostorPixels = settings.lod.impostorPixels;
+    return api;
+}
+
+} // namespace fx::cli

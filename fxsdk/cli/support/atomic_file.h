@@ -1,0 +1,51 @@
+/// @file atomic_file.h
+/// Files that are either complete or not there: written under a temporary name in the same folder, flushed to
+/// the disk, then renamed.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "fxsdk/cli/support/interrupt.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace fx::cli {
+
+/// A temporary name beside `target` that no other process uses; keeps the suffix, since programs go by it.
+std::filesystem::path temporaryNameFor(const std::filesystem::path& target);
+
+/// Opens, takes any number of writes, and puts the file in place with commit(). Without commit() nothing
+/// remains. A target that exists and is not a regular file (a pipe, /dev/null) is written directly.
+class AtomicFile
+{
+public:
+    explicit AtomicFile(std::filesystem::path target);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    /// @return Io naming the file and the system's reason
+    base::Status open();
+    base::Status write(std::string_view bytes);
+    /// @param durable waits until the bytes are on the disk: a machine that stops leaves the old file or the
+    ///                new one. Without, what comes after such a stop may be neither
+    base::Status commit(bool durable = true);
+
+private:
+    base::Status failed(const char* what) const;
+
+    std::filesystem::path target_;
+    std::filesystem::path temporary_; ///< empty when the target is written directly
+    EndsWithProgram entered_;         ///< the temporary file
+    int descriptor_ = -1;
+};
+
+/// Finds out before long work what would fail at its end.
+/// @return Io when `target` is a folder or lies in none
+base::Status checkTarget(const std::filesystem::path& target);
+
+/// open, write, commit.
+base::Status writeFileAtomically(const std::filesystem::path& target, std::string_view bytes);
+
+} // namespace fx::cli

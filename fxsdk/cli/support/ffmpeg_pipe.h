@@ -1,0 +1,49 @@
+/// @file ffmpeg_pipe.h
+/// Videos through the ffmpeg program, when it is installed: frames go down a pipe, the file appears when it
+/// is complete.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "fxsdk/cli/support/interrupt.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <sys/types.h>
+
+namespace fx::cli {
+
+/// Path of the ffmpeg program found in PATH; empty when there is none.
+std::filesystem::path findFfmpeg();
+
+class FfmpegPipe
+{
+public:
+    FfmpegPipe() = default;
+    ~FfmpegPipe(); ///< without finish(): stops ffmpeg and removes what it wrote
+    FfmpegPipe(const FfmpegPipe&) = delete;
+    FfmpegPipe& operator=(const FfmpegPipe&) = delete;
+
+    /// @param width, height [pixel] of every frame; odd sizes are padded by a pixel, the codec needs even
+    /// ones
+    /// @param framesPerSecond > 0
+    /// @return NotFound when ffmpeg is not installed (the message says how to get it), Io
+    base::Status start(const std::filesystem::path& target, int width, int height, double framesPerSecond);
+
+    /// One frame: width * height * 3 bytes, sRGB, rows from the top.
+    base::Status write(std::span<const uint8_t> rgb);
+
+    /// Waits for ffmpeg and puts the file in place.
+    base::Status finish();
+
+private:
+    base::Status wait();
+
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+    pid_t process_ = -1;
+    EndsWithProgram enteredFile_, enteredProcess_;
+    int input_ = -1; ///< our end of the pipe
+};
+
+} // namespace fx::cli

@@ -1,0 +1,21 @@
+/// @file json_line.h
+/// The output of --json: one object a line on standard output, each saying where and by what it was made.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "fxsdk/cli/support/machine.h"
+
+#include <nlohmann/json.hpp>
+
+namespace fx::cli {
+
+/// Adds "version" and "machine".
+nlohmann::json withMachine(nlohmann::json object, const Machine& machine);
+
+/// Prints `object` and a line break. Bytes that are not UTF-8 are replaced.
+void printJsonLine(const nlohmann::json& object);
+
+/// Flushes standard output. @return Io when it could not take everything, such as on a full disk
+base::Status finishStandardOutput();
+
+} // namespace fx::cli

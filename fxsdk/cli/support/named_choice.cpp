@@ -1,0 +1,22 @@
+#include "fxsdk/cli/support/named_choice.h"
+
+#include "foundation/result/nearest_name.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+namespace fx::cli {
+
+CLI::Validator oneOf(std::vector<std::string> names)
+{
+    const std::string list = "{" + CLI::detail::join(names, ",") + "}";
+    const auto check = [names = std::move(names), list](std::string& text) -> std::string {
+        if (std::find(names.begin(), names.end(), text) != names.end())
+            return {};
+        return "\"" + text + "\" is not one of " + list + base::didYouMean(text, names);
+    };
+    return CLI::Validator(check, list);
+}
+
+} // namespace fx::cli
