@@ -1,0 +1,26 @@
+# Headers of the standard library and GLM that most sources include are read once, which halves the time of a build.
+# Sources name what they use all the same: builds with Clang or with sanitizers read every header by itself.
+option(FXSDK_PRECOMPILE_HEADERS "Read headers that most sources include once (GCC without sanitizers)" ON)
+set(FX_COMMON_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <cstring> <functional> <limits> <map> <memory> <memory_resource>
+    <mutex> <numbers> <numeric> <optional> <span> <string> <string_view> <utility> <vector> <glm/glm.hpp> <glm/gtc/quaternion.hpp>)
+
+# Compiles `headers` for targets that are compiled as `target` is: GCC tells code of libraries from code of programs.
+function(fx_precompile target position_independence)
+    set(source "${PROJECT_BINARY_DIR}/${target}.cpp")
+    file(CONFIGURE OUTPUT "${source}" CONTENT "")
+    add_library(${target} OBJECT "${source}")
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${target} PRIVATE ${position_independence})
+    target_link_libraries(${target} PRIVATE fx_flags glm::glm)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+endfunction()
+
+if(FXSDK_PRECOMPILE_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT FXSDK_SANITIZE)
+    find_package(glm REQUIRED)
+    fx_precompile(fx_library_headers -fPIC ${FX_COMMON_HEADERS})
+    if(FXSDK_BUILD_TESTS)
+        find_package(GTest REQUIRED)
+        fx_precompile(fx_test_headers -fPIE ${FX_COMMON_HEADERS} <gtest/gtest.h>)
+        target_link_libraries(fx_test_headers PRIVATE GTest::gtest)
+    endif()
+endif()
