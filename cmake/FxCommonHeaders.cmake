@@ -17,6 +17,8 @@ endfunction()
 
 if(FXSDK_PRECOMPILE_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT FXSDK_SANITIZE)
     find_package(glm REQUIRED)
+    # False for "literal" + std::string, and not known to be in a header of the system once it is precompiled.
+    target_compile_options(fx_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-stringop-overflow> $<$<COMPILE_LANGUAGE:CXX>:-Wno-array-bounds>)
     fx_precompile(fx_library_headers -fPIC ${FX_COMMON_HEADERS})
     if(FXSDK_BUILD_TESTS)
         find_package(GTest REQUIRED)

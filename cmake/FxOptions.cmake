@@ -35,8 +35,7 @@ endif()
 add_library(fx_flags INTERFACE)
 target_compile_options(fx_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-    # GCC 12 sees overlaps and overflows in "literal" + std::string that are not there.
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # GCC 12 sees overlaps in "literal" + std::string that are not there
     $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
     $<$<COMPILE_LANGUAGE:CXX>:-Woverloaded-virtual>
     -ffp-contract=off # the same bits with and without FMA hardware; see docs/conventions.md
