@@ -6,6 +6,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -13,37 +14,21 @@ namespace fx::asset {
 
 namespace {
 
-/// Words of one line, separated by blanks.
-class Words
-{
-public:
-    explicit Words(std::string_view line) : rest_(line) {}
-    std::string_view next()
-    {
-        const size_t begin = rest_.find_first_not_of(" \t\r");
-        if (begin == std::string_view::npos)
-            return {};
-        const size_t end = std::min(rest_.find_first_of(" \t\r", begin), rest_.size());
-        const std::string_view word = rest_.substr(begin, end - begin);
-        rest_.remove_prefix(end);
-        return word;
-    }
-
-private:
-    std::string_view rest_;
-};
-
 template <class T>
-bool parse(std::string_view word, T& out)
+std::errc parse(std::string_view word, T& out)
 {
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-')
+        word.remove_prefix(1);
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), out);
-    return error == std::errc() && end == word.data() + word.size();
+    return error == std::errc() && end != word.data() + word.size() ? std::errc::invalid_argument : error;
 }
 
-class Reader
+class LineReader
 {
 public:
-    base::Result<ObjMesh> read(std::string_view text)
+    explicit LineReader(const ObjHandler& handler) : handler_(handler) {}
+
+    base::Result<ObjPoints> read(std::string_view text)
     {
         for (size_t begin = 0; begin < text.size(); ++line_) {
             const size_t end = std::min(text.find('\n', begin), text.size());
@@ -51,122 +36,201 @@ public:
                 return status;
             begin = end + 1;
         }
-        if (mesh_.indices.empty())
-            return base::Status(base::Code::Parse, "OBJ: no triangle (no line begins with f)");
-        return std::move(mesh_);
+        return std::move(points_);
     }
 
 private:
-    using Corner = std::array<int64_t, 3>; ///< position, texture, normal; -1 for none
-
     base::Status fault(const std::string& why) const
     {
-        return {base::Code::Parse, "OBJ: line " + std::to_string(line_) + ": " + why};
+        return {base::Code::Parse, "line " + std::to_string(line_) + ": " + why};
     }
 
-    base::Status readLine(std::string_view line)
+    base::Status readLine(std::string_view rest)
     {
-        Words words(line);
-        const std::string_view kind = words.next();
-        std::array<float, 3> v{};
-        if (kind == "f")
-            return readFace(words);
-        const size_t count = kind == "v" || kind == "vn" ? 3 : kind == "vt" ? 2 : 0;
-        for (size_t i = 0; i < count; ++i)
-            if (!parse(words.next(), v[i]) || !base::isFinite(double(v[i])))
-                return fault(std::to_string(count) + " finite numbers must follow " + std::string(kind));
+        const std::string_view kind = takeWord(rest);
         if (kind == "v")
-            positions_.emplace_back(v[0], v[1], v[2]);
-        else if (kind == "vn")
-            normals_.emplace_back(v[0], v[1], v[2]);
-        else if (kind == "vt")
-            textures_.emplace_back(v[0], v[1]);
+            return readNumbers(kind, rest, 3, points_.positions);
+        if (kind == "vn" && handler_.wantsNormals)
+            return readNumbers(kind, rest, 3, points_.normals);
+        if (kind == "vt" && handler_.wantsTextures)
+            return readNumbers(kind, rest, 2, points_.textures);
+        if (kind == "f")
+            return readFace(rest);
+        if (kind == "usemtl" && handler_.material)
+            handler_.material(takeWord(rest));
+        if (kind == "mtllib" && handler_.materialFiles)
+            handler_.materialFiles(rest);
         return {};
     }
 
-    /// "7", "7/2", "7//3" or "7/2/3"; negative numbers count from the last one read.
-    bool readCorner(std::string_view word, Corner& out) const
+    template <class V>
+    base::Status readNumbers(std::string_view kind, std::string_view rest, int count, std::vector<V>& out)
     {
-        const std::array<size_t, 3> sizes{positions_.size(), textures_.size(), normals_.size()};
-        out = {-1, -1, -1};
-        for (size_t k = 0; k < 3; ++k) {
-            const size_t slash = std::min(word.find('/'), word.size());
-            const std::string_view part = word.substr(0, slash);
-            int64_t number = 0;
-            if (!part.empty()) {
-                const auto size = int64_t(sizes[k]);
-                if (!parse(part, number) || number == 0 || number > size || number < -size)
-                    return false;
-                out[k] = number > 0 ? number - 1 : size + number;
-            }
-            if (slash == word.size())
-                break;
-            word.remove_prefix(slash + 1);
-        }
-        return out[0] >= 0;
+        V v(0.0f);
+        for (int i = 0; i < count; ++i)
+            if (!parseFloat(takeWord(rest), v[i]))
+                return fault(std::to_string(count) + " finite numbers must follow " + std::string(kind));
+        out.push_back(v);
+        return {};
     }
 
-    base::Status readFace(Words& words)
+    base::Status readFace(std::string_view rest)
     {
-        std::vector<Corner> corners;
-        for (std::string_view word = words.next(); !word.empty() && word[0] != '#'; word = words.next()) {
-            Corner corner;
+        corners_.clear();
+        for (std::string_view word = takeWord(rest); !word.empty() && word[0] != '#'; word = takeWord(rest)) {
+            ObjCorner corner{-1};
             if (!readCorner(word, corner))
                 return fault("\"" + std::string(word.substr(0, 40)) +
                              "\" names nothing that was read before");
-            corners.push_back(corner);
+            corners_.push_back(corner);
         }
-        if (corners.size() < 3)
+        if (corners_.size() < 3)
             return fault("a face needs three corners");
+        if (!handler_.face)
+            return {};
+        base::Status status = handler_.face(points_, corners_);
+        return status || status.code() != base::Code::Parse ? status : fault(status.message());
+    }
+
+    /// "7", "7/2", "7//3" or "7/2/3"; negative numbers count from the last one read.
+    bool readCorner(std::string_view word, ObjCorner& out) const
+    {
+        std::array<std::string_view, 3> parts; // position, texture, normal
+        for (std::string_view& part : parts) {
+            part = word.substr(0, word.find('/'));
+            word.remove_prefix(std::min(part.size() + 1, word.size()));
+        }
+        return readIndex(parts[0], points_.positions.size(), out.position) &&
+               (!handler_.wantsTextures || readIndex(parts[1], points_.textures.size(), out.texture)) &&
+               (!handler_.wantsNormals || readIndex(parts[2], points_.normals.size(), out.normal)) &&
+               out.position >= 0;
+    }
+
+    /// An empty part leaves `out` as it is.
+    static bool readIndex(std::string_view part, size_t count, int64_t& out)
+    {
+        if (part.empty())
+            return true;
+        int64_t number = 0;
+        const auto size = int64_t(count);
+        if (parse(part, number) != std::errc() || number == 0 || number > size || number < -size)
+            return false;
+        out = number > 0 ? number - 1 : size + number;
+        return true;
+    }
+
+    const ObjHandler& handler_;
+    ObjPoints points_;
+    std::vector<ObjCorner> corners_;
+    size_t line_ = 1;
+};
+
+class MeshBuilder
+{
+public:
+    base::Status addFace(const ObjPoints& points, std::span<const ObjCorner> corners)
+    {
         for (size_t i = 2; i < corners.size(); ++i)
-            addTriangle({corners[0], corners[i - 1], corners[i]});
+            addTriangle(points, {corners[0], corners[i - 1], corners[i]});
         if (mesh_.indices.size() / 3 > kMostMeshTriangles)
-            return {base::Code::TooLarge, "OBJ: more than the allowed " + std::to_string(kMostMeshTriangles) +
+            return {base::Code::TooLarge, "more than the allowed " + std::to_string(kMostMeshTriangles) +
                                               " triangles: use a coarser mesh"};
         return {};
     }
+    ObjMesh take() { return std::move(mesh_); }
 
-    void addTriangle(const std::array<Corner, 3>& corners)
+private:
+    void addTriangle(const ObjPoints& points, const std::array<ObjCorner, 3>& corners)
     {
-        const auto place = [&](size_t i) { return positions_[size_t(corners[i][0])]; };
+        const auto place = [&](size_t i) { return points.positions[size_t(corners[i].position)]; };
         const glm::vec3 across = glm::cross(place(1) - place(0), place(2) - place(0));
         const float size = glm::length(across);
         const glm::vec3 face = size > 0.0f ? across / size : glm::vec3(0.0f, 1.0f, 0.0f);
-        for (const Corner& corner : corners)
-            mesh_.indices.push_back(indexOf(corner, face));
+        for (const ObjCorner& corner : corners)
+            mesh_.indices.push_back(indexOf(points, corner, face));
     }
 
-    uint32_t indexOf(const Corner& corner, const glm::vec3& face)
+    uint32_t indexOf(const ObjPoints& points, const ObjCorner& corner, const glm::vec3& face)
     {
-        if (corner[2] >= 0) {
+        if (corner.normal >= 0) {
             const auto found = known_.find(corner);
             if (found != known_.end())
                 return found->second;
         }
         glm::vec3 normal = face;
-        if (corner[2] >= 0 && glm::length(normals_[size_t(corner[2])]) > 0.0f)
-            normal = glm::normalize(normals_[size_t(corner[2])]);
+        if (corner.normal >= 0 && glm::length(points.normals[size_t(corner.normal)]) > 0.0f)
+            normal = glm::normalize(points.normals[size_t(corner.normal)]);
         const auto index = uint32_t(mesh_.vertices.size());
-        mesh_.vertices.push_back({positions_[size_t(corner[0])], normal,
-                                  corner[1] >= 0 ? textures_[size_t(corner[1])] : glm::vec2(0.0f)});
-        if (corner[2] >= 0)
+        mesh_.vertices.push_back(
+            {points.positions[size_t(corner.position)], normal,
+             corner.texture >= 0 ? points.textures[size_t(corner.texture)] : glm::vec2(0.0f)});
+        if (corner.normal >= 0)
             known_.emplace(corner, index);
         return index;
     }
 
     ObjMesh mesh_;
-    std::vector<glm::vec3> positions_;
-    std::vector<glm::vec3> normals_;
-    std::vector<glm::vec2> textures_;
-    std::map<Corner, uint32_t> known_;
-    size_t line_ = 1;
+    std::map<ObjCorner, uint32_t> known_;
 };
 
 } // namespace
 
+std::string_view takeWord(std::string_view& io)
+{
+    const size_t begin = std::min(io.find_first_not_of(" \t\r"), io.size());
+    const size_t end = std::min(io.find_first_of(" \t\r", begin), io.size());
+    const std::string_view word = io.substr(begin, end - begin);
+    io.remove_prefix(end);
+    return word;
+}
+
+bool parseFloat(std::string_view word, float& out)
+{
+    std::errc error = parse(word, out);
+    if (error == std::errc::result_out_of_range) {
+        double exact = 0.0;
+        error = parse(word, exact);
+        out = float(exact); // an infinity where it is too large
+    }
+    return error == std::errc() && base::isFinite(double(out));
+}
+
+base::Result<ObjPoints> parseObj(std::string_view text, const ObjHandler& handler)
+{
+    return LineReader(handler).read(text);
+}
+
 base::Result<ObjMesh> readObj(std::string_view text)
 {
-    return Reader().read(text);
+    MeshBuilder builder;
+    ObjHandler handler;
+    handler.face = [&](const ObjPoints& points, std::span<const ObjCorner> corners) {
+        return builder.addFace(points, corners);
+    };
+    if (const auto points = parseObj(text, handler); !points)
+        return base::Status(points.status().code(), "OBJ: " + points.status().message());
+    ObjMesh mesh = builder.take();
+    if (mesh.indices.empty())
+        return base::Status(base::Code::Parse, "OBJ: no triangle (no line begins with f)");
+    return mesh;
+}
+
+base::Result<ObjTriangles> readObjTriangles(std::string_view text)
+{
+    ObjTriangles out;
+    ObjHandler handler;
+    handler.wantsTextures = handler.wantsNormals = false;
+    handler.face = [&](const ObjPoints&, std::span<const ObjCorner> corners) -> base::Status {
+        for (size_t i = 2; i < corners.size(); ++i)
+            for (const size_t k : {size_t(0), i - 1, i})
+                out.indices.push_back(uint32_t(corners[k].position));
+        return {};
+    };
+    base::Result<ObjPoints> points = parseObj(text, handler);
+    if (!points)
+        return points.status();
+    out.positions = std::move(points->positions);
+    return out;
 }
 
 } // namespace fx::asset

@@ -1,6 +1,6 @@
 #include "foundation/tasks/task_runner.h"
+#include "fxsdk/assets/obj_reader.h"
 #include "fxsdk/presets/emitter_parts_preset.h"
-#include "fxsdk/presets/mesh_text.h"
 #include "simulation/particles/fields/spline_path.h"
 #include "simulation/particles/shapes/mesh_sampler.h"
 #include "simulation/particles/shapes/shape_sample.h"
@@ -15,6 +15,8 @@
 namespace fx::preset {
 
 namespace {
+
+constexpr uint64_t kMostMeshText = uint64_t(64) << 20; ///< [byte]
 
 using sim::ShapeKind;
 static_assert(uint8_t(ShapeKind::Cone) == uint8_t(sim::EmitterShape::Cone) &&
@@ -58,13 +60,13 @@ std::optional<std::string> readBytes(const PresetValue& value, const char* membe
 }
 
 /// The mesh of an asset, or nothing after a finding.
-std::optional<MeshText> readMesh(const PresetValue& value, const char* member)
+std::optional<asset::ObjTriangles> readMesh(const PresetValue& value, const char* member)
 {
     const std::optional<std::string> text =
         readBytes(value, member, kMostMeshText, "triangles (*.obj), such as \"file\": \"stone.obj\"");
     if (!text)
         return std::nullopt;
-    base::Result<MeshText> mesh = readMeshText(*text);
+    base::Result<asset::ObjTriangles> mesh = asset::readObjTriangles(*text);
     if (mesh)
         return std::move(*mesh);
     blame(value, member, mesh.status());
@@ -101,7 +103,7 @@ bool readSource(const PresetValue& element, sim::ShapeDef& out)
     if (out.kind == ShapeKind::Spline)
         readPoints(element, out);
     if (out.kind == ShapeKind::Mesh)
-        if (const std::optional<MeshText> mesh = readMesh(element, "file"))
+        if (const std::optional<asset::ObjTriangles> mesh = readMesh(element, "file"))
             out.mesh = takeOr(element, "file",
                               sim::makeMeshSampler({glm::dvec3(0.0), mesh->positions, mesh->indices}));
     if (out.kind == ShapeKind::Volume)
@@ -145,7 +147,7 @@ namespace {
 constexpr float kFarOff = 0.1f; ///< [m] that particles should not meet a mesh away from its triangles
 
 /// [m] the most by which the field leaves out, or thickens, what is in the middle of a triangle.
-float errorOf(const sim::DistanceField& field, const MeshText& mesh)
+float errorOf(const sim::DistanceField& field, const asset::ObjTriangles& mesh)
 {
     float worst = 0.0f;
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -167,7 +169,7 @@ std::string textOf(float length)
 
 std::shared_ptr<const sim::DistanceField> readMeshField(const PresetValue& value)
 {
-    const std::optional<MeshText> mesh = readMesh(value, "file");
+    const std::optional<asset::ObjTriangles> mesh = readMesh(value, "file");
     if (!mesh)
         return nullptr;
     float cell = 0.0f;

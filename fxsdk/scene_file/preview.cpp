@@ -2,9 +2,7 @@
 
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
-#include "fxsdk/scene_file/instance_play_reader.h"
-#include "fxsdk/scene_file/scene_settings.h"
-#include "fxsdk/scene_file/scene_stage.h"
+#include "fxsdk/scene_file/scene_members.h"
 
 namespace fx::scene_file {
 

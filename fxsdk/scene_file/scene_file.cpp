@@ -5,10 +5,8 @@
 #include "fxsdk/presets/migration.h"
 #include "fxsdk/presets/schema_assembly.h"
 #include "fxsdk/presets/schema_validator.h"
-#include "fxsdk/scene_file/instance_play_reader.h"
 #include "fxsdk/scene_file/key_interpolation.h"
-#include "fxsdk/scene_file/scene_settings.h"
-#include "fxsdk/scene_file/scene_stage.h"
+#include "fxsdk/scene_file/scene_members.h"
 
 #include <array>
 #include <filesystem>

@@ -1,6 +1,4 @@
-#include "fxsdk/scene_file/scene_settings.h"
-
-#include "fxsdk/scene_file/instance_play_reader.h"
+#include "fxsdk/scene_file/scene_members.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,4 +1,4 @@
-#include "fxsdk/scene_file/scene_stage.h"
+#include "fxsdk/scene_file/scene_members.h"
 
 #include "fxsdk/scene_file/mesh_reader.h"
 #include "rendering/image/image.h"

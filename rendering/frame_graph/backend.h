@@ -52,8 +52,9 @@ struct ResourceId
 };
 
 /// One program: names of embedded sources (shaders/passes) and the permutation's macro definitions. Instances
-/// are constants with static storage, listed in rendering/passes/programs.h, so all permutations are known
-/// beforehand.
+/// are constants with static storage. Those of the frame's own passes are listed in
+/// rendering/passes/programs.cpp, those of a technique by its DrawTechnique::programs, so that all
+/// permutations are known beforehand.
 struct ProgramDesc
 {
     const char* name;

@@ -1,4 +1,4 @@
-#include "rendering/host_targets/host_format_names.h"
+#include "rendering/host_targets/host_texture.h"
 
 #include <algorithm>
 #include <cstdio>

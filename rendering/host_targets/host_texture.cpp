@@ -2,7 +2,6 @@
 
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_name.h"
-#include "rendering/host_targets/host_format_names.h"
 
 #include <algorithm>
 

@@ -66,4 +66,9 @@ private:
     size_t next_ = 0;                    ///< of good_, to be replaced
 };
 
+// Names of OpenGL's enumerants, for messages: host_format_names.cpp.
+
+std::string glFormatName(GLenum internalFormat); ///< "GL_RGBA8UI"; a number where it is not known
+std::string glTargetName(GLenum target);         ///< "GL_TEXTURE_2D_MULTISAMPLE"; a number otherwise
+
 } // namespace fx::render

@@ -57,20 +57,7 @@ void BlobSource::read(FrameGraph::Builder& builder) const
 
 void BlobSource::draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const
 {
-    ViewBlock view = *target.view;
-    view.pass.y = float(run.first); // exact up to 2^24
-    const TextureBinding textures[] = {{0, target.distance}};
-    const BufferBinding buffers[] = {{0, blobs}};
-    DrawCall call;
-    call.program = &mediaProgram(form, detail, target.layers, target.isSmall);
-    call.targets = target.targets;
-    call.textures = textures;
-    call.buffers = buffers;
-    call.uniforms = asUniforms(view);
-    call.blend = Blend::Premultiplied;
-    call.vertices = 6;
-    call.instances = run.count;
-    backend.draw(call);
+    drawQuads(backend, mediaProgram(form, detail, target.layers, target.isSmall), blobs, run, target);
 }
 
 } // namespace fx::render

@@ -69,20 +69,7 @@ void ImpostorSource::read(FrameGraph::Builder& builder) const
 
 void ImpostorSource::draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const
 {
-    ViewBlock block = *target.view;
-    block.pass.y = float(run.first);
-    const TextureBinding textures[] = {{0, target.distance}, {1, atlas, Sampling::Linear}};
-    const BufferBinding buffers[] = {{0, instances}};
-    DrawCall call;
-    call.program = &kImpostorProgram;
-    call.targets = target.targets;
-    call.textures = textures;
-    call.buffers = buffers;
-    call.uniforms = asUniforms(block);
-    call.blend = Blend::Premultiplied;
-    call.vertices = 6;
-    call.instances = run.count;
-    backend.draw(call);
+    drawQuads(backend, kImpostorProgram, instances, run, target, {1, atlas, Sampling::Linear});
 }
 
 } // namespace fx::render

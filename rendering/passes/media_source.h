@@ -49,4 +49,11 @@ protected:
     ~MediaSource() = default;
 };
 
+/// Draws the instances of a run as quads of 6 vertices, premultiplied "over" what is there. The program has
+/// the ViewBlock, with run.first in pass.y, the target's distance at texture unit 0 and `instances` at buffer
+/// binding 0.
+/// @param picture bound as well when it is valid
+void drawQuads(Backend& backend, const ProgramDesc& program, ResourceId instances, const MediaRun& run,
+               const MediaTarget& target, const TextureBinding& picture = {});
+
 } // namespace fx::render

@@ -2,8 +2,7 @@
 
 #include "rendering/passes/composite_pass.h"
 #include "rendering/passes/layer_distance_pass.h"
-#include "rendering/passes/layer_over_pass.h"
-#include "rendering/passes/layer_resolve_pass.h"
+#include "rendering/passes/layer_sums_pass.h"
 #include "rendering/passes/layer_upsample_pass.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overlay_pass.h"

@@ -1,5 +1,5 @@
-// What a view makes and gives back: the parts of its techniques, and frames in which there is nothing to
-// draw.
+// What a view makes and gives back: the parts of its techniques, the statistics of frames, and frames in
+// which there is nothing to draw.
 #include "rendering/view/view_parts.h"
 
 #include <algorithm>
@@ -50,6 +50,26 @@ FrameStatistics ViewRenderer::Impl::rest()
 bool ViewRenderer::Impl::holdsNothing() const
 {
     return bytes() == 0 && !key;
+}
+
+/// What the frame has drawn.
+FrameStatistics ViewRenderer::Impl::count(int divisor)
+{
+    FrameStatistics statistics;
+    for (const auto& part : parts)
+        part->count(statistics);
+    std::copy(lod.counts().begin(), lod.counts().end(), statistics.lodGroups);
+    statistics.keptLists = keptLists;
+    statistics.passes = outputs.anyPass ? uint32_t(graph.executedPasses().size()) : 0;
+    statistics.drawCalls = outputs.anyPass ? backend.drawCalls() : 0;
+    statistics.textureBytes = bytes();
+    if (outputs.anyPass) {
+        statistics.unsharedBytes = graph.memory().unshared;
+        statistics.sharedBytes = graph.memory().shared;
+    }
+    statistics.estimatedFragments = fragments[layerDivisorIndex(divisor)];
+    statistics.layerDivisor = divisor;
+    return statistics;
 }
 
 } // namespace fx::render

@@ -3,12 +3,7 @@
 layout(binding = 0) uniform sampler2D sceneDistance; // [m] along the ray to the opaque surface, +inf for none
 
 #if FX_LAYERS
-layout(location = 0) out vec4 fireLight;
-layout(location = 1) out vec4 smokeLight;
-layout(location = 2) out vec4 dustLight;
-layout(location = 3) out vec4 coverage;
-layout(location = 4) out vec4 depthMoment;
-layout(location = 5) out vec4 opticalDepthSum;
+#include "shared/layer_outputs.glsl"
 #if FX_SOLID
 layout(location = 6) out vec4 solidDistance;
 #endif

@@ -95,7 +95,7 @@ public:
     /// [s] ascending; the last is the end.
     virtual const std::vector<double>& looks() const = 0;
     /// Is called at each of looks().
-    virtual void look(double time, std::span<const CaseParticle> particles);
+    virtual void look(double /*time*/, std::span<const CaseParticle> /*particles*/) {}
     virtual ProfilePoint seen(const CaseParticle& particle) const = 0;
     /// @param particles at the end
     virtual CaseMeasures measure(std::span<const CaseParticle> particles) const = 0;

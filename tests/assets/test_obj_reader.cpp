@@ -43,3 +43,24 @@ TEST(ObjReader, namesTheLineOfAFault)
     EXPECT_FALSE(readObj("v 0 0 0\nf 0 0 0\n").ok());
     EXPECT_FALSE(readObj("").ok());
 }
+
+TEST(ObjReader, takesSignsAndNumbersThatAreTooSmallForAFloat)
+{
+    const auto mesh = readObj("v +0.5 -1e-46 .25\nv 1 0 0\nv 0 1 0\nf +1 2 3\n");
+    ASSERT_TRUE(mesh.ok()) << mesh.status().message();
+    EXPECT_EQ(mesh->vertices[0].position, glm::vec3(0.5f, 0.0f, 0.25f));
+    EXPECT_FALSE(readObj("v 1e39 0 0\n").ok());
+    EXPECT_FALSE(readObj("v +-1 0 0\n").ok());
+}
+
+TEST(ObjReader, trianglesOfTheSimulationNeedPositionsOnly)
+{
+    const auto mesh =
+        fx::asset::readObjTriangles("v 0 0 0\r\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0\nvn\nf -4/1 -3/2/3 -2 -1\n");
+    ASSERT_TRUE(mesh.ok()) << mesh.status().message();
+    EXPECT_EQ(mesh->positions.size(), 4u);
+    EXPECT_EQ(mesh->indices, (std::vector<uint32_t>{0, 1, 2, 0, 2, 3}));
+    for (const char* wrong :
+         {"f 1 2 3\n", "v 0 0 0\nf 1 1\n", "v 0 0 x\n", "v 0 0 0\nf 0 1 1\n", "v inf 0 0\n"})
+        EXPECT_FALSE(fx::asset::readObjTriangles(wrong).ok()) << wrong;
+}

@@ -1,4 +1,3 @@
-#include "fxsdk/presets/mesh_text.h"
 #include "simulation/particles/fields/field_grid.h"
 #include "tests/presets/module_probe.h"
 #include "tests/presets/temp_folder.h"
@@ -119,14 +118,4 @@ TEST(EmitterAssets, theFingerprintDependsOnTheFiles)
     ASSERT_TRUE(a.ok() && b.ok() && c.ok());
     EXPECT_NE(a->effect->fingerprint, b->effect->fingerprint);
     EXPECT_EQ(a->effect->fingerprint, c->effect->fingerprint);
-}
-
-TEST(MeshText, polygonsBecomeFansAndCornersMayCountBackwards)
-{
-    const auto mesh = preset::readMeshText("v 0 0 0\r\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf -4/1 -3/2/3 -2 -1\n");
-    ASSERT_TRUE(mesh.ok());
-    EXPECT_EQ(mesh->indices, (std::vector<uint32_t>{0, 1, 2, 0, 2, 3}));
-    for (const char* wrong :
-         {"f 1 2 3\n", "v 0 0 0\nf 1 1\n", "v 0 0 x\n", "v 0 0 0\nf 0 1 1\n", "v inf 0 0\n"})
-        EXPECT_FALSE(preset::readMeshText(wrong).ok()) << wrong;
 }

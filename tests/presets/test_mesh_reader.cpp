@@ -46,6 +46,40 @@ TEST(MeshReader, cutsPolygonsIntoTrianglesOfTheSameArea)
     EXPECT_NEAR(areaOf(*mesh), 6.0, 1e-6);
 }
 
+TEST(MeshReader, cutsPolygonsWithInwardCornersWithoutLeavingThem)
+{
+    // A U of area 7, and a star whose corners turn clockwise.
+    const std::string u = "v 0 0 0\nv 3 0 0\nv 3 3 0\nv 2 3 0\nv 2 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\n";
+    const auto mesh = read(u + "f 1 2 3 4 5 6 7 8\n");
+    ASSERT_TRUE(mesh.ok()) << mesh.status().message();
+    EXPECT_EQ(mesh->positions.size(), 18u);
+    EXPECT_NEAR(areaOf(*mesh), 7.0, 1e-6);
+    for (const glm::vec3& normal : mesh->normals)
+        EXPECT_EQ(normal, glm::vec3(0, 0, 1));
+    const auto star = read("v 0 0 2\nv 1 0 1\nv 3 0 0\nv 1 0 -1\nv 0 0 -2\nv 0.5 0 0\nf 6 5 4 3 2 1\n");
+    ASSERT_TRUE(star.ok());
+    EXPECT_EQ(star->positions.size(), 12u);
+    EXPECT_NEAR(areaOf(*star), 4.0, 1e-6);
+}
+
+TEST(MeshReader, cutsAQuadrilateralAlongItsShorterDiagonal)
+{
+    const auto mesh = read("v 0 0 0\nv 4 -1 0\nv 8 0 0\nv 4 1 0\nf 1 2 3 4\n");
+    ASSERT_TRUE(mesh.ok());
+    EXPECT_EQ(mesh->positions.at(2), glm::vec3(4, 1, 0));
+    EXPECT_EQ(mesh->positions.at(3), glm::vec3(4, -1, 0));
+}
+
+TEST(MeshReader, namesTheLineThatItCannotRead)
+{
+    for (const char* fault : {"v 0 0\n", "v 0 x 0\n", "f 1 2\n", "f 1 2 5\n", "f 1 2 3//1\n"}) {
+        const auto mesh = read(std::string(kSquare) + fault);
+        ASSERT_FALSE(mesh.ok()) << fault;
+        EXPECT_NE(mesh.status().message().find("mesh \"mesh.obj\": line 5: "), std::string::npos)
+            << mesh.status().message();
+    }
+}
+
 TEST(MeshReader, computesNormalsThatAreMissingTowardsTheSideThatSeesItCounterClockwise)
 {
     const auto mesh = read(std::string(kSquare) + "f 1 2 3 4\n");

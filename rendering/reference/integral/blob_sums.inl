@@ -1,4 +1,4 @@
-// Included by ray_integrator-inl.h and packet_integral-inl.h inside of their namespaces, before
+// Included by ray_integrator-inl.h and packet_integral.cpp inside of their namespaces, before
 // interval_walk.inl. Sums over the blobs that a place of the ray lies in.
 
 /// @formula blob-polynomial

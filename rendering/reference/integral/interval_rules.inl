@@ -1,4 +1,4 @@
-// Included by ray_integrator-inl.h and packet_integral-inl.h inside of their namespaces, after
+// Included by ray_integrator-inl.h and packet_integral.cpp inside of their namespaces, after
 // part_rules.inl. How each scheme treats an interval between events. Each has interval(begin, length),
 // isDone() and finish().
 

@@ -1,4 +1,4 @@
-// Included by ray_integrator-inl.h and packet_integral-inl.h inside of their namespaces.
+// Included by ray_integrator-inl.h and packet_integral.cpp inside of their namespaces.
 // From the blobs of a group of rays to the intervals between sorted entries and exits.
 
 constexpr uint32_t kSortBlock = 8; ///< rows that are sorted in registers

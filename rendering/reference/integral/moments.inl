@@ -1,4 +1,4 @@
-// Included by ray_integrator-inl.h and packet_integral-inl.h inside of their namespaces.
+// Included by ray_integrator-inl.h and packet_integral.cpp inside of their namespaces.
 
 /// @formula attenuation-moments
 /// Moments of an exponential over the unit interval, accurate for every exponent.

@@ -81,12 +81,12 @@ struct MeetJob
 };
 
 // With the instruction set of the machine, see foundation/simd/instruction_set.h.
-void integrateFloats(const PacketJob<float>& job);
-void integrateDoubles(const PacketJob<double>& job);
+template <class T>
+void integrateRays(const PacketJob<T>& job);
+template <class T>
+uint64_t meetRays(const MeetJob<T>& job);
 /// What processors without vectors do: the text of RayIntegrator.
 template <class T>
 void integrateOneByOne(const PacketJob<T>& job);
-uint64_t meetFloats(const MeetJob<float>& job);
-uint64_t meetDoubles(const MeetJob<double>& job);
 
 } // namespace fx::render::integral

@@ -1,4 +1,4 @@
-// Included by ray_integrator-inl.h and packet_integral-inl.h inside of their namespaces, after blob_sums.inl.
+// Included by ray_integrator-inl.h and packet_integral.cpp inside of their namespaces, after blob_sums.inl.
 // Light and optical depth of one part of an interval, from its polynomials.
 
 /// What a group of rays has got so far.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 namespace fx::render {
 
@@ -43,11 +42,7 @@ template <class T>
 uint64_t meetBlobs(const PacketRays<T>& rays, std::span<const BallBlob<T>> balls,
                    std::span<const uint32_t> candidates, RayPacket<T>& packet)
 {
-    const integral::MeetJob<T> job{rays, balls, candidates, packet};
-    if constexpr (std::is_same_v<T, float>)
-        return integral::meetFloats(job);
-    else
-        return integral::meetDoubles(job);
+    return integral::meetRays(integral::MeetJob<T>{rays, balls, candidates, packet});
 }
 
 template <class T>
@@ -80,12 +75,8 @@ void PacketIntegrator<T>::integrate(const PacketRays<T>& rays, const RayPacket<T
 {
     const base::FloatingPointScope mode;
     RayWork* work = machine_->isCounting ? &machine_->work : nullptr;
-    const integral::PacketJob<T> job{machine_->rules, machine_->scratch, machine_->met, rays, packet, work,
-                                     outLight};
-    if constexpr (std::is_same_v<T, float>)
-        integral::integrateFloats(job);
-    else
-        integral::integrateDoubles(job);
+    integral::integrateRays(integral::PacketJob<T>{machine_->rules, machine_->scratch, machine_->met, rays,
+                                                   packet, work, outLight});
 }
 
 template <class T>

@@ -1,4 +1,4 @@
-// Included by ray_integrator-inl.h and packet_integral-inl.h inside of their namespaces, after
+// Included by ray_integrator-inl.h and packet_integral.cpp inside of their namespaces, after
 // interval_rules.inl. Schemes that need the whole ray, and the choice of scheme.
 
 /// Equal steps from the first event to the last.

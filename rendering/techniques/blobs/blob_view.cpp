@@ -2,8 +2,7 @@
 
 #include "rendering/gl/gl_backend.h"
 #include "rendering/gl/gl_read_texture.h"
-#include "rendering/media/blob_share.h"
-#include "rendering/media/fragment_estimate.h"
+#include "rendering/media/blob_estimate.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/passes/scene_distance_pass.h"

@@ -20,12 +20,12 @@
 #define HWY_TARGET_INCLUDE "simulation/particles/forces/attractor_op.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
+#include "simulation/particles/forces/force_constants.h"
 #include "simulation/particles/forces/force_op.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::modules::HWY_NAMESPACE {
@@ -45,31 +45,30 @@ HWY_INLINE Float slope(Float squared)
 }
 
 template <Falloff F>
-void attract(const AttractorDef& def, float factor, Tile& tile)
+void attract(const AttractorDef& def, Tile& tile)
 {
+    const AttractorConstants constants(def);
     const Float3 center = all(def.position);
-    const Float softening = all(std::max(def.softening * def.softening, 1e-12f));
-    const float reach = def.reach > 0.0f ? def.reach * def.reach : std::numeric_limits<float>::max();
+    const Float softening = all(constants.softening);
     for (uint32_t i = 0; i < tile.padded; i += uint32_t(hn::Lanes(Floats()))) {
         const Float3 d = minus(center, loadPosition(tile, i));
         const Float dd = dot(d, d);
-        const Float share = hn::Mul(all(factor), slope<F>(hn::Add(dd, softening))); // (1)
-        addAcceleration(tile, i, times(d, hn::IfThenElseZero(hn::Le(dd, all(reach)), share)));
+        const Float share = hn::Mul(all(constants.factor), slope<F>(hn::Add(dd, softening))); // (1)
+        addAcceleration(tile, i, times(d, hn::IfThenElseZero(hn::Le(dd, all(constants.reach)), share)));
     }
 }
 
 void runAttractor(const AttractorDef& def, Tile& tile)
 {
-    const float s = def.strength, r = def.radius;
     switch (def.falloff) {
     case Falloff::Spring:
-        return attract<Falloff::Spring>(def, s / r, tile);
+        return attract<Falloff::Spring>(def, tile);
     case Falloff::Constant:
-        return attract<Falloff::Constant>(def, s, tile);
+        return attract<Falloff::Constant>(def, tile);
     case Falloff::Inverse:
-        return attract<Falloff::Inverse>(def, s * r, tile);
+        return attract<Falloff::Inverse>(def, tile);
     case Falloff::InverseSquare:
-        return attract<Falloff::InverseSquare>(def, s * r * r, tile);
+        return attract<Falloff::InverseSquare>(def, tile);
     }
 }
 
@@ -80,13 +79,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fx::sim {
 
-namespace modules {
 namespace {
-HWY_EXPORT(runAttractor);
-}
-} // namespace modules
 
-namespace {
+using namespace modules;
+HWY_EXPORT(runAttractor);
 
 TileBound boundOf(const AttractorDef& def)
 {
@@ -107,15 +103,12 @@ TileBound boundOf(const AttractorDef& def)
 /// See GpuModuleSource.
 bool describe(const AttractorDef& def, base::GpuModules& out)
 {
-    const float s = def.strength, r = def.radius;
+    const AttractorConstants constants(def);
     const glm::vec3& p = def.position;
-    const float softening = std::max(def.softening * def.softening, 1e-12f);
-    const float reach = def.reach > 0.0f ? def.reach * def.reach : std::numeric_limits<float>::max();
     constexpr base::GpuModule kModules[] = {base::GpuModule::Spring, base::GpuModule::Constant,
                                             base::GpuModule::Inverse, base::GpuModule::InverseSquare};
-    const float factors[] = {s / r, s, s * r, s * r * r};
-    const auto k = size_t(def.falloff);
-    out.add(kModules[k], {p.x, p.y, p.z, softening, reach, factors[k]});
+    out.add(kModules[size_t(def.falloff)],
+            {p.x, p.y, p.z, constants.softening, constants.reach, constants.factor});
     return true;
 }
 
@@ -125,10 +118,7 @@ std::unique_ptr<TileOp> makeAttractorOp(const AttractorDef& def)
 {
     AttractorDef kept = def;
     kept.radius = std::max(def.radius, 1e-4f);
-    return makeForceOp(kept, boundOf(kept), describe, [](const AttractorDef& d, Tile& tile) {
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runAttractor)(d, tile);
-    });
+    return makeForceOp(kept, boundOf(kept), describe, FX_FORCE_KERNEL(runAttractor));
 }
 
 } // namespace fx::sim

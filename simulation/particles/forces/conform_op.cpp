@@ -116,13 +116,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fx::sim {
 
-namespace modules {
 namespace {
-HWY_EXPORT(runConform);
-}
-} // namespace modules
 
-namespace {
+using namespace modules;
+HWY_EXPORT(runConform);
 
 TileBound boundOf(const ConformDef& def)
 {
@@ -150,10 +147,7 @@ std::unique_ptr<TileOp> makeConformOp(const ConformDef& def)
     ConformDef kept = def;
     kept.stiffness = std::max(def.stiffness, 0.0f);
     kept.damping = std::max(def.damping, 0.0f);
-    return makeForceOp(kept, boundOf(kept), describe, [](const ConformDef& d, Tile& tile) {
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runConform)(d, tile);
-    });
+    return makeForceOp(kept, boundOf(kept), describe, FX_FORCE_KERNEL(runConform));
 }
 
 } // namespace fx::sim

@@ -36,8 +36,8 @@ private:
     Kernel kernel_;
 };
 
-/// @param describe see GpuModuleSource  @param kernel calls HWY_DYNAMIC_DISPATCH; the limit of instruction
-/// sets is applied before
+/// @param describe see GpuModuleSource  @param kernel see FX_FORCE_KERNEL; the limit of instruction sets is
+/// applied before it is called
 template <class Def>
 std::unique_ptr<TileOp> makeForceOp(const Def& def, const TileBound& bound,
                                     typename ForceOp<Def>::Describe describe,
@@ -45,5 +45,10 @@ std::unique_ptr<TileOp> makeForceOp(const Def& def, const TileBound& bound,
 {
     return std::make_unique<ForceOp<Def>>(def, bound, describe, kernel);
 }
+
+/// For makeForceOp(): calls an exported kernel, `void FUNCTION(const Def&, Tile&)`, of the instruction set in
+/// use.
+#define FX_FORCE_KERNEL(FUNCTION)                                                                            \
+    [](const auto& def, Tile& tile) { HWY_DYNAMIC_DISPATCH(FUNCTION)(def, tile); }
 
 } // namespace fx::sim

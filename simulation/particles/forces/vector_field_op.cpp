@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "simulation/particles/forces/vector_field_op.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
+#include "simulation/particles/forces/force_constants.h"
 #include "simulation/particles/forces/force_op.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
 
@@ -56,8 +57,7 @@ HWY_INLINE Float interpolate(const float* values, const GridAxis& x, const GridA
 void runVectorField(const VectorFieldDef& def, Tile& tile)
 {
     const FieldGrid& grid = *def.grid;
-    const glm::vec3 low = def.position + def.scale * grid.low;
-    const glm::vec3 perCell = glm::vec3(1.0f) / (def.scale * grid.cell);
+    const auto [low, perCell] = VectorFieldConstants(def);
     const float* const values = grid.values.data();
     for (uint32_t i = 0; i < tile.padded; i += uint32_t(hn::Lanes(Floats()))) {
         const Float3 p = loadPosition(tile, i);
@@ -82,13 +82,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fx::sim {
 
-namespace modules {
 namespace {
-HWY_EXPORT(runVectorField);
-}
-} // namespace modules
 
-namespace {
+using namespace modules;
+HWY_EXPORT(runVectorField);
 
 TileBound boundOf(const VectorFieldDef& def)
 {
@@ -106,8 +103,7 @@ bool describe(const VectorFieldDef& def, base::GpuModules& out)
 {
     constexpr size_t kMostOnGpu = size_t(1) << 24; // numbers, which go with each emitter
     const FieldGrid& grid = *def.grid;
-    const glm::vec3 low = def.position + def.scale * grid.low;
-    const glm::vec3 perCell = glm::vec3(1.0f) / (def.scale * grid.cell);
+    const auto [low, perCell] = VectorFieldConstants(def);
     if (grid.values.size() > kMostOnGpu)
         return false;
     out.add(def.isAcceleration ? base::GpuModule::FieldForce : base::GpuModule::FieldAir,
@@ -123,10 +119,7 @@ std::unique_ptr<TileOp> makeVectorFieldOp(const VectorFieldDef& def)
 {
     VectorFieldDef kept = def;
     kept.scale = std::max(def.scale, 1e-6f);
-    return makeForceOp(kept, boundOf(kept), describe, [](const VectorFieldDef& d, Tile& tile) {
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runVectorField)(d, tile);
-    });
+    return makeForceOp(kept, boundOf(kept), describe, FX_FORCE_KERNEL(runVectorField));
 }
 
 } // namespace fx::sim

@@ -28,6 +28,7 @@
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
 #include "simulation/particles/fields/turn.h"
+#include "simulation/particles/forces/force_constants.h"
 #include "simulation/particles/forces/force_op.h"
 #include "simulation/particles/forces/tile_lanes-inl.h"
 
@@ -40,10 +41,11 @@ namespace {
 
 void runVortex(const VortexDef& def, Tile& tile)
 {
+    const VortexConstants constants(def);
     const Float3 center = all(def.position), axis = all(def.axis);
-    const Float squared = all(def.radius * def.radius), one = all(1.0f);
-    const Float around = all(2.0f * def.radius * def.speed), inwards = all(2.0f * def.radius * def.pull);
-    const Float along = all(def.radius * def.radius * def.lift);
+    const Float squared = all(constants.squared), one = all(1.0f);
+    const Float around = all(constants.around), inwards = all(constants.inwards);
+    const Float along = all(constants.along);
     const bool holds = def.hold > 0.0f;
     for (uint32_t i = 0; i < tile.padded; i += uint32_t(hn::Lanes(Floats()))) {
         const Float3 way = minus(loadPosition(tile, i), center);
@@ -70,13 +72,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fx::sim {
 
-namespace modules {
 namespace {
-HWY_EXPORT(runVortex);
-}
-} // namespace modules
 
-namespace {
+using namespace modules;
+HWY_EXPORT(runVortex);
 
 TileBound boundOf(const VortexDef& def)
 {
@@ -88,10 +87,10 @@ TileBound boundOf(const VortexDef& def)
 bool describe(const VortexDef& def, base::GpuModules& out)
 {
     const glm::vec3 &p = def.position, &k = def.axis;
-    const float r = def.radius;
+    const VortexConstants constants(def);
     out.add(def.hold > 0.0f ? base::GpuModule::HoldingVortex : base::GpuModule::Vortex,
-            {p.x, p.y, p.z, k.x, k.y, k.z, r * r, 2.0f * r * def.speed, 2.0f * r * def.pull, r * r * def.lift,
-             -def.hold});
+            {p.x, p.y, p.z, k.x, k.y, k.z, constants.squared, constants.around, constants.inwards,
+             constants.along, -def.hold});
     return true;
 }
 
@@ -103,10 +102,7 @@ std::unique_ptr<TileOp> makeVortexOp(const VortexDef& def)
     kept.axis = unitOrUp(def.axis);
     kept.radius = std::max(def.radius, 1e-4f);
     kept.hold = std::clamp(def.hold, 0.0f, 1.0f);
-    return makeForceOp(kept, boundOf(kept), describe, [](const VortexDef& d, Tile& tile) {
-        using namespace modules;
-        HWY_DYNAMIC_DISPATCH(runVortex)(d, tile);
-    });
+    return makeForceOp(kept, boundOf(kept), describe, FX_FORCE_KERNEL(runVortex));
 }
 
 } // namespace fx::sim

@@ -164,7 +164,7 @@ bool sumDensities(DynamicsState<T>& s, std::span<const uint32_t> places, double 
     std::atomic<uint32_t> wanting{0};
     parallelRows(tasks, uint32_t(places.size()), kPairBatch, [&](uint32_t begin, uint32_t end) {
         const std::span<const uint32_t> part = places.subspan(begin, end - begin);
-        sumDensity(s.densityRules, s.pairsOf(part), T(reach), results);
+        sumDensity<T>({s.densityRules, s.pairsOf(part), T(reach), results});
         uint32_t more = 0;
         for (const uint32_t i : part)
             more += s.wantsReach[i];
@@ -208,7 +208,7 @@ void evaluateForces(DynamicsState<T>& s, base::TaskRunner& tasks)
     std::atomic<uint64_t> pairs{0};
     parallelRows(tasks, s.activeCount, kPairBatch, [&](uint32_t begin, uint32_t end) {
         const std::span<const uint32_t> part = s.activePlaces().subspan(begin, end - begin);
-        sumForces(s.forceRules, s.pairsOf(part), results);
+        sumForces<T>({s.forceRules, s.pairsOf(part), results});
         uint64_t sum = 0;
         for (const uint32_t i : part) {
             updateRates(s, i);

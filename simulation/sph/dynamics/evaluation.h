@@ -1,5 +1,5 @@
 /// @file evaluation.h
-/// Density, state and forces of the particles whose step ends now.
+/// Density, state and forces of the particles whose step ends now, and first densities of new ones.
 #pragma once
 
 #include "simulation/sph/dynamics/dynamics_state.h"
@@ -23,5 +23,10 @@ void evaluateState(DynamicsState<T>& state, base::TaskRunner& tasks);
 /// Accelerations, heating and longest steps of the active places.
 template <class T>
 void evaluateForces(DynamicsState<T>& state, base::TaskRunner& tasks);
+
+/// In first_density.cpp: supports, densities and entropies of particles that have none; sorts everybody.
+/// Bounds of supports that the definition leaves open follow from the median: 1e-4 and 200 times it.
+template <class T>
+void findFirstDensities(DynamicsState<T>& state, base::TaskRunner& tasks);
 
 } // namespace fx::sim

@@ -1,8 +1,7 @@
-#include "simulation/sph/dynamics/first_density.h"
+#include "simulation/sph/dynamics/evaluation.h"
 
 #include "foundation/math/elementary.h"
 #include "simulation/parallel.h"
-#include "simulation/sph/dynamics/evaluation.h"
 #include "simulation/sph/dynamics/neighborhood.h"
 #include "simulation/sph/dynamics/prediction.h"
 
@@ -14,6 +13,13 @@ namespace {
 
 constexpr uint32_t kWindow = 8; ///< places along the curve that show how dense the particles are
 constexpr double kReach = 0.25;
+
+/// True for a particle that has been added and not yet seen its neighbors.
+template <class T>
+bool isNew(const DynamicsState<T>& state, uint32_t place)
+{
+    return state.gas.viscosity[place] < 0;
+}
 
 /// Longest side of the box around the places [first, last].
 template <class T>

@@ -1,11 +1,9 @@
-#include "simulation/sph/dynamics/frame.h"
+#include "simulation/sph/dynamics/gas_operations.h"
 
 #include "simulation/sph/dynamics/evaluation.h"
-#include "simulation/sph/dynamics/first_density.h"
 #include "simulation/sph/dynamics/heat_input.h"
 #include "simulation/sph/dynamics/neighborhood.h"
 #include "simulation/sph/dynamics/prediction.h"
-#include "simulation/sph/dynamics/step_limiter.h"
 #include "simulation/sph/dynamics/stepping.h"
 
 #include <algorithm>

@@ -2,13 +2,9 @@
 
 #include "foundation/math/bits.h"
 #include "foundation/simd/floating_point_scope.h"
-#include "simulation/sph/dynamics/frame.h"
+#include "simulation/sph/dynamics/gas_operations.h"
 #include "simulation/sph/dynamics/heat_input.h"
-#include "simulation/sph/dynamics/nudge.h"
-#include "simulation/sph/dynamics/particle_check.h"
 #include "simulation/sph/dynamics/shifting.h"
-#include "simulation/sph/dynamics/state_bytes.h"
-#include "simulation/sph/dynamics/totals.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "simulation/sph/dynamics/nudge.h"
+#include "simulation/sph/dynamics/gas_operations.h"
 
 #include "foundation/math/bits.h"
 #include "simulation/parallel.h"

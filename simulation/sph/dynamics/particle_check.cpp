@@ -1,4 +1,4 @@
-#include "simulation/sph/dynamics/particle_check.h"
+#include "simulation/sph/dynamics/gas_operations.h"
 
 #include "foundation/math/bits.h"
 

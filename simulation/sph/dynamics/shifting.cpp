@@ -82,7 +82,7 @@ void shiftParticles(DynamicsState<T>& s, double strength, double longest, base::
                                   s.heating.data(), s.signalSpeed.data(), s.fastestNeighbor.data()};
     parallelRows(tasks, s.count, kPairBatch, [&](uint32_t begin, uint32_t end) {
         const std::span<const uint32_t> places = s.active.first(s.count).subspan(begin, end - begin);
-        sumCrowding(std::min(kRange * perSupport, 1.0), s.pairsOf(places), sums);
+        sumCrowding<T>({std::min(kRange * perSupport, 1.0), s.pairsOf(places), sums});
         for (uint32_t i = begin; i < end; ++i) {
             const Vector shift = displacementOf(T(strength) * Vector(sums.x[i], sums.y[i], sums.z[i]),
                                                 Vector(sums.outwardX[i], sums.outwardY[i], sums.outwardZ[i]),

@@ -1,4 +1,4 @@
-#include "simulation/sph/dynamics/state_bytes.h"
+#include "simulation/sph/dynamics/gas_operations.h"
 
 #include "foundation/math/bits.h"
 #include "foundation/math/hash.h"

@@ -1,4 +1,4 @@
-#include "simulation/sph/dynamics/step_limiter.h"
+#include "simulation/sph/dynamics/stepping.h"
 
 #include "simulation/parallel.h"
 #include "simulation/sph/dynamics/stepping.h"

@@ -2,7 +2,6 @@
 
 #include "foundation/math/bits.h"
 #include "simulation/parallel.h"
-#include "simulation/sph/dynamics/step_limiter.h"
 
 #include <algorithm>
 #include <cmath>

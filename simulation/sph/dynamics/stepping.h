@@ -60,4 +60,20 @@ void openFrame(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks)
 template <class T>
 double shortestStep(DynamicsState<T>& state, base::TaskRunner& tasks);
 
+// (4), in step_limiter.cpp: keeps the steps of neighbors within a factor of each other.
+
+/// Levels of the next steps of the active places: what they want, what their neighbors allow, what the clock
+/// allows.
+template <class T>
+void chooseLevels(DynamicsState<T>& state, base::TaskRunner& tasks);
+
+/// Ends the steps of neighbors of the active places that are too long, now. They become the active places, to
+/// be evaluated at once. @return how many
+template <class T>
+uint32_t wakeNeighbors(DynamicsState<T>& state, base::TaskRunner& tasks);
+
+/// Limits wanted steps by those of the neighbors, at the end of a frame when all are active and listed.
+template <class T>
+void limitWantedSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
+
 } // namespace fx::sim

@@ -1,4 +1,4 @@
-#include "simulation/sph/dynamics/totals.h"
+#include "simulation/sph/dynamics/gas_operations.h"
 
 #include "foundation/math/hash.h"
 

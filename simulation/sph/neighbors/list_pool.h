@@ -1,9 +1,8 @@
 /// @file list_pool.h
-/// Memory of neighbor lists, given out in blocks to many threads at once.
+/// What a list of neighbors is made of, and the memory of lists, given out in blocks to many threads at once.
 #pragma once
 
 #include "foundation/memory/column.h"
-#include "simulation/sph/neighbors/list_entry.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,6 +10,15 @@
 #include <memory_resource>
 
 namespace fx::sim {
+
+/// An entry of a list is a place (lower 29 bits) and, for the mirror image of that particle in a reflecting
+/// wall, one bit for each mirrored axis. The wall is the one nearer to the particle that owns the list.
+constexpr uint32_t kPlaceMask = (1u << 29) - 1;
+constexpr uint32_t kMirrorX = 1u << 29; ///< kMirrorX << a for axis a
+
+/// Lists are padded with the owner's own place to a multiple of this: the number of virtual lanes of every
+/// sum over neighbors, whatever the processor's width.
+constexpr uint32_t kLanes = 16;
 
 /// Lists of entries, by place. Which lists find no room depends on the order of threads; their contents do
 /// not, because a list can always be searched again.

@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "simulation/sph/pair_loops/crowding_loop.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
-#include "foundation/simd/instruction_set.h"
+#include "foundation/simd/precision_dispatch.h"
 #include "simulation/sph/pair_loops/neighbors-inl.h"
 #include "simulation/sph/pair_loops/parting.h"
 
@@ -62,11 +62,13 @@ void addPiece(const CrowdedOwner<T>& owner, const GasRecord<T>* records, const u
 }
 
 template <class T>
-void sumAll(double range, const PairPlaces<T>& of, const CrowdingResults<T>& out)
+void sumAll(const CrowdingCall<T>& call)
 {
+    const PairPlaces<T>& of = call.of;
+    const CrowdingResults<T>& out = call.results;
     const ImageRules<T> images(of.domain);
     for (const uint32_t place : of.places) {
-        const CrowdedOwner<T> owner(range, of.records[place], place, images);
+        const CrowdedOwner<T> owner(call.range, of.records[place], place, images);
         LaneSums<T, kCrowdingSums> sums;
         sums.clear();
         of.lists.forEachPiece(place, [&](const uint32_t* entries, uint32_t count, bool)
@@ -82,14 +84,7 @@ void sumAll(double range, const PairPlaces<T>& of, const CrowdingResults<T>& out
     }
 }
 
-void sumFloats(double range, const PairPlaces<float>& of, const CrowdingResults<float>& results)
-{
-    sumAll(range, of, results);
-}
-void sumDoubles(double range, const PairPlaces<double>& of, const CrowdingResults<double>& results)
-{
-    sumAll(range, of, results);
-}
+FX_KERNEL_INSTANCES(void, sumAll, CrowdingCall)
 
 } // namespace
 } // namespace fx::sim::pairs::HWY_NAMESPACE
@@ -98,28 +93,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fx::sim {
 
-namespace pairs {
-namespace {
-HWY_EXPORT(sumFloats);
-HWY_EXPORT(sumDoubles);
-} // namespace
-} // namespace pairs
-
-template <>
-void sumCrowding(double range, const PairPlaces<float>& of, const CrowdingResults<float>& results)
-{
-    base::applyInstructionSetLimit();
-    using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumFloats)(range, of, results);
-}
-
-template <>
-void sumCrowding(double range, const PairPlaces<double>& of, const CrowdingResults<double>& results)
-{
-    base::applyInstructionSetLimit();
-    using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumDoubles)(range, of, results);
-}
+using namespace pairs;
+FX_KERNEL_DISPATCH(void, sumCrowding, sumAll, CrowdingCall)
 
 } // namespace fx::sim
 #endif

@@ -38,10 +38,17 @@ struct CrowdingResults
     T *outwardX, *outwardY, *outwardZ; ///< E
 };
 
+template <class T>
+struct CrowdingCall
+{
+    double range; ///< [1] k in (0, 1]
+    PairPlaces<T> of;
+    const CrowdingResults<T>& results;
+};
+
 /// G and E of all places. Reads x, y, z, support and mass of the records; lists must hold all neighbors
 /// within the larger support. Runs on the calling thread (the caller splits the work).
-/// @param range [1] k in (0, 1]
 template <class T>
-void sumCrowding(double range, const PairPlaces<T>& of, const CrowdingResults<T>& results);
+void sumCrowding(const CrowdingCall<T>& call);
 
 } // namespace fx::sim

@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "simulation/sph/pair_loops/density_loop.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
-#include "foundation/simd/instruction_set.h"
+#include "foundation/simd/precision_dispatch.h"
 #include "simulation/sph/pair_loops/density_sums-inl.h"
 #include "simulation/sph/pair_loops/flow_gradient.h"
 #include "simulation/sph/pair_loops/support_search.h"
@@ -144,35 +144,27 @@ void sumOne(const DensityJob<T>& job, uint32_t place, NeighborBlock<T>& block)
 }
 
 template <class T>
-void sumAll(const DensityRules& rules, const PairPlaces<T>& of, T reach, const DensityResults<T>& results)
+void sumAll(const DensityCall<T>& call)
 {
+    const DensityRules& rules = call.rules;
     const double bias = rules.subtractSelfBias ? selfBias(rules.kernel, rules.neighbors) : 0.0;
     NeighborBlock<T> block;
     withShape(rules.kernel, [&](auto shape) HWY_ATTR {
         using Shape = decltype(shape);
         const double want = 3.0 * rules.neighbors / (4.0 * std::numbers::pi * Shape::kNorm);
         const DensityJob<T> job{rules,
-                                of,
-                                ImageRules<T>(of.domain),
-                                reach,
+                                call.of,
+                                ImageRules<T>(call.of.domain),
+                                call.reach,
                                 static_cast<T>((1.0 - bias) * Shape::kCenter),
                                 static_cast<T>(want),
-                                results};
-        for (const uint32_t place : of.places)
+                                call.results};
+        for (const uint32_t place : call.of.places)
             sumOne<T, Shape>(job, place, block);
     });
 }
 
-void sumFloats(const DensityRules& rules, const PairPlaces<float>& of, float reach,
-               const DensityResults<float>& results)
-{
-    sumAll(rules, of, reach, results);
-}
-void sumDoubles(const DensityRules& rules, const PairPlaces<double>& of, double reach,
-                const DensityResults<double>& results)
-{
-    sumAll(rules, of, reach, results);
-}
+FX_KERNEL_INSTANCES(void, sumAll, DensityCall)
 
 } // namespace
 } // namespace fx::sim::pairs::HWY_NAMESPACE
@@ -181,30 +173,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fx::sim {
 
-namespace pairs {
-namespace {
-HWY_EXPORT(sumFloats);
-HWY_EXPORT(sumDoubles);
-} // namespace
-} // namespace pairs
-
-template <>
-void sumDensity(const DensityRules& rules, const PairPlaces<float>& of, float reach,
-                const DensityResults<float>& results)
-{
-    base::applyInstructionSetLimit();
-    using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumFloats)(rules, of, reach, results);
-}
-
-template <>
-void sumDensity(const DensityRules& rules, const PairPlaces<double>& of, double reach,
-                const DensityResults<double>& results)
-{
-    base::applyInstructionSetLimit();
-    using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumDoubles)(rules, of, reach, results);
-}
+using namespace pairs;
+FX_KERNEL_DISPATCH(void, sumDensity, sumAll, DensityCall)
 
 } // namespace fx::sim
 #endif

@@ -78,13 +78,21 @@ struct DensityResults
     T* expansion = nullptr; ///< [1/s] X, rate at which the sum becomes thinner; null: not wanted
 };
 
+template <class T>
+struct DensityCall
+{
+    const DensityRules& rules;
+    PairPlaces<T> of;
+    T reach; ///< [1] the lists are complete up to (1 + reach) times the guess of H
+    const DensityResults<T>& results;
+};
+
 /// Density, support and velocity gradients of all places. Reads x, y, z, velocity and mass of the records.
 /// H grows at most to (1 + reach) times its guess, as far as the lists are complete; it may shrink as far as
 /// it has to, and stays within the bounds of the rules. A lone particle takes the largest support (within
 /// reach), coincident ones the smallest. At most 20 evaluations of (1).
 /// Bit-equal for every instruction set; runs on the calling thread (the caller splits the work).
 template <class T>
-void sumDensity(const DensityRules& rules, const PairPlaces<T>& of, T reach,
-                const DensityResults<T>& results);
+void sumDensity(const DensityCall<T>& call);
 
 } // namespace fx::sim

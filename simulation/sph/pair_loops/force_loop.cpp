@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "simulation/sph/pair_loops/force_loop.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
-#include "foundation/simd/instruction_set.h"
+#include "foundation/simd/precision_dispatch.h"
 #include "simulation/sph/pair_loops/force_sums-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,23 +39,16 @@ void sumOne(const ForceRules& rules, const PairPlaces<T>& of, const ImageRules<T
 }
 
 template <class T>
-void sumAll(const ForceRules& rules, const PairPlaces<T>& of, const ForceResults<T>& results)
+void sumAll(const ForceCall<T>& call)
 {
-    const ImageRules<T> images(of.domain);
-    withShape(rules.kernel, [&](auto shape) HWY_ATTR {
-        for (const uint32_t place : of.places)
-            sumOne<T, decltype(shape)>(rules, of, images, place, results);
+    const ImageRules<T> images(call.of.domain);
+    withShape(call.rules.kernel, [&](auto shape) HWY_ATTR {
+        for (const uint32_t place : call.of.places)
+            sumOne<T, decltype(shape)>(call.rules, call.of, images, place, call.results);
     });
 }
 
-void sumFloats(const ForceRules& rules, const PairPlaces<float>& of, const ForceResults<float>& results)
-{
-    sumAll(rules, of, results);
-}
-void sumDoubles(const ForceRules& rules, const PairPlaces<double>& of, const ForceResults<double>& results)
-{
-    sumAll(rules, of, results);
-}
+FX_KERNEL_INSTANCES(void, sumAll, ForceCall)
 
 } // namespace
 } // namespace fx::sim::pairs::HWY_NAMESPACE
@@ -64,28 +57,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fx::sim {
 
-namespace pairs {
-namespace {
-HWY_EXPORT(sumFloats);
-HWY_EXPORT(sumDoubles);
-} // namespace
-} // namespace pairs
-
-template <>
-void sumForces(const ForceRules& rules, const PairPlaces<float>& of, const ForceResults<float>& results)
-{
-    base::applyInstructionSetLimit();
-    using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumFloats)(rules, of, results);
-}
-
-template <>
-void sumForces(const ForceRules& rules, const PairPlaces<double>& of, const ForceResults<double>& results)
-{
-    base::applyInstructionSetLimit();
-    using namespace pairs;
-    HWY_DYNAMIC_DISPATCH(sumDoubles)(rules, of, results);
-}
+using namespace pairs;
+FX_KERNEL_DISPATCH(void, sumForces, sumAll, ForceCall)
 
 } // namespace fx::sim
 #endif

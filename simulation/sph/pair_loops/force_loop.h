@@ -68,10 +68,18 @@ struct ForceResults
     uint32_t* pairs;    ///< neighbors j with r < max(H_i, H_j), mirror images included
 };
 
+template <class T>
+struct ForceCall
+{
+    const ForceRules& rules;
+    PairPlaces<T> of;
+    const ForceResults<T>& results;
+};
+
 /// Accelerations of all places: pressure with corrections for varying support, viscosity with signal speed
 /// and limiter, conduction. Bit-equal for every instruction set; runs on the calling thread (the caller
 /// splits the work).
 template <class T>
-void sumForces(const ForceRules& rules, const PairPlaces<T>& of, const ForceResults<T>& results);
+void sumForces(const ForceCall<T>& call);
 
 } // namespace fx::sim

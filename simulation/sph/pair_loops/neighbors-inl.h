@@ -8,8 +8,8 @@
 #define FX_PAIR_NEIGHBORS_INL
 #endif
 
-#include "simulation/sph/pair_loops/gas_record.h"
 #include "simulation/sph/pair_loops/lanes-inl.h"
+#include "simulation/sph/pair_loops/pair_places.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::pairs::HWY_NAMESPACE {

@@ -36,20 +36,7 @@ public:
 
     void draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const override
     {
-        ViewBlock view = *target.view;
-        view.pass.y = float(run.first);
-        const TextureBinding textures[] = {{0, target.distance}};
-        const BufferBinding buffers[] = {{0, markers}};
-        DrawCall call;
-        call.program = &kProgram;
-        call.targets = target.targets;
-        call.textures = textures;
-        call.buffers = buffers;
-        call.uniforms = asUniforms(view);
-        call.blend = Blend::Premultiplied;
-        call.vertices = 6;
-        call.instances = run.count;
-        backend.draw(call);
+        drawQuads(backend, kProgram, markers, run, target);
     }
 
     ResourceId markers;

@@ -1,5 +1,5 @@
 // Which rays the texels of small layers have, what a frame is estimated to cost, and how the size follows.
-#include "rendering/media/fragment_estimate.h"
+#include "rendering/media/blob_estimate.h"
 #include "rendering/stage/stage_camera.h"
 #include "rendering/view/layer_grid.h"
 #include "rendering/view/layer_scale_control.h"

@@ -1,5 +1,5 @@
 // Shares of the picture, from solid angles that can be computed by hand.
-#include "rendering/media/blob_share.h"
+#include "rendering/media/blob_estimate.h"
 #include "rendering/stage/stage_camera.h"
 
 #include <gtest/gtest.h>

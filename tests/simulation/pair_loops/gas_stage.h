@@ -144,9 +144,10 @@ public:
     {
         Crowdings<T> at = sized<Crowdings<T>>();
         const base::FloatingPointScope floatingPoint;
-        sim::sumCrowding<T>(range, pairs(),
-                            {at.x.data(), at.y.data(), at.z.data(), at.outwardX.data(), at.outwardY.data(),
-                             at.outwardZ.data()});
+        sim::sumCrowding<T>({range,
+                             pairs(),
+                             {at.x.data(), at.y.data(), at.z.data(), at.outwardX.data(), at.outwardY.data(),
+                              at.outwardZ.data()}});
         return inOrderGiven(at);
     }
 
@@ -154,17 +155,20 @@ public:
     void sumDensity(const sim::DensityRules& rules, double reach, Densities<T>& at) const
     {
         const base::FloatingPointScope floatingPoint;
-        sim::sumDensity<T>(rules, pairs(), T(reach),
-                           {at.support.data(), at.density.data(), at.correction.data(), at.divergence.data(),
-                            at.curl.data(), at.wantsReach.data(), at.neighbors.data(), at.exposure.data(),
-                            at.expansion.data()});
+        sim::sumDensity<T>({rules,
+                            pairs(),
+                            T(reach),
+                            {at.support.data(), at.density.data(), at.correction.data(), at.divergence.data(),
+                             at.curl.data(), at.wantsReach.data(), at.neighbors.data(), at.exposure.data(),
+                             at.expansion.data()}});
     }
     void sumForces(const sim::ForceRules& rules, Forces<T>& at) const
     {
         const base::FloatingPointScope floatingPoint;
-        sim::sumForces<T>(rules, pairs(),
-                          {at.ax.data(), at.ay.data(), at.az.data(), at.heating.data(), at.signalSpeed.data(),
-                           at.fastestNeighbor.data(), at.pairs.data()});
+        sim::sumForces<T>({rules,
+                           pairs(),
+                           {at.ax.data(), at.ay.data(), at.az.data(), at.heating.data(),
+                            at.signalSpeed.data(), at.fastestNeighbor.data(), at.pairs.data()}});
     }
     sim::PairPlaces<T> pairs() const { return {lists_, records_.data(), domain_, places_}; }
     template <class Results>

@@ -1,15 +1,13 @@
-/// @file packet_integral-inl.h
-/// The text of the integral with SIMD vectors for numbers. Included once for each instruction set.
-#if defined(FX_INTEGRAL_PACKET_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef FX_INTEGRAL_PACKET_INL
-#undef FX_INTEGRAL_PACKET_INL
-#else
-#define FX_INTEGRAL_PACKET_INL
-#endif
+// The text of the integral with SIMD vectors for numbers.
+#include "rendering/reference/integral/packet_job.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rendering/reference/integral/packet_integral.cpp"
+#include <hwy/foreach_target.h> // before everything that is compiled for each target
+
+#include "foundation/simd/precision_dispatch.h"
 #include "rendering/reference/integral/group_scratch.h"
 #include "rendering/reference/integral/pack-inl.h"
-#include "rendering/reference/integral/packet_job.h"
 
 #include <algorithm>
 #include <bit>
@@ -138,7 +136,20 @@ uint64_t meetBallsOf(const MeetJob<T>& job)
     return hits;
 }
 
+namespace {
+
+FX_KERNEL_INSTANCES(void, integratePacket, PacketJob)
+FX_KERNEL_INSTANCES(uint64_t, meetBallsOf, MeetJob)
+
+} // namespace
 } // namespace fx::render::integral::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
+#if HWY_ONCE
+namespace fx::render::integral {
+
+FX_KERNEL_DISPATCH(void, integrateRays, integratePacket, PacketJob)
+FX_KERNEL_DISPATCH(uint64_t, meetRays, meetBallsOf, MeetJob)
+
+} // namespace fx::render::integral
 #endif

@@ -1,4 +1,4 @@
-#include "rendering/media/fragment_estimate.h"
+#include "rendering/media/blob_estimate.h"
 
 #include "rendering/frame/ball_window.h"
 #include "rendering/media/blob_gather.h"
@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace fx::render {
 
@@ -48,6 +50,25 @@ FragmentCounts estimateFragments(std::span<const BlobInstance> blobs, const Came
             sums[i] += double(texels(x, kLayerDivisors[i])) * double(texels(y, kLayerDivisors[i]));
     }
     return {uint64_t(sums[0]), uint64_t(sums[1]), uint64_t(sums[2])};
+}
+
+ScreenShare screenShare(std::span<const BlobInstance> blobs, const CameraGeometry& camera)
+{
+    // the picture is a square of side 2 in clip space, where a ball is an ellipse
+    const float perArea =
+        std::numbers::pi_v<float> / 4.0f * std::abs(camera.clipScale.x * camera.clipScale.y);
+    double media = 0.0;
+    double hot = 0.0;
+    for (const BlobInstance& blob : blobs) {
+        const glm::vec3 center(blob.centerRadius);
+        const float distance2 = camera.orthographic ? 1.0f : glm::dot(center, center);
+        const float radius = blob.centerRadius.w;
+        const float area = std::min(1.0f, perArea * radius * radius / std::max(distance2, radius * radius));
+        media += double(area);
+        if (blob.medium.y > 0.0f)
+            hot += double(area);
+    }
+    return {-std::expm1(-media), -std::expm1(-hot)};
 }
 
 } // namespace fx::render

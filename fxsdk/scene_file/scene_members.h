@@ -1,0 +1,48 @@
+/// @file scene_members.h
+/// Readers of the members of a validated scene. Each adds findings for what a schema cannot say.
+#pragma once
+
+#include "fxsdk/assets/asset_resolver.h"
+#include "fxsdk/presets/findings.h"
+#include "fxsdk/presets/preset_value.h"
+#include "fxsdk/scene_file/scene_file.h"
+
+#include <span>
+#include <string>
+
+namespace fx::scene_file {
+
+// Plain values, in scene_settings.cpp: camera, light, view settings, placement of instances.
+
+CameraPath readCamera(const preset::PresetValue& camera);
+/// Exposure, lighting, shimmer, dazzle, form, detail, tone map.
+render::ViewSettings readView(const preset::PresetValue& root);
+/// All but the preset.
+SceneInstance readInstance(const preset::PresetValue& instance);
+
+// What stands behind the effects, in scene_stage.cpp, with the files that the members name.
+
+/// Adds to `findings` that the asset named by the member could not be read.
+void reportAsset(const preset::PresetValue& value, const char* member, const base::Status& status,
+                 preset::Findings& findings);
+
+/// Reads the member "mesh" of a scene into `scene`, which keeps what it had without one.
+void readSceneMesh(const preset::PresetValue& mesh, const asset::AssetResolver& resolver,
+                   preset::Findings& findings, SceneFile& scene);
+
+/// Reads the member "background" of a scene.
+void readBackground(const preset::PresetValue& background, const asset::AssetResolver& resolver,
+                    preset::Findings& findings, SceneFile& scene);
+
+// What happens to an instance, in instance_play_reader.cpp.
+
+/// @param value  the instance; what is wrong becomes findings
+/// @param start  [s] of the instance
+InstancePlay readPlay(const preset::PresetValue& value, double start);
+
+/// Findings for triggers that the preset does not hear.
+/// @param known names of its events of the kind "host"
+void checkTriggers(const preset::PresetValue& value, const InstancePlay& play,
+                   std::span<const std::string> known);
+
+} // namespace fx::scene_file

@@ -1,0 +1,64 @@
+/// @file gas_operations.h
+/// What GasDynamics does with a state. Each group of functions has a source of its own.
+#pragma once
+
+#include "foundation/result/status.h"
+#include "simulation/sph/dynamics/dynamics_state.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace fx::sim {
+
+// Frames from their beginning to their end: frame.cpp.
+
+/// Gives new particles supports, densities and entropies, then evaluates everybody if anything has changed
+/// from outside. Nothing to do otherwise.
+template <class T>
+void prepare(DynamicsState<T>& state, base::TaskRunner& tasks);
+
+/// Steps by `seconds` > 0 within the budget of sub-steps. Where `work` is spent before, state.advance stays
+/// open, and the next call goes on; the report is that of all calls.
+template <class T>
+AdvanceReport runFrames(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks,
+                        base::WorkBudget& work);
+
+// Small changes from outside between two frames, taken in without a new evaluation: nudge.cpp.
+
+/// Brings pressure, energy and sound of all particles to their entropies, wanted steps to the speed of sound,
+/// and the account of the lists to the positions. @param pressureScale (0, 1], others are passed over
+template <class T>
+void acceptNudge(DynamicsState<T>& state, double pressureScale, base::TaskRunner& tasks);
+
+// What may enter the gas: particle_check.cpp.
+
+/// Refuses particles outside the ranges that GasDynamics::add states.
+base::Status checkParticle(const GasParticle& particle, const Domain& domain);
+
+/// Puts a particle behind the others; it has no density until prepare().
+template <class T>
+void appendParticle(DynamicsState<T>& state, const GasParticle& particle);
+
+// The whole state as bytes: state_bytes.cpp.
+
+/// Appends the state between two frames to `out`: a header, then column after column in the order of places.
+template <class T>
+void saveState(const DynamicsState<T>& state, std::vector<std::byte>& out);
+
+/// Reads what saveState has written for the same definition. The tree is not in the bytes: it follows from
+/// the positions by which particles were sorted last.
+template <class T>
+base::Status restoreState(DynamicsState<T>& state, std::span<const std::byte> bytes);
+
+// Sums over all particles: totals.cpp.
+
+/// Mass, momentum and energies of a state between frames, in the order of places.
+template <class T>
+GasTotals sumTotals(const DynamicsState<T>& state);
+
+/// Hash of everything that decides what comes next, by id.
+template <class T>
+uint64_t hashState(const DynamicsState<T>& state);
+
+} // namespace fx::sim
