@@ -1,4 +1,4 @@
-#include "fxsdk/presets/mesh_text.h"
+#include "fxsdk/presets/emitters/mesh_text.h"
 #include "simulation/particles/fields/field_grid.h"
 #include "tests/presets/module_probe.h"
 #include "tests/presets/temp_folder.h"

@@ -1,6 +1,6 @@
 #include "foundation/tasks/task_runner.h"
-#include "fxsdk/presets/emitter_parts_preset.h"
-#include "fxsdk/presets/mesh_text.h"
+#include "fxsdk/presets/emitters/emitter_parts_preset.h"
+#include "fxsdk/presets/emitters/mesh_text.h"
 #include "simulation/particles/fields/spline_path.h"
 #include "simulation/particles/shapes/mesh_sampler.h"
 #include "simulation/particles/shapes/shape_sample.h"

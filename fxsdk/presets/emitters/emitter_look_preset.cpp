@@ -1,5 +1,5 @@
 #include "fxsdk/assets/asset_loader.h"
-#include "fxsdk/presets/emitter_parts_preset.h"
+#include "fxsdk/presets/emitters/emitter_parts_preset.h"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,6 @@
-#include "fxsdk/presets/gas_preset.h"
+#include "fxsdk/presets/gas/gas_technique.h"
 
+#include "embedded/gas_schema.h"
 #include "simulation/combustion/charge_plan.h"
 #include "simulation/sph/gas_def.h"
 
@@ -62,7 +63,14 @@ void readOptics(const PresetValue& element, sim::GasDef& gas)
     element.read("anisotropy", gas.anisotropy);
 }
 
+constexpr double kPrewarmShare = 0.1; // [1] of the first step's work in those of a prewarm
+
 } // namespace
+
+std::string_view gasSchema()
+{
+    return gas_schema::texts()[0].text;
+}
 
 void buildGas(const PresetValue& element, sim::EffectDef& effect)
 {
@@ -73,6 +81,20 @@ void buildGas(const PresetValue& element, sim::EffectDef& effect)
     readDynamics(element, *gas);
     readOptics(element, *gas);
     effect.solvers.push_back(std::move(gas));
+}
+
+void estimateGas(const PresetValue& root, const sim::EffectDef&, std::span<SolverCost> ioCosts)
+{
+    for (SolverCost& cost : ioCosts) {
+        float soundSpeed = 1.0f;
+        root.element("gas", cost.place).read("soundSpeed", soundSpeed);
+        cost.prewarmShare = kPrewarmShare;
+        cost.workMember = cost.memoryMember = "particles";
+        if (!(soundSpeed > 0.0f)) {
+            cost.workMember = "soundSpeed";
+            cost.workRemedy = "give a soundSpeed above 0, or lower particles";
+        }
+    }
 }
 
 } // namespace fx::preset

@@ -1,4 +1,4 @@
-#include "fxsdk/presets/emitter_depth_preset.h"
+#include "fxsdk/presets/emitters/emitter_depth_preset.h"
 
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/emitters/gpu_program.h"

@@ -1,6 +1,8 @@
-#include "fxsdk/presets/emitter_preset.h"
-
-#include "fxsdk/presets/emitter_parts_preset.h"
+#include "embedded/emitters_schema.h"
+#include "fxsdk/presets/emitters/emitter_depth_preset.h"
+#include "fxsdk/presets/emitters/emitter_events_preset.h"
+#include "fxsdk/presets/emitters/emitter_parts_preset.h"
+#include "fxsdk/presets/emitters/emitter_technique.h"
 
 #include <array>
 #include <limits>
@@ -86,6 +88,11 @@ void readEmitterEmission(const PresetValue& emission, sim::Emission& out)
     }
 }
 
+std::string_view emitterSchema()
+{
+    return emitters_schema::texts()[0].text;
+}
+
 void buildEmitter(const PresetValue& element, sim::EffectDef& effect)
 {
     auto emitter = std::make_unique<sim::EmitterDef>();
@@ -108,6 +115,12 @@ void buildEmitter(const PresetValue& element, sim::EffectDef& effect)
     readEmitterLight(element, emitter->light);
     readEmitterEmission(element.child("emission"), emitter->emission);
     effect.solvers.push_back(std::move(emitter));
+}
+
+void linkEmitters(const PresetValue& root, sim::EffectDef& effect)
+{
+    linkEmitterEvents(root, effect);
+    warnOfDepthOnCpu(root, effect);
 }
 
 } // namespace fx::preset

@@ -8,11 +8,7 @@
 
 namespace fx::preset {
 
-/// Adds warnings for the emitters of the preset `root`, which `effect` holds as its first solvers, once their
-/// events are joined.
-void adviseEmitters(const PresetValue& root, const sim::EffectDef& effect);
-
-// Its parts, each for one emitter.
+// Parts of adviseEmitters(), each for one emitter.
 void adviseForces(const PresetValue& element, bool hasGround);
 void adviseShape(const PresetValue& element);
 void adviseLook(const PresetValue& element, const sim::EmitterDef& emitter);

@@ -1,4 +1,4 @@
-#include "fxsdk/presets/birth_count.h"
+#include "fxsdk/presets/emitters/birth_count.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fxsdk/presets/mesh_text.h"
+#include "fxsdk/presets/emitters/mesh_text.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fxsdk/presets/emitter_parts_preset.h"
+#include "fxsdk/presets/emitters/emitter_parts_preset.h"
 #include "simulation/particles/collisions/collision_op.h"
 #include "simulation/particles/forces/force_ops.h"
 

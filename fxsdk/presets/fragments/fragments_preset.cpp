@@ -1,5 +1,6 @@
-#include "fxsdk/presets/fragments_preset.h"
+#include "fxsdk/presets/fragments/fragments_technique.h"
 
+#include "embedded/fragments_schema.h"
 #include "simulation/fragments/fragments_def.h"
 
 #include <array>
@@ -79,7 +80,14 @@ void readTrail(const PresetValue& trail, sim::TrailDef& out)
     trail.read("anisotropy", out.anisotropy);
 }
 
+constexpr double kPrewarmShare = 0.1; // [1] of the largest step's work in those of a prewarm
+
 } // namespace
+
+std::string_view fragmentsSchema()
+{
+    return fragments_schema::texts()[0].text;
+}
 
 void buildFragments(const PresetValue& element, sim::EffectDef& effect)
 {
@@ -89,6 +97,14 @@ void buildFragments(const PresetValue& element, sim::EffectDef& effect)
     readMatter(element.child("matter"), fragments->matter);
     readTrail(element.child("trail"), fragments->trail);
     effect.solvers.push_back(std::move(fragments));
+}
+
+void estimateFragments(const PresetValue&, const sim::EffectDef&, std::span<SolverCost> ioCosts)
+{
+    for (SolverCost& cost : ioCosts) {
+        cost.prewarmShare = kPrewarmShare;
+        cost.workMember = cost.memoryMember = "trail/maxBlobs";
+    }
 }
 
 } // namespace fx::preset

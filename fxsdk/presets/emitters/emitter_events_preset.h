@@ -1,5 +1,5 @@
 /// @file emitter_events_preset.h
-/// Joins the emitters of a preset by their events (member "events" of schema/emitters.schema.json).
+/// Joins the emitters of a preset by their events (member "events" of emitters.schema.json).
 #pragma once
 
 #include "fxsdk/presets/preset_value.h"

@@ -1,5 +1,5 @@
 // What an emitter's shape and look are told without effect.
-#include "fxsdk/presets/emitter_advice.h"
+#include "fxsdk/presets/emitters/emitter_advice.h"
 
 #include <algorithm>
 #include <array>

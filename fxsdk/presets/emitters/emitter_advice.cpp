@@ -1,5 +1,6 @@
-#include "fxsdk/presets/emitter_advice.h"
+#include "fxsdk/presets/emitters/emitter_advice.h"
 
+#include "fxsdk/presets/emitters/emitter_technique.h"
 #include "simulation/emitters/gpu_program.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // What an emitter's capacity has to hold.
-#include "fxsdk/presets/emitter_advice.h"
+#include "fxsdk/presets/emitters/emitter_advice.h"
 
-#include "fxsdk/presets/birth_count.h"
+#include "fxsdk/presets/emitters/birth_count.h"
 
 #include <cmath>
 #include <string>
