@@ -1,6 +1,6 @@
 // A technique of its own joins a view through the list of techniques alone.
 #include "rendering/techniques/draw_techniques.h"
-#include "tests/rendering/marker/marker_technique.h"
+#include "tests/marker/marker_technique.h"
 #include "tests/rendering/view/view_fixture.h"
 
 #include "rendering/frame/exposure.h"

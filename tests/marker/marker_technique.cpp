@@ -1,4 +1,4 @@
-#include "tests/rendering/marker/marker_technique.h"
+#include "tests/marker/marker_technique.h"
 
 #include "rendering/frame/exposure.h"
 #include "rendering/gl/gl_buffer.h"
@@ -186,7 +186,7 @@ std::optional<std::string> markerSource(std::string_view name, std::string_view 
 {
     if (!name.starts_with("marker."))
         return {};
-    std::ifstream file(std::string(FX_SOURCE_DIR "/tests/rendering/marker/").append(name));
+    std::ifstream file(std::string(FX_SOURCE_DIR "/tests/marker/").append(name));
     auto text = shaders::assemble("shared/view_block.glsl", defines);
     return *text + std::string(std::istreambuf_iterator<char>(file), {});
 }
