@@ -154,6 +154,8 @@ struct DrawTechnique
     std::unique_ptr<TechniqueView> (*create)(const TechniqueSetup& setup) = nullptr;
     std::span<const ProgramDesc* const> (*programs)() = nullptr; ///< all that it can need; null: none
     std::span<const TimedPass> timedPasses = {}; ///< those that are not measured with everything else
+    const LightSource* lights =
+        nullptr; ///< how groups of `kind` light everything around them; null: not at all
     /// Refuses settings that cannot be drawn; null: there are none.
     base::Status (*check)(const ViewSettings& settings) = nullptr;
     /// Whether it changes the picture when there is nothing to see; null: no.

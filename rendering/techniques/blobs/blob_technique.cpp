@@ -2,6 +2,7 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "rendering/passes/overdraw_pass.h"
+#include "rendering/techniques/blobs/blob_lights.h"
 #include "rendering/techniques/blobs/blob_view.h"
 
 #include <array>
@@ -48,6 +49,7 @@ constexpr DrawTechnique kBlobTechnique{
     .create = create,
     .programs = programs,
     .timedPasses = kTimed,
+    .lights = &kBlobLights,
     .ladder = "media",
     .weight = weight,
 };
