@@ -1,5 +1,5 @@
 /// @file stability_layers.cpp
-/// L-01 to L-05: layers over one another, as shaders/passes/composite.frag.glsl puts them.
+/// L-01 to L-05: layers over one another, as shaders/frame/composite.frag.glsl puts them.
 
 #include "fxsdk/cli/stability_rays.h"
 #include "fxsdk/cli/stability_row.h"

@@ -5,8 +5,8 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kLayerOverProgram{"layer over", "passes/fullscreen.vert.glsl",
-                                               "passes/layer_over.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kLayerOverProgram{"layer over", "shared/fullscreen.vert.glsl",
+                                               "frame/layer_over.frag.glsl", nullptr, nullptr};
 
 /// Puts layer targets over others of the same size, as if both had been drawn into the same: media that were
 /// drawn small and enlarged, over solid particles that were drawn at full size.

@@ -5,8 +5,8 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kLayerResolveProgram{"layer resolve", "passes/fullscreen.vert.glsl",
-                                                  "passes/layer_resolve.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kLayerResolveProgram{"layer resolve", "shared/fullscreen.vert.glsl",
+                                                  "frame/layer_resolve.frag.glsl", nullptr, nullptr};
 
 /// Gives every layer its own share of opacity, adds the layers up, and turns the depth moment into a
 /// distance.

@@ -8,8 +8,8 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kOverlayProgram{"activation overlay", "passes/overlay.vert.glsl",
-                                             "passes/overlay.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kOverlayProgram{"activation overlay", "frame/overlay.vert.glsl",
+                                             "frame/overlay.frag.glsl", nullptr, nullptr};
 
 /// Lines over the picture for people who look for what is simulated: the edges of boxes, each in its color.
 ///

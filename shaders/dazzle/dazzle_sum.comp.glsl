@@ -1,4 +1,4 @@
-#include "passes/dazzle_shared.glsl"
+#include "dazzle/dazzle_shared.glsl"
 
 // Exact sums of overflow and headroom over tiles of 16 x 16 pixels; each of the 64 threads takes 4 pixels of a row.
 layout(local_size_x = 64) in;

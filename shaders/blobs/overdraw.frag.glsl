@@ -2,7 +2,7 @@
 #include "formulas/kernel_optical_depth.fx.h"
 #include "shared/view_block.glsl"
 #include "shared/blob_chord.glsl"
-#include "shared/blob_ray.glsl"
+#include "blobs/blob_ray.glsl"
 
 // Counts the fragments that add something to each pixel.
 layout(location = 0) out vec4 count;

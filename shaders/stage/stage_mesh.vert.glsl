@@ -1,4 +1,4 @@
-#include "shared/stage_block.glsl"
+#include "stage/stage_block.glsl"
 
 // Mesh vertices as nine floats: position, normal, color.
 layout(std430, binding = 0) readonly buffer MeshBuffer

@@ -1,4 +1,4 @@
-#include "shared/stage_block.glsl"
+#include "stage/stage_block.glsl"
 
 // The mesh as the sun sees it.
 layout(std430, binding = 0) readonly buffer MeshBuffer

@@ -1,4 +1,4 @@
-#include "shared/stage_block.glsl"
+#include "stage/stage_block.glsl"
 
 // What is seen where there is no mesh.
 layout(binding = 0) uniform sampler2D picture;

@@ -1,4 +1,4 @@
-#include "shared/shimmer_block.glsl"
+#include "shimmer/shimmer_block.glsl"
 
 // The picture seen through hot gas: each pixel is fetched where the gas bends its ray to.
 layout(binding = 0) uniform sampler2D picture;

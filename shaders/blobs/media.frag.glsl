@@ -3,7 +3,7 @@
 #include "formulas/detail_noise.fx.h"
 #include "shared/view_block.glsl"
 #include "shared/blob_chord.glsl"
-#include "shared/blob_ray.glsl"
+#include "blobs/blob_ray.glsl"
 
 // Light of one blob along one ray, premultiplied: opacity from the travelled optical depth, color from emission, sun
 // and sky. FX_LAYERS 1 writes the same light sorted by layer instead of into one target.

@@ -3,8 +3,8 @@
 layout(std430, binding = 3) buffer ReachedRows { uint reached[]; }; // 7 columns: place, velocity, flags
 layout(std430, binding = 4) readonly buffer Steps { uint stepWords[]; }; // since when rows are reached (ticks ago), 1: they are; steps
 
-#include "shared/gpu_particle_forces.glsl"
-#include "shared/gpu_particle_contacts.glsl"
+#include "gpu_particles/gpu_particle_forces.glsl"
+#include "gpu_particles/gpu_particle_contacts.glsl"
 
 const int kStepsAt = 4;
 

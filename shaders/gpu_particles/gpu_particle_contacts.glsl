@@ -59,9 +59,9 @@ vec3 metNormal = vec3(0.0);
 precise vec3 pushed = vec3(0.0);
 bool isOut = false;
 
-#include "shared/gpu_particle_obstacles.glsl"
+#include "gpu_particles/gpu_particle_obstacles.glsl"
 #if FX_DEPTH
-#include "shared/gpu_particle_depth.glsl"
+#include "gpu_particles/gpu_particle_depth.glsl"
 #endif
 
 // ---- contact-path ----

@@ -1,4 +1,4 @@
-#include "shared/stage_block.glsl"
+#include "stage/stage_block.glsl"
 
 // Diffuse surfaces under the sun with soft-edged shadows, the sky, and the light of the effects.
 layout(binding = 0) uniform sampler2D shadowMap;

@@ -1,4 +1,4 @@
-#include "shared/shimmer_block.glsl"
+#include "shimmer/shimmer_block.glsl"
 
 // One rectangle of whole pixels an area that hot gas may reach.
 layout(std430, binding = 0) readonly buffer HotAreas { uvec4 hotAreas[]; }; // [pixel] left, low, right, high

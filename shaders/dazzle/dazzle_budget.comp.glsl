@@ -1,4 +1,4 @@
-#include "passes/dazzle_shared.glsl"
+#include "dazzle/dazzle_shared.glsl"
 
 // One workgroup: totals of all tiles, temporal adaptation, sensor law, and from them how much glare each quantum of
 // headroom receives. Three threads finish, one a channel.

@@ -5,9 +5,9 @@
 // is stepped, see shared/gpu_particle_steps.glsl; FX_DEPTH 1: it meets what the depth texture shows.
 layout(local_size_x = 256) in;
 
-#include "shared/gpu_particle_random.glsl"
-#include "shared/gpu_particle_words.glsl"
-#include "shared/gpu_particle_motion.glsl"
+#include "gpu_particles/gpu_particle_random.glsl"
+#include "gpu_particles/gpu_particle_words.glsl"
+#include "gpu_particles/gpu_particle_motion.glsl"
 
 layout(std430, binding = 2) writeonly buffer OutputRows { uint rowWords[]; };
 layout(std140, binding = 0) uniform Output
@@ -38,7 +38,7 @@ vec4 drawn(uvec2 index, uint purpose)
 }
 
 #if FX_STEPS
-#include "shared/gpu_particle_steps.glsl"
+#include "gpu_particles/gpu_particle_steps.glsl"
 #endif
 
 void put(int column, uint row, float value) { rowWords[columnAt[column >> 2][column & 3] + int(row)] = floatBitsToUint(value); }
@@ -55,8 +55,8 @@ void putColor(uint row, uvec2 color)
     rowWords[at + 1] = color.y;
 }
 
-#include "shared/gpu_particle_births.glsl"
-#include "shared/gpu_particle_looks.glsl"
+#include "gpu_particles/gpu_particle_births.glsl"
+#include "gpu_particles/gpu_particle_looks.glsl"
 
 // perLifeOf() of simulation/particles/particle_program.cpp; the division is rounded as the CPU's.
 float perLifeOf(float seconds)

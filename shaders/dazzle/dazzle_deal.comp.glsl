@@ -1,4 +1,4 @@
-#include "passes/dazzle_shared.glsl"
+#include "dazzle/dazzle_shared.glsl"
 
 // Deals the glare to pixels in proportion to their headroom. With c the headroom before a pixel in the order of tiles,
 // threads and pixels, and g(c) = floor(c * share / 2^64), a pixel of headroom h gets g(c + h) - g(c): the increments
