@@ -3,6 +3,7 @@
 #include "foundation/snapshot/blob_kind.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/techniques/blobs/blob_lights.h"
+#include "rendering/techniques/blobs/blob_quality.h"
 #include "rendering/techniques/blobs/blob_view.h"
 
 #include <array>
@@ -36,11 +37,6 @@ std::unique_ptr<TechniqueView> create(const TechniqueSetup& setup)
     return std::make_unique<BlobView>(setup);
 }
 
-double weight(const ScreenShare& covered)
-{
-    return covered.media;
-}
-
 } // namespace
 
 constexpr DrawTechnique kBlobTechnique{
@@ -50,8 +46,7 @@ constexpr DrawTechnique kBlobTechnique{
     .programs = programs,
     .timedPasses = kTimed,
     .lights = &kBlobLights,
-    .ladder = "media",
-    .weight = weight,
+    .ladder = &kBlobLadder,
 };
 
 } // namespace fx::render
