@@ -2,10 +2,10 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/gpu_particles.h"
-#include "fxsdk/presets/emitter_preset.h"
-#include "fxsdk/presets/fragments_preset.h"
+#include "fxsdk/presets/emitters/emitter_technique.h"
+#include "fxsdk/presets/fragments/fragments_technique.h"
 #if FXSDK_WITH_SPH
-#include "fxsdk/presets/gas_preset.h"
+#include "fxsdk/presets/gas/gas_technique.h"
 #endif
 
 #include <array>
@@ -33,21 +33,20 @@ bool usesShimmer(const sim::EffectDef& effect)
     return effect.bendsLight();
 }
 
-constexpr std::array kTechniques
-{
-    Technique{"emitters", "emitters", "emitters.schema.json", buildEmitter, nullptr, &base::kBlobKind, {}},
-        Technique{"fragments",      "fragments", "fragments.schema.json", buildFragments, nullptr,
-                  &base::kBlobKind, {}},
+/// Emitters are first: their rules name solvers by their place among the emitters.
+constexpr Technique kTechniques[] = {
+    kEmitterTechnique,
+    kFragmentsTechnique,
 #if FXSDK_WITH_SPH
-        Technique{"sph gas", "gas", "gas.schema.json", buildGas, nullptr, &base::kBlobKind, {}},
+    kGasTechnique,
 #endif
-        Technique{"spherical billboards", "", "", nullptr, nullptr, &base::kBlobKind, kMediaPasses},
-        Technique{"sprites and meshes", "", "", nullptr, nullptr, &base::kParticleKind, kParticlePasses},
-        Technique{"particles on the GPU", "", "", nullptr, nullptr, &base::kGpuParticleKind, kGpuPasses},
-        Technique{"ribbons", "", "", nullptr, nullptr, &base::kRibbonKind, kMediaPasses},
-        Technique{"particle lights", "", "", nullptr, nullptr, &base::kLightKind, {}},
-        Technique{"heat shimmer", "", "", nullptr, usesShimmer, nullptr, kShimmerPasses},
-        Technique{"dazzle", "", "", nullptr, usesDazzle, nullptr, kDazzlePasses},
+    {.name = "spherical billboards", .kind = &base::kBlobKind, .passes = kMediaPasses},
+    {.name = "sprites and meshes", .kind = &base::kParticleKind, .passes = kParticlePasses},
+    {.name = "particles on the GPU", .kind = &base::kGpuParticleKind, .passes = kGpuPasses},
+    {.name = "ribbons", .kind = &base::kRibbonKind, .passes = kMediaPasses},
+    {.name = "particle lights", .kind = &base::kLightKind},
+    {.name = "heat shimmer", .isUsedBy = usesShimmer, .passes = kShimmerPasses},
+    {.name = "dazzle", .isUsedBy = usesDazzle, .passes = kDazzlePasses},
 };
 
 #if !FXSDK_WITH_SPH
@@ -56,7 +55,7 @@ constexpr std::array kMissing{MissingTechnique{"gas", "FXSDK_WITH_SPH"}};
 
 } // namespace
 
-std::span<const Technique> techniques()
+Techniques techniques()
 {
     return kTechniques;
 }
@@ -76,9 +75,9 @@ std::span<const MissingTechnique> missingTechniques()
 #endif
 }
 
-void registerKinds(base::SnapshotSchema& schema)
+void registerKinds(base::SnapshotSchema& schema, Techniques techniques)
 {
-    for (const Technique& technique : techniques())
+    for (const Technique& technique : techniques)
         if (technique.kind)
             static_cast<void>(schema.add(*technique.kind));
 }

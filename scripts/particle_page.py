@@ -12,7 +12,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-SCHEMA = ROOT / "fxsdk/presets/schema/emitters.schema.json"
+SCHEMA = ROOT / "fxsdk/presets/emitters/emitters.schema.json"
 EFFECT = ROOT / "fxsdk/presets/schema/effect.schema.json"
 PAGE = ROOT / "docs/howto/particles.md"
 TABLE = re.compile(r"<!-- members: (\S+) -->\n(.*?)<!-- end -->", re.S)

@@ -8,7 +8,7 @@
 
 namespace fx::shaders {
 
-/// The complete GLSL of the entry point `name` ("passes/media.frag.glsl"): the version line, `defines`
+/// The complete GLSL of the entry point `name` ("blobs/media.frag.glsl"): the version line, `defines`
 /// ("FX_FORM=2 FX_LAYERS=1", separated by blanks or line breaks), and the file with its includes expanded
 /// once each.
 /// @return nothing when `name` or one of its includes does not exist

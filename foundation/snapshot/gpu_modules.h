@@ -2,7 +2,7 @@
 /// What moves the particles of an emitter whose motion has no closed form, as a list of modules that a shader
 /// is put together from, and the steps in which it happens.
 ///
-/// What a module does, operation by operation, stands in shaders/shared/gpu_particle_forces.glsl and
+/// What a module does, operation by operation, stands in shaders/gpu_particles/gpu_particle_forces.glsl and
 /// gpu_particle_contacts.glsl; the meaning of its numbers is explained there.
 #pragma once
 

@@ -9,7 +9,7 @@
 /// otherwise; constants are those of base::particle_constant.
 ///
 /// All structures consist of 4 and 8 byte numbers without gaps, low word first, as
-/// shaders/shared/gpu_particle_words.glsl reads them.
+/// shaders/gpu_particles/gpu_particle_words.glsl reads them.
 ///
 /// @formula birth-runs
 /// The age of a particle whose births follow each other evenly, in 32-bit arithmetic.

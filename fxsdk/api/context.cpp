@@ -1,7 +1,5 @@
 #include "fxsdk/api/context.h"
 
-#include "fxsdk/techniques.h"
-
 #include <algorithm>
 #include <thread>
 
@@ -19,11 +17,12 @@ std::unique_ptr<fx::base::TaskRunner> makeTasks(const FxContextDef& def)
 
 } // namespace
 
-FxContext::FxContext(const FxContextDef& given)
-    : def(given), memory(fx::api::toHooks(given.allocator)), tasks(makeTasks(given)),
-      presets(&memory, uint32_t(fx::scene::kIdPartMask)), scenes(&memory), views(&memory)
+FxContext::FxContext(const FxContextDef& given, const fx::api::TechniqueLists& techniquesGiven)
+    : def(given), techniques(techniquesGiven), memory(fx::api::toHooks(given.allocator)),
+      tasks(makeTasks(given)), presets(&memory, uint32_t(fx::scene::kIdPartMask)), scenes(&memory),
+      views(&memory)
 {
-    fx::preset::registerKinds(schema);
+    fx::preset::registerKinds(schema, techniques.presets);
 }
 
 fx::base::Result<std::shared_ptr<const fx::sim::EffectDef>> FxContext::findPreset(FxPresetId id)

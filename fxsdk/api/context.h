@@ -10,7 +10,9 @@
 #include "fxsdk/fx_context.h"
 #include "fxsdk/fx_preset.h"
 #include "fxsdk/scene/id_table.h"
+#include "fxsdk/techniques.h"
 #include "rendering/gl/gl_device.h"
+#include "rendering/techniques/draw_techniques.h"
 #include "simulation/effect_def.h"
 
 #include <memory>
@@ -29,6 +31,13 @@ enum IdType : uint8_t
 
 using PresetTable = scene::IdTable<std::shared_ptr<const sim::EffectDef>>;
 
+/// Both halves of the techniques of a context: what presets can say, and what views can draw.
+struct TechniqueLists
+{
+    preset::Techniques presets = preset::techniques();
+    render::DrawTechniques draws = render::drawTechniques();
+};
+
 base::AllocatorHooks toHooks(const FxAllocator& allocator);
 
 } // namespace fx::api
@@ -36,7 +45,8 @@ base::AllocatorHooks toHooks(const FxAllocator& allocator);
 struct FxContext
 {
     /// Ready without GL. Throws std::bad_alloc.
-    explicit FxContext(const FxContextDef& def);
+    /// @param techniques must stay
+    explicit FxContext(const FxContextDef& def, const fx::api::TechniqueLists& techniques = {});
     FxContext(const FxContext&) = delete;
     FxContext& operator=(const FxContext&) = delete;
 
@@ -47,6 +57,7 @@ struct FxContext
     std::shared_ptr<const fx::sim::EffectDef> findPreset(uint64_t fingerprint);
 
     const FxContextDef def;
+    const fx::api::TechniqueLists techniques;
     fx::base::HostMemory memory;
     fx::base::SnapshotSchema schema;      ///< constant after construction
     fx::base::AssetTable assets{&memory}; ///< images and meshes of all presets
@@ -67,6 +78,9 @@ namespace fx::api {
 
 constexpr const char* kGlThreadRule = "call it from the context's GL thread, or adopt this one with "
                                       "fxContext_AdoptGlThread";
+
+/// fxCreateContext() of a checked definition, with the techniques of the caller.
+base::Status createContext(const FxContextDef& def, const TechniqueLists& techniques, FxContext** outContext);
 
 inline const FxLog* logOf(const FxContext* context)
 {

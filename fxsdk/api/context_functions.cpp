@@ -70,29 +70,6 @@ void destroy(FxContext* context)
     memory.deallocate(context, sizeof(FxContext), alignof(FxContext));
 }
 
-Status create(const FxContextDef& def, FxContext** outContext)
-{
-    fx::base::HostMemory memory(fx::api::toHooks(def.allocator));
-    void* place = memory.allocate(sizeof(FxContext), alignof(FxContext));
-    FxContext* context = nullptr;
-    try {
-        context = new (place) FxContext(def);
-        if (def.gl.getProcAddress)
-            if (Status status = connectGl(*context); !status) {
-                destroy(context);
-                return status;
-            }
-    } catch (...) {
-        if (context)
-            destroy(context);
-        else
-            memory.deallocate(place, sizeof(FxContext), alignof(FxContext));
-        throw;
-    }
-    *outContext = context;
-    return {};
-}
-
 /// Shuts a context for good, with all that is in it, so that no callback of its destruction gets into it.
 /// After a failure it is as open as before.
 Status close(FxContext& context)
@@ -120,6 +97,33 @@ Status close(FxContext& context)
 
 } // namespace
 
+namespace fx::api {
+
+Status createContext(const FxContextDef& def, const TechniqueLists& techniques, FxContext** outContext)
+{
+    base::HostMemory memory(toHooks(def.allocator));
+    void* place = memory.allocate(sizeof(FxContext), alignof(FxContext));
+    FxContext* context = nullptr;
+    try {
+        context = new (place) FxContext(def, techniques);
+        if (def.gl.getProcAddress)
+            if (Status status = connectGl(*context); !status) {
+                destroy(context);
+                return status;
+            }
+    } catch (...) {
+        if (context)
+            destroy(context);
+        else
+            memory.deallocate(place, sizeof(FxContext), alignof(FxContext));
+        throw;
+    }
+    *outContext = context;
+    return {};
+}
+
+} // namespace fx::api
+
 FxResult fxCreateContext(const FxContextDef* def, FxContext** outContext)
 {
     FxContextDef known;
@@ -130,7 +134,7 @@ FxResult fxCreateContext(const FxContextDef* def, FxContext** outContext)
             return status;
         if (Status status = checkDef(known); !status)
             return status;
-        return create(known, outContext);
+        return fx::api::createContext(known, {}, outContext);
     });
 }
 
@@ -156,7 +160,8 @@ FxResult fxContext_WarmUp(FxContext* context)
         const fx::api::SingleCaller::Scope scope(context->gl, fx::api::kGlThreadRule);
         if (!scope.status())
             return scope.status();
-        fx::render::ViewRenderer renderer(context->device.get(), &context->schema, &context->memory);
+        fx::render::ViewRenderer renderer(context->device.get(), &context->schema, &context->memory,
+                                          context->techniques.draws);
         if (Status status = renderer.warmUp(); !status) // programs belong to the device and stay
             return status;
         for (const auto& program : gpuPrograms(*context))

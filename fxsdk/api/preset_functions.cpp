@@ -89,11 +89,12 @@ Result<LoadedPreset> loadFile(FxContext& context, const char* path)
     if (hook.open && fx::asset::checkAssetName(path).ok() &&
         !std::string_view(path).starts_with(kLibraryPrefix)) {
         const fx::asset::AssetResolver resolver("", fx::preset::libraryFiles(), {&hook, &readThroughHook});
-        Result<LoadedPreset> loaded = fx::preset::loadPresetAsset(path, resolver, nullptr, assetsOf(context));
+        Result<LoadedPreset> loaded = fx::preset::loadPresetAsset(path, resolver, nullptr, assetsOf(context),
+                                                                  context.techniques.presets);
         if (loaded.ok() || loaded.status().code() != Code::NotFound)
             return loaded;
     }
-    return fx::preset::loadPresetFile(path, nullptr, assetsOf(context));
+    return fx::preset::loadPresetFile(path, nullptr, assetsOf(context), context.techniques.presets);
 }
 
 uint64_t capacityOf(const fx::sim::EffectDef& effect)
@@ -128,7 +129,8 @@ FxResult fxLoadPresetText(FxContext* context, const char* text, size_t length, c
                                         std::to_string(fx::preset::kPresetBytes) + " bytes"};
         return loadInto(context, outPreset, [&] {
             return fx::preset::loadPresetText({text, length}, displayName ? displayName : "preset text",
-                                              nullptr, nullptr, assetsOf(*context));
+                                              nullptr, nullptr, assetsOf(*context), {},
+                                              context->techniques.presets);
         });
     });
 }
@@ -143,7 +145,8 @@ FxResult fxLoadPresetLibrary(FxContext* context, const char* name, FxPresetId* o
             full.insert(0, kLibraryPrefix);
         return loadInto(context, outPreset, [&] {
             const fx::asset::AssetResolver library("", fx::preset::libraryFiles());
-            return fx::preset::loadPresetAsset(full, library, nullptr, assetsOf(*context));
+            return fx::preset::loadPresetAsset(full, library, nullptr, assetsOf(*context),
+                                               context->techniques.presets);
         });
     });
 }

@@ -15,7 +15,7 @@ struct FxView
 {
     FxView(FxScene* shown, const fx::render::ViewSettings& settings)
         : context(shown->context), scene(shown), marks(&context->memory), overlay(&context->memory),
-          renderer(context->device.get(), &context->schema, &context->memory)
+          renderer(context->device.get(), &context->schema, &context->memory, context->techniques.draws)
     {
         setSettings(settings);
         renderer.setAssets(&context->assets);

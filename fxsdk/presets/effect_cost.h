@@ -2,8 +2,7 @@
 /// What an instance of a preset is expected to need, and warnings where that is much.
 #pragma once
 
-#include "fxsdk/presets/preset_value.h"
-#include "simulation/effect_def.h"
+#include "fxsdk/presets/technique.h"
 
 namespace fx::preset {
 
@@ -15,6 +14,7 @@ constexpr double kMuchStartWork = 100e6; // [unit]
 constexpr uint64_t kMuchMemory = uint64_t(1) << 30; // [byte]
 
 /// Fills in effect.cost and warns of work and memory beyond the limits above, naming the member to change.
-void estimateCost(const PresetValue& root, sim::EffectDef& effect);
+/// @param techniques those that the solvers of `effect` were built by
+void estimateCost(const PresetValue& root, sim::EffectDef& effect, Techniques techniques);
 
 } // namespace fx::preset

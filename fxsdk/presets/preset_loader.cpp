@@ -4,14 +4,10 @@
 #include "foundation/math/hash.h"
 #include "fxsdk/assets/read_file.h"
 #include "fxsdk/presets/effect_cost.h"
-#include "fxsdk/presets/emitter_advice.h"
-#include "fxsdk/presets/emitter_depth_preset.h"
-#include "fxsdk/presets/emitter_events_preset.h"
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
 #include "fxsdk/presets/schema_assembly.h"
 #include "fxsdk/presets/schema_validator.h"
-#include "fxsdk/techniques.h"
 
 #include <array>
 #include <span>
@@ -50,7 +46,7 @@ void readOffscreen(const PresetValue& root, sim::EffectDef& effect)
 }
 
 std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const std::string& displayName,
-                                                  Findings& findings)
+                                                  Techniques techniques, Findings& findings)
 {
     auto effect = std::make_shared<sim::EffectDef>();
     const PresetValue root(&document, "", findings);
@@ -68,19 +64,22 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     root.read("ground", effect->hasGround);
     root.read("bound", effect->bound);
     readOffscreen(root, *effect);
-    for (const Technique& technique : techniques()) {
+    for (const Technique& technique : techniques) {
         if (!technique.build)
             continue;
         const std::string member(technique.presetMember);
         for (size_t i = 0; i < root.size(member.c_str()); ++i)
             technique.build(root.element(member.c_str(), i), *effect);
     }
-    linkEmitterEvents(root, *effect);
-    warnOfDepthOnCpu(root, *effect);
-    if (!findings.hasErrors())
-        adviseEmitters(root, *effect);
-    if (!findings.hasErrors())
-        estimateCost(root, *effect);
+    for (const Technique& technique : techniques)
+        if (technique.link)
+            technique.link(root, *effect);
+    const bool isValid = !findings.hasErrors();
+    for (const Technique& technique : techniques)
+        if (isValid && technique.lint)
+            technique.lint(root, *effect);
+    if (isValid)
+        estimateCost(root, *effect, techniques);
     if (findings.assets()->contentHash() != 0)
         effect->fingerprint = base::hashWord(effect->fingerprint, findings.assets()->contentHash());
     if (effect->solvers.empty() && !findings.hasErrors())
@@ -90,16 +89,16 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
 
 /// The effect, or null when `findings` has errors.
 std::shared_ptr<const sim::EffectDef> readPreset(std::string_view text, const std::string& displayName,
-                                                 Findings& findings)
+                                                 Techniques techniques, Findings& findings)
 {
     std::optional<Json> document = parseJson(text, kPresetLimits, findings);
     if (!document || !migrate(*document, kPresetVersion, presetMigrations(), findings))
         return nullptr;
-    const SchemaValidator validator{Json(presetSchema())};
+    const SchemaValidator validator{Json(presetSchema(techniques))};
     validator.validate(*document, {}, findings);
     if (findings.hasErrors())
         return nullptr;
-    std::shared_ptr<const sim::EffectDef> effect = buildEffect(*document, displayName, findings);
+    std::shared_ptr<const sim::EffectDef> effect = buildEffect(*document, displayName, techniques, findings);
     return findings.hasErrors() ? nullptr : effect;
 }
 
@@ -137,7 +136,7 @@ std::string folderOf(std::string_view name)
 base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::string& displayName,
                                           std::vector<Diagnostic>* outDiagnostics,
                                           const asset::AssetResolver* resolver, const PresetAssets& assets,
-                                          const std::string& folder)
+                                          const std::string& folder, Techniques techniques)
 {
     const asset::AssetResolver libraryOnly("", libraryFiles());
     std::unique_ptr<base::AssetTable> forgotten;
@@ -146,7 +145,7 @@ base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::stri
     asset::AssetLoader loader(resolver ? *resolver : libraryOnly, assets.table ? *assets.table : *forgotten,
                               assets.missing, folder);
     Findings findings(&loader);
-    std::shared_ptr<const sim::EffectDef> effect = readPreset(text, displayName, findings);
+    std::shared_ptr<const sim::EffectDef> effect = readPreset(text, displayName, techniques, findings);
     std::vector<Diagnostic> diagnostics = findings.locate(text, displayName);
     if (outDiagnostics)
         *outDiagnostics = diagnostics;
@@ -157,24 +156,24 @@ base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::stri
 
 base::Result<LoadedPreset> loadPresetAsset(std::string_view name, const asset::AssetResolver& resolver,
                                            std::vector<Diagnostic>* outDiagnostics,
-                                           const PresetAssets& assets)
+                                           const PresetAssets& assets, Techniques techniques)
 {
     const base::Result<std::string> text = resolver.read(name, kPresetBytes);
     if (!text)
         return unreadable(text.status(), std::string(name), outDiagnostics);
     return loadPresetText(*text, std::string(name), outDiagnostics, &resolver, assets,
-                          name.starts_with("library:") ? std::string() : folderOf(name));
+                          name.starts_with("library:") ? std::string() : folderOf(name), techniques);
 }
 
 base::Result<LoadedPreset> loadPresetFile(const std::string& path, std::vector<Diagnostic>* outDiagnostics,
-                                          const PresetAssets& assets)
+                                          const PresetAssets& assets, Techniques techniques)
 {
     const base::Result<std::string> text = asset::readFile(path, kPresetBytes);
     if (!text)
         return unreadable(text.status(), path, outDiagnostics);
     const std::string folder = folderOf(path);
     const asset::AssetResolver resolver(folder.empty() ? "." : folder, libraryFiles());
-    return loadPresetText(*text, path, outDiagnostics, &resolver, assets);
+    return loadPresetText(*text, path, outDiagnostics, &resolver, assets, {}, techniques);
 }
 
 } // namespace fx::preset

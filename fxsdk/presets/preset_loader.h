@@ -7,6 +7,7 @@
 #include "foundation/result/status.h"
 #include "fxsdk/assets/asset_loader.h"
 #include "fxsdk/presets/diagnostic.h"
+#include "fxsdk/techniques.h"
 #include "simulation/effect_def.h"
 
 #include <memory>
@@ -43,17 +44,20 @@ struct PresetAssets
 /// @param outDiagnostics receives every finding, warnings included, whether it fails or not; may be null
 /// @param resolver where files that the preset names come from; null: from the library alone
 /// @param folder   of the preset below the resolver's folder, with '/' at its end
+/// @param techniques what the preset's members can be
 /// @return Parse, TooLarge, Version, Schema
 base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::string& displayName,
                                           std::vector<Diagnostic>* outDiagnostics = nullptr,
                                           const asset::AssetResolver* resolver = nullptr,
-                                          const PresetAssets& assets = {}, const std::string& folder = {});
+                                          const PresetAssets& assets = {}, const std::string& folder = {},
+                                          Techniques techniques = preset::techniques());
 
 /// The same for an asset: `library:NAME`, or a name relative to the resolver's folder.
 /// Files that it names are relative to it.
 base::Result<LoadedPreset> loadPresetAsset(std::string_view name, const asset::AssetResolver& resolver,
                                            std::vector<Diagnostic>* outDiagnostics = nullptr,
-                                           const PresetAssets& assets = {});
+                                           const PresetAssets& assets = {},
+                                           Techniques techniques = preset::techniques());
 
 /// Folder of an asset, with '/' at its end; empty when it lies in the resolver's.
 std::string folderOf(std::string_view name);
@@ -61,6 +65,7 @@ std::string folderOf(std::string_view name);
 /// The same for a file anywhere.
 base::Result<LoadedPreset> loadPresetFile(const std::string& path,
                                           std::vector<Diagnostic>* outDiagnostics = nullptr,
-                                          const PresetAssets& assets = {});
+                                          const PresetAssets& assets = {},
+                                          Techniques techniques = preset::techniques());
 
 } // namespace fx::preset

@@ -1,8 +1,6 @@
 #include "fxsdk/presets/schema_assembly.h"
 
 #include "embedded/preset_schemas.h"
-#include "fxsdk/techniques.h"
-
 namespace fx::preset {
 
 namespace {
@@ -114,14 +112,15 @@ void addPreview(Schema& preset)
 
 } // namespace
 
-nlohmann::ordered_json presetSchema()
+nlohmann::ordered_json presetSchema(Techniques techniques)
 {
     Schema schema = textNamed("effect.schema.json");
     addPreview(schema);
-    for (const Technique& technique : techniques()) {
+    for (const Technique& technique : techniques) {
         if (technique.presetMember.empty())
             continue;
-        Schema element = textNamed(technique.schemaFile);
+        const std::string_view text = technique.schema();
+        const Schema element = Schema::parse(text.begin(), text.end());
         schema["properties"][std::string(technique.presetMember)] = {{"title", element["title"]},
                                                                      {"description", element["description"]},
                                                                      {"type", "array"},

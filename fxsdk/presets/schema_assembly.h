@@ -1,6 +1,6 @@
 /// @file schema_assembly.h
-/// The JSON Schemas (draft 7) of presets and scenes, put together from the texts in schema/ and the technique
-/// list.
+/// The JSON Schemas (draft 7) of presets and scenes, put together from the texts in schema/ and those of
+/// techniques.
 ///
 /// The texts say `"x-kind"` for the values that presets are made of; assembling replaces it by what the kind
 /// stands for and keeps it for documentation, as `"x-unit"` and `"x-cost"`:
@@ -13,12 +13,14 @@
 /// `"minimum"` and `"maximum"` beside it hold for every number inside.
 #pragma once
 
+#include "fxsdk/techniques.h"
+
 #include <nlohmann/json.hpp>
 
 namespace fx::preset {
 
-/// Schema of `*.fx.json` with the techniques of this build. Members keep the order of the texts.
-nlohmann::ordered_json presetSchema();
+/// Schema of `*.fx.json` with these techniques. Members keep the order of the texts.
+nlohmann::ordered_json presetSchema(Techniques techniques = preset::techniques());
 
 /// Schema of `*.scene.json`.
 nlohmann::ordered_json sceneSchema();

@@ -6,6 +6,7 @@
 #include "fxsdk/presets/migration.h"
 #include "fxsdk/presets/schema_validator.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace fx::quality {
@@ -14,9 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 using preset::Findings;
+using render::QualityKnob;
 
 constexpr preset::JsonLimits kLimits{kCalibrationBytes, 8, 4'096, 1'024, 64, uint64_t(4) << 20};
-constexpr const char* kForms[] = {"planar", "constant", "kernel"};
 
 std::string_view textNamed(std::string_view name)
 {
@@ -26,24 +27,53 @@ std::string_view textNamed(std::string_view name)
     return {};
 }
 
+float readValue(const QualityKnob& knob, const Json& value)
+{
+    switch (knob.type) {
+    case QualityKnob::Type::Number:
+        return value.get<float>();
+    case QualityKnob::Type::Switch:
+        return value.get<bool>() ? 1.0f : 0.0f;
+    case QualityKnob::Type::Choice:
+        break;
+    }
+    const auto found = std::ranges::find(knob.choices, value.get_ref<const std::string&>());
+    return float(found - knob.choices.begin());
+}
+
 Knobs readKnobs(const Json& setting)
 {
     Knobs knobs;
-    if (const auto it = setting.find("billboards"); it != setting.end())
-        for (size_t form = 0; form < std::size(kForms); ++form)
-            if (*it == kForms[form])
-                knobs.billboards = render::BillboardForm(form);
-    if (const auto it = setting.find("detail"); it != setting.end())
-        knobs.detail = it->get<bool>();
-    if (const auto it = setting.find("particles"); it != setting.end())
-        knobs.particles = it->get<float>();
-    if (const auto it = setting.find("shimmer"); it != setting.end())
-        knobs.shimmer = it->get<bool>();
-    if (const auto it = setting.find("lodBias"); it != setting.end())
-        knobs.lodBias = it->get<float>();
-    if (const auto it = setting.find("dazzle"); it != setting.end())
-        knobs.dazzle = it->get<bool>();
+    forEachKnob([&](const QualityKnob& knob) {
+        if (const auto it = setting.find(knob.name); it != setting.end())
+            setValue(knob.name, readValue(knob, *it), knobs);
+    });
     return knobs;
+}
+
+/// The text in the folder, with the ladders and the settings of all techniques.
+Json calibrationSchema()
+{
+    Json schema = Json::parse(textNamed("calibration.schema.json"));
+    Json& techniques = schema["properties"]["techniques"];
+    Json& ladder = techniques["items"]["properties"];
+    Json& settings = ladder["steps"]["items"]["properties"]["setting"]["properties"];
+    std::string meanings;
+    Json names = Json::array();
+    for (const render::DrawTechnique* technique : render::drawTechniques()) {
+        if (!technique->ladder)
+            continue;
+        const std::string name(technique->ladder->name);
+        names.push_back(name);
+        meanings +=
+            (meanings.empty() ? "" : " ") + name + ": " + std::string(technique->ladder->meaning) + ".";
+    }
+    techniques["maxItems"] = names.size();
+    ladder["name"]["enum"] = std::move(names);
+    ladder["name"]["description"] = meanings;
+    forEachKnob(
+        [&](const QualityKnob& knob) { settings[std::string(knob.name)] = Json::parse(knob.schema); });
+    return schema;
 }
 
 void checkStep(const Ladder& ladder, size_t k, const std::string& pointer, Findings& findings)
@@ -81,7 +111,7 @@ Calibration readDocument(std::string_view text, Findings& findings)
     std::optional<Json> document = preset::parseJson(text, kLimits, findings);
     if (!document || !preset::migrate(*document, 1, {}, findings))
         return calibration;
-    const preset::SchemaValidator validator{Json::parse(textNamed("calibration.schema.json"))};
+    const preset::SchemaValidator validator{calibrationSchema()};
     validator.validate(*document, {}, findings);
     if (findings.hasErrors())
         return calibration;
@@ -95,6 +125,23 @@ Calibration readDocument(std::string_view text, Findings& findings)
                 findings.error(pointer + "/name", "occurs twice; give each technique once");
     }
     return calibration;
+}
+
+/// "particles 0.5", "kernel", "detail on".
+std::string partOf(const QualityKnob& knob, float value)
+{
+    const std::string label = std::string(knob.label) + " ";
+    char number[32];
+    switch (knob.type) {
+    case QualityKnob::Type::Switch:
+        return label + (value != 0.0f ? "on" : "off");
+    case QualityKnob::Type::Choice:
+        return std::string(knob.choices[size_t(value)]);
+    case QualityKnob::Type::Number:
+        break;
+    }
+    std::snprintf(number, sizeof number, "%g", double(value));
+    return label + number;
 }
 
 } // namespace
@@ -116,18 +163,23 @@ base::Result<Calibration> builtInCalibration()
 nlohmann::ordered_json toJson(const Knobs& knobs)
 {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
-    if (knobs.billboards)
-        json["billboards"] = kForms[size_t(*knobs.billboards)];
-    if (knobs.detail)
-        json["detail"] = *knobs.detail;
-    if (knobs.particles)
-        json["particles"] = *knobs.particles;
-    if (knobs.shimmer)
-        json["shimmer"] = *knobs.shimmer;
-    if (knobs.lodBias)
-        json["lodBias"] = *knobs.lodBias;
-    if (knobs.dazzle)
-        json["dazzle"] = *knobs.dazzle;
+    forEachKnob([&](const QualityKnob& knob) {
+        const std::optional<float> value = valueOf(knobs, knob.name);
+        if (!value)
+            return;
+        nlohmann::ordered_json& member = json[std::string(knob.name)];
+        switch (knob.type) {
+        case QualityKnob::Type::Number:
+            member = *value;
+            break;
+        case QualityKnob::Type::Switch:
+            member = *value != 0.0f;
+            break;
+        case QualityKnob::Type::Choice:
+            member = std::string(knob.choices[size_t(*value)]);
+            break;
+        }
+    });
     return json;
 }
 
@@ -146,22 +198,16 @@ nlohmann::ordered_json toJson(const Calibration& calibration)
 std::string toText(const Knobs& knobs)
 {
     std::string text;
-    const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-    const auto addNumber = [&](const char* name, const std::optional<float>& value) {
-        char part[32];
-        if (value && std::snprintf(part, sizeof part, "%s %g", name, double(*value)) > 0)
-            add(part);
+    const auto addAll = [&](QualityKnob::Type type) {
+        forEachKnob([&](const QualityKnob& knob) {
+            const std::optional<float> value = valueOf(knobs, knob.name);
+            if (knob.type == type && value)
+                text += (text.empty() ? "" : ", ") + partOf(knob, *value);
+        });
     };
-    addNumber("particles", knobs.particles);
-    addNumber("lod bias", knobs.lodBias);
-    if (knobs.billboards)
-        add(kForms[size_t(*knobs.billboards)]);
-    if (knobs.detail)
-        add(*knobs.detail ? "detail on" : "detail off");
-    if (knobs.shimmer)
-        add(*knobs.shimmer ? "shimmer on" : "shimmer off");
-    if (knobs.dazzle)
-        add(*knobs.dazzle ? "dazzle on" : "dazzle off");
+    addAll(QualityKnob::Type::Number);
+    addAll(QualityKnob::Type::Choice);
+    addAll(QualityKnob::Type::Switch);
     return text;
 }
 

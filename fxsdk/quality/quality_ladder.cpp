@@ -1,34 +1,61 @@
 #include "fxsdk/quality/quality_ladder.h"
 
 #include <algorithm>
+#include <type_traits>
+#include <utility>
 
 namespace fx::quality {
 
+namespace {
+
+/// Calls f(name, member) for every member of `knobs`.
+template <class K, class F>
+void forEachMember(K& knobs, F&& f)
+{
+    f("billboards", knobs.billboards);
+    f("detail", knobs.detail);
+    f("particles", knobs.particles);
+    f("shimmer", knobs.shimmer);
+    f("lodBias", knobs.lodBias);
+    f("dazzle", knobs.dazzle);
+}
+
+} // namespace
+
+std::optional<float> valueOf(const Knobs& knobs, std::string_view name)
+{
+    std::optional<float> value;
+    forEachMember(knobs, [&](std::string_view member, const auto& setting) {
+        if (member == name && setting)
+            value = float(*setting);
+    });
+    return value;
+}
+
+void setValue(std::string_view name, float value, Knobs& ioKnobs)
+{
+    forEachMember(ioKnobs, [&](std::string_view member, auto& setting) {
+        using Value = typename std::remove_reference_t<decltype(setting)>::value_type;
+        if (member == name)
+            setting = Value(value);
+    });
+}
+
 void apply(const Knobs& knobs, render::ViewSettings& ioSettings)
 {
-    if (knobs.billboards)
-        ioSettings.form = std::min(ioSettings.form, *knobs.billboards);
-    if (knobs.detail)
-        ioSettings.detail = ioSettings.detail && *knobs.detail;
-    if (knobs.particles)
-        ioSettings.particleShare = std::min(ioSettings.particleShare, *knobs.particles);
-    if (knobs.shimmer && !*knobs.shimmer)
-        ioSettings.shimmer.strength = 0.0f;
-    if (knobs.lodBias)
-        ioSettings.lod.bias = std::max(ioSettings.lod.bias, *knobs.lodBias);
-    if (knobs.dazzle)
-        ioSettings.dazzle.enabled = ioSettings.dazzle.enabled && *knobs.dazzle;
+    forEachKnob([&](const render::QualityKnob& knob) {
+        if (const std::optional<float> value = valueOf(knobs, knob.name))
+            knob.lower(*value, ioSettings);
+    });
 }
 
 Knobs merged(const Knobs& first, const Knobs& second)
 {
     Knobs both = second;
-    both.billboards = first.billboards ? first.billboards : second.billboards;
-    both.detail = first.detail ? first.detail : second.detail;
-    both.particles = first.particles ? first.particles : second.particles;
-    both.shimmer = first.shimmer ? first.shimmer : second.shimmer;
-    both.lodBias = first.lodBias ? first.lodBias : second.lodBias;
-    both.dazzle = first.dazzle ? first.dazzle : second.dazzle;
+    forEachKnob([&](const render::QualityKnob& knob) {
+        if (const std::optional<float> value = valueOf(first, knob.name))
+            setValue(knob.name, *value, both);
+    });
     return both;
 }
 

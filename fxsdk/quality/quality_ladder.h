@@ -2,12 +2,13 @@
 /// What a technique costs and how wrong it is, setting by setting: the data that quality is chosen from.
 #pragma once
 
-#include "rendering/frame/view_types.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fx::quality {
@@ -15,7 +16,7 @@ namespace fx::quality {
 constexpr size_t kMostLadders = 8; ///< techniques that are chosen at once
 constexpr size_t kMostSteps = 16;  ///< of one ladder
 
-/// The switches of the renderer that a step sets; what is absent stays as the host has it.
+/// The settings of techniques that a step lowers; what is absent stays as the host has it.
 struct Knobs
 {
     std::optional<render::BillboardForm> billboards = std::nullopt;
@@ -46,6 +47,21 @@ struct Calibration
     std::string origin; ///< machine and version that measured it
     std::vector<Ladder> ladders;
 };
+
+/// The value of the setting that render::QualityKnob::name names; nothing: it is absent, or there is no such
+/// one.
+std::optional<float> valueOf(const Knobs& knobs, std::string_view name);
+void setValue(std::string_view name, float value, Knobs& ioKnobs);
+
+/// Calls f(knob) for every render::QualityKnob of the techniques, in their order.
+template <class F>
+void forEachKnob(F&& f, render::DrawTechniques techniques = render::drawTechniques())
+{
+    for (const render::DrawTechnique* technique : techniques)
+        if (technique->ladder)
+            for (const render::QualityKnob& knob : technique->ladder->knobs)
+                f(knob);
+}
 
 /// What `first` sets, and what `second` sets besides.
 Knobs merged(const Knobs& first, const Knobs& second);

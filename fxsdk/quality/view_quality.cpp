@@ -121,9 +121,9 @@ void ViewQuality::weigh(const render::ViewRenderer& renderer)
     weights_ = {};
     const auto& ladders = controller_->ladders();
     for (const render::DrawTechnique* technique : renderer.techniques())
-        for (size_t i = 0; technique->weight && i < ladders.size(); ++i)
-            if (ladders[i].technique == technique->ladder)
-                weights_[i] = technique->weight(renderer.covered());
+        for (size_t i = 0; technique->ladder && i < ladders.size(); ++i)
+            if (ladders[i].technique == technique->ladder->name)
+                weights_[i] = technique->ladder->weight(renderer.covered());
 }
 
 } // namespace fx::quality

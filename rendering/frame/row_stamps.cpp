@@ -2,7 +2,6 @@
 
 #include "foundation/math/hash.h"
 #include "foundation/memory/same_bytes.h"
-#include "foundation/snapshot/particle_kind.h"
 #include "rendering/frame/snapshot_match.h"
 
 #include <algorithm>
@@ -15,12 +14,10 @@ namespace {
 constexpr uint32_t kEmpty = ~0u;
 constexpr size_t kMostTries = 16; ///< groups that a group is compared with before it counts as unlike all
 
-bool hasRows(const base::FrameSnapshot& snapshot, const base::SnapshotGroup& group)
+bool hasRows(const base::SnapshotGroup& group, std::span<const base::KindId> kinds)
 {
-    const base::KindId kind = group.info().kind;
     return !group.program() && group.count() > 0 &&
-           (kind == snapshot.schema().find(base::kParticleKind.name) ||
-            kind == snapshot.schema().find(base::kRibbonKind.name));
+           std::find(kinds.begin(), kinds.end(), group.info().kind) != kinds.end();
 }
 
 template <class T>
@@ -133,7 +130,7 @@ void RowStamps::findAlike(const base::FrameSnapshot& snapshot, size_t g)
 }
 
 void RowStamps::build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older,
-                      const SnapshotRowStamps& before, uint64_t& ioLast)
+                      const SnapshotRowStamps& before, std::span<const base::KindId> kinds, uint64_t& ioLast)
 {
     before_.assign(before.parts.begin(), before.parts.end()); // they may be these
     const size_t count = newer.groupCount();
@@ -150,7 +147,7 @@ void RowStamps::build(const base::FrameSnapshot& newer, const base::FrameSnapsho
         }
         const base::SnapshotGroup& group = newer.group(g);
         parts_[g] = {0, group.count(), 0};
-        if (!hasRows(newer, group))
+        if (!hasRows(group, kinds))
             continue;
         parts_[g].stamp = stampOf(newer, g, older, ioLast);
         findAlike(newer, g);

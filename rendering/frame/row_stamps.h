@@ -1,6 +1,7 @@
 /// @file row_stamps.h
-/// Numbers that tell whether rows of particles and ribbons are those that were uploaded before, group by
-/// group, and whether several groups hold the same rows, as instances do that share a simulation.
+/// Numbers that tell whether rows, such as those of particles and ribbons, are those that were uploaded
+/// before, group by group, and whether several groups hold the same rows, as instances do that share a
+/// simulation.
 ///
 /// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
 #pragma once
@@ -65,7 +66,7 @@ private:
     std::pmr::vector<uint32_t> same_; ///< by pool of the newer snapshot: of the older one
 };
 
-/// Stamps the groups of the kinds "particle" and "ribbon" of snapshots that follow each other.
+/// Stamps the groups of some kinds of snapshots that follow each other.
 class RowStamps
 {
 public:
@@ -75,8 +76,9 @@ public:
 
     /// @param older  null, or a snapshot of the same scene; what it shares with `newer` has the same stamps
     /// @param before stamps of `older`; without parts: not known
+    /// @param kinds  those that are stamped; pools are stamped in any case
     void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older,
-               const SnapshotRowStamps& before, uint64_t& ioLast);
+               const SnapshotRowStamps& before, std::span<const base::KindId> kinds, uint64_t& ioLast);
     SnapshotRowStamps stamps() const { return {parts_, {}, alike_}; }
 
 private:

@@ -103,7 +103,10 @@ void SnapshotStamps::remember(const base::FrameSnapshot& snapshot, const base::F
     if (&known_[next_] == (older ? find(*older) : nullptr))
         next_ = (next_ + 1) % known_.size(); // it has to stay for this frame
     Known& known = known_[next_];
-    known.rows.build(snapshot, older, before, lastRows_);
+    rowIds_.clear();
+    for (const base::KindDesc* kind : rowKinds_)
+        rowIds_.push_back(snapshot.schema().find(kind->name));
+    known.rows.build(snapshot, older, before, rowIds_, lastRows_);
     known.snapshot = &snapshot;
     known.sequence = snapshot.sequence();
     known.tick = snapshot.tick();

@@ -34,8 +34,12 @@ class SnapshotStamps
 {
 public:
     explicit SnapshotStamps(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-        : known_{Known(memory), Known(memory), Known(memory), Known(memory)}
+        : rowKinds_(memory),
+          rowIds_(memory), known_{Known(memory), Known(memory), Known(memory), Known(memory)}
     {}
+
+    /// Stamps rows of groups of `kind`, which must stay, from the next snapshot on.
+    void stampRowsOf(const base::KindDesc& kind) { rowKinds_.push_back(&kind); }
 
     StampPair stampsOf(const base::SnapshotPair& snapshots);
     /// Stamps of the rows of a snapshot of the last stampsOf(); valid until the next one.
@@ -56,6 +60,8 @@ private:
     const Known* find(const base::FrameSnapshot& snapshot) const; ///< null: not known
     void remember(const base::FrameSnapshot& snapshot, const base::FrameSnapshot* older, uint64_t stamp);
 
+    std::pmr::vector<const base::KindDesc*> rowKinds_;
+    std::pmr::vector<base::KindId> rowIds_; ///< of rowKinds_ in the schema of the last snapshot
     std::array<Known, 4> known_;
     size_t next_ = 0; ///< of known_, to be overwritten
     uint64_t last_ = 0;

@@ -1,6 +1,6 @@
 /// @file gpu_depth.h
 /// What a frame shows, as emitters see it that collide with it. Text of the shader:
-/// shaders/shared/gpu_particle_depth.glsl.
+/// shaders/gpu_particles/gpu_particle_depth.glsl.
 ///
 /// @formula depth-contact
 /// First place and time at which a particle's way meets what a depth texture shows.
@@ -63,7 +63,7 @@ struct GpuDepth
     int width = 0, height = 0;          ///< [pixel]
 };
 
-/// Layout of the last members of the uniform block in shaders/passes/gpu_particles.comp.glsl.
+/// Layout of the last members of the uniform block in shaders/gpu_particles/gpu_particles.comp.glsl.
 struct GpuDepthBlock
 {
     glm::vec4 right, up, forward; ///< local place and 1 to the camera's axes [m]

@@ -16,10 +16,12 @@ using base::RandomPurpose;
 static_assert(uint32_t(RandomPurpose::Position) == 1 && uint32_t(RandomPurpose::Direction) == 2 &&
                   uint32_t(RandomPurpose::Life) == 3 && uint32_t(RandomPurpose::Attributes) == 4 &&
                   uint32_t(RandomPurpose::Spin) == 7 && uint32_t(RandomPurpose::Axis) == 8,
-              "passes/gpu_particles.comp.glsl has these numbers");
-static_assert(base::kTicksPerSecond == 705'600'000, "shared/gpu_particle_words.glsl has its reciprocal");
+              "gpu_particles/gpu_particles.comp.glsl has these numbers");
+static_assert(base::kTicksPerSecond == 705'600'000,
+              "gpu_particles/gpu_particle_words.glsl has its reciprocal");
 
-constexpr ProgramDesc kRows{"gpu particles", nullptr, nullptr, "passes/gpu_particles.comp.glsl", nullptr};
+constexpr ProgramDesc kRows{"gpu particles", nullptr, nullptr, "gpu_particles/gpu_particles.comp.glsl",
+                            nullptr};
 constexpr uint64_t kFramesKept = 300;
 
 bool has(base::ColumnSet columns, size_t column)
@@ -39,9 +41,9 @@ uint64_t bytesOf(const base::GpuParticleProgram& emitter)
 using base::GpuModule;
 static_assert(uint32_t(GpuModule::Plane) == 16 && uint32_t(GpuModule::Box) == 19 &&
                   uint32_t(GpuModule::Depth) == 20,
-              "shared/gpu_particle_contacts.glsl has these numbers");
+              "gpu_particles/gpu_particle_contacts.glsl has these numbers");
 
-/// What calls the modules before those that are met: functions of shared/gpu_particle_forces.glsl.
+/// What calls the modules before those that are met: functions of gpu_particles/gpu_particle_forces.glsl.
 constexpr const char* kFunctions[] = {
     "addGravity",       "addLift",          "addCurl",       "addGust",    "addQuadraticDrag", "addVortex",
     "addHoldingVortex", "addSpring",        "addConstant",   "addInverse", "addInverseSquare", "addFieldAir",

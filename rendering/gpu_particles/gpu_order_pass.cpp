@@ -11,16 +11,16 @@ namespace fx::render {
 
 namespace {
 
-constexpr uint32_t kBlock = 1024;  ///< as in passes/gpu_particle_order.comp.glsl
+constexpr uint32_t kBlock = 1024;  ///< as in gpu_particles/gpu_particle_order.comp.glsl
 constexpr uint32_t kThreads = 512; ///< likewise
 
 constexpr ProgramDesc stage(const char* defines)
 {
-    return {"gpu particle order", nullptr, nullptr, "passes/gpu_particle_order.comp.glsl", defines};
+    return {"gpu particle order", nullptr, nullptr, "gpu_particles/gpu_particle_order.comp.glsl", defines};
 }
 constexpr ProgramDesc radixStage(const char* defines)
 {
-    return {"gpu particle radix", nullptr, nullptr, "passes/gpu_particle_radix.comp.glsl", defines};
+    return {"gpu particle radix", nullptr, nullptr, "gpu_particles/gpu_particle_radix.comp.glsl", defines};
 }
 constexpr ProgramDesc kStages[kGpuOrderPrograms] = {
     stage("FX_STAGE=0"), stage("FX_STAGE=1"),      stage("FX_STAGE=2"),      stage("FX_STAGE=3"),
@@ -37,7 +37,7 @@ enum : size_t
     Scatter
 };
 
-constexpr uint32_t kDigitBits = 4; ///< as in passes/gpu_particle_radix.comp.glsl
+constexpr uint32_t kDigitBits = 4; ///< as in gpu_particles/gpu_particle_radix.comp.glsl
 constexpr uint32_t kDigits = 1u << kDigitBits;
 
 /// Layout of the uniform block.

@@ -6,7 +6,7 @@ namespace fx::render {
 
 namespace {
 
-constexpr uint32_t kGroupRows = 256; ///< as in passes/gpu_particles.comp.glsl
+constexpr uint32_t kGroupRows = 256; ///< as in gpu_particles/gpu_particles.comp.glsl
 constexpr uint32_t kMostSteps = 128; ///< of one dispatch: drivers end those that take too long
 
 /// Layout of the uniform block.

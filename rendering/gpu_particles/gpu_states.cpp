@@ -11,7 +11,7 @@ namespace fx::render {
 namespace {
 
 constexpr uint64_t kFramesKept = 120;
-constexpr uint64_t kReachedWords = 7; ///< of a row, as in shared/gpu_particle_steps.glsl
+constexpr uint64_t kReachedWords = 7; ///< of a row, as in gpu_particles/gpu_particle_steps.glsl
 constexpr uint32_t kHeadWords = 4;    ///< likewise
 
 } // namespace

@@ -5,12 +5,14 @@
 #include "foundation/snapshot/frame_snapshot.h"
 #include "rendering/lights/light.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstddef>
 #include <span>
 
 namespace fx::render {
 
-/// Light of one group of blobs, or of the light list of one emitter.
+/// Light of one group of a snapshot.
 struct EffectLight
 {
     glm::dvec3 position; ///< [m] world: center of the emitted light
@@ -18,16 +20,48 @@ struct EffectLight
     float radius;        ///< [m] root mean square extent of the emission, > 0
 };
 
-constexpr size_t kMostEffectLights = 4; ///< that drawing takes into account
+constexpr size_t kMostEffectLights = 4;  ///< that drawing takes into account
+constexpr size_t kMostLightSources = 16; ///< kinds of snapshot data that shed light
+
+/// How groups of one kind of snapshot data shed light.
+struct LightSource
+{
+    const base::KindDesc* kind;
+
+    /// Light of a group with elements. @return false: it sheds none, or its light is that of another group
+    bool (*lightOf)(const base::FrameSnapshot& snapshot, const base::SnapshotGroup& group,
+                    EffectLight& outLight);
+};
 
 /// One light for each group that glows, brightest first, as many as fit.
-///
-/// A blob of cross section s and source B sends B s (1 - exp(-t)) / t candela in every direction, t = 3.5 s /
-/// (pi R^2) being its optical depth: thin gas shows all of its medium, thick gas only its face. What stands
-/// before it is counted by the same factor with the group's own mean optical depth.
-/// A light list (kind "light") counts as one light too, unless its emitter is seen as a medium, which glows
-/// by itself.
+/// @param sources at most kMostLightSources are used
 /// @return how many were written to `out`
-size_t effectLights(const base::FrameSnapshot& snapshot, std::span<EffectLight> out);
+size_t effectLights(const base::FrameSnapshot& snapshot, std::span<const LightSource* const> sources,
+                    std::span<EffectLight> out);
+
+/// The light of the elements of one group, summed in the space of the group.
+class GroupGlow
+{
+public:
+    /// An element whose numbers are not finite is left out, as it is not drawn either.
+    /// @param intensity [cd]  @param radius [m]  @return whether it was added
+    bool add(const glm::vec3& position, const glm::vec3& intensity, float radius);
+
+    bool isDark() const; ///< too little to be a light
+
+    /// [m] root mean square extent.
+    /// @param leastSquare [m2] of the result where the elements are at one place
+    float extent(float leastSquare) const;
+
+    /// @param extent [m]
+    /// @param visible [1] share of the light that leaves the group
+    EffectLight light(const base::Placement& placement, float extent, float visible) const;
+
+private:
+    glm::vec3 intensity_{0.0f};
+    glm::dvec3 moment_{0.0}; ///< luminous weight times position
+    double weight_ = 0.0;
+    double spread_ = 0.0; ///< weight times squared extent
+};
 
 } // namespace fx::render

@@ -17,21 +17,13 @@ namespace column = base::particle_column;
 namespace constant = base::particle_constant;
 using base::SnapshotGroup;
 
-void forgetRibbonBounds(base::FrameSnapshot& merged)
-{
-    const base::KindId ribbon = merged.schema().find(base::kRibbonKind.name);
-    for (size_t g = 0; g < merged.groupCount(); ++g)
-        if (merged.editGroup(g).info().kind == ribbon)
-            merged.editGroup(g).editInfo().bounds = {};
-}
-
 /// Whether rows of several groups may be drawn in one order without changing the picture: in that of their
 /// distances, or in any.
-bool hasFreeOrder(const SnapshotGroup& group, bool ribbon)
+bool hasFreeOrder(const SnapshotGroup& group, bool isStrip)
 {
     const auto c = group.constants();
     return c[constant::Blend] != float(base::ParticleBlend::Alpha) ||
-           (!ribbon && c[constant::Order] == float(base::ParticleOrder::Depth));
+           (!isStrip && c[constant::Order] == float(base::ParticleOrder::Depth));
 }
 
 bool haveSameColumns(const SnapshotGroup& a, const SnapshotGroup& b)
@@ -40,11 +32,11 @@ bool haveSameColumns(const SnapshotGroup& a, const SnapshotGroup& b)
     return ((a.present() ^ b.present()) & kColumns) == 0;
 }
 
-/// Rows of a pool stay where they are.
-MergeSource sourceOf(const base::FrameSnapshot& snapshot, size_t g, base::KindId particle)
+/// Rows of a pool stay where they are; strips are in none.
+MergeSource sourceOf(const base::FrameSnapshot& snapshot, size_t g, bool isStrip)
 {
     const base::GroupRoster::Entry* const entry = snapshot.pooled(g);
-    if (entry && snapshot.name(g).kind == particle) {
+    if (entry && !isStrip) {
         const base::PooledRows& pool = snapshot.pool(entry->pool);
         return {&pool.rows, &pool, entry, pool.counts[entry->member]};
     }
@@ -68,10 +60,12 @@ bool isSame(const base::Placement& a, const base::Placement& b)
 
 } // namespace
 
-GroupMerger::GroupMerger(const base::SnapshotSchema* schema, std::pmr::memory_resource* memory)
-    : members_(memory), sets_(memory), taken_(memory), parts_(memory), partsBegin_(memory),
-      newerStamps_(memory), olderStamps_(memory), layout_(memory), layoutBefore_(memory), anchors_(memory),
-      anchorsBefore_(memory), rows_(memory), newer_(schema, memory), older_(schema, memory)
+GroupMerger::GroupMerger(std::span<const RowTechnique* const> techniques, const base::SnapshotSchema* schema,
+                         std::pmr::memory_resource* memory)
+    : techniques_(techniques), schema_(schema), members_(memory), sets_(memory), taken_(memory),
+      parts_(memory), partsBegin_(memory), newerStamps_(memory), olderStamps_(memory), layout_(memory),
+      layoutBefore_(memory), anchors_(memory), anchorsBefore_(memory), rows_(memory), newer_(schema, memory),
+      older_(schema, memory)
 {}
 
 bool GroupMerger::joins(const Set& set, const MergeSource& group) const
@@ -90,22 +84,22 @@ bool GroupMerger::joins(const Set& set, const MergeSource& group) const
 void GroupMerger::collect(const base::SnapshotPair& snapshots)
 {
     const base::FrameSnapshot& newer = *snapshots.newer;
-    const base::KindId particle = newer.schema().find(base::kParticleKind.name);
-    const base::KindId ribbon = newer.schema().find(base::kRibbonKind.name);
+    const RowTechniques techniques(techniques_, newer.schema());
     members_.clear();
     sets_.clear();
     taken_.assign(newer.groupCount(), 0);
     for (size_t g = 0; g < newer.groupCount(); ++g) {
         const base::GroupName name = newer.name(g);
-        if (name.kind == base::kNoKind || (name.kind != particle && name.kind != ribbon))
+        const RowTechnique* const technique = techniques.of(name.kind);
+        if (!technique || !technique->merge)
             continue;
-        const MergeSource group = sourceOf(newer, g, particle);
-        const bool isRibbon = name.kind == ribbon;
-        if (group.count == 0 || group.count > kMostMergedRows || !hasFreeOrder(*group.rows, isRibbon))
+        const bool isStrip = technique->isStrip;
+        const MergeSource group = sourceOf(newer, g, isStrip);
+        if (group.count == 0 || group.count > kMostMergedRows || !hasFreeOrder(*group.rows, isStrip))
             continue;
-        const size_t before = isRibbon ? kNoGroup : findSameGroup(snapshots.older, name, g);
+        const size_t before = isStrip ? kNoGroup : findSameGroup(snapshots.older, name, g);
         const MergeSource older =
-            before == kNoGroup ? MergeSource{} : sourceOf(*snapshots.older, before, particle);
+            before == kNoGroup ? MergeSource{} : sourceOf(*snapshots.older, before, isStrip);
         if (older.rows && (older.count > kMostMergedRows || !haveSameColumns(*group.rows, *older.rows)))
             continue;
         const uint32_t rows = std::max(group.room(), older.room());
@@ -113,7 +107,7 @@ void GroupMerger::collect(const base::SnapshotPair& snapshots)
         auto set = std::find_if(sets_.begin(), sets_.end(), [&](const Set& s) { return joins(s, group); });
         if (set == sets_.end()) {
             members_.push_back({group, older, g, before, 0, rows, kNone});
-            sets_.push_back({member, member, 1, rows, g});
+            sets_.push_back({technique, member, member, 1, rows, g});
             continue;
         }
         members_.push_back({group, older, g, before, set->rows, rows, kNone});
@@ -123,6 +117,14 @@ void GroupMerger::collect(const base::SnapshotPair& snapshots)
         ++set->count;
         taken_[g] = taken_[set->group] = 1;
     }
+}
+
+void GroupMerger::forgetStripBounds()
+{
+    const RowTechniques techniques(techniques_, *schema_);
+    for (size_t g = 0; g < older_.groupCount(); ++g)
+        if (techniques.of(older_.editGroup(g).info().kind)->isStrip)
+            older_.editGroup(g).editInfo().bounds = {};
 }
 
 /// Two layouts that are the same, of the same groups, give the same rows.
@@ -141,10 +143,9 @@ void GroupMerger::listLayout()
 
 void GroupMerger::mergeSets(const base::SnapshotPair& snapshots, bool isOlder)
 {
-    rows_.begin(isOlder ? *snapshots.older : *snapshots.newer, isOlder ? older_ : newer_,
-                snapshots.newer->schema().find(base::kRibbonKind.name));
+    rows_.begin(isOlder ? *snapshots.older : *snapshots.newer, isOlder ? older_ : newer_);
     forEachSet([&](const Set& set) {
-        rows_.addGroup(members_[set.first].newer, set.rows);
+        rows_.addGroup(*set.technique, members_[set.first].newer, set.rows);
         forEachMember(set, [&](uint32_t m) {
             const Member& member = members_[m];
             rows_.addRows(isOlder ? member.older : member.newer, member.firstRow, member.rows, m + 1);
@@ -154,7 +155,7 @@ void GroupMerger::mergeSets(const base::SnapshotPair& snapshots, bool isOlder)
 }
 
 /// What decides the rows that mergeSets() makes of a member.
-RowStamp GroupMerger::stampOf(const Set& set, uint32_t member, bool isOlder, bool isRibbon,
+RowStamp GroupMerger::stampOf(const Set& set, uint32_t member, bool isOlder,
                               const SnapshotRowStamps& rows) const
 {
     const Member& m = members_[member];
@@ -169,7 +170,8 @@ RowStamp GroupMerger::stampOf(const Set& set, uint32_t member, bool isOlder, boo
     const auto two = [](float a, float b) {
         return uint64_t(std::bit_cast<uint32_t>(a)) << 32 | std::bit_cast<uint32_t>(b);
     };
-    uint64_t hash = base::hashWord(own, isRibbon ? member + 1 : 0); // is in the numbers of strips
+    uint64_t hash =
+        base::hashWord(own, set.technique->isStrip ? member + 1 : 0); // is in the numbers of strips
     for (const uint64_t word :
          {two(offset.x, offset.y), two(offset.z, place.scale), two(place.rotation.x, place.rotation.y),
           two(place.rotation.z, place.rotation.w)})
@@ -178,14 +180,12 @@ RowStamp GroupMerger::stampOf(const Set& set, uint32_t member, bool isOlder, boo
     return part;
 }
 
-void GroupMerger::listStamps(const base::SnapshotPair& snapshots, bool isOlder, const SnapshotRowStamps& rows)
+void GroupMerger::listStamps(bool isOlder, const SnapshotRowStamps& rows)
 {
-    const base::KindId ribbon = snapshots.newer->schema().find(base::kRibbonKind.name);
     std::pmr::vector<RowStamp>& out = isOlder ? olderStamps_ : newerStamps_;
     out.clear();
     forEachSet([&](const Set& set) {
-        const bool isRibbon = members_[set.first].newer.rows->info().kind == ribbon;
-        forEachMember(set, [&](uint32_t m) { out.push_back(stampOf(set, m, isOlder, isRibbon, rows)); });
+        forEachMember(set, [&](uint32_t m) { out.push_back(stampOf(set, m, isOlder, rows)); });
     });
 }
 
@@ -226,7 +226,7 @@ void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of
     if (isKept) {
         std::swap(newer_, older_);
         newerStamps_.swap(olderStamps_);
-        forgetRibbonBounds(older_); // those that are merged as older have none
+        forgetStripBounds(); // strips that are merged as older have none
     }
     newer_.begin(snapshots.newer ? snapshots.newer->tick() : 0, ++sequence_);
     stamps_ = {sequence_, 0};
@@ -239,10 +239,10 @@ void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of
     if (snapshots.newer) {
         if (hasOlder_ && !isKept) {
             mergeSets(snapshots, true);
-            listStamps(snapshots, true, olderRows);
+            listStamps(true, olderRows);
         }
         mergeSets(snapshots, false);
-        listStamps(snapshots, false, newerRows);
+        listStamps(false, newerRows);
     }
     listParts();
     built_ = of;

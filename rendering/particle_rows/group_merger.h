@@ -3,7 +3,6 @@
 /// sorted among each other.
 #pragma once
 
-#include "foundation/snapshot/particle_kind.h"
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/frame/snapshot_stamps.h"
 #include "rendering/lod/row_thinning.h"
@@ -21,7 +20,7 @@ namespace fx::render {
 /// where the same groups stand in the same places. Rows of pools are read where they lie, and what has its
 /// rows there has room for all that it may ever have, so that others stay in their places.
 ///
-/// Groups of the kinds "particle" and "ribbon" are merged when no order of theirs is lost (they are sorted by
+/// Groups of techniques with a RowMerge are merged when no order of theirs is lost (they are sorted by
 /// distance, or add, or hide), when they have the same columns and constants, at
 /// most kMostMergedRows rows each, and stand within kFarthestMerged of each other; where sprites stand by an
 /// axis, also the same rotation. A merged group is relative to where the first of its members stands, with
@@ -32,7 +31,9 @@ public:
     static constexpr uint32_t kMostMergedRows = 4096;
     static constexpr double kFarthestMerged = 2000.0; ///< [m]
 
-    GroupMerger(const base::SnapshotSchema* schema, std::pmr::memory_resource* memory);
+    /// @param techniques must stay
+    GroupMerger(std::span<const RowTechnique* const> techniques, const base::SnapshotSchema* schema,
+                std::pmr::memory_resource* memory);
 
     /// @param of the snapshots: nothing is done again while they stay
     /// @param newerRows, olderRows  stamps of their groups; without parts: not known
@@ -57,7 +58,7 @@ private:
     struct Member
     {
         MergeSource newer;
-        MergeSource older;             ///< without rows: there is none, or a ribbon
+        MergeSource older;             ///< without rows: there is none, or strips
         size_t newerIndex, olderIndex; ///< in their snapshots
         uint32_t firstRow;
         uint32_t rows;
@@ -65,6 +66,7 @@ private:
     };
     struct Set
     {
+        const RowTechnique* technique;
         uint32_t first, last; ///< members
         uint32_t count;
         uint32_t rows;
@@ -84,9 +86,9 @@ private:
     bool joins(const Set& set, const MergeSource& group) const;
     void listLayout();
     void mergeSets(const base::SnapshotPair& snapshots, bool isOlder);
-    RowStamp stampOf(const Set& set, uint32_t member, bool isOlder, bool isRibbon,
-                     const SnapshotRowStamps& rows) const;
-    void listStamps(const base::SnapshotPair& snapshots, bool isOlder, const SnapshotRowStamps& rows);
+    void forgetStripBounds();
+    RowStamp stampOf(const Set& set, uint32_t member, bool isOlder, const SnapshotRowStamps& rows) const;
+    void listStamps(bool isOlder, const SnapshotRowStamps& rows);
     void listParts();
     /// Calls f(set) for each that becomes a group.
     template <class F>
@@ -103,6 +105,8 @@ private:
             f(m);
     }
 
+    std::span<const RowTechnique* const> techniques_;
+    const base::SnapshotSchema* schema_;
     StampPair built_; ///< what merged() was made of
     StampPair stamps_;
     std::pmr::vector<Member> members_;

@@ -11,7 +11,6 @@ namespace fx::render {
 
 namespace {
 
-namespace column = base::particle_column;
 namespace constant = base::particle_constant;
 using base::SnapshotGroup;
 
@@ -36,14 +35,14 @@ public:
             std::transform(from_.column64(c).begin(), from_.column64(c).end(),
                            to_.editColumn64(c).begin() + firstRow_, [more](uint64_t w) { return w ^ more; });
     }
-    void orientations(const glm::quat& rotation) const
+    void orientations(size_t c, const glm::quat& rotation) const
     {
-        for (uint32_t i = 0; from_.has(column::OrientationX) && i < from_.count(); ++i) {
-            const auto at = [&](size_t a) { return from_.column(column::OrientationX + a)[i]; };
+        for (uint32_t i = 0; from_.has(c) && i < from_.count(); ++i) {
+            const auto at = [&](size_t a) { return from_.column(c + a)[i]; };
             const glm::quat turned = rotation * glm::quat(at(3), at(0), at(1), at(2));
             const float values[] = {turned.x, turned.y, turned.z, turned.w};
             for (size_t a = 0; a < 4; ++a)
-                to_.editColumn(column::OrientationX + a)[firstRow_ + i] = values[a];
+                to_.editColumn(c + a)[firstRow_ + i] = values[a];
         }
     }
 
@@ -68,21 +67,23 @@ void copyConstants(const MergeSource& like, std::span<float> out)
 } // namespace
 
 MergedRows::MergedRows(std::pmr::memory_resource* memory)
-    : scatter_(memory), members_(memory), begin_(memory), groups_(memory), placed_(memory)
+    : scatter_(memory), members_(memory), begin_(memory), techniques_(memory), groups_(memory),
+      placed_(memory)
 {}
 
-void MergedRows::begin(const base::FrameSnapshot& from, base::FrameSnapshot& to, base::KindId ribbon)
+void MergedRows::begin(const base::FrameSnapshot& from, base::FrameSnapshot& to)
 {
     from_ = &from;
     to_ = &to;
-    ribbon_ = ribbon;
     members_.clear();
     begin_.clear();
+    techniques_.clear();
     anyPooled_ = false;
 }
 
-void MergedRows::addGroup(const MergeSource& like, uint32_t rows)
+void MergedRows::addGroup(const RowTechnique& technique, const MergeSource& like, uint32_t rows)
 {
+    techniques_.push_back(&technique);
     begin_.push_back(members_.size());
     const base::KindId kind = like.rows->info().kind;
     SnapshotGroup& out = to_->addGroup(kind, rows + kRowsBehind, like.rows->present());
@@ -119,7 +120,7 @@ void MergedRows::write()
         scatter_.run(*from_, groups_);
     }
     for (size_t g = 0; g < groups_.size(); ++g)
-        place(begin_[g], g + 1 < begin_.size() ? begin_[g + 1] : members_.size());
+        place(*techniques_[g], begin_[g], g + 1 < begin_.size() ? begin_[g + 1] : members_.size());
 }
 
 /// How places or, with `c` the first column of others, directions of a member come to where they belong.
@@ -146,11 +147,11 @@ PlacedRows MergedRows::placing(const Member& member, size_t c, size_t radius) co
 }
 
 /// The members of one group.
-void MergedRows::place(size_t begin, size_t end)
+void MergedRows::place(const RowTechnique& technique, size_t begin, size_t end)
 {
     SnapshotGroup& to = *groups_[members_[begin].group];
-    const bool isRibbon = to.info().kind == ribbon_;
-    const size_t radius = isRibbon ? size_t(base::ribbon_column::HalfWidth) : size_t(column::Radius);
+    const size_t radius = technique.merge->radius;
+    const size_t velocity = technique.merge->velocity;
     const auto placeAll = [&](size_t c, auto&& f) {
         placed_.clear();
         for (size_t m = begin; m < end; ++m)
@@ -158,9 +159,9 @@ void MergedRows::place(size_t begin, size_t end)
                 placed_.push_back(placing(members_[m], c, radius));
         f(placed_);
     };
-    if (!isRibbon && to.has(column::VelocityX))
-        placeAll(column::VelocityX, [](std::span<const PlacedRows> rows) { turnRows(rows); });
-    placeAll(column::PositionX, [](std::span<PlacedRows> rows) { placeRows(rows); });
+    if (velocity != RowMerge::kNone && to.has(velocity))
+        placeAll(velocity, [](std::span<const PlacedRows> rows) { turnRows(rows); });
+    placeAll(0, [](std::span<PlacedRows> rows) { placeRows(rows); });
     base::Bounds bounds;
     bool isBounded = true;
     size_t at = 0;
@@ -172,7 +173,7 @@ void MergedRows::place(size_t begin, size_t end)
             continue;
         measure(member, placed_[at++], bounds, isBounded);
         if (!member.from.entry)
-            copyOthers(member);
+            copyOthers(technique, member);
     }
     to.editInfo().bounds = isBounded ? bounds : base::Bounds{};
 }
@@ -194,23 +195,20 @@ void MergedRows::measure(Member& member, const PlacedRows& placed, base::Bounds&
                  0.5f * placed.scale * glm::length(own.max - own.min));
 }
 
-void MergedRows::copyOthers(const Member& member)
+void MergedRows::copyOthers(const RowTechnique& technique, const Member& member)
 {
-    namespace ribbon = base::ribbon_column;
-    SnapshotGroup& to = *groups_[member.group];
-    const ColumnCopy rows(*member.from.rows, to, member.firstRow);
-    if (to.info().kind == ribbon_) {
-        rows.numbers(ribbon::Arc);
-        rows.words(ribbon::Color);
-        rows.words(ribbon::Strip, uint64_t(member.number) << kStripShift);
-        rows.numbers(ribbon::Age);
-        return;
+    const RowMerge& merge = *technique.merge;
+    const ColumnCopy rows(*member.from.rows, *groups_[member.group], member.firstRow);
+    for (size_t c = 0; c < technique.columns.size(); ++c) {
+        if (((merge.copied >> c) & 1) == 0)
+            continue;
+        if (technique.columns[c].type != base::ColumnType::U64)
+            rows.numbers(c);
+        else
+            rows.words(c, c == merge.strip ? uint64_t(member.number) << kStripShift : 0);
     }
-    for (const size_t c : {column::Age, column::Angle, column::Frame})
-        rows.numbers(c);
-    for (const size_t c : {column::Color, column::Index})
-        rows.words(c);
-    rows.orientations(member.from.placement().rotation);
+    if (merge.orientation != RowMerge::kNone)
+        rows.orientations(merge.orientation, member.from.placement().rotation);
 }
 
 } // namespace fx::render

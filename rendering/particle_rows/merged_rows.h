@@ -7,6 +7,7 @@
 #include "foundation/snapshot/frame_snapshot.h"
 #include "rendering/particle_rows/pool_scatter.h"
 #include "rendering/particle_rows/row_placing.h"
+#include "rendering/particle_rows/row_technique.h"
 
 #include <glm/vec3.hpp>
 
@@ -36,10 +37,10 @@ class MergedRows
 public:
     explicit MergedRows(std::pmr::memory_resource* memory);
 
-    /// @param ribbon, particle kinds of `from`
-    void begin(const base::FrameSnapshot& from, base::FrameSnapshot& to, base::KindId ribbon);
+    void begin(const base::FrameSnapshot& from, base::FrameSnapshot& to);
     /// A merged group of `rows` rows that looks like `like`, which its rows become relative to.
-    void addGroup(const MergeSource& like, uint32_t rows);
+    /// @param technique has a RowMerge; must stay
+    void addGroup(const RowTechnique& technique, const MergeSource& like, uint32_t rows);
     /// Rows of the group that was added last, from `firstRow` on; those that `from` has not are empty.
     /// @param number of the member, from 1: goes into the numbers of strips
     void addRows(const MergeSource& from, uint32_t firstRow, uint32_t rows, uint32_t number);
@@ -56,17 +57,17 @@ private:
         base::Bounds bounds;
     };
 
-    void place(size_t begin, size_t end);
+    void place(const RowTechnique& technique, size_t begin, size_t end);
     PlacedRows placing(const Member& member, size_t column, size_t radius) const;
-    void copyOthers(const Member& member);
+    void copyOthers(const RowTechnique& technique, const Member& member);
     void measure(Member& member, const PlacedRows& placed, base::Bounds& ioBounds, bool& ioBounded) const;
 
     const base::FrameSnapshot* from_ = nullptr;
     base::FrameSnapshot* to_ = nullptr;
-    base::KindId ribbon_ = base::kNoKind;
     PoolScatter scatter_;
     std::pmr::vector<Member> members_;
-    std::pmr::vector<size_t> begin_; ///< by group: of its members
+    std::pmr::vector<size_t> begin_;                   ///< by group: of its members
+    std::pmr::vector<const RowTechnique*> techniques_; ///< by group
     std::pmr::vector<base::SnapshotGroup*> groups_;
     std::pmr::vector<PlacedRows> placed_; ///< of one group
     bool anyPooled_ = false;

@@ -19,6 +19,18 @@ struct RowCard
     float area;       ///< [m2]; 0: nothing is drawn
 };
 
+/// How rows of several groups come into one group, which has an origin and axes of its own.
+struct RowMerge
+{
+    static constexpr size_t kNone = ~size_t(0);
+
+    size_t radius;              ///< column [m], 0 in rows that are not used
+    size_t velocity = kNone;    ///< first of three columns, which turn with the group
+    size_t orientation = kNone; ///< first of four columns, likewise
+    size_t strip = kNone;       ///< column of strip numbers, which are made different between groups
+    base::ColumnSet copied;     ///< columns that are the same in any space, strip numbers among them
+};
+
 struct RowTechnique
 {
     const base::KindDesc* kind;
@@ -34,6 +46,8 @@ struct RowTechnique
     /// For estimates, of a row that is not the last of a strip's group.
     RowCard (*card)(const base::SnapshotGroup& group, size_t row);
     base::Bounds (*bounds)(const base::SnapshotGroup& group); ///< of rows whose writer has given none
+    /// Places are the first three columns. Null: groups of the kind are not merged.
+    const RowMerge* merge = nullptr;
 
     /// What is drawn of a group: rows, or what lies between them.
     uint32_t instances(const base::SnapshotGroup& group) const { return rows(group) - (isStrip ? 1u : 0u); }

@@ -6,7 +6,7 @@ namespace {
 
 constexpr ProgramDesc program(const char* defines)
 {
-    return {"media", "passes/media.vert.glsl", "passes/media.frag.glsl", nullptr, defines};
+    return {"media", "blobs/media.vert.glsl", "blobs/media.frag.glsl", nullptr, defines};
 }
 
 // index = small * 12 + form * 4 + detail * 2 + layers

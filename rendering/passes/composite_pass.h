@@ -5,10 +5,10 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kCompositeBlendProgram{"composite (blend)", "passes/fullscreen.vert.glsl",
-                                                    "passes/composite.frag.glsl", nullptr, "FX_BLEND=1"};
-inline constexpr ProgramDesc kCompositeProgram{"composite", "passes/fullscreen.vert.glsl",
-                                               "passes/composite.frag.glsl", nullptr, "FX_BLEND=0"};
+inline constexpr ProgramDesc kCompositeBlendProgram{"composite (blend)", "shared/fullscreen.vert.glsl",
+                                                    "frame/composite.frag.glsl", nullptr, "FX_BLEND=1"};
+inline constexpr ProgramDesc kCompositeProgram{"composite", "shared/fullscreen.vert.glsl",
+                                               "frame/composite.frag.glsl", nullptr, "FX_BLEND=0"};
 
 /// Puts the media over the host's picture: result = media + (1 - media alpha) * picture.
 ///

@@ -10,9 +10,9 @@ namespace fx::render {
 
 namespace {
 
-constexpr int kTileSide = 16; ///< [pixel], as in shaders/passes/dazzle_sum.comp.glsl
+constexpr int kTileSide = 16; ///< [pixel], as in shaders/dazzle/dazzle_sum.comp.glsl
 
-/// Layout of DazzleBlock in shaders/passes/dazzle_shared.glsl, where each member is explained.
+/// Layout of DazzleBlock in shaders/dazzle/dazzle_shared.glsl, where each member is explained.
 struct DazzleBlock
 {
     int imageSize[2];

@@ -9,12 +9,12 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kDazzleSumProgram{"dazzle sum", nullptr, nullptr, "passes/dazzle_sum.comp.glsl",
+inline constexpr ProgramDesc kDazzleSumProgram{"dazzle sum", nullptr, nullptr, "dazzle/dazzle_sum.comp.glsl",
                                                nullptr};
 inline constexpr ProgramDesc kDazzleBudgetProgram{"dazzle budget", nullptr, nullptr,
-                                                  "passes/dazzle_budget.comp.glsl", nullptr};
+                                                  "dazzle/dazzle_budget.comp.glsl", nullptr};
 inline constexpr ProgramDesc kDazzleDealProgram{"dazzle deal", nullptr, nullptr,
-                                                "passes/dazzle_deal.comp.glsl", nullptr};
+                                                "dazzle/dazzle_deal.comp.glsl", nullptr};
 
 /// What a view remembers of the dazzle from frame to frame; std430 layout of the history buffer. All zero is
 /// a view that has seen nothing yet.

@@ -6,8 +6,8 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kHeatOffsetProgram{"heat offset", "passes/heat_shimmer_offset.vert.glsl",
-                                                "passes/heat_shimmer_offset.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kHeatOffsetProgram{"heat offset", "shimmer/heat_shimmer_offset.vert.glsl",
+                                                "shimmer/heat_shimmer_offset.frag.glsl", nullptr, nullptr};
 
 /// [s] after which the eddies of hot gas repeat.
 inline constexpr double kHeatPeriod = 8.0;

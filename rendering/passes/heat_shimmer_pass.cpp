@@ -6,7 +6,7 @@ namespace fx::render {
 
 namespace {
 
-/// Layout of ShimmerBlock in shaders/shared/shimmer_block.glsl.
+/// Layout of ShimmerBlock in shaders/shimmer/shimmer_block.glsl.
 struct ShimmerBlock
 {
     float strength;

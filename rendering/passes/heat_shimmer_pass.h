@@ -9,10 +9,10 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kHeatShimmerProgram{"heat shimmer", "passes/heat_shimmer.vert.glsl",
-                                                 "passes/heat_shimmer.frag.glsl", nullptr, nullptr};
-inline constexpr ProgramDesc kHeatShimmerBackProgram{"heat shimmer back", "passes/heat_shimmer.vert.glsl",
-                                                     "passes/present.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kHeatShimmerProgram{"heat shimmer", "shimmer/heat_shimmer.vert.glsl",
+                                                 "shimmer/heat_shimmer.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kHeatShimmerBackProgram{"heat shimmer back", "shimmer/heat_shimmer.vert.glsl",
+                                                     "frame/present.frag.glsl", nullptr, nullptr};
 
 /// A rectangle of the picture that hot gas may reach. The layout is that of heat_shimmer.vert.glsl.
 struct HotArea

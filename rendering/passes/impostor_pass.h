@@ -27,7 +27,7 @@ struct ImpostorTaking
     uint32_t tile; ///< where it is kept
 };
 
-/// One effect as it is drawn; layout of shaders/passes/impostor.vert.glsl.
+/// One effect as it is drawn; layout of shaders/blobs/impostor.vert.glsl.
 struct ImpostorInstance
 {
     glm::vec4 center; ///< xyz [m] relative to the eye; w half the side of the square [m]
@@ -38,10 +38,10 @@ struct ImpostorInstance
 };
 static_assert(sizeof(ImpostorInstance) == 64);
 
-inline constexpr ProgramDesc kImpostorProgram{"impostors", "passes/impostor.vert.glsl",
-                                              "passes/impostor.frag.glsl", nullptr, nullptr};
-inline constexpr ProgramDesc kImpostorKeepProgram{"impostor keep", "passes/impostor_keep.vert.glsl",
-                                                  "passes/impostor_keep.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kImpostorProgram{"impostors", "blobs/impostor.vert.glsl",
+                                              "blobs/impostor.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kImpostorKeepProgram{"impostor keep", "blobs/impostor_keep.vert.glsl",
+                                                  "blobs/impostor_keep.frag.glsl", nullptr, nullptr};
 
 /// The camera of all pictures that are taken in one frame: orthographic, with the axes of the view, one unit
 /// a texel. `place` moves a blob, given relative to the eye, to where its picture is.

@@ -5,11 +5,11 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kLayerDistanceProgram{"layer distance", "passes/fullscreen.vert.glsl",
-                                                   "passes/layer_distance.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kLayerDistanceProgram{"layer distance", "shared/fullscreen.vert.glsl",
+                                                   "frame/layer_distance.frag.glsl", nullptr, nullptr};
 
-inline constexpr ProgramDesc kLayerSpreadProgram{"layer spread", "passes/fullscreen.vert.glsl",
-                                                 "passes/layer_spread.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kLayerSpreadProgram{"layer spread", "shared/fullscreen.vert.glsl",
+                                                 "frame/layer_spread.frag.glsl", nullptr, nullptr};
 
 /// [1] relative span of 1 / distance up to which a block of pixels counts as one surface.
 inline constexpr float kFlatBlock = 0.02f;

@@ -6,10 +6,10 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kLayerOverProgram{"layer over", "passes/fullscreen.vert.glsl",
-                                               "passes/layer_sums.frag.glsl", nullptr, "FX_OVER=1"};
-inline constexpr ProgramDesc kLayerResolveProgram{"layer resolve", "passes/fullscreen.vert.glsl",
-                                                  "passes/layer_sums.frag.glsl", nullptr, "FX_OVER=0"};
+inline constexpr ProgramDesc kLayerOverProgram{"layer over", "shared/fullscreen.vert.glsl",
+                                               "frame/layer_sums.frag.glsl", nullptr, "FX_OVER=1"};
+inline constexpr ProgramDesc kLayerResolveProgram{"layer resolve", "shared/fullscreen.vert.glsl",
+                                                  "frame/layer_sums.frag.glsl", nullptr, "FX_OVER=0"};
 
 /// Puts layer targets over others of the same size, as if both had been drawn into the same: media that were
 /// drawn small and enlarged, over solid particles that were drawn at full size.

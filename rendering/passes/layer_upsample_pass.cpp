@@ -16,7 +16,7 @@ LayerUpsamplePass::Outputs LayerUpsamplePass::addTo(FrameGraph& graph, const Inp
         }
         out.light = builder.write(builder.create(TextureDesc{in.name, in.width, in.height, in.format}));
         return [in, hasNear, target = out.light](Backend& backend) {
-            /// Layout of UpsampleBlock in shaders/passes/layer_upsample.frag.glsl.
+            /// Layout of UpsampleBlock in shaders/frame/layer_upsample.frag.glsl.
             const float block[4] = {float(in.divisor), kUpsampleReach, hasNear ? 1.0f : 0.0f, 0.0f};
             const TextureBinding textures[] = {{0, in.sceneDistance},
                                                {1, in.far},

@@ -5,8 +5,8 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kLayerUpsampleProgram{"layer upsample", "passes/fullscreen.vert.glsl",
-                                                   "passes/layer_upsample.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kLayerUpsampleProgram{"layer upsample", "shared/fullscreen.vert.glsl",
+                                                   "frame/layer_upsample.frag.glsl", nullptr, nullptr};
 
 /// [1] relative difference of 1 / distance from which a neighboring texel has no say.
 inline constexpr float kUpsampleReach = 0.1f;

@@ -6,11 +6,10 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kOverdrawProgram{"overdraw", "passes/media.vert.glsl",
-                                              "passes/overdraw.frag.glsl", nullptr, "FX_FORM=2 FX_SMALL=0"};
-inline constexpr ProgramDesc kOverdrawSmallProgram{"overdraw (small)", "passes/media.vert.glsl",
-                                                   "passes/overdraw.frag.glsl", nullptr,
-                                                   "FX_FORM=2 FX_SMALL=1"};
+inline constexpr ProgramDesc kOverdrawProgram{"overdraw", "blobs/media.vert.glsl", "blobs/overdraw.frag.glsl",
+                                              nullptr, "FX_FORM=2 FX_SMALL=0"};
+inline constexpr ProgramDesc kOverdrawSmallProgram{
+    "overdraw (small)", "blobs/media.vert.glsl", "blobs/overdraw.frag.glsl", nullptr, "FX_FORM=2 FX_SMALL=1"};
 
 /// Counts how many blobs of the kernel form contribute to each pixel, for tuning.
 ///

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kLineWidth = 1.5f; ///< [pixel]
 
-/// Layout of OverlayBlock in shaders/passes/overlay.vert.glsl.
+/// Layout of OverlayBlock in shaders/frame/overlay.vert.glsl.
 struct OverlayBlock
 {
     glm::mat4 toClip;

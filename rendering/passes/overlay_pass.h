@@ -8,8 +8,8 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kOverlayProgram{"activation overlay", "passes/overlay.vert.glsl",
-                                             "passes/overlay.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kOverlayProgram{"activation overlay", "frame/overlay.vert.glsl",
+                                             "frame/overlay.frag.glsl", nullptr, nullptr};
 
 /// Debug lines over the picture: the edges of bounding boxes, each in its color.
 ///

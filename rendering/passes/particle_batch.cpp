@@ -8,15 +8,15 @@ namespace {
 
 constexpr ProgramDesc sprite(const char* defines)
 {
-    return {"sprites", "passes/sprite.vert.glsl", "passes/sprite.frag.glsl", nullptr, defines};
+    return {"sprites", "sprites/sprite.vert.glsl", "sprites/sprite.frag.glsl", nullptr, defines};
 }
 constexpr ProgramDesc ribbon(const char* defines)
 {
-    return {"ribbons", "passes/ribbon.vert.glsl", "passes/ribbon.frag.glsl", nullptr, defines};
+    return {"ribbons", "ribbons/ribbon.vert.glsl", "ribbons/ribbon.frag.glsl", nullptr, defines};
 }
 constexpr ProgramDesc mesh(const char* defines)
 {
-    return {"particle meshes", "passes/particle_mesh.vert.glsl", "passes/particle_mesh.frag.glsl", nullptr,
+    return {"particle meshes", "sprites/particle_mesh.vert.glsl", "sprites/particle_mesh.frag.glsl", nullptr,
             defines};
 }
 

@@ -5,8 +5,8 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kPresentProgram{"present", "passes/fullscreen.vert.glsl",
-                                             "passes/present.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kPresentProgram{"present", "shared/fullscreen.vert.glsl",
+                                             "frame/present.frag.glsl", nullptr, nullptr};
 
 /// Copies the finished picture into the host's target, texel for texel.
 ///

@@ -6,8 +6,8 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kSceneDistanceProgram{"scene distance", "passes/fullscreen.vert.glsl",
-                                                   "passes/scene_distance.frag.glsl", nullptr, nullptr};
+inline constexpr ProgramDesc kSceneDistanceProgram{"scene distance", "shared/fullscreen.vert.glsl",
+                                                   "frame/scene_distance.frag.glsl", nullptr, nullptr};
 
 /// Reads the host's depth once a frame and gives every later pass the same answer to "where does this ray
 /// end".

@@ -4,7 +4,7 @@ namespace fx::render {
 
 namespace {
 
-/// Layout of ToneMapBlock in shaders/passes/tone_map.frag.glsl.
+/// Layout of ToneMapBlock in shaders/frame/tone_map.frag.glsl.
 struct ToneMapBlock
 {
     float white;

@@ -5,10 +5,10 @@
 
 namespace fx::render {
 
-inline constexpr ProgramDesc kToneMapProgram{"tone map", "passes/fullscreen.vert.glsl",
-                                             "passes/tone_map.frag.glsl", nullptr, "FX_DITHER=0"};
-inline constexpr ProgramDesc kToneMapDitherProgram{"tone map (8 bit)", "passes/fullscreen.vert.glsl",
-                                                   "passes/tone_map.frag.glsl", nullptr, "FX_DITHER=1"};
+inline constexpr ProgramDesc kToneMapProgram{"tone map", "shared/fullscreen.vert.glsl",
+                                             "frame/tone_map.frag.glsl", nullptr, "FX_DITHER=0"};
+inline constexpr ProgramDesc kToneMapDitherProgram{"tone map (8 bit)", "shared/fullscreen.vert.glsl",
+                                                   "frame/tone_map.frag.glsl", nullptr, "FX_DITHER=1"};
 
 /// Exposed radiance to what a display is given. Formulas: film-crosstalk, then tone-curve and srgb-encoding,
 /// each channel for itself.

@@ -23,14 +23,14 @@ namespace {
 constexpr size_t kMostLights = 8;
 constexpr int kShadowSize = 2048; // [pixel]
 
-constexpr ProgramDesc kMeshProgram{"stage mesh", "passes/stage_mesh.vert.glsl", "passes/stage_mesh.frag.glsl",
+constexpr ProgramDesc kMeshProgram{"stage mesh", "stage/stage_mesh.vert.glsl", "stage/stage_mesh.frag.glsl",
                                    nullptr, nullptr};
-constexpr ProgramDesc kShadowProgram{"stage shadow", "passes/stage_shadow.vert.glsl",
-                                     "passes/stage_shadow.frag.glsl", nullptr, nullptr};
-constexpr ProgramDesc kBackgroundProgram{"stage background", "passes/fullscreen.vert.glsl",
-                                         "passes/stage_background.frag.glsl", nullptr, nullptr};
+constexpr ProgramDesc kShadowProgram{"stage shadow", "stage/stage_shadow.vert.glsl",
+                                     "stage/stage_shadow.frag.glsl", nullptr, nullptr};
+constexpr ProgramDesc kBackgroundProgram{"stage background", "shared/fullscreen.vert.glsl",
+                                         "stage/stage_background.frag.glsl", nullptr, nullptr};
 
-/// Layout of StageBlock in shaders/shared/stage_block.glsl.
+/// Layout of StageBlock in shaders/stage/stage_block.glsl.
 struct StageBlock
 {
     glm::mat4 clipFromWorld;

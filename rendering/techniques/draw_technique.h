@@ -11,7 +11,6 @@
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/draw_order/draw_runs.h"
 #include "rendering/frame/fragment_counts.h"
-#include "rendering/frame/screen_share.h"
 #include "rendering/frame/snapshot_stamps.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/frame/view_types.h"
@@ -22,6 +21,7 @@
 #include "rendering/lod/level_of_detail.h"
 #include "rendering/passes/blob_instance.h"
 #include "rendering/passes/media_source.h"
+#include "rendering/techniques/quality_knob.h"
 
 #include <memory>
 #include <memory_resource>
@@ -154,14 +154,13 @@ struct DrawTechnique
     std::unique_ptr<TechniqueView> (*create)(const TechniqueSetup& setup) = nullptr;
     std::span<const ProgramDesc* const> (*programs)() = nullptr; ///< all that it can need; null: none
     std::span<const TimedPass> timedPasses = {}; ///< those that are not measured with everything else
+    const LightSource* lights =
+        nullptr; ///< how groups of `kind` light everything around them; null: not at all
     /// Refuses settings that cannot be drawn; null: there are none.
     base::Status (*check)(const ViewSettings& settings) = nullptr;
     /// Whether it changes the picture when there is nothing to see; null: no.
     bool (*actsAlone)(const ViewSettings& settings) = nullptr;
-    /// The ladder of settings that quality is chosen from, named as the group of its passes; empty: none.
-    std::string_view ladder = {};
-    /// [1] how much an error of that ladder matters.
-    double (*weight)(const ScreenShare& covered) = nullptr;
+    const QualityLadder* ladder = nullptr; ///< what quality may lower of it; null: nothing
 };
 
 } // namespace fx::render

@@ -3,20 +3,24 @@
 #include "rendering/techniques/blobs/blob_technique.h"
 #include "rendering/techniques/dazzle/dazzle_technique.h"
 #include "rendering/techniques/gpu_particles/gpu_particle_technique.h"
+#include "rendering/techniques/particle_lights/particle_light_technique.h"
 #include "rendering/techniques/ribbons/ribbon_technique.h"
 #include "rendering/techniques/shimmer/shimmer_technique.h"
 #include "rendering/techniques/sprites/sprite_technique.h"
+
+#include <array>
 
 namespace fx::render {
 
 namespace {
 
 constexpr const DrawTechnique* kTechniques[] = {
-    &kBlobTechnique,        //
-    &kSpriteTechnique,      //
-    &kRibbonTechnique,      //
-    &kGpuParticleTechnique, //
-    &kShimmerTechnique,     //
+    &kBlobTechnique,          //
+    &kSpriteTechnique,        //
+    &kRibbonTechnique,        //
+    &kGpuParticleTechnique,   //
+    &kParticleLightTechnique, //
+    &kShimmerTechnique,       //
     &kDazzleTechnique,
 };
 
@@ -30,6 +34,17 @@ constexpr TimedPass kFramePasses[] = {{"media", "media"},        {"layer distanc
 DrawTechniques drawTechniques()
 {
     return kTechniques;
+}
+
+size_t effectLights(const base::FrameSnapshot& snapshot, std::span<EffectLight> out,
+                    DrawTechniques techniques)
+{
+    std::array<const LightSource*, kMostLightSources> sources{};
+    size_t count = 0;
+    for (const DrawTechnique* technique : techniques)
+        if (technique->lights && count < sources.size())
+            sources[count++] = technique->lights;
+    return effectLights(snapshot, std::span(sources).first(count), out);
 }
 
 PassGroups passGroups(DrawTechniques techniques)

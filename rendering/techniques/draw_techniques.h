@@ -11,6 +11,10 @@ using DrawTechniques = std::span<const DrawTechnique* const>;
 
 DrawTechniques drawTechniques();
 
+/// effectLights() of the sources of `techniques`.
+size_t effectLights(const base::FrameSnapshot& snapshot, std::span<EffectLight> out,
+                    DrawTechniques techniques = drawTechniques());
+
 /// What the times of passes are added to: those of the frame's own passes and of `techniques`.
 PassGroups passGroups(DrawTechniques techniques);
 

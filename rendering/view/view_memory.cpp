@@ -1,5 +1,6 @@
 // What a view makes and gives back: the parts of its techniques, the statistics of frames, and frames in
 // which there is nothing to draw.
+#include "rendering/particle_rows/row_technique.h"
 #include "rendering/view/view_parts.h"
 
 #include <algorithm>
@@ -19,6 +20,8 @@ ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::p
         };
         if (list[i]->create && std::ranges::none_of(list.first(i), isMadeAlready))
             parts.push_back(list[i]->create(setup));
+        if (list[i]->rows && !list[i]->rows->isComputed)
+            stamps.stampRowsOf(*list[i]->kind);
     }
 }
 

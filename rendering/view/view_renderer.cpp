@@ -104,7 +104,7 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
     const CameraGeometry camera = cameraGeometry(request.camera);
     lod.begin(settings.lod, camera, request.targets.height, request.resetHistory);
     std::array<EffectLight, kMostEffectLights> lights;
-    const size_t lightCount = snapshots.newer ? effectLights(*snapshots.newer, lights) : 0;
+    const size_t lightCount = snapshots.newer ? effectLights(*snapshots.newer, lights, techniques) : 0;
     const GatherInputs inputs{&snapshots,
                               now,
                               rowsOf(snapshots.newer),

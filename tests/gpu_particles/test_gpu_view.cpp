@@ -173,7 +173,7 @@ TEST_F(GpuView, steppedParticlesAreTheSameInEveryViewAndCostNoHeap)
 TEST_F(GpuView, aRefusedProgramIsNoError)
 {
     device_->setSourceOverride([](std::string_view name, std::string_view) -> std::optional<std::string> {
-        if (name == "passes/gpu_particles.comp.glsl")
+        if (name == "gpu_particles/gpu_particles.comp.glsl")
             return "#version 450 core\nthis is no program\n";
         return std::nullopt;
     });

@@ -25,7 +25,7 @@ TEST(Techniques, haveNamesOfTheirOwnAndEitherAllOfAPresetMemberOrNothing)
     std::set<std::string_view> names;
     for (const Technique& technique : techniques()) {
         EXPECT_TRUE(names.insert(technique.name).second) << technique.name;
-        EXPECT_EQ(technique.presetMember.empty(), technique.schemaFile.empty()) << technique.name;
+        EXPECT_EQ(technique.presetMember.empty(), technique.schema == nullptr) << technique.name;
         EXPECT_EQ(technique.presetMember.empty(), technique.build == nullptr) << technique.name;
     }
 }

@@ -33,7 +33,7 @@ enum class Form
     Integral
 };
 
-/// What shaders/shared/blob_ray.glsl does for one fragment.
+/// What shaders/blobs/blob_ray.glsl does for one fragment.
 float opticalDepth(Form form, const Card& card, float h, float farthest)
 {
     if (form == Form::Planar)

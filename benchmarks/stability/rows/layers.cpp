@@ -1,5 +1,5 @@
 /// @file layers.cpp
-/// L-01 to L-05: layers over one another, as shaders/passes/composite.frag.glsl puts them.
+/// L-01 to L-05: layers over one another, as shaders/frame/composite.frag.glsl puts them.
 
 #include "benchmarks/stability/rows/ray_sweeps.h"
 #include "benchmarks/stability/stability_row.h"

@@ -4,7 +4,7 @@
 #include "fxsdk/cli/scene/api_status.h"
 #include "fxsdk/cli/scene/view_settings.h"
 #include "rendering/gl/gl_read_texture.h"
-#include "rendering/lights/effect_lights.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include <glm/gtc/type_ptr.hpp>
 

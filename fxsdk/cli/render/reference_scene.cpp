@@ -1,6 +1,6 @@
 #include "fxsdk/cli/render/reference_scene.h"
 
-#include "rendering/lights/effect_lights.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include <array>
 #include <cmath>

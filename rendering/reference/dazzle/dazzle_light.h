@@ -20,7 +20,7 @@ struct DazzleQuanta
     uint64_t all;
 };
 
-/// Turns channel values into quanta as shaders/passes/dazzle_shared.glsl does.
+/// Turns channel values into quanta as shaders/dazzle/dazzle_shared.glsl does.
 class DazzleCounter
 {
 public:

@@ -2,6 +2,8 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "rendering/passes/overdraw_pass.h"
+#include "rendering/techniques/blobs/blob_lights.h"
+#include "rendering/techniques/blobs/blob_quality.h"
 #include "rendering/techniques/blobs/blob_view.h"
 
 #include <array>
@@ -35,11 +37,6 @@ std::unique_ptr<TechniqueView> create(const TechniqueSetup& setup)
     return std::make_unique<BlobView>(setup);
 }
 
-double weight(const ScreenShare& covered)
-{
-    return covered.media;
-}
-
 } // namespace
 
 constexpr DrawTechnique kBlobTechnique{
@@ -48,8 +45,8 @@ constexpr DrawTechnique kBlobTechnique{
     .create = create,
     .programs = programs,
     .timedPasses = kTimed,
-    .ladder = "media",
-    .weight = weight,
+    .lights = &kBlobLights,
+    .ladder = &kBlobLadder,
 };
 
 } // namespace fx::render

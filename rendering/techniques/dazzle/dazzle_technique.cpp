@@ -100,6 +100,22 @@ double weight(const ScreenShare& covered)
     return covered.media;
 }
 
+void lowerDazzle(float isOn, ViewSettings& settings)
+{
+    settings.dazzle.enabled = settings.dazzle.enabled && isOn != 0.0f;
+}
+
+constexpr QualityKnob kKnobs[] = {
+    {"dazzle",
+     "dazzle",
+     QualityKnob::Type::Switch,
+     {},
+     R"({"title": "Dazzle", "description": "Glare.", "type": "boolean"})",
+     lowerDazzle},
+};
+
+constexpr QualityLadder kLadder{"dazzle", "glare", weight, kKnobs};
+
 } // namespace
 
 constexpr DrawTechnique kDazzleTechnique{
@@ -109,8 +125,7 @@ constexpr DrawTechnique kDazzleTechnique{
     .timedPasses = kTimed,
     .check = check,
     .actsAlone = actsAlone,
-    .ladder = "dazzle",
-    .weight = weight,
+    .ladder = &kLadder,
 };
 
 } // namespace fx::render

@@ -46,9 +46,20 @@ RowCard cardAt(const base::SnapshotGroup& group, size_t i)
 /// What is read of the strip is whether a row goes on with that of the row before: the color says so.
 constexpr base::ColumnSet kDrawn = ~(uint64_t(1) << column::Strip);
 
+constexpr base::ColumnSet setOf(size_t c)
+{
+    return base::ColumnSet(1) << c;
+}
+
+constexpr RowMerge kMerge{
+    .radius = column::HalfWidth,
+    .strip = column::Strip,
+    .copied = setOf(column::Arc) | setOf(column::Color) | setOf(column::Strip) | setOf(column::Age),
+};
+
 constexpr RowTechnique kRows{
-    &base::kRibbonKind, true, false, base::kRibbonColumns, kDrawn, isThere, shapeOf, rowsOf, cardAt,
-    base::ribbonBounds};
+    &base::kRibbonKind, true,   false, base::kRibbonColumns, kDrawn, isThere, shapeOf, rowsOf, cardAt,
+    base::ribbonBounds, &kMerge};
 
 std::span<const ProgramDesc* const> programs()
 {

@@ -25,8 +25,9 @@ std::unique_ptr<TechniqueView> makeRowView(const TechniqueSetup& setup)
 
 RowView::RowView(const TechniqueSetup& setup)
     : techniques_(rowTechniques(setup)),
-      merger_(setup.schema, setup.memory), single_{ParticleFrame(setup.memory),
-                                                   ParticleBuffers(*setup.device, techniques_, setup.memory)},
+      merger_(techniques_, setup.schema, setup.memory), single_{ParticleFrame(setup.memory),
+                                                                ParticleBuffers(*setup.device, techniques_,
+                                                                                setup.memory)},
       joined_{ParticleFrame(setup.memory), ParticleBuffers(*setup.device, techniques_, setup.memory)},
       batches_(setup.memory)
 {}

@@ -71,6 +71,23 @@ double weight(const ScreenShare& covered)
     return covered.hot;
 }
 
+void lowerShimmer(float isOn, ViewSettings& settings)
+{
+    if (isOn == 0.0f)
+        settings.shimmer.strength = 0.0f;
+}
+
+constexpr QualityKnob kKnobs[] = {
+    {"shimmer",
+     "shimmer",
+     QualityKnob::Type::Switch,
+     {},
+     R"({"title": "Shimmer", "description": "Heat shimmer.", "type": "boolean"})",
+     lowerShimmer},
+};
+
+constexpr QualityLadder kLadder{"shimmer", "hot air", weight, kKnobs};
+
 } // namespace
 
 constexpr DrawTechnique kShimmerTechnique{
@@ -78,8 +95,7 @@ constexpr DrawTechnique kShimmerTechnique{
     .create = create,
     .programs = programs,
     .timedPasses = kTimed,
-    .ladder = "shimmer",
-    .weight = weight,
+    .ladder = &kLadder,
 };
 
 } // namespace fx::render

@@ -50,6 +50,18 @@ base::Bounds boundsOf(const base::SnapshotGroup& group)
     return base::particleBounds(group, 1.0f, 0.0f);
 }
 
+constexpr base::ColumnSet setOf(size_t c)
+{
+    return base::ColumnSet(1) << c;
+}
+
+constexpr RowMerge kMerge{
+    .radius = column::Radius,
+    .velocity = column::VelocityX,
+    .orientation = column::OrientationX,
+    .copied = setOf(column::Age) | column::kAngle | column::kFrame | setOf(column::Color) | column::kIndex,
+};
+
 constexpr RowTechnique kRows{&base::kParticleKind,
                              false,
                              false,
@@ -59,7 +71,8 @@ constexpr RowTechnique kRows{&base::kParticleKind,
                              shapeOf,
                              rowsOf,
                              cardAt,
-                             boundsOf};
+                             boundsOf,
+                             &kMerge};
 
 std::span<const ProgramDesc* const> programs()
 {

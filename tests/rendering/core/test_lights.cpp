@@ -1,8 +1,8 @@
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/particle_kind.h"
-#include "rendering/lights/effect_lights.h"
 #include "rendering/lights/extinction_grid.h"
 #include "rendering/optics/black_body.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@ size_t countOf(const std::string& text, const std::string& what)
 
 TEST(ShaderLibrary, startsWithTheVersionAndTheDefinesThatWereAskedFor)
 {
-    const auto source = fx::shaders::assemble("passes/media.frag.glsl", "FX_FORM=2 FX_DETAIL=1\nFX_LAYERS=0");
+    const auto source = fx::shaders::assemble("blobs/media.frag.glsl", "FX_FORM=2 FX_DETAIL=1\nFX_LAYERS=0");
     ASSERT_TRUE(source.has_value());
     EXPECT_EQ(source->rfind("#version 450 core\n", 0), 0u);
     EXPECT_NE(source->find("#define FX_FORM 2\n"), std::string::npos);
@@ -25,7 +25,7 @@ TEST(ShaderLibrary, startsWithTheVersionAndTheDefinesThatWereAskedFor)
 
 TEST(ShaderLibrary, expandsEachIncludeOnce)
 {
-    const auto source = fx::shaders::assemble("passes/media.vert.glsl", "");
+    const auto source = fx::shaders::assemble("blobs/media.vert.glsl", "");
     ASSERT_TRUE(source.has_value());
     EXPECT_EQ(countOf(*source, "#include"), 0u);
     EXPECT_EQ(countOf(*source, "uniform ViewBlock"), 1u);
@@ -33,5 +33,5 @@ TEST(ShaderLibrary, expandsEachIncludeOnce)
 
 TEST(ShaderLibrary, hasNoSourceForAnUnknownName)
 {
-    EXPECT_FALSE(fx::shaders::assemble("passes/nothing.glsl", "").has_value());
+    EXPECT_FALSE(fx::shaders::assemble("frame/nothing.glsl", "").has_value());
 }

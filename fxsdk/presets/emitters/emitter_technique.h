@@ -1,0 +1,36 @@
+/// @file emitter_technique.h
+/// The preset member "emitters" (emitters.schema.json).
+#pragma once
+
+#include "foundation/snapshot/blob_kind.h"
+#include "fxsdk/presets/technique.h"
+
+namespace fx::preset {
+
+std::string_view emitterSchema();
+
+/// Adds the emitter that `element` describes to `effect`. Adds findings, and no emitter that could do harm,
+/// when the element says what its schema cannot forbid.
+void buildEmitter(const PresetValue& element, sim::EffectDef& effect);
+
+/// Joins emitters by their events; warns of collisions with the depth of a view that the CPU cannot compute.
+void linkEmitters(const PresetValue& root, sim::EffectDef& effect);
+
+/// Warns of members without effect and of capacities that are too small.
+void adviseEmitters(const PresetValue& root, const sim::EffectDef& effect);
+
+/// Counts births, those that events cause included.
+void estimateEmitters(const PresetValue& root, const sim::EffectDef& effect, std::span<SolverCost> ioCosts);
+
+inline constexpr Technique kEmitterTechnique{
+    .name = "emitters",
+    .presetMember = "emitters",
+    .schema = emitterSchema,
+    .build = buildEmitter,
+    .link = linkEmitters,
+    .lint = adviseEmitters,
+    .estimate = estimateEmitters,
+    .kind = &base::kBlobKind,
+};
+
+} // namespace fx::preset

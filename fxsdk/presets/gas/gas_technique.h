@@ -1,0 +1,26 @@
+/// @file gas_technique.h
+/// The preset member "gas" (gas.schema.json).
+#pragma once
+
+#include "foundation/snapshot/blob_kind.h"
+#include "fxsdk/presets/technique.h"
+
+namespace fx::preset {
+
+std::string_view gasSchema();
+
+/// Adds the gas that `element` describes to `effect`.
+void buildGas(const PresetValue& element, sim::EffectDef& effect);
+
+void estimateGas(const PresetValue& root, const sim::EffectDef& effect, std::span<SolverCost> ioCosts);
+
+inline constexpr Technique kGasTechnique{
+    .name = "sph gas",
+    .presetMember = "gas",
+    .schema = gasSchema,
+    .build = buildGas,
+    .estimate = estimateGas,
+    .kind = &base::kBlobKind,
+};
+
+} // namespace fx::preset

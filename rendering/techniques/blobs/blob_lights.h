@@ -1,0 +1,14 @@
+/// @file blob_lights.h
+/// The light of glowing media.
+#pragma once
+
+#include "rendering/lights/effect_lights.h"
+
+namespace fx::render {
+
+/// A blob of cross section s and source B sends B s (1 - exp(-t)) / t candela in every direction, t = 3.5 s /
+/// (pi R^2) being its optical depth: thin gas shows all of its medium, thick gas only its face. What stands
+/// before it is counted by the same factor with the group's own mean optical depth.
+extern const LightSource kBlobLights;
+
+} // namespace fx::render

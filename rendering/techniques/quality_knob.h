@@ -1,0 +1,48 @@
+/// @file quality_knob.h
+/// What quality may lower: the settings of a technique, and the scalability levels (ladder) that they make
+/// up.
+#pragma once
+
+#include "rendering/frame/screen_share.h"
+#include "rendering/frame/view_types.h"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace fx::render {
+
+/// A setting of a technique that quality may lower. Its value is a number; that of a switch is 0 or 1, that
+/// of a choice the index of the name.
+struct QualityKnob
+{
+    enum class Type : uint8_t
+    {
+        Number,
+        Choice,
+        Switch,
+    };
+
+    std::string_view name;  ///< in calibrations
+    std::string_view label; ///< in texts for people, before the value; a choice is told by the name alone
+    Type type;
+    std::span<const std::string_view> choices; ///< of a choice, cheapest first; otherwise empty
+    std::string_view schema;                   ///< JSON Schema of the value in calibrations
+
+    /// Lowers the setting to `value`, never above what it is.
+    void (*lower)(float value, ViewSettings& ioSettings);
+};
+
+/// A ladder of settings that quality is chosen from, measured by calibrations.
+struct QualityLadder
+{
+    std::string_view name;    ///< in calibrations, and of the group of passes whose time it is; empty: none
+    std::string_view meaning; ///< in the schema of calibrations
+
+    /// [1] how much an error of the ladder matters on a picture.
+    double (*weight)(const ScreenShare& covered);
+
+    std::span<const QualityKnob> knobs;
+};
+
+} // namespace fx::render

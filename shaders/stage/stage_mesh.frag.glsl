@@ -1,0 +1,43 @@
+#include "stage/stage_block.glsl"
+
+// Diffuse surfaces under the sun with soft-edged shadows, the sky, and the light of the effects.
+layout(binding = 0) uniform sampler2D shadowMap;
+
+in vec3 worldPosition;
+in vec3 worldNormal;
+in vec3 albedo;
+layout(location = 0) out vec4 color;
+
+const float kInvPi = 0.318309886;
+
+// The point is lifted off its surface by what the filter reaches over a slanted one, so that nothing shades itself.
+float sunVisibility(vec3 n, float cosine)
+{
+    float lift = rayDirection.w * (1.0 + 3.0 * sqrt(1.0 - cosine * cosine));
+    vec4 clip = shadowFromMesh * vec4(worldPosition - meshOffset.xyz + n * lift, 1.0);
+    vec2 uv = clip.xy * 0.5 + 0.5;
+    float depth = clip.z * 0.5 + 0.5;
+    float lit = 0.0;
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
+            lit += texture(shadowMap, uv + vec2(x, y) * sunDirection.w).r + 0.0003 >= depth ? 1.0 : 0.0;
+    return lit / 9.0;
+}
+
+void main()
+{
+    vec3 n = normalize(worldNormal);
+    float cosine = max(dot(n, sunDirection.xyz), 0.0);
+    vec3 illuminance = vec3(0.0);
+    if (cosine > 0.0)
+        illuminance += sunLight.rgb * cosine * sunVisibility(n, min(cosine, 1.0));
+    vec3 fromGround = skyLight.w * (sunLight.rgb * max(sunDirection.y, 0.0) * kInvPi + skyLight.rgb);
+    illuminance += 3.14159265 * mix(fromGround, skyLight.rgb, 0.5 + 0.5 * n.y);
+    for (int i = 0; i < int(sunLight.w); ++i) {
+        vec3 toLight = lightPosition[i].xyz - worldPosition;
+        float d2 = dot(toLight, toLight) + lightPosition[i].w * lightPosition[i].w;
+        float facing = dot(n, toLight) * inversesqrt(d2);
+        illuminance += lightIntensity[i].rgb * max(facing * 0.8 + 0.2, 0.0) / d2; // a fireball is wide: its light wraps
+    }
+    color = vec4(albedo * kInvPi * illuminance, 1.0);
+}

@@ -1,0 +1,27 @@
+/// @file marker_preset.h
+/// The preset half of the technique: the member "markers".
+#pragma once
+
+#include "fxsdk/presets/technique.h"
+#include "tests/marker/marker_kind.h"
+
+namespace fx::test {
+
+std::string_view markerSchema();
+void buildMarker(const preset::PresetValue& element, sim::EffectDef& effect);
+/// Warns of markers that are black.
+void lintMarkers(const preset::PresetValue& root, const sim::EffectDef& effect);
+
+inline constexpr std::string_view kMarkerPasses[] = {"scene distance", "marker upload", "media", "composite"};
+
+inline constexpr preset::Technique kMarkerPreset{
+    .name = "markers",
+    .presetMember = "markers",
+    .schema = markerSchema,
+    .build = buildMarker,
+    .lint = lintMarkers,
+    .kind = &kMarkerKind,
+    .passes = kMarkerPasses,
+};
+
+} // namespace fx::test

@@ -1,0 +1,20 @@
+/// @file marker_technique.h
+/// The drawing half of a technique beside those of the library: squares of one color that face the view. It
+/// joins a view by its line in the list of techniques, and nothing in the library knows of it.
+#pragma once
+
+#include "rendering/techniques/draw_technique.h"
+#include "tests/marker/marker_kind.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace fx::test {
+
+extern const render::DrawTechnique kMarkerTechnique;
+
+/// GLSL of the technique's programs, for GlDevice::setSourceOverride().
+std::optional<std::string> markerSource(std::string_view name, std::string_view defines);
+
+} // namespace fx::test
