@@ -11,7 +11,7 @@
 #include "fxsdk/fx_preset.h"
 #include "fxsdk/scene/id_table.h"
 #include "rendering/gl/gl_device.h"
-#include "simulation/effect_def.h"
+#include "simulation/solver/effect_def.h"
 
 #include <memory>
 #include <memory_resource>

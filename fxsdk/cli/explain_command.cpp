@@ -8,7 +8,7 @@
 #include "fxsdk/cli/frame_renderer.h"
 #include "fxsdk/cli/json_line.h"
 #include "fxsdk/techniques.h"
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 
 #include <CLI/CLI.hpp>
 #include <glm/gtc/type_ptr.hpp>

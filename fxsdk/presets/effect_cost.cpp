@@ -1,7 +1,7 @@
 #include "fxsdk/presets/effect_cost.h"
 
 #include "fxsdk/presets/birth_count.h"
-#include "simulation/emitters/event_board.h"
+#include "simulation/emitters/events/event_board.h"
 #include "simulation/particles/particle_program.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "fxsdk/presets/emitter_advice.h"
 
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 
 #include <algorithm>
 #include <array>

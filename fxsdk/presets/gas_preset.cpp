@@ -1,7 +1,7 @@
 #include "fxsdk/presets/gas_preset.h"
 
 #include "simulation/combustion/charge_plan.h"
-#include "simulation/sph/gas_def.h"
+#include "simulation/gas/gas_def.h"
 
 namespace fx::preset {
 

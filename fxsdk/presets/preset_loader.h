@@ -7,7 +7,7 @@
 #include "foundation/result/status.h"
 #include "fxsdk/assets/asset_loader.h"
 #include "fxsdk/presets/diagnostic.h"
-#include "simulation/effect_def.h"
+#include "simulation/solver/effect_def.h"
 
 #include <memory>
 #include <string>

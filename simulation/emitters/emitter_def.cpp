@@ -2,9 +2,9 @@
 
 #include "foundation/snapshot/gpu_particles.h"
 #include "foundation/snapshot/particle_kind.h"
-#include "simulation/effect_def.h"
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 #include "simulation/particles/particle_program.h"
+#include "simulation/solver/effect_def.h"
 
 #include <glm/geometric.hpp>
 

@@ -4,11 +4,11 @@
 
 #include "foundation/math/curve.h"
 #include "foundation/snapshot/blob_kind.h"
-#include "simulation/emitters/emitter_look.h"
-#include "simulation/emitters/event_rule.h"
-#include "simulation/emitters/ribbon_def.h"
+#include "simulation/particles/emitter_look.h"
+#include "simulation/particles/event_rule.h"
+#include "simulation/particles/ribbon_def.h"
 #include "simulation/particles/tile.h"
-#include "simulation/solver.h"
+#include "simulation/solver/solver.h"
 
 #include <glm/vec3.hpp>
 

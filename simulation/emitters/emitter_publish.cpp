@@ -1,10 +1,10 @@
 #include "simulation/emitters/emitter_solver.h"
 
-#include "simulation/emitters/emitter_crowd.h"
-#include "simulation/emitters/gpu_replay.h"
 #include "simulation/emitters/look_constants.h"
-#include "simulation/parallel.h"
+#include "simulation/emitters/pools/emitter_crowd.h"
+#include "simulation/gpu_programs/gpu_replay.h"
 #include "simulation/particles/rows_of_a_task.h"
+#include "simulation/solver/parallel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,16 +2,16 @@
 /// One emitter of one instance: births, motion, deaths.
 #pragma once
 
-#include "simulation/emitters/birth_schedule.h"
+#include "simulation/emitters/births/birth_schedule.h"
+#include "simulation/emitters/births/moved_space.h"
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/emitters/emitter_pools.h"
-#include "simulation/emitters/event_scan.h"
-#include "simulation/emitters/gpu_emitter.h"
-#include "simulation/emitters/moved_space.h"
-#include "simulation/emitters/ribbon_store.h"
+#include "simulation/emitters/events/event_scan.h"
+#include "simulation/emitters/pools/emitter_pools.h"
+#include "simulation/gpu_programs/gpu_emitter.h"
 #include "simulation/particles/look_kernel.h"
 #include "simulation/particles/particle_store.h"
-#include "simulation/placed_contact.h"
+#include "simulation/ribbons/ribbon_store.h"
+#include "simulation/solver/placed_contact.h"
 
 #include <optional>
 

@@ -1,9 +1,9 @@
 #include "simulation/fragments/fragments_solver.h"
 
 #include "foundation/math/elementary.h"
-#include "simulation/blob_writer.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/motion/blob_optics.h"
+#include "simulation/solver/blob_writer.h"
 
 #include <algorithm>
 

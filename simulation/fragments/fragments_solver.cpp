@@ -2,11 +2,11 @@
 
 #include "foundation/math/elementary.h"
 #include "foundation/random/philox.h"
-#include "simulation/emitters/birth_schedule.h"
-#include "simulation/emitters/birth_shape.h"
+#include "simulation/emitters/births/birth_schedule.h"
+#include "simulation/emitters/births/birth_shape.h"
 #include "simulation/fragments/fragment_flight.h"
 #include "simulation/fragments/fragment_sizes.h"
-#include "simulation/parallel.h"
+#include "simulation/solver/parallel.h"
 
 #include <algorithm>
 #include <cmath>

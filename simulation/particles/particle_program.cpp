@@ -1,6 +1,6 @@
 #include "simulation/particles/particle_program.h"
 
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 #include "simulation/particles/builtin_ops.h"
 
 #include <algorithm>

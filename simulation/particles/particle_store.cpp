@@ -1,6 +1,6 @@
 #include "simulation/particles/particle_store.h"
 
-#include "simulation/emitters/birth_schedule.h"
+#include "simulation/emitters/births/birth_schedule.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "simulation/emitters/birth_shape.h"
+#include "simulation/emitters/births/birth_shape.h"
 
 #include "foundation/random/philox.h"
 

@@ -59,7 +59,7 @@ class Lint(unittest.TestCase):
     def test_includes_follow_the_layers(self):
         self.refused("arrows", {"simulation/a.h": '#include "rendering/frame/view_types.h"\n'},
                      "simulation/ must not include rendering/")
-        self.refused("arrows", {"simulation/a.h": "", "foundation/b.h": '#include "simulation/world.h"\n'}, "foundation/b.h:1")
+        self.refused("arrows", {"simulation/a.h": "", "foundation/b.h": '#include "simulation/world/world.h"\n'}, "foundation/b.h:1")
         self.accepted("arrows", {"foundation/b.h": "", "fxsdk/a.h": '#include "rendering/frame/view_types.h"\n'})
 
     def test_examples_include_what_a_host_can(self):

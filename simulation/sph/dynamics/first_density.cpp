@@ -1,7 +1,7 @@
 #include "simulation/sph/dynamics/first_density.h"
 
 #include "foundation/math/elementary.h"
-#include "simulation/parallel.h"
+#include "simulation/solver/parallel.h"
 #include "simulation/sph/dynamics/evaluation.h"
 #include "simulation/sph/dynamics/neighborhood.h"
 #include "simulation/sph/dynamics/prediction.h"

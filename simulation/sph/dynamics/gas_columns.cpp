@@ -1,6 +1,6 @@
 #include "simulation/sph/dynamics/gas_columns.h"
 
-#include "simulation/parallel.h"
+#include "simulation/solver/parallel.h"
 
 #include <utility>
 

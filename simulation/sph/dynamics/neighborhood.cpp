@@ -1,6 +1,6 @@
 #include "simulation/sph/dynamics/neighborhood.h"
 
-#include "simulation/parallel.h"
+#include "simulation/solver/parallel.h"
 
 #include <algorithm>
 #include <bit>

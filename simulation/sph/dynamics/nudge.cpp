@@ -1,7 +1,7 @@
 #include "simulation/sph/dynamics/nudge.h"
 
 #include "foundation/math/bits.h"
-#include "simulation/parallel.h"
+#include "simulation/solver/parallel.h"
 #include "simulation/sph/dynamics/neighborhood.h"
 
 #include <cmath>

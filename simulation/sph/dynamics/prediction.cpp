@@ -1,6 +1,6 @@
 #include "simulation/sph/dynamics/prediction.h"
 
-#include "simulation/parallel.h"
+#include "simulation/solver/parallel.h"
 #include "simulation/sph/dynamics/boundary.h"
 
 #include <algorithm>

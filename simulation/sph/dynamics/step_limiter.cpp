@@ -1,6 +1,6 @@
 #include "simulation/sph/dynamics/step_limiter.h"
 
-#include "simulation/parallel.h"
+#include "simulation/solver/parallel.h"
 #include "simulation/sph/dynamics/stepping.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "simulation/emitters/event_board.h"
+#include "simulation/emitters/events/event_board.h"
 #include "simulation/particles/collisions/collision_op.h"
 #include "tests/simulation/particles/events/linked.h"
 
