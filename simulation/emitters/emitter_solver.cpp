@@ -2,10 +2,10 @@
 
 #include "foundation/memory/out_of_memory.h"
 #include "foundation/random/philox.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/emitters/pools/emitter_crowd.h"
 #include "simulation/particles/birth_kernel.h"
 #include "simulation/particles/tile_step.h"
-#include "simulation/solver/parallel.h"
 
 #include <algorithm>
 #include <atomic>

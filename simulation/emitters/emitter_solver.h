@@ -29,7 +29,7 @@ struct EmitterKinds
 
 /// Steps particles that do not feel each other. The set of particles, their birth ticks and their rows depend
 /// only on the seed and on what the host asked for, never on how time is cut into steps.
-class EmitterSolver final : public Solver
+class EmitterSolver final : public Solver, public PooledEmitter
 {
 public:
     /// @param def outlives the solver
@@ -103,27 +103,21 @@ public:
     void saveBriefly(StateWriter& writer) const override { saveState(writer, false); }
     void passOver(const StepContext& context, base::Ticks tick) override;
 
-    uint32_t highWater() const { return highWater_; } ///< the most rows that were in use after a step
-    uint64_t dropped() const { return dropped_; }     ///< births that found their row taken
-
     static constexpr uint32_t kFewRows = 8192; ///< emitters of so few do things together
-    // ---- for its pool ----
-    const EmitterPool* pool() const { return pool_; } ///< that computes it now, null for none
-    uint32_t member() const { return member_; }       ///< of the pool
-    base::KindId particleKind() const { return kinds_.particle; }
-    /// The store holds the present again; the rest follows.
-    void takeBack(base::Ticks now, uint32_t highWater, uint64_t dropped);
-    // ---- for the crowd ----
-    ParticleStore& store() { return store_; }
-    const ParticleProgram& program() const { return program_; }
-    /// So many births found their row taken.
-    void refuse(uint64_t births, StepCounters& counters)
+
+    const EmitterPool* pool() const override { return pool_; }
+    uint32_t member() const override { return member_; }
+    ParticleStore& store() override { return store_; }
+    const ParticleProgram& program() const override { return program_; }
+    uint32_t highWater() const override { return highWater_; }
+    uint64_t dropped() const override { return dropped_; }
+    void takeBack(base::Ticks now, uint32_t highWater, uint64_t dropped) override;
+    void refuse(uint64_t births, StepCounters& counters) override
     {
         counters.dropped += births;
         dropped_ += births;
     }
-    /// All that were born until now_ are in their rows.
-    void endStep(StepCounters& counters)
+    void endStep(StepCounters& counters) override
     {
         store_.retire(now_);
         const uint32_t rows = store_.rowsInUse();

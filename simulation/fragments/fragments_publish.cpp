@@ -1,7 +1,7 @@
 #include "simulation/fragments/fragments_solver.h"
 
 #include "foundation/math/elementary.h"
-#include "simulation/emitters/emitter_def.h"
+#include "simulation/motion/ambient_air.h"
 #include "simulation/motion/blob_optics.h"
 #include "simulation/solver/blob_writer.h"
 

@@ -2,7 +2,7 @@
 
 #include "foundation/math/elementary.h"
 #include "foundation/random/philox.h"
-#include "simulation/emitters/emitter_def.h"
+#include "simulation/motion/ambient_air.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,9 +2,9 @@
 
 #include "foundation/math/elementary.h"
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/gas/gas_exchange.h"
 #include "simulation/gas/gas_release.h"
-#include "simulation/solver/parallel.h"
 
 #include <glm/geometric.hpp>
 

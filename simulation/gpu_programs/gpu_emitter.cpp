@@ -2,7 +2,7 @@
 
 #include "foundation/random/philox.h"
 #include "foundation/snapshot/gpu_particles.h"
-#include "simulation/emitters/look_constants.h"
+#include "simulation/particles/row_publication.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -157,7 +157,7 @@ float GpuEmitter::oldestAge(base::Ticks now) const
 
 StepWeather GpuEmitter::weather(base::Ticks now) const
 {
-    const EmitterDef& def = program_.def;
+    const EmitterSettings& def = program_.def;
     const float drag = def.forces.drag > 0.0f ? std::min(def.forces.drag, 1e6f) : 0.0f;
     StepWeather out;
     out.low = glm::vec3(kFarAway);

@@ -8,6 +8,7 @@
 #include "simulation/emitters/births/birth_log.h"
 #include "simulation/gpu_programs/gpu_replay.h"
 #include "simulation/gpu_programs/step_log.h"
+#include "simulation/particles/reach/particle_reach.h"
 
 #include <limits>
 #include <memory_resource>

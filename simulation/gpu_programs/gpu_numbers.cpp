@@ -21,7 +21,7 @@ void setRange(float (&out)[2], const base::Range& range)
 }
 
 /// What the members of an emitter say of its shape, as a ShapeDef.
-ShapeDef plainShapeOf(const EmitterDef& def)
+ShapeDef plainShapeOf(const EmitterSettings& def)
 {
     ShapeDef shape;
     shape.kind = ShapeKind(uint8_t(def.shape));
@@ -97,12 +97,12 @@ void setCurves(float (&out)[5][base::kGpuCurveSamples], const RampCurves& curves
 
 } // namespace
 
-base::GpuShape gpuShapeOf(const EmitterDef& def)
+base::GpuShape gpuShapeOf(const EmitterSettings& def)
 {
     return kindOf(def.births ? *shapeOf(*def.births) : plainShapeOf(def));
 }
 
-base::GpuParticleNumbers gpuNumbersOf(const EmitterDef& def, const ParticleProgram& program)
+base::GpuParticleNumbers gpuNumbersOf(const EmitterSettings& def, const ParticleProgram& program)
 {
     const EmitterLook& look = def.look;
     base::GpuParticleNumbers n{};

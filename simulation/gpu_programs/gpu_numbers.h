@@ -3,15 +3,15 @@
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
-#include "simulation/emitters/emitter_def.h"
+#include "simulation/particles/emitter_settings.h"
 #include "simulation/particles/particle_program.h"
 
 namespace fx::sim {
 
 /// @param def its shape is one that GpuShape has
-base::GpuShape gpuShapeOf(const EmitterDef& def);
+base::GpuShape gpuShapeOf(const EmitterSettings& def);
 
 /// The same. @param program of `def`
-base::GpuParticleNumbers gpuNumbersOf(const EmitterDef& def, const ParticleProgram& program);
+base::GpuParticleNumbers gpuNumbersOf(const EmitterSettings& def, const ParticleProgram& program);
 
 } // namespace fx::sim

@@ -5,6 +5,7 @@
 #include "simulation/particles/builtin_ops.h"
 #include "simulation/particles/gpu_module_source.h"
 #include "simulation/particles/particle_program.h"
+#include "simulation/particles/reach/particle_reach.h"
 #include "simulation/particles/shapes/shape_sample.h"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ bool isKnown(const ShapeOp& births)
 using Ops = std::vector<std::shared_ptr<const TileOp>>;
 
 /// As ParticleProgram has them.
-Ops opsOf(const EmitterDef& def)
+Ops opsOf(const EmitterSettings& def)
 {
     Ops ops;
     addBuiltinOps(def, ops);
@@ -63,7 +64,7 @@ std::vector<size_t> scratchPlaces(const Ops& ops)
     return places;
 }
 
-std::string_view obstacleOfSteps(const EmitterDef& def)
+std::string_view obstacleOfSteps(const EmitterSettings& def)
 {
     constexpr float kSome = 10.0f;
     constexpr float kLongestLife = 0.75f * float(base::kMostGpuSteps) / 60.0f; // at the usual step
@@ -84,7 +85,7 @@ std::string_view obstacleOfSteps(const EmitterDef& def)
 }
 
 /// What the emitter does besides being drawn, or does in a way that no shader knows.
-std::string_view obstacleOfModules(const EmitterDef& def)
+std::string_view obstacleOfModules(const EmitterSettings& def)
 {
     if (def.births && !isKnown(*def.births))
         return "its shape is a mesh, a spline or a volume";
@@ -97,7 +98,7 @@ std::string_view obstacleOfModules(const EmitterDef& def)
 class EmitterGpuProgram final : public base::GpuParticleProgram
 {
 public:
-    explicit EmitterGpuProgram(const EmitterDef& def)
+    explicit EmitterGpuProgram(const EmitterSettings& def)
         : def_(def), program_((def_.compute = ComputeOn::Cpu, def_))
     {
         numbers = gpuNumbersOf(def_, program_);
@@ -187,7 +188,7 @@ private:
         }
     }
 
-    EmitterDef def_;
+    EmitterSettings def_;
     ParticleProgram program_;
     std::vector<size_t> places_; ///< of what modules prepare
     std::vector<uint32_t> wordPlaces_;
@@ -196,7 +197,7 @@ private:
 
 } // namespace
 
-std::string_view gpuObstacle(const EmitterDef& def)
+std::string_view gpuObstacle(const EmitterSettings& def)
 {
     if (!FXSDK_GPU_PARTICLES)
         return "the library was built without FXSDK_GPU_PARTICLES";
@@ -221,7 +222,7 @@ std::string_view gpuObstacle(const EmitterDef& def)
     return obstacleOfModules(def);
 }
 
-std::shared_ptr<const base::GpuParticleProgram> makeGpuProgram(const EmitterDef& def)
+std::shared_ptr<const base::GpuParticleProgram> makeGpuProgram(const EmitterSettings& def)
 {
     return std::make_shared<const EmitterGpuProgram>(def);
 }

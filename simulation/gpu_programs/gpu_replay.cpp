@@ -2,6 +2,7 @@
 
 #include "foundation/simd/floating_point_scope.h"
 #include "foundation/snapshot/gpu_particles.h"
+#include "simulation/particles/row_publication.h"
 
 #include <algorithm>
 #include <array>

@@ -64,38 +64,4 @@ void restartMotion(const LookJob& job, ParticleStore& store);
 /// As base::GpuParticleProgram::replay.
 void replayGroup(const ParticleProgram& program, const base::SnapshotGroup& group, base::FrameSnapshot& out);
 
-/// Whose group is published, and of which kind.
-struct GroupPlace
-{
-    base::KindId kind;
-    const base::GroupInfo& base;
-};
-
-/// Publishes rows as a group of the kind of particles, as Solver::proceedPublication().
-/// @param tasks null: on the calling thread
-bool publishRows(const LookJob& job, const GroupPlace& group, base::TaskRunner* tasks,
-                 base::FrameSnapshot& snapshot, PublicationPlace& place, base::WorkBudget& work);
-
-/// What is drawn within lives of at most `seconds` stays in this box, whatever is drawn at random.
-/// @param low, high   [m/s2] between these are the pulls, component by component
-/// @param secondsBack [s] to the snapshot before, on the way from which those who were born since are drawn
-base::Bounds boundsOfAll(const EmitterDef& def, const glm::vec3& low, const glm::vec3& high, float seconds,
-                         float secondsBack);
-
-/// What has acted on particles since the oldest of them was born, besides modules.
-struct StepWeather
-{
-    ReachConditions strongest; ///< and how long that is
-    glm::vec3 low{0.0f};       ///< [m/s2] between these were the pulls of gravity and wind, see LookJob
-    glm::vec3 high{0.0f};
-    float lowGround = 0.0f; ///< [m] between these was the ground plane, -infinity for none
-    float highGround = 0.0f;
-    float secondsBack = kLongestStep; ///< [s] see boundsOfAll()
-    bool meetsGround = false;         ///< particles do not fall below it
-    bool meetsOthers = false;         ///< they may go anywhere from there
-};
-
-/// As boundsOfAll() where modules move particles; infinite when nobody knows.
-base::Bounds boundsOfStepped(const EmitterDef& def, const StepWeather& weather);
-
 } // namespace fx::sim

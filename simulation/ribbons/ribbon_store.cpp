@@ -1,7 +1,6 @@
 #include "simulation/ribbons/ribbon_store.h"
 
 #include "foundation/math/half.h"
-#include "simulation/emitters/events/event_scan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -233,14 +233,6 @@ public:
     }
 };
 
-inline bool Solver::proceed(const StepContext& context, base::WorkBudget& work)
-{
-    const StepCounters before = *context.counters;
-    step(context);
-    work.spend(workOf(context.counters->since(before)));
-    return true;
-}
-
 /// What decides how far things get.
 struct ReachConditions
 {

@@ -42,7 +42,7 @@ void World::leavePool(RunIndex index)
 
 void World::endPools()
 {
-    pools_.forEach([this](EmitterSolver&, uint32_t user) { leavePool(user); });
+    pools_.forEach([this](PooledEmitter&, uint32_t user) { leavePool(user); });
 }
 
 /// @param isPlanned members are those of the step before
@@ -50,7 +50,7 @@ void World::stepPools(std::span<const Slot> active, bool isPlanned, StepCounters
 {
     const uint64_t before = pools_.revision();
     if (!isPlanned)
-        pools_.forEach([this](EmitterSolver&, uint32_t user) {
+        pools_.forEach([this](PooledEmitter&, uint32_t user) {
             if (runs_.at(user).steppedIn != stepNumber_)
                 leavePool(user); // time stands still for it
         });

@@ -37,7 +37,8 @@
 #pragma once
 
 #include "simulation/emitters/births/birth_log.h"
-#include "simulation/emitters/emitter_def.h"
+#include "simulation/particles/birth.h"
+#include "simulation/particles/emitter_settings.h"
 #include "simulation/state/state_reader.h"
 
 #include <cstdint>
@@ -48,15 +49,6 @@
 #include <vector>
 
 namespace fx::sim {
-
-constexpr base::Ticks kForever = INT64_MAX / 4; ///< later than anything happens
-
-/// One particle that is to be born.
-struct Birth
-{
-    uint64_t index;   ///< running number within the emitter, ascending with the tick
-    base::Ticks tick; ///< local time
-};
 
 /// Births of a step: how many there were, of which the first `stored` were written.
 struct BirthCount

@@ -22,7 +22,7 @@ glm::vec3 coneDirection(float u1, float u2, float cosLimit)
 
 } // namespace
 
-BirthPlace sampleBirth(const EmitterDef& def, const std::array<float, 4>& place,
+BirthPlace sampleBirth(const EmitterSettings& def, const std::array<float, 4>& place,
                        const std::array<float, 4>& heading)
 {
     switch (def.shape) {

@@ -18,7 +18,7 @@
 /// @tests     tests/simulation/test_birth_shape.cpp
 #pragma once
 
-#include "simulation/emitters/emitter_def.h"
+#include "simulation/particles/emitter_settings.h"
 
 #include <array>
 
@@ -33,7 +33,7 @@ struct BirthPlace
 
 /// @param place four uniform numbers for the position
 /// @param heading four uniform numbers for the direction
-BirthPlace sampleBirth(const EmitterDef& def, const std::array<float, 4>& place,
+BirthPlace sampleBirth(const EmitterSettings& def, const std::array<float, 4>& place,
                        const std::array<float, 4>& heading);
 
 } // namespace fx::sim

@@ -1,6 +1,6 @@
 #include "simulation/emitters/events/event_scan.h"
 
-#include "simulation/emitters/births/birth_schedule.h"
+#include "simulation/particles/birth.h"
 #include "simulation/particles/event_record.h"
 
 #include <new>
@@ -29,16 +29,7 @@ ParticleEvent eventOf(base::Ticks tick, uint64_t index, uint32_t emitter, EventK
 
 } // namespace
 
-base::Ticks deathTick(const ParticleStore& store, uint32_t row, base::Ticks from, base::Ticks to)
-{
-    while (to - from > 1) {
-        const base::Ticks middle = from + (to - from) / 2;
-        (store.isAlive(row, middle) ? from : to) = middle;
-    }
-    return to;
-}
-
-glm::vec3 colorAt(const EmitterDef& def, const ParticleStore& store, uint32_t row, base::Ticks tick)
+glm::vec3 colorAt(const EmitterSettings& def, const ParticleStore& store, uint32_t row, base::Ticks tick)
 {
     const float life = std::clamp(store.ageOf(row, tick) * store.value(stored::PerLife, row), 0.0f, 1.0f);
     const bool medium = def.look.kind == Appearance::Medium;

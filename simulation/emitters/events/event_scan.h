@@ -27,6 +27,7 @@
 #pragma once
 
 #include "foundation/memory/arena.h"
+#include "simulation/particles/emitter_settings.h"
 #include "simulation/particles/event_rule.h"
 #include "simulation/particles/look_kernel.h"
 #include "simulation/particles/tile_step.h"
@@ -39,13 +40,9 @@
 
 namespace fx::sim {
 
-/// The first tick, after `from`, at which the particle in `row` does not live; it lives at `from` and not at
-/// `to`. (2)
-base::Ticks deathTick(const ParticleStore& store, uint32_t row, base::Ticks from, base::Ticks to);
-
 /// [1] linear Rec. 709: the color over life of the particle in `row`, or its albedo where it is a medium, at
 /// `tick`, with what it has inherited; without its brightness.
-glm::vec3 colorAt(const EmitterDef& def, const ParticleStore& store, uint32_t row, base::Ticks tick);
+glm::vec3 colorAt(const EmitterSettings& def, const ParticleStore& store, uint32_t row, base::Ticks tick);
 
 constexpr uint32_t kMostContactsOfOne = 10; ///< in one step: obstacles', the host's, the ground's
 
@@ -123,7 +120,7 @@ private:
 class EventWatch final : public TileWatch
 {
 public:
-    EventWatch(const EmitterDef& def, const EventInterest& interest, const ParticleStore& store,
+    EventWatch(const EmitterSettings& def, const EventInterest& interest, const ParticleStore& store,
                EventRoom& room)
         : def_(def), interest_(interest), store_(store), room_(room)
     {}
@@ -131,7 +128,7 @@ public:
     void see(const TileContext& context, const Tile& tile, const ParticleStore& store) override;
 
 private:
-    const EmitterDef& def_;
+    const EmitterSettings& def_;
     const EventInterest& interest_;
     const ParticleStore& store_;
     EventRoom& room_;

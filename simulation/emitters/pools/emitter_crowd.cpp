@@ -1,8 +1,7 @@
 #include "simulation/emitters/pools/emitter_crowd.h"
 
-#include "simulation/emitters/emitter_solver.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/particles/rows_of_a_task.h"
-#include "simulation/solver/parallel.h"
 
 #include <algorithm>
 
@@ -18,7 +17,7 @@ EmitterCrowd::EmitterCrowd(std::pmr::memory_resource* memory)
     : births_(memory), owners_(memory), alike_(memory), alikeOwners_(memory), open_(memory)
 {}
 
-void EmitterCrowd::wait(EmitterSolver& emitter, const StepContext& context, std::span<const Birth> births)
+void EmitterCrowd::wait(PooledEmitter& emitter, const StepContext& context, std::span<const Birth> births)
 {
     if (births_.capacity() == 0)
         makeRoom();
@@ -50,7 +49,7 @@ void EmitterCrowd::makeRoom()
 void EmitterCrowd::close()
 {
     makeBirths();
-    for (EmitterSolver* const emitter : open_)
+    for (PooledEmitter* const emitter : open_)
         emitter->endStep(*counters_);
     open_.clear();
 }

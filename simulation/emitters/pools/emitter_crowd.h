@@ -4,6 +4,7 @@
 /// particles costs before its first row.
 #pragma once
 
+#include "simulation/emitters/pools/pooled_emitter.h"
 #include "simulation/particles/birth_kernel.h"
 #include "simulation/particles/look_kernel.h"
 
@@ -12,8 +13,6 @@
 #include <vector>
 
 namespace fx::sim {
-
-class EmitterSolver;
 
 /// Threads: one at a time (the scene thread); a publication is spread over the task runner where it pays.
 class EmitterCrowd
@@ -25,9 +24,9 @@ public:
     static constexpr size_t kMostAtOnce = 256; ///< births that wait together; more fill vectors by themselves
     /// `births` of `emitter`, up to kMostAtOnce and up to its rows, are made by close() at the latest, and
     /// its step is ended then.
-    void wait(EmitterSolver& emitter, const StepContext& context, std::span<const Birth> births);
+    void wait(PooledEmitter& emitter, const StepContext& context, std::span<const Birth> births);
     /// Whether its step is still to be ended.
-    bool waitsFor(const EmitterSolver& emitter) const { return !open_.empty() && open_.back() == &emitter; }
+    bool waitsFor(const PooledEmitter& emitter) const { return !open_.empty() && open_.back() == &emitter; }
     /// After an exception: what waited never happens.
     void forget();
     /// Makes the births that wait.
@@ -54,7 +53,7 @@ private:
     /// Whose a birth is.
     struct Owner
     {
-        EmitterSolver* emitter;
+        PooledEmitter* emitter;
         const ParticleProgram* program; ///< null: made
         uint32_t solver;
     };
@@ -65,8 +64,8 @@ private:
     std::pmr::vector<ScatteredBirth> births_;
     std::pmr::vector<Owner> owners_; ///< of the births
     std::pmr::vector<ScatteredBirth> alike_;
-    std::pmr::vector<EmitterSolver*> alikeOwners_;
-    std::pmr::vector<EmitterSolver*> open_; ///< steps to be ended
+    std::pmr::vector<PooledEmitter*> alikeOwners_;
+    std::pmr::vector<PooledEmitter*> open_; ///< steps to be ended
     StepCounters* counters_ = nullptr;
 
     static constexpr size_t kMostParts = 64; ///< with what they read they stay in the caches near the core

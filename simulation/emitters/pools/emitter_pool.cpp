@@ -1,7 +1,5 @@
 #include "simulation/emitters/pools/emitter_pool.h"
 
-#include "simulation/emitters/emitter_solver.h"
-
 #include <algorithm>
 #include <atomic>
 #include <bit>

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "simulation/emitters/births/birth_schedule.h"
+#include "simulation/emitters/pools/pooled_emitter.h"
 #include "simulation/particles/birth_kernel.h"
 #include "simulation/particles/particle_store.h"
 #include "simulation/solver/solver.h"
@@ -22,12 +23,10 @@
 
 namespace fx::sim {
 
-class EmitterSolver;
-
 /// What a pool needs to know of an emitter that joins it.
 struct PoolEntry
 {
-    EmitterSolver* emitter;
+    PooledEmitter* emitter;
     uint32_t user;      ///< whose it is, for whoever owns the pool
     uint64_t seed;      ///< of its instance
     base::Ticks offset; ///< its local time minus the pool's
@@ -91,7 +90,7 @@ public:
 private:
     struct Member
     {
-        EmitterSolver* emitter = nullptr; ///< null: free
+        PooledEmitter* emitter = nullptr; ///< null: free
         uint64_t seed = 0;
         EvenBirths births;   ///< the pool's time
         base::Ticks end = 0; ///< no births from then on, likewise

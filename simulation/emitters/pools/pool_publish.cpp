@@ -1,10 +1,10 @@
 // What a pool of emitters publishes.
 #include "foundation/snapshot/particle_kind.h"
-#include "simulation/emitters/look_constants.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/emitters/pools/emitter_pool.h"
 #include "simulation/particles/look_kernel.h"
+#include "simulation/particles/row_publication.h"
 #include "simulation/particles/rows_of_a_task.h"
-#include "simulation/solver/parallel.h"
 
 #include <algorithm>
 

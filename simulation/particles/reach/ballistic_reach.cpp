@@ -1,8 +1,8 @@
-// Where the particles of an emitter can get that nobody has looked at.
+// The reach of particles whose motion has a closed form.
 #include "foundation/math/elementary.h"
-#include "simulation/gpu_programs/gpu_replay.h"
 #include "simulation/motion/drag_step.h"
 #include "simulation/particles/particle_program.h"
+#include "simulation/particles/reach/particle_reach.h"
 #include "simulation/particles/shapes/shape_sample.h"
 
 #include <glm/common.hpp>
@@ -17,7 +17,7 @@ namespace {
 constexpr float kRounding = 1e-5f; ///< of the box, more than float rounding of a place
 
 /// Components between which directions of births lie.
-void directionsOf(const EmitterDef& def, glm::vec3& outLow, glm::vec3& outHigh)
+void directionsOf(const EmitterSettings& def, glm::vec3& outLow, glm::vec3& outHigh)
 {
     outLow = glm::vec3(-1.0f);
     outHigh = glm::vec3(1.0f);
@@ -54,7 +54,7 @@ float largestOf(const base::ScalarCurve& curve)
 }
 
 /// [m] What is drawn of a particle lies so near to its center, whose speed is at most `speed`.
-float reachOfOne(const EmitterDef& def, float speed)
+float reachOfOne(const EmitterSettings& def, float speed)
 {
     const float bySpeed = def.look.fastest > 0.0f ? largestOf(def.look.sizeOverSpeed) : 1.0f;
     const float size = std::max(largestOf(def.sizeOverLife) * bySpeed, 1e-4f);
@@ -66,8 +66,8 @@ float reachOfOne(const EmitterDef& def, float speed)
 
 /// A place is x0 + G v0 + the pulls so far, weighted by numbers >= 0 whose sum is R; G and R only grow with
 /// age.
-base::Bounds boundsOfAll(const EmitterDef& def, const glm::vec3& low, const glm::vec3& high, float seconds,
-                         float secondsBack)
+base::Bounds boundsOfAll(const EmitterSettings& def, const glm::vec3& low, const glm::vec3& high,
+                         float seconds, float secondsBack)
 {
     const float drag = def.forces.drag > 0.0f ? std::min(def.forces.drag, 1e6f) : 0.0f;
     const DragStep step = makeDragStep(double(drag), double(seconds));

@@ -1,6 +1,5 @@
-// How far from the origin an emitter's particles can get.
-#include "simulation/emitters/emitter_def.h"
-#include "simulation/gpu_programs/gpu_replay.h"
+#include "simulation/particles/reach/particle_reach.h"
+
 #include "simulation/motion/flight_bound.h"
 
 #include <glm/common.hpp>
@@ -26,14 +25,14 @@ float peakOf(const base::ScalarCurve& curve)
 }
 
 /// True when a module takes particles to the speed of the air by more than linear drag.
-bool followsAir(const EmitterDef& def)
+bool followsAir(const EmitterSettings& def)
 {
     return std::any_of(def.modules.begin(), def.modules.end(),
                        [](const auto& module) { return module->bound().followsAir; });
 }
 
 /// What moves a particle of `def`, at most.
-FlightBound flightOf(const EmitterDef& def, const ReachConditions& conditions, const BirthReach& births)
+FlightBound flightOf(const EmitterSettings& def, const ReachConditions& conditions, const BirthReach& births)
 {
     const EmitterForces& forces = def.forces;
     FlightBound bound;
@@ -74,7 +73,7 @@ float share(float factor, float of)
 }
 
 /// [m] from a particle's place to the farthest of what is drawn of it.
-float drawnOf(const EmitterDef& def, float fastest)
+float drawnOf(const EmitterSettings& def, float fastest)
 {
     const EmitterLook& look = def.look;
     float drawn = peakOf(def.sizeOverLife) * def.radius.max;
@@ -97,28 +96,29 @@ float drawnOf(const EmitterDef& def, float fastest)
 
 } // namespace
 
-float EmitterDef::reachFrom(const ReachConditions& conditions, const BirthReach& given,
-                            std::span<BirthReach> ioOthers) const
+float reachOf(const EmitterSettings& def, const ReachConditions& conditions, const BirthReach& given,
+              std::span<BirthReach> ioOthers)
 {
-    const BirthReach start = fed ? given : BirthReach{};
-    const float shapes = births ? births->extent() : glm::length(position) + glm::length(size);
-    const FlightBound bound = flightOf(*this, conditions, start);
+    const BirthReach start = def.fed ? given : BirthReach{};
+    const float shapes =
+        def.births ? def.births->extent() : glm::length(def.position) + glm::length(def.size);
+    const FlightBound bound = flightOf(def, conditions, start);
     const float fastest = fastestOf(bound);
     // A trail lies where its particle has been.
     const float way = start.distance + shapes + float(flightBound(bound));
-    for (const EventRule& rule : events)
+    for (const EventRule& rule : def.events)
         if (rule.target < ioOthers.size())
             ioOthers[rule.target].add({way, share(rule.inheritVelocity, fastest)});
-    return way + drawnOf(*this, fastest);
+    return way + drawnOf(def, fastest);
 }
 
 namespace {
 
 /// Everything is in a ball around the origin.
-base::Bounds ballOf(const EmitterDef& def, const FlightBound& bound, const ReachConditions& conditions,
+base::Bounds ballOf(const EmitterSettings& def, const FlightBound& bound, const ReachConditions& conditions,
                     float secondsBack)
 {
-    float reach = def.reachFrom(conditions, {}, {});
+    float reach = reachOf(def, conditions, {}, {});
     if (def.look.alignment == base::SpriteAlignment::Velocity || def.look.stretch > 0.0f) {
         // Whoever was born since the snapshot before is drawn on the tangent of its way.
         const float back = std::min(float(bound.seconds), secondsBack), fastest = fastestOf(bound);
@@ -137,7 +137,7 @@ base::Bounds ballOf(const EmitterDef& def, const FlightBound& bound, const Reach
 /// ballistic particle whose pull is the largest that there may be: what the ground takes away makes it
 /// smaller. Upwards that is so when all pulls are downwards and equal, as a bounce then rises to no more than
 /// it fell from.
-base::Bounds boundsOfStepped(const EmitterDef& def, const StepWeather& weather)
+base::Bounds boundsOfStepped(const EmitterSettings& def, const StepWeather& weather)
 {
     const FlightBound bound = flightOf(def, weather.strongest, {});
     const base::Bounds ball = ballOf(def, bound, weather.strongest, weather.secondsBack);

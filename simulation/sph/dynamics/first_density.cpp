@@ -1,7 +1,7 @@
 #include "simulation/sph/dynamics/first_density.h"
 
 #include "foundation/math/elementary.h"
-#include "simulation/solver/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/sph/dynamics/evaluation.h"
 #include "simulation/sph/dynamics/neighborhood.h"
 #include "simulation/sph/dynamics/prediction.h"

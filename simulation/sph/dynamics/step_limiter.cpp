@@ -1,6 +1,6 @@
 #include "simulation/sph/dynamics/step_limiter.h"
 
-#include "simulation/solver/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/sph/dynamics/stepping.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "simulation/sph/dynamics/stepping.h"
 
 #include "foundation/math/bits.h"
-#include "simulation/solver/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/sph/dynamics/step_limiter.h"
 
 #include <algorithm>

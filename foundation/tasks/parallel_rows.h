@@ -1,5 +1,5 @@
-/// @file parallel.h
-/// Loops over particles in the floating-point mode of the simulation, which worker threads do not inherit.
+/// @file parallel_rows.h
+/// Loops over rows in the floating-point mode of the simulation, which worker threads do not inherit.
 #pragma once
 
 #include "foundation/simd/floating_point_scope.h"
@@ -7,16 +7,16 @@
 
 #include <cstdint>
 
-namespace fx::sim {
+namespace fx::base {
 
 /// Calls f(begin, end) over [0, count) in batches of at least `minBatch`.
 template <class F>
-void parallelRows(base::TaskRunner& tasks, uint32_t count, uint32_t minBatch, F&& f)
+void parallelRows(TaskRunner& tasks, uint32_t count, uint32_t minBatch, F&& f)
 {
     tasks.parallelFor(count, minBatch, [&f](uint32_t begin, uint32_t end) {
-        const base::FloatingPointScope floatingPoint;
+        const FloatingPointScope floatingPoint;
         f(begin, end);
     });
 }
 
-} // namespace fx::sim
+} // namespace fx::base
