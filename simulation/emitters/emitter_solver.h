@@ -11,7 +11,10 @@
 #include "simulation/particles/look_kernel.h"
 #include "simulation/particles/particle_store.h"
 #include "simulation/ribbons/ribbon_store.h"
+#include "simulation/solver/budgeted_solver.h"
+#include "simulation/solver/finite_memory_solver.h"
 #include "simulation/solver/placed_contact.h"
+#include "simulation/solver/seekable_solver.h"
 
 #include <optional>
 
@@ -29,7 +32,11 @@ struct EmitterKinds
 
 /// Steps particles that do not feel each other. The set of particles, their birth ticks and their rows depend
 /// only on the seed and on what the host asked for, never on how time is cut into steps.
-class EmitterSolver final : public Solver, public PooledEmitter
+class EmitterSolver final : public Solver,
+                            public BudgetedSolver,
+                            public SeekableSolver,
+                            public FiniteMemorySolver,
+                            public PooledEmitter
 {
 public:
     /// @param def outlives the solver
@@ -49,7 +56,12 @@ public:
     bool proceed(const StepContext& context, base::WorkBudget& work) override
     {
         const bool isKept = context.board || !isLinked(); // what it keeps in scratch memory
-        return isDivided_ && isKept ? goOn(context, work) : Solver::proceed(context, work);
+        if (isDivided_ && isKept)
+            return goOn(context, work);
+        const StepCounters before = *context.counters;
+        step(context);
+        work.spend(workOf(context.counters->since(before)));
+        return true;
     }
     void standAt(const base::Placement& placement) override
     {
@@ -82,12 +94,6 @@ public:
     bool finished(base::Ticks tick) const override;
     /// Exact but while the GPU computes the particles; then an upper bound.
     uint32_t elementCount() const override;
-    uint64_t workOf(const StepCounters& done) const override
-    {
-        return uint64_t(emitter_work::kBirth * double(done.born - done.dropped) +
-                        emitter_work::kEvent * double(done.events) + stepWork_ * double(done.particleSteps)) +
-               1;
-    }
     bool hasElements() const override;
     /// Where motion has a closed form; backwards while the host has changed nothing since local time 0. While
     /// nobody lives and nobody is born, any emitter can.
@@ -99,9 +105,14 @@ public:
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
     /// Where particles know nothing of each other nor of those before them, and none is ever dropped.
-    base::Ticks memory(const InstanceParameters& parameters) const override;
+    base::Ticks influenceHorizon(const InstanceParameters& parameters) const override;
     void saveBriefly(StateWriter& writer) const override { saveState(writer, false); }
     void passOver(const StepContext& context, base::Ticks tick) override;
+
+    BudgetedSolver* budgeted() override { return this; }
+    SeekableSolver* seekable() override { return this; }
+    FiniteMemorySolver* finiteMemory() override { return this; }
+    PooledEmitter* pooledEmitter() override { return this; }
 
     static constexpr uint32_t kFewRows = 8192; ///< emitters of so few do things together
 
@@ -129,6 +140,13 @@ public:
     static uint64_t bytesOf(const EmitterDef& def, const ParticleProgram& program);
 
 private:
+    /// [unit] of base::WorkBudget that a step counts which is not divided.
+    uint64_t workOf(const StepCounters& done) const
+    {
+        return uint64_t(emitter_work::kBirth * double(done.born - done.dropped) +
+                        emitter_work::kEvent * double(done.events) + stepWork_ * double(done.particleSteps)) +
+               1;
+    }
     EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                   std::shared_ptr<const ParticleProgram> program, std::pmr::memory_resource* memory);
     /// A step of which some is still to be done.

@@ -5,7 +5,7 @@
 #include "simulation/gas/gas_air.h"
 #include "simulation/gas/gas_def.h"
 #include "simulation/gas/gas_parcels.h"
-#include "simulation/solver/solver.h"
+#include "simulation/solver/budgeted_solver.h"
 #include "simulation/sph/dynamics/gas_dynamics.h"
 
 namespace fx::sim {
@@ -27,7 +27,7 @@ double evenSupport(double radius, uint32_t particles, double neighbors);
 
 /// Gas dynamics between exchanges with the air, which come as often as the cloud moves a third of its size,
 /// and in every step.
-class GasSolver final : public Solver
+class GasSolver final : public Solver, public BudgetedSolver
 {
 public:
     /// @param def outlives the solver
@@ -42,11 +42,19 @@ public:
     }
     bool proceed(const StepContext& context, base::WorkBudget& work) override;
     void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
-    uint64_t shownWork() const override { return kGasShownWork * elementCount(); }
+    /// Not divided.
+    bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                            PublicationPlace& /*ioPlace*/, base::WorkBudget& work) const override
+    {
+        publish(base, snapshot);
+        work.spend(kGasShownWork * elementCount());
+        return true;
+    }
     bool finished(base::Ticks) const override { return done_; }
     uint32_t elementCount() const override { return done_ ? 0 : gas_.count(); }
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
+    BudgetedSolver* budgeted() override { return this; }
 
 private:
     /// A step that goes on in further calls.

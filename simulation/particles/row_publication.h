@@ -4,6 +4,7 @@
 
 #include "simulation/particles/emitter_settings.h"
 #include "simulation/particles/look_kernel.h"
+#include "simulation/solver/budgeted_solver.h"
 
 #include <span>
 
@@ -27,7 +28,7 @@ struct GroupPlace
 base::SnapshotGroup& addRows(const ParticleProgram& program, uint32_t capacity, uint32_t rows,
                              const GroupPlace& place, base::FrameSnapshot& snapshot);
 
-/// Publishes rows as a group of the kind of particles, as Solver::proceedPublication().
+/// Publishes rows as a group of the kind of particles, as BudgetedSolver::proceedPublication().
 /// @param tasks null: on the calling thread
 bool publishRows(const LookJob& job, const GroupPlace& group, base::TaskRunner* tasks,
                  base::FrameSnapshot& snapshot, PublicationPlace& place, base::WorkBudget& work);

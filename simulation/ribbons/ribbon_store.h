@@ -37,6 +37,7 @@
 #include "foundation/memory/column.h"
 #include "simulation/particles/look_kernel.h"
 #include "simulation/particles/ribbon_def.h"
+#include "simulation/solver/budgeted_solver.h"
 
 #include <memory_resource>
 #include <vector>
@@ -67,7 +68,7 @@ public:
     bool empty() const { return count_ == 0; }
     /// Most rows that publish() writes.
     size_t mostPoints() const { return size_t(rows_) * (def_.maxPoints + 1); }
-    /// Writes all trails as they are at `now`, as Solver::proceedPublication().
+    /// Writes all trails as they are at `now`, as BudgetedSolver::proceedPublication().
     /// @param past [tick] before `now` for which the tails are to be known as well; about that much longer
     /// they are
     bool publish(base::Ticks now, base::Ticks past, base::SnapshotGroup& group, PublicationPlace& ioPlace,

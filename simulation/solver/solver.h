@@ -1,6 +1,7 @@
 /// @file solver.h
 /// What a technique of simulation implements: an immutable definition, made from a preset, and a solver per
-/// instance.
+/// instance. What only some solvers can do stands beside it: budgeted_solver.h, seekable_solver.h,
+/// finite_memory_solver.h, and emitters/pools/pooled_emitter.h.
 ///
 /// Solvers work in the instance's local space. Time is the instance's own: tick 0 is its start.
 #pragma once
@@ -9,7 +10,6 @@
 #include "foundation/memory/arena.h"
 #include "foundation/snapshot/frame_snapshot.h"
 #include "foundation/tasks/task_runner.h"
-#include "foundation/tasks/work_budget.h"
 #include "foundation/time/ticks.h"
 #include "simulation/collision/collider.h"
 #include "simulation/solver/catch_up.h"
@@ -87,9 +87,6 @@ struct ContactHook
                 float outNormal[3]) = nullptr;
 };
 
-class EmitterCrowd;
-class EmitterPools;
-struct PoolRequest;
 /// The same in the world, as the host gives it.
 struct HostContact
 {
@@ -98,6 +95,7 @@ struct HostContact
                 float outNormal[3]) = nullptr;
 };
 
+class EmitterCrowd;
 class EventBoard;
 
 /// The host says that something happened.
@@ -136,17 +134,10 @@ struct StepContext
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };
 
-/// How far the publication of one solver has come. What its members mean is the solver's own.
-struct PublicationPlace
-{
-    uint32_t group = 0;    ///< of those that it publishes
-    uint32_t part = 0;     ///< of the way to that group
-    uint32_t row = 0;      ///< of that part
-    uint32_t count = 0;    ///< elements that are found or written
-    bool isSorted = true;  ///< they are in their order
-    base::Bounds bounds{}; ///< of those that are written
-    float radius = 0;      ///< [m] likewise the largest
-};
+class BudgetedSolver;
+class FiniteMemorySolver;
+class PooledEmitter;
+class SeekableSolver;
 
 /// The changing state of one emitter, one gas, ... of one instance.
 class Solver
@@ -157,80 +148,34 @@ public:
     /// Advances by one fixed step. Equal calls give equal bits for any number of threads. Allocates nothing
     /// but scratch.
     virtual void step(const StepContext& context) = 0;
-    /// Whether seek() can take it from where it is to local time `tick`.
-    virtual bool canSeek(const StepContext&, base::Ticks) const { return false; }
-    /// Goes to local time `tick` at once, under the conditions of `context`: forwards as steps from where it
-    /// is would, bit for bit, backwards as steps from 0 would. Only where canSeek() holds; the context's own
-    /// tick and stepTicks are ignored.
-    virtual void seek(const StepContext&, base::Ticks) {}
-    /// Local time, at least `tick`, up to which steps from `tick` on change nothing that is seen. canSeek()
-    /// holds for any tick up to it.
-    virtual base::Ticks restsUntil(base::Ticks tick) const { return tick; }
-    /// Local time, at least `tick`, up to which steps from `tick` on, under the conditions of the last one,
-    /// do nothing but let time pass, however much of what is seen changes with it: passTo() may stand for
-    /// them.
-    virtual base::Ticks quietUntil(base::Ticks tick) const { return tick; }
-    /// Steps to local time `tick`, at most quietUntil(), that need not be taken.
-    virtual void passTo(base::Ticks, StepCounters&) {}
-    /// The instance stands at `placement` now, and got there while its own time stood still.
-    virtual void standAt(const base::Placement&) {}
-    /// Joins a pool of emitters, which computes it from then on until it leaves: meanwhile it is neither
-    /// stepped nor published, and all other questions are answered as ever. @return whether it has joined
-    virtual bool joinPool(EmitterPools&, const PoolRequest&) { return false; }
-    virtual void leavePool() {}
-    /// publish(), but what is in the columns may be left to `crowd`. @return false, and nothing has happened,
-    /// when it wants nothing of it
-    virtual bool joinPublication(const base::GroupInfo&, base::FrameSnapshot&, EmitterCrowd&) const
-    {
-        return false;
-    }
+
     /// Adds what is to be seen to `snapshot`. `base` carries instance, solver and placement to copy into each
-    /// group.
-    /// A solver that holds nothing still adds its group: the memory is then there before the first element
-    /// is.
+    /// group. A solver that holds nothing still adds its group: the memory is then there before the first
+    /// element is.
     virtual void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const = 0;
+
     /// True when nothing is alive and nothing will ever be born again from local time `tick` on.
     virtual bool finished(base::Ticks tick) const = 0;
+
     virtual uint32_t elementCount() const = 0;
+
     /// Whether there are any; often without counting them.
     virtual bool hasElements() const { return elementCount() > 0; }
 
     /// Writes everything that later steps and publications depend on, and nothing else: equal states write
     /// equal bytes.
     virtual void save(StateWriter& writer) const = 0;
-    /// [tick] of local time after which nothing is left of what lives now, as long as the host's parameters
-    /// stay as they are; the largest number where that cannot be told.
-    virtual base::Ticks memory(const InstanceParameters&) const
-    {
-        return std::numeric_limits<base::Ticks>::max();
-    }
-    /// save() without what lives. What restore() takes from it is right once memory() has passed.
-    virtual void saveBriefly(StateWriter& writer) const { save(writer); }
-    /// Goes forwards to local time `tick` without those who are born meanwhile: right once memory() has
-    /// passed after it. Only where memory() is known; the context's own tick and stepTicks are ignored.
-    virtual void passOver(const StepContext&, base::Ticks) {}
+
     /// Takes the state of a solver of the same definition and quality; from there on it gives the same bits.
     /// Checks whatever could harm it. After a failure, kept by the reader, the solver may only be destroyed.
     virtual void restore(StateReader& reader) = 0;
-    /// step() within a budget: spends what the step counts, and where nothing is left before its end,
-    /// returns false. Then the same call has to be made again, with an equal context, before any other call
-    /// but the destructor; the bits are those of one step(). Scratch memory may be forgotten between the two.
-    virtual bool proceed(const StepContext& context, base::WorkBudget& work);
-    /// [unit] of base::WorkBudget that what was done in a step counts, for solvers that are not divided.
-    virtual uint64_t workOf(const StepCounters& done) const { return done.particleSteps + done.born; }
-    /// [unit] that it counts to publish what there is, for solvers whose publication is not divided.
-    virtual uint64_t shownWork() const { return 0; }
-    /// publish() within a budget: spends what it counts, and where nothing is left before its end, returns
-    /// false. Then the same call has to be made again before any other call of the solver, and before another
-    /// group is added to `snapshot`; the bits are those of publish().
-    /// @param ioPlace as it is made for the first call; then as the call before has left it
-    virtual bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
-                                    PublicationPlace& /*ioPlace*/, base::WorkBudget& work) const
-    {
-        publish(base, snapshot);
-        work.spend(shownWork());
-        return true;
-    }
+
+    // What only some solvers can do: the interface for it, null where the solver lacks it.
+
+    virtual BudgetedSolver* budgeted() { return nullptr; }
+    virtual SeekableSolver* seekable() { return nullptr; }
+    virtual FiniteMemorySolver* finiteMemory() { return nullptr; }
+    virtual PooledEmitter* pooledEmitter() { return nullptr; }
 };
 
 /// What decides how far things get.

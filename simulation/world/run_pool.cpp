@@ -70,7 +70,7 @@ void Run::save(StateWriter& writer) const
 void Run::saveBriefly(StateWriter& writer) const
 {
     for (const std::unique_ptr<Solver>& solver : solvers)
-        solver->saveBriefly(writer);
+        solver->finiteMemory()->saveBriefly(writer);
 }
 
 base::Ticks Run::memory() const
@@ -78,8 +78,10 @@ base::Ticks Run::memory() const
     if (!changes.empty() || !told.empty() || conditions.clock.rate == 0)
         return kNever;
     base::Ticks longest = 0;
-    for (const std::unique_ptr<Solver>& solver : solvers)
-        longest = std::max(longest, solver->memory(conditions.parameters));
+    for (const std::unique_ptr<Solver>& solver : solvers) {
+        const FiniteMemorySolver* const finite = solver->finiteMemory();
+        longest = std::max(longest, finite ? finite->influenceHorizon(conditions.parameters) : kNever);
+    }
     return longest;
 }
 

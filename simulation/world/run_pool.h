@@ -5,7 +5,10 @@
 
 #include "foundation/math/geometry.h"
 #include "simulation/emitters/events/event_board.h"
+#include "simulation/solver/budgeted_solver.h"
 #include "simulation/solver/effect_def.h"
+#include "simulation/solver/finite_memory_solver.h"
+#include "simulation/solver/seekable_solver.h"
 #include "simulation/world/run_clock.h"
 
 #include <array>
@@ -71,10 +74,11 @@ struct Run
 
     // What every step and publication reads stands together.
     std::vector<std::unique_ptr<Solver>> solvers; ///< none while released
-    Solver* only = nullptr;      ///< the solver, when there is one; else they are asked one after another
-    base::Ticks simulated = 0;   ///< scene time that the state has reached
-    base::Ticks restUntil = 0;   ///< scene time up to which steps would change nothing
-    base::Ticks quietUntil = 0;  ///< scene time up to which steps need not be taken, see Solver::passTo()
+    Solver* only = nullptr;    ///< the solver, when there is one; else they are asked one after another
+    base::Ticks simulated = 0; ///< scene time that the state has reached
+    base::Ticks restUntil = 0; ///< scene time up to which steps would change nothing
+    base::Ticks quietUntil =
+        0; ///< scene time up to which steps need not be taken, see SeekableSolver::passTo()
     base::Ticks quietOffset = 0; ///< local minus scene time meanwhile
     uint64_t steppedIn = 0;      ///< number of the last step that stepped it
     uint32_t users = 0;          ///< instances that it stands for; 0: unused
@@ -115,8 +119,8 @@ struct Run
 
     static constexpr base::Ticks kNever = std::numeric_limits<base::Ticks>::max();
     bool isPaused() const { return hidden == users; }
-    /// [tick] of local time after which nothing is left of what lives now, see Solver::memory(); kNever also
-    /// while the host has more to tell.
+    /// [tick] of local time after which nothing is left of what lives now, see influenceHorizon(); kNever
+    /// also while the host has more to tell.
     base::Ticks memory() const;
     /// The solvers have been made or given away.
     void meetSolvers() { only = solvers.size() == 1 ? solvers.front().get() : nullptr; }

@@ -235,10 +235,10 @@ void World::passQuietly(Run& run, StepCounters& counters)
 {
     const base::Ticks local = now_ + run.quietOffset;
     if (run.only)
-        run.only->passTo(local, counters);
+        run.only->seekable()->passTo(local, counters);
     else
         for (const std::unique_ptr<Solver>& solver : run.solvers)
-            solver->passTo(local, counters);
+            solver->seekable()->passTo(local, counters);
     run.simulated = now_;
 }
 
@@ -252,7 +252,8 @@ base::Ticks World::quietOf(Run& run) const
     const base::Ticks local = run.simulated + run.quietOffset;
     base::Ticks until = INT64_MAX / 4;
     for (const std::unique_ptr<Solver>& solver : run.solvers) {
-        until = std::min(until, solver->quietUntil(local));
+        const SeekableSolver* const seekable = solver->seekable();
+        until = seekable ? std::min(until, seekable->quietUntil(local)) : local;
         if (until <= local)
             return 0;
     }
@@ -313,14 +314,15 @@ bool World::jump(RunIndex index, base::Ticks from, base::Ticks to, StepCounters&
         context.stepTicks = std::max<base::Ticks>(to - from, 1);
         for (uint32_t i = 0; i < run.solvers.size() && canSeek; ++i) {
             context.solverIndex = i;
-            canSeek = run.solvers[i]->canSeek(context, to);
+            const SeekableSolver* const seekable = run.solvers[i]->seekable();
+            canSeek = seekable && seekable->canSeek(context, to);
         }
         if (!canSeek)
             return;
         runs_.touch(index);
         for (uint32_t i = 0; i < run.solvers.size(); ++i) {
             context.solverIndex = i;
-            run.solvers[i]->seek(context, to);
+            run.solvers[i]->seekable()->seek(context, to);
             scratch_.reset();
         }
     });
@@ -347,7 +349,7 @@ void World::passOver(Slot slot, base::Ticks stepTicks)
     withContext(index, uncounted, [&](StepContext& context, const Run& run) {
         for (uint32_t i = 0; i < run.solvers.size(); ++i) {
             context.solverIndex = i;
-            run.solvers[i]->passOver(context, clock.toLocal(from));
+            run.solvers[i]->finiteMemory()->passOver(context, clock.toLocal(from));
         }
     });
     runs_.at(index).simulated = from;

@@ -24,7 +24,7 @@ bool World::stepSolvers(Run& run, StepContext& context, std::optional<EventBoard
         if (run.stepped > 0 && work.isSpent())
             return false;
         context.solverIndex = isLinked ? order[run.stepped] : run.stepped;
-        if (!run.solvers[context.solverIndex]->proceed(context, work))
+        if (!stepWithin(*run.solvers[context.solverIndex], context, work))
             return false;
         ++run.stepped; // whatever fails from here on
         if (!isLinked)

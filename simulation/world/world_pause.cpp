@@ -167,7 +167,8 @@ base::Ticks World::restOf(const Run& run) const
         return run.simulated;
     base::Ticks until = run.effect->duration > 0 ? run.effect->duration : INT64_MAX / 4;
     for (const std::unique_ptr<Solver>& solver : run.solvers) {
-        until = std::min(until, solver->restsUntil(local));
+        const SeekableSolver* const seekable = solver->seekable();
+        until = seekable ? std::min(until, seekable->restsUntil(local)) : local;
         if (until <= local)
             return run.simulated;
     }

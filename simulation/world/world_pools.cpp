@@ -1,5 +1,4 @@
 // Many small emitters that are simulated and published together.
-#include "simulation/emitters/emitter_solver.h"
 #include "simulation/world/world.h"
 
 #include <algorithm>
@@ -33,7 +32,7 @@ void World::leavePool(RunIndex index)
     Run& run = runs_.at(index);
     if (!run.pooled)
         return;
-    run.only->leavePool();
+    run.only->pooledEmitter()->leavePool();
     run.pooled = false;
     run.simulated = pools_.now();
     run.restUntil = 0;
@@ -71,8 +70,9 @@ void World::joinPools()
         Run& run = runs_.at(index);
         const RunClock& clock = run.conditions.clock;
         const PoolRequest request{index, stepNumber_, now_, clock.local - clock.scene};
-        if (run.simulated == now_ && run.restUntil == 0)
-            run.pooled = run.only->joinPool(pools_, request);
+        PooledEmitter* const emitter = run.only->pooledEmitter();
+        if (emitter && run.simulated == now_ && run.restUntil == 0)
+            run.pooled = emitter->joinPool(pools_, request);
     }
     joining_.clear();
 }
@@ -120,7 +120,7 @@ void World::makeRoster(std::span<const Slot> active)
             publishPlan_.others.push_back(slot);
             continue;
         }
-        const auto& emitter = static_cast<const EmitterSolver&>(*run.only);
+        const PooledEmitter& emitter = *run.only->pooledEmitter();
         base::GroupRoster::Entry entry;
         entry.instance = instance.start.instance;
         entry.placement = instance.start.placement;

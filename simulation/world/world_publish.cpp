@@ -86,10 +86,11 @@ bool World::publishSlot(Slot slot, base::WorkBudget& work)
         if (work.isSpent())
             return false;
         info.solver = hand.solver;
-        const Solver& solver = run.only ? *run.only : *run.solvers[hand.solver];
-        if (solver.joinPublication(info, *hand.snapshot, crowd_))
+        Solver& solver = run.only ? *run.only : *run.solvers[hand.solver];
+        const PooledEmitter* const emitter = solver.pooledEmitter();
+        if (emitter && emitter->joinPublication(info, *hand.snapshot, crowd_))
             continue;
-        if (!solver.proceedPublication(info, *hand.snapshot, hand.part, work))
+        if (!publishWithin(solver, info, *hand.snapshot, hand.part, work))
             return false;
         hand.part = {};
     }

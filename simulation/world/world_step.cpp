@@ -204,7 +204,8 @@ void World::standStill(const Run& run)
     if (run.conditions.clock.rate != 0)
         return;
     for (const std::unique_ptr<Solver>& solver : run.solvers)
-        solver->standAt(run.conditions.placement);
+        if (SeekableSolver* const seekable = solver->seekable())
+            seekable->standAt(run.conditions.placement);
 }
 
 /// One sub-step of all solvers, or the rest of the one in hand.

@@ -101,7 +101,9 @@ bool World::playTo(RunIndex index, base::Ticks to, base::Ticks stepTicks, StepCo
     if (!run.changes.empty())
         run.conditions = run.changes.back().conditions;
     for (const std::unique_ptr<Solver>& solver : run.solvers)
-        solver->standAt(run.conditions.placement); // a move that is not stepped yet is not part of the past
+        if (SeekableSolver* const seekable = solver->seekable())
+            seekable->standAt(
+                run.conditions.placement); // a move that is not stepped yet is not part of the past
     if (!jump(index, from, to, counters)) {
         if (to < from) {
             restoreSolvers(run, *run.pristine);
