@@ -1,6 +1,6 @@
 #include "simulation/gas/gas_solver.h"
 
-#include "foundation/math/elementary.h"
+#include "simulation/combustion/fire_share.h"
 #include "simulation/combustion/parcel_optics.h"
 #include "simulation/solver/blob_writer.h"
 
@@ -60,6 +60,8 @@ void GasSolver::writeMotion(BlobWriter& writer) const
 
 void GasSolver::writeLooks(BlobWriter& writer) const
 {
+    const GlowRange glow{(1.0f - kFireWidth) * def_.sootTemperature,
+                         (1.0f + kFireWidth) * def_.sootTemperature};
     for (uint32_t id = 0; id < elementCount(); ++id) {
         const FireParcel& parcel = parcels_.fire[id];
         const ParcelOptics optics = opticsOf(*def_.material, parcel);
@@ -68,9 +70,7 @@ void GasSolver::writeLooks(BlobWriter& writer) const
         const std::array<float, 3> tint = def_.smokeTint.at(float(parcel.burnt));
         writer.column(blob::CrossSection)[id] = def_.opacity * seen * float(optics.extinction);
         writer.column(blob::Temperature)[id] = temperature;
-        writer.column(blob::FireShare)[id] =
-            base::smoothStep((1.0f - kFireWidth) * def_.sootTemperature,
-                             (1.0f + kFireWidth) * def_.sootTemperature, temperature);
+        writer.column(blob::FireShare)[id] = fireShareOf(temperature, glow);
         writer.column(blob::Heat)[id] =
             def_.heat * seen * std::max(temperature - float(thermodynamics_.air.temperature), 0.0f);
         for (size_t k = 0; k < 3; ++k)
