@@ -5,8 +5,8 @@
 #include "foundation/memory/host_memory.h"
 #include "foundation/result/status.h"
 #include "foundation/snapshot/frame_snapshot.h"
-#include "simulation/solver.h"
-#include "simulation/sph/gas_def.h"
+#include "simulation/gas/gas_def.h"
+#include "simulation/solver/solver.h"
 
 #include <memory>
 

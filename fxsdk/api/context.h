@@ -13,7 +13,7 @@
 #include "fxsdk/techniques.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/techniques/draw_techniques.h"
-#include "simulation/effect_def.h"
+#include "simulation/solver/effect_def.h"
 
 #include <memory>
 #include <memory_resource>

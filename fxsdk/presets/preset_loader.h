@@ -8,7 +8,7 @@
 #include "fxsdk/assets/asset_loader.h"
 #include "fxsdk/presets/diagnostic.h"
 #include "fxsdk/techniques.h"
-#include "simulation/effect_def.h"
+#include "simulation/solver/effect_def.h"
 
 #include <memory>
 #include <string>

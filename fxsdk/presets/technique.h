@@ -5,7 +5,7 @@
 #include "foundation/snapshot/snapshot_schema.h"
 #include "fxsdk/presets/preset_value.h"
 #include "fxsdk/presets/solver_cost.h"
-#include "simulation/effect_def.h"
+#include "simulation/solver/effect_def.h"
 
 #include <span>
 #include <string_view>

@@ -14,7 +14,7 @@
 #include "fxsdk/activation/wake_queue.h"
 #include "fxsdk/scene/id_table.h"
 #include "fxsdk/scene/whereabouts.h"
-#include "simulation/world.h"
+#include "simulation/world/world.h"
 
 #include <atomic>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // update.
 #include "fxsdk/scene/scene.h"
 
-#include "simulation/emitters/moved_space.h"
+#include "simulation/emitters/births/moved_space.h"
 
 namespace fx::scene {
 

@@ -11,7 +11,7 @@
 #include "fxsdk/scene_file/instance_play.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/stage/stage_renderer.h"
-#include "simulation/solver.h"
+#include "simulation/solver/solver.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>

@@ -1,4 +1,4 @@
-// Collisions, operation by operation as simulation/motion/ground_lanes.cpp and simulation/particles/collisions/ have them: swept, so
+// Collisions, operation by operation as simulation/particles/ground_lanes.cpp and simulation/particles/collisions/ have them: swept, so
 // that nothing is passed. FX_NEAR, FX_MEET, FX_PUSH and FX_INSIDE call a function of theirs once for each obstacle; where there is
 // none they are not defined. `kind` is a base::GpuModule and the same for all particles.
 const int kPlane = 16;

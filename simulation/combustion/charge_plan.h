@@ -31,14 +31,15 @@
 #pragma once
 
 #include "simulation/combustion/materials.h"
+#include "simulation/motion/ambient_air.h"
 
 namespace fx::sim {
 
 /// The air that a charge meets.
 struct AmbientAir
 {
-    double temperature = 293.15; ///< [K]
-    double pressure = 101325.0;  ///< [Pa]
+    double temperature = kAirKelvin; ///< [K]
+    double pressure = 101325.0;      ///< [Pa]
 };
 
 struct ChargePlan

@@ -57,24 +57,25 @@
 #pragma once
 
 #include "simulation/combustion/materials.h"
+#include "simulation/motion/ambient_air.h"
 
 namespace fx::sim {
 
 /// One parcel. Fractions refer to `ownMass`, the mass of material; air taken in is counted by `mixing`.
 struct FireParcel
 {
-    double ownMass = 1;          ///< [kg] > 0
-    double unburnt = 0;          ///< [1]
-    double burning = 0;          ///< [1]
-    double burnt = 1;            ///< [1]
-    double mixing = 1;           ///< [1] >= 1, mass with air over ownMass
-    double temperature = 293.15; ///< [K]
+    double ownMass = 1;              ///< [kg] > 0
+    double unburnt = 0;              ///< [1]
+    double burning = 0;              ///< [1]
+    double burnt = 1;                ///< [1]
+    double mixing = 1;               ///< [1] >= 1, mass with air over ownMass
+    double temperature = kAirKelvin; ///< [K]
 };
 
 /// What surrounds a parcel during a step.
 struct FireSurroundings
 {
-    double airTemperature = 293.15; ///< [K]
+    double airTemperature = kAirKelvin; ///< [K]
     double hottest = 0;     ///< [K] of the flames that touch the parcel; ignition takes the hotter of both
     double entrainment = 0; ///< [1/s] q
     double radius = 1;      ///< [m]

@@ -7,8 +7,6 @@ namespace fx::sim {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr float kDark = 800.0f;    // [K] of the first visible glow
-constexpr float kBright = 1200.0f; // [K] where soot outshines daylight on smoke
 
 } // namespace
 
@@ -23,8 +21,7 @@ ParcelOptics opticsOf(const Material& material, const FireParcel& parcel)
     optics.extinction = bySoot + bySalt; // (2)
     const double scattering = kSootOptics.albedo * bySoot + kSaltOptics.albedo * bySalt;
     optics.absorption = optics.extinction - scattering;
-    optics.albedo = optics.extinction > 0.0 ? scattering / optics.extinction : 0.0;         // (3)
-    optics.fireShare = double(base::smoothStep(kDark, kBright, float(parcel.temperature))); // (4)
+    optics.albedo = optics.extinction > 0.0 ? scattering / optics.extinction : 0.0; // (3)
     return optics;
 }
 

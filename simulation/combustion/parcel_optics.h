@@ -2,7 +2,7 @@
 /// What a parcel of burning or burnt gas does to light.
 ///
 /// @formula parcel-optics
-/// Extinction cross section, albedo and share of fire of a parcel, from the particles it holds.
+/// Extinction cross section and albedo of a parcel, from the particles it holds.
 ///
 /// symbol   unit    meaning
 ///   m       kg      own mass of the parcel
@@ -11,13 +11,11 @@
 ///   K_s, a_s  m2/kg, 1  extinction per mass and albedo of soot; K_z, a_z of salt
 ///   S       m2      extinction cross section
 ///   w       1       albedo
-///   F       1       share of fire
 /// @derivation
 ///   soot m_s = m (f Y_g + y Y_b), salt m_z = m z Y_b                                  (1)
 ///   S = K_s m_s + K_z m_z                                                             (2)
 ///   w = (a_s K_s m_s + a_z K_z m_z) / S                                               (3)
 ///   what absorbs emits as a black body of the parcel's temperature (Kirchhoff): (1 - w) B(T)
-///   Soot glows in the picture's fire layer where it is hot: F = smoothstep(800 K, 1200 K, T)  (4)
 /// @source    [MC00] for K_s, [BB06] for a_s
 /// @deviation gray in the visible; a_z and K_z are orders of magnitude
 /// @valid     fractions in 0..1
@@ -34,7 +32,6 @@ struct ParcelOptics
     double extinction = 0; ///< [m2] S, of the whole parcel
     double absorption = 0; ///< [m2] (1 - w) S
     double albedo = 0;     ///< [1] w; 0 for a parcel without particles
-    double fireShare = 0;  ///< [1] F
 };
 
 ParcelOptics opticsOf(const Material& material, const FireParcel& parcel);

@@ -2,9 +2,10 @@
 
 #include "foundation/snapshot/gpu_particles.h"
 #include "foundation/snapshot/particle_kind.h"
-#include "simulation/effect_def.h"
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 #include "simulation/particles/particle_program.h"
+#include "simulation/particles/reach/particle_reach.h"
+#include "simulation/solver/effect_def.h"
 
 #include <glm/geometric.hpp>
 
@@ -46,6 +47,12 @@ std::shared_ptr<const base::GpuParticleProgram> EmitterDef::gpuProgram() const
     return program.of(*this)->gpu;
 }
 
+float EmitterDef::reachFrom(const ReachConditions& conditions, const BirthReach& given,
+                            std::span<BirthReach> ioOthers) const
+{
+    return reachOf(*this, conditions, given, ioOthers);
+}
+
 Influence EmitterDef::influence() const
 {
     Influence result{.seconds = lifetime.max + trail.lifetime + kSpareSeconds};
@@ -55,6 +62,19 @@ Influence EmitterDef::influence() const
         result.drawnOut = shutter + 0.5f * look.stretch;
     }
     return result;
+}
+
+std::shared_ptr<const ParticleProgram> SharedProgram::of(const EmitterSettings& settings) const
+{
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<const ParticleProgram> program = program_.lock();
+    if (!program) {
+        const auto made = std::make_shared<ParticleProgram>(settings);
+        if (gpuObstacle(settings).empty())
+            made->gpu = makeGpuProgram(settings);
+        program_ = program = made;
+    }
+    return program;
 }
 
 std::vector<const EmitterDef*> emittersOf(const EffectDef& effect)

@@ -1,80 +1,15 @@
 /// @file emitter_def.h
-/// What a preset says about one emitter. All lengths in the instance's local space.
+/// The definition of an emitter: its settings as a recipe of solvers.
 #pragma once
 
-#include "foundation/math/curve.h"
-#include "foundation/snapshot/blob_kind.h"
-#include "simulation/emitters/emitter_look.h"
-#include "simulation/emitters/event_rule.h"
-#include "simulation/emitters/ribbon_def.h"
-#include "simulation/particles/tile.h"
-#include "simulation/solver.h"
-
-#include <glm/vec3.hpp>
+#include "simulation/particles/emitter_settings.h"
+#include "simulation/solver/solver.h"
 
 #include <memory>
 #include <mutex>
-#include <string>
 #include <vector>
 
 namespace fx::sim {
-
-/// Where particles are born.
-enum class EmitterShape : uint8_t
-{
-    Point,
-    Sphere, ///< uniformly in the ball of radius size.x
-    Box,    ///< uniformly in the box of half extents size
-    Cone,   ///< on the disc of radius size.x, moving within `angle` of the axis +Y
-};
-
-/// So many births at one moment, or at several with the same time between them.
-struct Burst
-{
-    float time = 0; ///< [s] after the start, >= 0
-    uint32_t count = 0;
-    uint32_t cycles = 1;   ///< how often it happens, 0: for ever
-    float interval = 0;    ///< [s] between two cycles, > 0 unless there is one
-    float probability = 1; ///< [1] 0..1 that a cycle happens at all, drawn for each
-};
-
-/// A birth rate over an interval of local time.
-struct Emission
-{
-    float rate = 0;            ///< [1/s] >= 0
-    float start = 0;           ///< [s]
-    float duration = 0;        ///< [s], +infinity for ever
-    std::vector<Burst> bursts; ///< in declaration order
-
-    /// Multiplies the rate, t in [0, 1] from the start to the end of a finite duration. The rate runs
-    /// straight between the curve's samples.
-    base::ScalarCurve rateOverTime{std::array{1.0f}};
-};
-
-/// Forces on each particle; the sum of accelerations, with drag and buoyancy relative to the moving air.
-struct EmitterForces
-{
-    float gravity = 1.0f;      ///< [1] multiple of the world's gravity
-    float drag = 0.0f;         ///< [1/s] rate at which velocity approaches the wind's, exact exponential
-    float buoyancy = 0.0f;     ///< [1] multiple of (T / T_air - 1) * g upwards
-    glm::vec3 wind{0.0f};      ///< [m/s]
-    float curlStrength = 0.0f; ///< [m/s] speed scale of the divergence-free noise that is added to the wind
-    float curlScale = 1.0f;    ///< [m] length of one noise period
-    float curlRate = 0.0f;     ///< [1/s] noise periods per second
-    float bounce = -1.0f;      ///< [1] restitution at the ground and at the host's geometry, 0..1; negative:
-                               ///< particles pass
-    float friction = 0.0f;     ///< [1] tangential velocity lost at a bounce, 0..1
-    uint32_t curlOctaves = 1;  ///< each next one has half the strength and scale and twice the rate, 1..8
-};
-
-/// What computes the particles of an emitter that is drawn.
-enum class ComputeOn : uint8_t
-{
-    Cpu,
-    Gpu,  ///< the GPU wherever it can, see gpuObstacle()
-    Auto, ///< the same for capacities of at least kManyParticles
-};
-constexpr uint32_t kManyParticles = 10'000;
 
 struct ParticleProgram;
 
@@ -87,7 +22,7 @@ public:
     SharedProgram& operator=(const SharedProgram&) { return *this; }
 
     /// Any thread.
-    std::shared_ptr<const ParticleProgram> of(const struct EmitterDef& def) const;
+    std::shared_ptr<const ParticleProgram> of(const EmitterSettings& settings) const;
 
 private:
     mutable std::mutex mutex_;
@@ -95,57 +30,8 @@ private:
 };
 
 /// Immutable while it has solvers.
-struct EmitterDef final : SolverDef
+struct EmitterDef final : SolverDef, EmitterSettings
 {
-    std::string name;
-    base::MediaLayer layer = base::MediaLayer::Smoke;
-    uint32_t maxParticles = 1024;
-    ComputeOn compute = ComputeOn::Cpu;
-
-    EmitterShape shape = EmitterShape::Point;
-    glm::vec3 position{0.0f}; ///< [m] center of the shape
-    glm::vec3 size{0.0f};     ///< [m] see EmitterShape
-    float angle = 0.0f;       ///< [rad] half angle of the cone, 0..pi
-    Emission emission;
-    /// Particles stay where they are when the host moves the instance; else they move with it.
-    bool inWorld = false;
-    float inheritVelocity = 0.0f; ///< [1] 0..1 of the velocity with which the host moves it; with inWorld
-
-    base::Range lifetime{1, 1};            ///< [s] > 0
-    std::shared_ptr<const ShapeOp> births; ///< where and whereto particles are born, instead of `shape`
-    base::Range speed{0, 0}; ///< [m/s] along the shape's direction: radially for sphere and point, +Y for box
-    base::Range radius{0.5f, 0.5f}; ///< [m] > 0
-    base::Range crossSection{
-        1, 1}; ///< [m2] >= 0, or of optical depth through the center when opticalDepth is set
-    bool opticalDepthGiven = true; ///< `crossSection` holds the optical depth along a diameter at birth size
-    base::Range temperature{293, 293}; ///< [K]
-    EmitterForces forces;
-    /// Run after the forces above, in order within their phase. None: with gravity, drag and wind alone
-    /// motion has a closed form.
-    std::vector<std::shared_ptr<const TileOp>> modules;
-    bool meetsDepth = false; ///< one of them is ObstacleKind::Depth: what a view shows, on the GPU alone
-
-    // Over life, t in [0, 1]; multiply the values drawn at birth.
-    base::ScalarCurve sizeOverLife{std::array{1.0f}};
-    base::ScalarCurve opacityOverLife{std::array{1.0f}};             ///< multiplies the cross section
-    base::ScalarCurve temperatureOverLife{std::array{1.0f}};         ///< multiplies (T - T_air)
-    base::ColorCurve albedoOverLife{std::array{0.0f, 0.0f, 0.0f}};   ///< [0, 1] single scattering albedo
-    base::ColorCurve emissionOverLife{std::array{0.0f, 0.0f, 0.0f}}; ///< [cd/m2] besides the black body
-
-    std::vector<EventRule> events; ///< what happens to its particles gives birth in other emitters
-    bool fed = false;              ///< events of other emitters' particles give birth in this one
-    bool tinted = false;           ///< what gives birth to its particles may color them
-
-    RibbonDef trail;
-    LightDef light;
-    EmitterLook look;          ///< how particles are drawn; the members below are those of a medium
-    float fireShare = 0.0f;    ///< [0, 1] part of the medium accounted to the fire layer
-    float heat = 0.0f;         ///< [1] how strongly the excess temperature bends light (shimmer), 0 none
-    float detailAmount = 0.0f; ///< see blob_constant
-    float detailScale = 1.5f;
-    float anisotropy = 0.0f;
-    float shutter = 0.0f; ///< [s]
-
     SharedProgram program;
 
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
@@ -159,12 +45,6 @@ struct EmitterDef final : SolverDef
     Influence influence() const override;
     bool collides() const override;
     bool heedsPlacement() const override { return inWorld; }
-    /// Motion has a closed form: gravity, linear drag and wind alone.
-    bool isBallistic() const
-    {
-        return modules.empty() && forces.buoyancy == 0.0f && !(forces.curlStrength > 0.0f) &&
-               forces.bounce < 0.0f;
-    }
     /// Analytic when the state is a pure function of time: closed motion, no events, no trails, no moves.
     CatchUp catchUp() const override
     {
@@ -184,7 +64,5 @@ struct EffectDef;
 /// The definitions of an effect's emitters by solver index, null for its other solvers: for what reads or
 /// explains emitters. All others ask SolverDef.
 std::vector<const EmitterDef*> emittersOf(const EffectDef& effect);
-
-constexpr float kAirTemperature = 293.15f; ///< [K] of the ambient air
 
 } // namespace fx::sim

@@ -3,8 +3,8 @@
 
 #include "foundation/math/hash.h"
 #include "foundation/random/philox.h"
-#include "simulation/emitters/event_board.h"
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
+#include "simulation/emitters/events/event_board.h"
 
 #include <algorithm>
 #include <new>

@@ -13,7 +13,7 @@ base::Ticks EmitterSolver::lifetimeOf(double intensity) const
     return (isSteady ? 1 : 2) * program_.longestLife + base::kTicksPerSecond;
 }
 
-base::Ticks EmitterSolver::memory(const InstanceParameters& parameters) const
+base::Ticks EmitterSolver::influenceHorizon(const InstanceParameters& parameters) const
 {
     const bool isAlone = !isLinked() && !trails_ && !space_ && !interest_.in(EventKind::Host);
     const bool hasRows = !(gpu_ && gpu_->isOn());

@@ -2,8 +2,8 @@
 
 #include "foundation/memory/out_of_memory.h"
 #include "foundation/random/philox.h"
-#include "simulation/emitters/emitter_crowd.h"
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
+#include "simulation/emitters/pools/emitter_crowd.h"
 #include "simulation/particles/birth_kernel.h"
 #include "simulation/particles/tile_step.h"
 

@@ -2,16 +2,19 @@
 /// One emitter of one instance: births, motion, deaths.
 #pragma once
 
-#include "simulation/emitters/birth_schedule.h"
+#include "simulation/emitters/births/birth_schedule.h"
+#include "simulation/emitters/births/moved_space.h"
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/emitters/emitter_pools.h"
-#include "simulation/emitters/event_scan.h"
-#include "simulation/emitters/gpu_emitter.h"
-#include "simulation/emitters/moved_space.h"
-#include "simulation/emitters/ribbon_store.h"
+#include "simulation/emitters/events/event_scan.h"
+#include "simulation/emitters/pools/emitter_pools.h"
+#include "simulation/gpu_programs/gpu_emitter.h"
 #include "simulation/particles/look_kernel.h"
 #include "simulation/particles/particle_store.h"
-#include "simulation/placed_contact.h"
+#include "simulation/ribbons/ribbon_store.h"
+#include "simulation/solver/budgeted_solver.h"
+#include "simulation/solver/finite_memory_solver.h"
+#include "simulation/solver/placed_contact.h"
+#include "simulation/solver/seekable_solver.h"
 
 #include <optional>
 
@@ -29,7 +32,11 @@ struct EmitterKinds
 
 /// Steps particles that do not feel each other. The set of particles, their birth ticks and their rows depend
 /// only on the seed and on what the host asked for, never on how time is cut into steps.
-class EmitterSolver final : public Solver
+class EmitterSolver final : public Solver,
+                            public BudgetedSolver,
+                            public SeekableSolver,
+                            public FiniteMemorySolver,
+                            public PooledEmitter
 {
 public:
     /// @param def outlives the solver
@@ -49,7 +56,12 @@ public:
     bool proceed(const StepContext& context, base::WorkBudget& work) override
     {
         const bool isKept = context.board || !isLinked(); // what it keeps in scratch memory
-        return isDivided_ && isKept ? goOn(context, work) : Solver::proceed(context, work);
+        if (isDivided_ && isKept)
+            return goOn(context, work);
+        const StepCounters before = *context.counters;
+        step(context);
+        work.spend(workOf(context.counters->since(before)));
+        return true;
     }
     void standAt(const base::Placement& placement) override
     {
@@ -82,12 +94,6 @@ public:
     bool finished(base::Ticks tick) const override;
     /// Exact but while the GPU computes the particles; then an upper bound.
     uint32_t elementCount() const override;
-    uint64_t workOf(const StepCounters& done) const override
-    {
-        return uint64_t(emitter_work::kBirth * double(done.born - done.dropped) +
-                        emitter_work::kEvent * double(done.events) + stepWork_ * double(done.particleSteps)) +
-               1;
-    }
     bool hasElements() const override;
     /// Where motion has a closed form; backwards while the host has changed nothing since local time 0.
     /// Without particles and births, any emitter can.
@@ -99,31 +105,30 @@ public:
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
     /// Where particles know nothing of each other nor of those before them, and none is ever dropped.
-    base::Ticks memory(const InstanceParameters& parameters) const override;
+    base::Ticks influenceHorizon(const InstanceParameters& parameters) const override;
     void saveBriefly(StateWriter& writer) const override { saveState(writer, false); }
     void passOver(const StepContext& context, base::Ticks tick) override;
 
-    uint32_t highWater() const { return highWater_; } ///< the most rows that were in use after a step
-    uint64_t dropped() const { return dropped_; }     ///< births that found their row taken
+    BudgetedSolver* budgeted() override { return this; }
+    SeekableSolver* seekable() override { return this; }
+    FiniteMemorySolver* finiteMemory() override { return this; }
+    PooledEmitter* pooledEmitter() override { return this; }
 
     static constexpr uint32_t kFewRows = 8192; ///< emitters of so few do things together
-    // ---- for its pool ----
-    const EmitterPool* pool() const { return pool_; } ///< that computes it now, null for none
-    uint32_t member() const { return member_; }       ///< of the pool
-    base::KindId particleKind() const { return kinds_.particle; }
-    /// The store holds the present again; the rest follows.
-    void takeBack(base::Ticks now, uint32_t highWater, uint64_t dropped);
-    // ---- for the crowd ----
-    ParticleStore& store() { return store_; }
-    const ParticleProgram& program() const { return program_; }
-    /// So many births found their row taken.
-    void refuse(uint64_t births, StepCounters& counters)
+
+    const EmitterPool* pool() const override { return pool_; }
+    uint32_t member() const override { return member_; }
+    ParticleStore& store() override { return store_; }
+    const ParticleProgram& program() const override { return program_; }
+    uint32_t highWater() const override { return highWater_; }
+    uint64_t dropped() const override { return dropped_; }
+    void takeBack(base::Ticks now, uint32_t highWater, uint64_t dropped) override;
+    void refuse(uint64_t births, StepCounters& counters) override
     {
         counters.dropped += births;
         dropped_ += births;
     }
-    /// All that were born until now_ are in their rows.
-    void endStep(StepCounters& counters)
+    void endStep(StepCounters& counters) override
     {
         store_.retire(now_);
         const uint32_t rows = store_.rowsInUse();
@@ -135,6 +140,13 @@ public:
     static uint64_t bytesOf(const EmitterDef& def, const ParticleProgram& program);
 
 private:
+    /// [unit] of base::WorkBudget that a step counts which is not divided.
+    uint64_t workOf(const StepCounters& done) const
+    {
+        return uint64_t(emitter_work::kBirth * double(done.born - done.dropped) +
+                        emitter_work::kEvent * double(done.events) + stepWork_ * double(done.particleSteps)) +
+               1;
+    }
     EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
                   std::shared_ptr<const ParticleProgram> program, std::pmr::memory_resource* memory);
     /// A step of which some is still to be done.

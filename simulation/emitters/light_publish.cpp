@@ -1,6 +1,6 @@
 // What emitters publish besides their particles: trails and lights.
 #include "simulation/emitters/emitter_solver.h"
-#include "simulation/emitters/look_constants.h"
+#include "simulation/particles/row_publication.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "simulation/emitters/emitter_solver.h"
 
-#include "simulation/blob_writer.h"
+#include "simulation/solver/blob_writer.h"
 
 #include <algorithm>
 

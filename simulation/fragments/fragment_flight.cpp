@@ -1,6 +1,6 @@
 #include "simulation/fragments/fragment_flight.h"
 
-#include "simulation/emitters/emitter_def.h"
+#include "simulation/motion/ambient_air.h"
 #include "simulation/motion/drag_step.h"
 
 #include <algorithm>

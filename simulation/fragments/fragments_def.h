@@ -4,7 +4,7 @@
 
 #include "foundation/math/curve.h"
 #include "foundation/snapshot/blob_kind.h"
-#include "simulation/solver.h"
+#include "simulation/solver/solver.h"
 
 #include <glm/vec3.hpp>
 

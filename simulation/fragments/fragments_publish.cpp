@@ -1,9 +1,9 @@
 #include "simulation/fragments/fragments_solver.h"
 
-#include "foundation/math/elementary.h"
-#include "simulation/blob_writer.h"
-#include "simulation/emitters/emitter_def.h"
+#include "simulation/combustion/fire_share.h"
+#include "simulation/motion/ambient_air.h"
 #include "simulation/motion/blob_optics.h"
+#include "simulation/solver/blob_writer.h"
 
 #include <algorithm>
 
@@ -14,15 +14,9 @@ namespace {
 namespace blob = base::blob_column;
 namespace constant = base::blob_constant;
 
-constexpr float kSolid = 6.0f;          // [1] optical depth of what nothing shines through
-constexpr uint64_t kTrail = 1ull << 39; // marks ids of smoke
-constexpr float kDark = 750.0f;         // [K] first visible glow
-constexpr float kBright = 1050.0f;      // [K] bright in daylight
-
-float fireShare(float temperature)
-{
-    return base::smoothStep(kDark, kBright, temperature);
-}
+constexpr float kSolid = 6.0f;              // [1] optical depth of what nothing shines through
+constexpr uint64_t kTrail = 1ull << 39;     // marks ids of smoke
+constexpr GlowRange kGlow{750.0f, 1050.0f}; // first visible glow, bright in daylight
 
 } // namespace
 
@@ -67,7 +61,7 @@ void FragmentsSolver::publishFragments(const base::GroupInfo& base, base::FrameS
         writer.column(blob::Radius)[i] = radius;
         writer.column(blob::CrossSection)[i] = crossSectionOf(kSolid, radius);
         writer.column(blob::Temperature)[i] = temperature;
-        writer.column(blob::FireShare)[i] = fireShare(temperature);
+        writer.column(blob::FireShare)[i] = fireShareOf(temperature, kGlow);
         writer.column(blob::Heat)[i] = def_.heat * std::max(temperature - kAirTemperature, 0.0f);
         writer.ids()[i] = blobId(base.solver, fragments_.number[i]);
     }
@@ -104,7 +98,7 @@ void FragmentsSolver::writeTrail(uint32_t solver, uint32_t begin, uint32_t end, 
         writer.column(blob::Radius)[i] = look.radius;
         writer.column(blob::CrossSection)[i] = trail_.at(column::CrossSection)[i] * look.share;
         writer.column(blob::Temperature)[i] = look.temperature;
-        writer.column(blob::FireShare)[i] = fireShare(look.temperature);
+        writer.column(blob::FireShare)[i] = fireShareOf(look.temperature, kGlow);
         writer.column(blob::Heat)[i] = def_.heat * (look.temperature - kAirTemperature);
         writer.column(blob::Age)[i] = age;
         for (size_t k = 0; k < 3; ++k)

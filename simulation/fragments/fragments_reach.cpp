@@ -1,5 +1,6 @@
 // How far from the origin fragments and their smoke can get.
 #include "simulation/fragments/fragments_def.h"
+#include "simulation/motion/ambient_air.h"
 #include "simulation/motion/flight_bound.h"
 
 #include <algorithm>
@@ -21,8 +22,8 @@ float FragmentsDef::reach(float gravity, float wind, float seconds) const
     smoke.seconds = double(std::min(trail.lifetime.max, seconds));
     smoke.speed = double(trail.inherited) * (flight.speed + flight.acceleration * flight.seconds);
     smoke.air = double(wind + kGust * trail.curlStrength);
-    smoke.acceleration =
-        double(gravity) * double(trail.buoyancy) * double(std::max(trail.temperature, 293.15f)) / 293.15;
+    smoke.acceleration = double(gravity) * double(trail.buoyancy) *
+                         double(std::max(trail.temperature, kAirTemperature)) / kAirKelvin;
     smoke.drag = double(trail.drag);
     const float puff =
         std::sqrt(trail.radius.max * trail.radius.max + trail.spreading * std::max(trail.lifetime.max, 0.0f));

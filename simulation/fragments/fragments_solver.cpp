@@ -2,11 +2,11 @@
 
 #include "foundation/math/elementary.h"
 #include "foundation/random/philox.h"
-#include "simulation/emitters/birth_schedule.h"
-#include "simulation/emitters/birth_shape.h"
+#include "foundation/tasks/parallel_rows.h"
+#include "simulation/emitters/births/birth_schedule.h"
+#include "simulation/emitters/births/birth_shape.h"
 #include "simulation/fragments/fragment_flight.h"
 #include "simulation/fragments/fragment_sizes.h"
-#include "simulation/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +29,10 @@ base::Ticks boundedTicks(float seconds)
 }
 
 /// Directions are drawn as an emitter draws them.
-EmitterDef directionsOf(const FragmentsDef& def)
+EmitterSettings directionsOf(const FragmentsDef& def)
 {
     constexpr float kHalfTurn = std::numbers::pi_v<float>;
-    EmitterDef directions;
+    EmitterSettings directions;
     directions.shape = EmitterShape::Cone;
     directions.angle = kHalfTurn;
     if (def.shape == FragmentShape::Hemisphere)
@@ -43,7 +43,7 @@ EmitterDef directionsOf(const FragmentsDef& def)
 }
 
 /// A place in the ball, and the direction from its center.
-BirthPlace drawPlace(const FragmentsDef& def, const EmitterDef& directions, const StepContext& s,
+BirthPlace drawPlace(const FragmentsDef& def, const EmitterSettings& directions, const StepContext& s,
                      uint32_t number)
 {
     const auto place = base::randomUnit4(s.seed, s.solverIndex, number, RandomPurpose::Position);
@@ -54,7 +54,7 @@ BirthPlace drawPlace(const FragmentsDef& def, const EmitterDef& directions, cons
     return drawn;
 }
 
-void createFragment(const FragmentsDef& def, const EmitterDef& directions, const StepContext& s,
+void createFragment(const FragmentsDef& def, const EmitterSettings& directions, const StepContext& s,
                     base::Ticks start, FragmentStore& store, uint32_t i)
 {
     const BirthPlace drawn = drawPlace(def, directions, s, i);
@@ -229,7 +229,7 @@ void FragmentsSolver::release(const StepContext& context)
     fragments_.count = std::min(uint32_t(wanted), def_.count);
     context.counters->born += uint64_t(wanted);
     context.counters->dropped += uint64_t(wanted) - fragments_.count;
-    const EmitterDef directions = directionsOf(def_);
+    const EmitterSettings directions = directionsOf(def_);
     parallelRows(*context.tasks, fragments_.count, kMinFlights, [&](uint32_t first, uint32_t last) {
         for (uint32_t i = first; i < last; ++i)
             createFragment(def_, directions, context, start_, fragments_, i);

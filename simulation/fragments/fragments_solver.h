@@ -6,12 +6,13 @@
 #include "simulation/fragments/fragments_def.h"
 #include "simulation/fragments/trail_smoke.h"
 #include "simulation/fragments/trail_store.h"
+#include "simulation/solver/budgeted_solver.h"
 
 namespace fx::sim {
 
 /// Steps ballistic fragments that do not feel each other. What is released, and which blob of smoke is left
 /// where, depends only on the seed and on what the host asked for.
-class FragmentsSolver final : public Solver
+class FragmentsSolver final : public Solver, public BudgetedSolver
 {
 public:
     /// @param def outlives the solver
@@ -36,6 +37,7 @@ public:
     uint32_t elementCount() const override { return fragments_.count + trail_.count; }
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
+    BudgetedSolver* budgeted() override { return this; }
 
 private:
     /// A step of which some is still to be done.

@@ -1,7 +1,7 @@
 #include "simulation/fragments/trail_smoke.h"
 
 #include "foundation/random/philox.h"
-#include "simulation/emitters/emitter_def.h"
+#include "simulation/motion/ambient_air.h"
 #include "simulation/motion/blob_optics.h"
 #include "simulation/motion/drag_step.h"
 

@@ -5,7 +5,7 @@
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
 #include "foundation/simd/instruction_set.h"
-#include "simulation/particles/lanes-inl.h"
+#include "simulation/motion/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::particles::HWY_NAMESPACE {

@@ -53,7 +53,7 @@ private:
     void put(size_t column, const float* values);
 
     const ParticleProgram& program_;
-    const EmitterDef& def_;
+    const EmitterSettings& def_;
     const BirthKey key_;
     const Rows& rows_;
     std::bitset<kTileRows> free_; ///< births that find their row free

@@ -2,7 +2,7 @@
 /// Makes particles: draws their attributes and puts them into their rows.
 #pragma once
 
-#include "simulation/emitters/birth_schedule.h"
+#include "simulation/particles/birth.h"
 #include "simulation/particles/particle_store.h"
 
 #include <span>

@@ -2,8 +2,8 @@
 
 #include "foundation/random/philox.h"
 #include "simulation/motion/curl_noise.h"
-#include "simulation/motion/ground_lanes.h"
 #include "simulation/particles/gpu_module_source.h"
+#include "simulation/particles/ground_lanes.h"
 
 #include <glm/geometric.hpp>
 
@@ -19,7 +19,7 @@ namespace {
 class AirOp final : public TileOp, public GpuModuleSource
 {
 public:
-    explicit AirOp(const EmitterDef& def) : def_(def), forces_(def.forces) {}
+    explicit AirOp(const EmitterSettings& def) : def_(def), forces_(def.forces) {}
 
     TilePhase phase() const override { return TilePhase::Force; }
     bool describe(base::GpuModules& out) const override
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    const EmitterDef& def_; ///< outlives its program
+    const EmitterSettings& def_; ///< outlives its program
     EmitterForces forces_;
 };
 
@@ -207,7 +207,7 @@ private:
 
 } // namespace
 
-void addBuiltinOps(const EmitterDef& def, std::vector<std::shared_ptr<const TileOp>>& ops)
+void addBuiltinOps(const EmitterSettings& def, std::vector<std::shared_ptr<const TileOp>>& ops)
 {
     ops.push_back(std::make_shared<AirOp>(def));
     if (def.forces.curlStrength > 0.0f)

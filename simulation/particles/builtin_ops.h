@@ -2,7 +2,7 @@
 /// The modules that every emitter may have: the members of EmitterForces.
 #pragma once
 
-#include "simulation/emitters/emitter_def.h"
+#include "simulation/particles/emitter_settings.h"
 
 #include <memory>
 #include <vector>
@@ -10,6 +10,6 @@
 namespace fx::sim {
 
 /// Appends those that `def` needs, in the order in which they run.
-void addBuiltinOps(const EmitterDef& def, std::vector<std::shared_ptr<const TileOp>>& ops);
+void addBuiltinOps(const EmitterSettings& def, std::vector<std::shared_ptr<const TileOp>>& ops);
 
 } // namespace fx::sim

@@ -24,7 +24,7 @@
 #define FX_PARTICLE_COLOR_LANES_INL
 #endif
 
-#include "simulation/particles/lanes-inl.h"
+#include "simulation/motion/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::particles::HWY_NAMESPACE {

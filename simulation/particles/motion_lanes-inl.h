@@ -7,7 +7,7 @@
 #define FX_PARTICLE_MOTION_LANES_INL
 #endif
 
-#include "simulation/particles/lanes-inl.h"
+#include "simulation/motion/lanes-inl.h"
 #include "simulation/particles/look_kernel.h"
 
 #include <hwy/cache_control.h>

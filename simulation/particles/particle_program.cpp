@@ -1,6 +1,5 @@
 #include "simulation/particles/particle_program.h"
 
-#include "simulation/emitters/gpu_program.h"
 #include "simulation/particles/builtin_ops.h"
 
 #include <algorithm>
@@ -19,13 +18,13 @@ bool varies(const base::Range& range)
     return range.max > range.min;
 }
 
-float longestLife(const EmitterDef& def)
+float longestLife(const EmitterSettings& def)
 {
     const float longest = varies(def.lifetime) ? def.lifetime.max : def.lifetime.min;
     return longest > 0.0f ? std::min(longest, kLongestLife) : 0.0f;
 }
 
-RampCurves lookCurves(const EmitterDef& def)
+RampCurves lookCurves(const EmitterSettings& def)
 {
     const auto& color = def.look.colorOverLife;
     return RampCurves(std::array{samplesOf(color, 0), samplesOf(color, 1), samplesOf(color, 2),
@@ -89,7 +88,7 @@ float stretchOf(const EmitterLook& look)
 /// Decides attribute by attribute whether it is the same for all.
 void chooseColumns(ParticleProgram& program)
 {
-    const EmitterDef& def = program.def;
+    const EmitterSettings& def = program.def;
     const auto choose = [&program](size_t column, const base::Range& range) {
         program.stores[column] = varies(range);
         program.constant[column] = range.min;
@@ -127,7 +126,7 @@ float perLifeOf(float seconds)
 double stepWork(const ParticleProgram& program)
 {
     using namespace emitter_work;
-    const EmitterDef& def = program.def;
+    const EmitterSettings& def = program.def;
     double work = kKept + (def.events.empty() ? 0.0 : kScan);
     if (!program.ballistic)
         work += kMoved + kForce * double(program.ops.size());
@@ -161,16 +160,7 @@ float cornerOf(const EmitterLook& look)
            (look.kind == Appearance::Mesh ? look.meshReach : std::sqrt(1.0f + look.aspect * look.aspect));
 }
 
-std::shared_ptr<const ParticleProgram> SharedProgram::of(const EmitterDef& def) const
-{
-    const std::lock_guard lock(mutex_);
-    std::shared_ptr<const ParticleProgram> program = program_.lock();
-    if (!program)
-        program_ = program = std::make_shared<const ParticleProgram>(def);
-    return program;
-}
-
-ParticleProgram::ParticleProgram(const EmitterDef& definition)
+ParticleProgram::ParticleProgram(const EmitterSettings& definition)
     : def(definition), number(nextNumber()), ballistic(definition.isBallistic()),
       brief(sim::longestLife(definition) <= kBrief), mortal(!definition.modules.empty()),
       longestLife(base::toTicks(double(sim::longestLife(definition)))),
@@ -188,8 +178,6 @@ ParticleProgram::ParticleProgram(const EmitterDef& definition)
     chooseColumns(*this);
     const bool turns = (published & base::particle_column::kAngle) != 0;
     (turns ? across : along) = stretchOf(def.look) / (turns ? corner : 1.0f);
-    if (gpuObstacle(def).empty())
-        gpu = makeGpuProgram(def);
 }
 
 } // namespace fx::sim

@@ -3,7 +3,7 @@
 /// published. Made once, shared by all steps.
 #pragma once
 
-#include "simulation/emitters/emitter_def.h"
+#include "simulation/particles/emitter_settings.h"
 #include "simulation/particles/ramp_curves.h"
 
 #include <array>
@@ -63,9 +63,9 @@ constexpr float kRoundedUp = 1.001f; ///< more than the rounding of times and of
 
 struct ParticleProgram
 {
-    explicit ParticleProgram(const EmitterDef& definition);
+    explicit ParticleProgram(const EmitterSettings& definition);
 
-    const EmitterDef& def;
+    const EmitterSettings& def;
     uint64_t number; ///< of the programs of the process, from 1
     bool ballistic;  ///< motion has a closed form: gravity, linear drag, wind
     bool brief;      ///< no life exceeds 3 s: ages fit into 32 bits of ticks
@@ -87,7 +87,8 @@ struct ParticleProgram
         corner; ///< [1] how far the farthest corner of what is drawn is from its center, over the half height
     bool plain; ///< no optional columns, looks over life alone, colors need no bounds to be binary16
 
-    std::shared_ptr<const base::GpuParticleProgram> gpu; ///< null where only the CPU can compute it
+    /// Null where only the CPU can compute it; SharedProgram makes it.
+    std::shared_ptr<const base::GpuParticleProgram> gpu;
 };
 
 /// What emitters count in units of base::WorkBudget, see docs/howto/bounded-updates.md.

@@ -1,6 +1,6 @@
 #include "simulation/particles/particle_store.h"
 
-#include "simulation/emitters/birth_schedule.h"
+#include "simulation/particles/birth.h"
 
 #include <algorithm>
 #include <limits>
@@ -251,6 +251,15 @@ void ParticleStore::restoreRow(StateReader& reader, base::Ticks now)
             reader.values(std::span<float>(&values[c][row], 1));
     const float perLife = value(stored::PerLife, row);
     reader.require(perLife > 0.0f && perLife <= kNoLife && isAlive(row, now), "a particle is dead");
+}
+
+base::Ticks deathTick(const ParticleStore& store, uint32_t row, base::Ticks from, base::Ticks to)
+{
+    while (to - from > 1) {
+        const base::Ticks middle = from + (to - from) / 2;
+        (store.isAlive(row, middle) ? from : to) = middle;
+    }
+    return to;
 }
 
 } // namespace fx::sim

@@ -149,4 +149,8 @@ private:
     base::Column<std::byte> memory_; ///< of all columns
 };
 
+/// The first tick, after `from`, at which the particle in `row` does not live; it lives at `from` and not at
+/// `to`: (2) of particle-event-ticks.
+base::Ticks deathTick(const ParticleStore& store, uint32_t row, base::Ticks from, base::Ticks to);
+
 } // namespace fx::sim

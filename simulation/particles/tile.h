@@ -11,7 +11,7 @@
 #pragma once
 
 #include "foundation/time/ticks.h"
-#include "simulation/solver.h"
+#include "simulation/solver/solver.h"
 
 #include <glm/vec3.hpp>
 

@@ -7,6 +7,7 @@
 #include "foundation/snapshot/blob_kind.h"
 #include "fxsdk/scene/scene.h"
 #include "simulation/emitters/emitter_def.h"
+#include "simulation/solver/seekable_solver.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -28,7 +29,7 @@ struct ToyKind
 };
 
 /// A number that every step changes: a sum over time when it seeks, a chain of hashes otherwise.
-class ToySolver final : public sim::Solver
+class ToySolver final : public sim::Solver, public sim::SeekableSolver
 {
 public:
     explicit ToySolver(const ToyKind& kind) : kind_(kind) {}
@@ -43,6 +44,7 @@ public:
     }
     void seek(const sim::StepContext& context, base::Ticks tick) override { advance(context, tick); }
     base::Ticks restsUntil(base::Ticks tick) const override { return std::max(tick, kind_.restsUntil); }
+    sim::SeekableSolver* seekable() override { return this; }
     void publish(const base::GroupInfo&, base::FrameSnapshot&) const override {}
     bool finished(base::Ticks tick) const override { return tick >= kind_.endsAt; }
     uint32_t elementCount() const override { return now_ < kind_.restsUntil ? 0 : kind_.elements; }

@@ -9,7 +9,7 @@
 #include "rendering/gl/gl_backend.h"
 #include "rendering/gpu_particles/gpu_emitters.h"
 #include "rendering/gpu_particles/gpu_states.h"
-#include "simulation/world.h"
+#include "simulation/world/world.h"
 #include "tests/rendering/view/view_fixture.h"
 
 #include <memory>

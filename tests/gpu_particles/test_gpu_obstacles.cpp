@@ -2,7 +2,7 @@
 #include "gpu_fixture.h"
 
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 
 namespace fx::test {
 

@@ -2,7 +2,7 @@
 /// The simulation of markers: each rises at a constant speed.
 #pragma once
 
-#include "simulation/solver.h"
+#include "simulation/solver/solver.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,7 +1,7 @@
 // Warnings about what is valid and does nothing: each is given with its place, and goes away with its remedy.
 #include "fxsdk/presets/preset_loader.h"
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 #include "tests/presets/small_png.h"
 #include "tests/presets/temp_folder.h"
 

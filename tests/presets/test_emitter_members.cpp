@@ -1,5 +1,5 @@
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 #include "tests/presets/module_probe.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "simulation/sph/gas_def.h"
+#include "simulation/gas/gas_def.h"
 #include "tests/presets/member_probe.h"
 
 using namespace fx::test;

@@ -1,6 +1,6 @@
 #include "fxsdk/presets/preset_loader.h"
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/sph/gas_def.h"
+#include "simulation/gas/gas_def.h"
 #include "tests/presets/temp_folder.h"
 
 #include <gtest/gtest.h>

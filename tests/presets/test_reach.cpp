@@ -4,7 +4,7 @@
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/particle_kind.h"
 #include "fxsdk/presets/preset_loader.h"
-#include "simulation/world.h"
+#include "simulation/world/world.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

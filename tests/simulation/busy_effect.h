@@ -2,7 +2,7 @@
 /// An effect that uses every part of the simulation, for tests of what must hold for all of them.
 #pragma once
 
-#include "simulation/sph/gas_def.h"
+#include "simulation/gas/gas_def.h"
 #include "tests/simulation/stage.h"
 
 namespace fx::test {

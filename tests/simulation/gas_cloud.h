@@ -3,7 +3,7 @@
 #pragma once
 
 #include "simulation/combustion/materials.h"
-#include "simulation/sph/gas_def.h"
+#include "simulation/gas/gas_def.h"
 #include "tests/simulation/stage.h"
 
 #include <glm/geometric.hpp>

@@ -7,7 +7,7 @@
 #include "foundation/snapshot/frame_snapshot.h"
 #include "foundation/snapshot/particle_kind.h"
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/world.h"
+#include "simulation/world/world.h"
 
 #include <limits>
 #include <memory>

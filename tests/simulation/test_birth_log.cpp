@@ -1,6 +1,6 @@
 // Births remembered as runs against the births themselves.
 #include "foundation/random/philox.h"
-#include "simulation/emitters/birth_schedule.h"
+#include "simulation/emitters/births/birth_schedule.h"
 
 #include <gtest/gtest.h>
 

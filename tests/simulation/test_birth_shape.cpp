@@ -1,4 +1,4 @@
-#include "simulation/emitters/birth_shape.h"
+#include "simulation/emitters/births/birth_shape.h"
 
 #include "foundation/random/philox.h"
 
@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kSamples = 40000;
 
-EmitterDef shaped(EmitterShape shape, glm::vec3 size, float angle = 0)
+EmitterSettings shaped(EmitterShape shape, glm::vec3 size, float angle = 0)
 {
-    EmitterDef def;
+    EmitterSettings def;
     def.shape = shape;
     def.size = size;
     def.angle = angle;
@@ -24,7 +24,7 @@ EmitterDef shaped(EmitterShape shape, glm::vec3 size, float angle = 0)
 }
 
 template <class F>
-void forEachSample(const EmitterDef& def, F&& f)
+void forEachSample(const EmitterSettings& def, F&& f)
 {
     for (int i = 0; i < kSamples; ++i)
         f(sampleBirth(def, base::randomUnit4(5, 0, uint64_t(i), base::RandomPurpose::Position),
@@ -43,7 +43,7 @@ TEST(BirthShape, directionsAreUnitLength)
 
 TEST(BirthShape, aPointIsWhereItIsAndPointsEverywhereAlike)
 {
-    EmitterDef def = shaped(EmitterShape::Point, {});
+    EmitterSettings def = shaped(EmitterShape::Point, {});
     def.position = {1, 2, 3};
     glm::dvec3 mean(0.0);
     double verticalSquared = 0;

@@ -1,4 +1,4 @@
-#include "simulation/sph/gas_air.h"
+#include "simulation/gas/gas_air.h"
 
 #include "foundation/memory/host_memory.h"
 #include "simulation/sph/dynamics/state_equation.h"

@@ -1,5 +1,5 @@
 // Whatever the preset and the step say, what a gas publishes is finite and within its bounds.
-#include "simulation/sph/gas_solver.h"
+#include "simulation/gas/gas_solver.h"
 #include "tests/simulation/gas_cloud.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "simulation/sph/gas_solver.h"
+#include "simulation/gas/gas_solver.h"
 
 #include "simulation/combustion/charge_plan.h"
 #include "tests/simulation/gas_cloud.h"

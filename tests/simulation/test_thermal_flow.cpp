@@ -1,4 +1,4 @@
-#include "simulation/sph/thermal_flow.h"
+#include "simulation/gas/thermal_flow.h"
 
 #include "foundation/random/philox.h"
 

@@ -59,7 +59,7 @@ class Lint(unittest.TestCase):
     def test_includes_follow_the_layers(self):
         self.refused("arrows", {"simulation/a.h": '#include "rendering/frame/view_types.h"\n'},
                      "simulation/ must not include rendering/")
-        self.refused("arrows", {"simulation/a.h": "", "foundation/b.h": '#include "simulation/world.h"\n'}, "foundation/b.h:1")
+        self.refused("arrows", {"simulation/a.h": "", "foundation/b.h": '#include "simulation/world/world.h"\n'}, "foundation/b.h:1")
         self.accepted("arrows", {"foundation/b.h": "", "fxsdk/a.h": '#include "rendering/frame/view_types.h"\n'})
 
     def test_only_measurements_include_measurements_and_only_tools_include_tools(self):
@@ -70,6 +70,16 @@ class Lint(unittest.TestCase):
                      "rendering/ must not include benchmarks/")
         self.accepted("arrows", {"rendering/a.h": "", "fxsdk/cli/render/a.cpp": '#include "fxsdk/cli/support/machine.h"\n',
                                  "benchmarks/a.cpp": '#include "fxsdk/cli/support/machine.h"\n#include "benchmarks/b.h"\n'})
+
+    def test_includes_of_the_simulation_follow_the_modules(self):
+        modules = {"simulation/low/CMakeLists.txt": "# low\nfx_module(NAME low LAYER 2 SOURCES a.cpp DEPENDS foundation)\n",
+                   "simulation/low/a.h": "", "simulation/plain/c.h": "", "simulation/high/b.h": "",
+                   "simulation/high/CMakeLists.txt": "fx_module(NAME high LAYER 2\n    SOURCES\n        b.cpp\n    DEPENDS low)\n"}
+        self.refused("arrows", modules | {"simulation/low/a.cpp": '#include "simulation/high/b.h"\n'},
+                     "simulation/low/a.cpp:1: low does not depend on high")
+        self.refused("arrows", modules | {"simulation/plain/c.h": '#include "simulation/low/a.h"\n'}, "simulation/plain/c.h:1")
+        self.accepted("arrows", modules | {"simulation/low/a.cpp": "", "simulation/plain/c.h": "",
+                                           "simulation/high/b.cpp": '#include "simulation/low/a.h"\n#include "simulation/plain/c.h"\n'})
 
     def test_examples_include_what_a_host_can(self):
         public = {"fxsdk/include/fxsdk/fx_view.h": "", "fxsdk/cli/main.h": ""}

@@ -2,7 +2,7 @@
 /// The emitters that fx bench measures.
 #pragma once
 
-#include "simulation/effect_def.h"
+#include "simulation/solver/effect_def.h"
 
 #include <cstdint>
 #include <memory>

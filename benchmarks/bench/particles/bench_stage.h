@@ -5,7 +5,7 @@
 #include "foundation/memory/host_memory.h"
 #include "foundation/snapshot/snapshot_ring.h"
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/world.h"
+#include "simulation/world/world.h"
 
 #include <cstdint>
 #include <memory>

@@ -8,7 +8,7 @@
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/techniques.h"
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 
 #include <CLI/CLI.hpp>
 #include <glm/gtc/type_ptr.hpp>

@@ -3,7 +3,7 @@
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/particle_kind.h"
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 
 #include <algorithm>
 #include <vector>

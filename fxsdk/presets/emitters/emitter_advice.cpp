@@ -1,7 +1,7 @@
 #include "fxsdk/presets/emitters/emitter_advice.h"
 
 #include "fxsdk/presets/emitters/emitter_technique.h"
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // particles.
 #include "fxsdk/presets/emitters/birth_count.h"
 #include "fxsdk/presets/emitters/emitter_technique.h"
-#include "simulation/emitters/event_board.h"
+#include "simulation/emitters/events/event_board.h"
 #include "simulation/particles/particle_program.h"
 
 #include <algorithm>

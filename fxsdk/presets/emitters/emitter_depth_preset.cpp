@@ -1,7 +1,7 @@
 #include "fxsdk/presets/emitters/emitter_depth_preset.h"
 
 #include "simulation/emitters/emitter_def.h"
-#include "simulation/emitters/gpu_program.h"
+#include "simulation/gpu_programs/gpu_program.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fxsdk/presets/preset_value.h"
-#include "simulation/effect_def.h"
+#include "simulation/solver/effect_def.h"
 
 namespace fx::preset {
 

@@ -2,7 +2,7 @@
 
 #include "embedded/gas_schema.h"
 #include "simulation/combustion/charge_plan.h"
-#include "simulation/sph/gas_def.h"
+#include "simulation/gas/gas_def.h"
 
 namespace fx::preset {
 

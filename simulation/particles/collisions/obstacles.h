@@ -30,7 +30,7 @@
 
 #include "simulation/particles/collisions/collision_defs.h"
 #include "simulation/particles/collisions/contact_leg.h"
-#include "simulation/solver.h"
+#include "simulation/solver/solver.h"
 
 #include <memory>
 

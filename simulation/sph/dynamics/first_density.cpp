@@ -1,7 +1,8 @@
 #include "simulation/sph/dynamics/evaluation.h"
 
 #include "foundation/math/elementary.h"
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
+#include "simulation/sph/dynamics/evaluation.h"
 #include "simulation/sph/dynamics/neighborhood.h"
 #include "simulation/sph/dynamics/prediction.h"
 

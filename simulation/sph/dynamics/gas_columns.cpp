@@ -1,6 +1,6 @@
 #include "simulation/sph/dynamics/gas_columns.h"
 
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "simulation/sph/dynamics/neighborhood.h"
 
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 
 #include <algorithm>
 #include <bit>

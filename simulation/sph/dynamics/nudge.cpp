@@ -1,7 +1,7 @@
 #include "simulation/sph/dynamics/gas_operations.h"
 
 #include "foundation/math/bits.h"
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/sph/dynamics/neighborhood.h"
 
 #include <cmath>

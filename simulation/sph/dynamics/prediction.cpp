@@ -1,6 +1,6 @@
 #include "simulation/sph/dynamics/prediction.h"
 
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/sph/dynamics/boundary.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "simulation/sph/dynamics/shifting.h"
 
 #include "foundation/math/elementary.h"
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/sph/dynamics/neighborhood.h"
 #include "simulation/sph/pair_loops/crowding_loop.h"
 

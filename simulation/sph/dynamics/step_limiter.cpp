@@ -1,6 +1,6 @@
 #include "simulation/sph/dynamics/stepping.h"
 
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/sph/dynamics/stepping.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "simulation/sph/dynamics/stepping.h"
 
 #include "foundation/math/bits.h"
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 
 #include <algorithm>
 #include <cmath>

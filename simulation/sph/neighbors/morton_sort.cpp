@@ -1,6 +1,6 @@
 #include "simulation/sph/neighbors/morton_sort.h"
 
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/sph/neighbors/morton.h"
 
 #include <algorithm>

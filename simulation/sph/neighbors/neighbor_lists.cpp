@@ -1,7 +1,7 @@
 #include "simulation/sph/neighbors/neighbor_lists.h"
 
 #include "foundation/simd/instruction_set.h"
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 
 namespace fx::sim {
 

@@ -1,6 +1,6 @@
 #include "simulation/sph/neighbors/particle_tree.h"
 
-#include "simulation/parallel.h"
+#include "foundation/tasks/parallel_rows.h"
 #include "simulation/sph/neighbors/morton.h"
 
 #include <algorithm>

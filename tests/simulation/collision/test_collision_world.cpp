@@ -1,5 +1,5 @@
 #include "simulation/fragments/fragments_def.h"
-#include "simulation/sph/gas_def.h"
+#include "simulation/gas/gas_def.h"
 #include "tests/simulation/collision/shapes.h"
 #include "tests/simulation/fragments/fragment_burst.h"
 

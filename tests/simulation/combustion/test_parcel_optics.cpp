@@ -35,18 +35,6 @@ TEST(ParcelOptics, petrolSmokeIsBlackAndPowderSmokeIsWhite)
     EXPECT_GT(opticsOf(*findMaterial("black-powder"), burnt).albedo, 0.9);
 }
 
-TEST(ParcelOptics, sootGlowsInTheFireAndIsSmokeWhenCold)
-{
-    const Material& m = *findMaterial("petrol");
-    const auto share = [&](double temperature) {
-        return opticsOf(m, {1.0, 0.0, 0.5, 0.5, 5.0, temperature}).fireShare;
-    };
-    EXPECT_EQ(share(400.0), 0.0);
-    EXPECT_EQ(share(1600.0), 1.0);
-    for (double t = 700.0; t < 1300.0; t += 10.0)
-        EXPECT_LE(share(t), share(t + 10.0));
-}
-
 TEST(ParcelOptics, emissivityGrowsFromTheThinLimitToOne)
 {
     Material m{};

@@ -1,6 +1,6 @@
 #include "foundation/math/elementary.h"
 #include "foundation/random/philox.h"
-#include "simulation/emitters/birth_shape.h"
+#include "simulation/emitters/births/birth_shape.h"
 #include "simulation/particles/birth_kernel.h"
 #include "simulation/particles/birth_lanes.h"
 #include "tests/simulation/particles/core/sprites.h"

@@ -4,8 +4,8 @@
 // test_birth_kernel.cpp; EM-09 test_curve.cpp; EM-10 test_shapes.cpp.
 #include "foundation/math/hash.h"
 #include "foundation/random/philox.h"
-#include "simulation/emitters/birth_schedule.h"
-#include "simulation/emitters/birth_shape.h"
+#include "simulation/emitters/births/birth_schedule.h"
+#include "simulation/emitters/births/birth_shape.h"
 #include "tests/foundation/real_threads.h"
 #include "tests/simulation/particles/core/sprites.h"
 #include "tests/simulation/particles/modules/chi_square.h"

@@ -1,4 +1,4 @@
-#include "simulation/emitters/event_board.h"
+#include "simulation/emitters/events/event_board.h"
 #include "simulation/particles/collisions/collision_op.h"
 #include "tests/simulation/particles/events/linked.h"
 
@@ -165,7 +165,7 @@ TEST(EmitterEvents, emittersWithEventsDoNotSeek)
     StepContext context{};
     context.parameters = &parameters;
     for (const auto& def : effect->solvers)
-        EXPECT_FALSE(def->create(schema, {}, &memory)->canSeek(context, kTicksPerSecond));
+        EXPECT_FALSE(def->create(schema, {}, &memory)->seekable()->canSeek(context, kTicksPerSecond));
 }
 
 TEST(EventBoard, isReadInTheOrderOfTicks)

@@ -1,4 +1,4 @@
-#include "simulation/emitters/ribbon_store.h"
+#include "simulation/ribbons/ribbon_store.h"
 #include "tests/simulation/particles/events/linked.h"
 
 #include <gtest/gtest.h>

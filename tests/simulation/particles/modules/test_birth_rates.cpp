@@ -1,4 +1,4 @@
-#include "simulation/emitters/birth_schedule.h"
+#include "simulation/emitters/births/birth_schedule.h"
 
 #include <gtest/gtest.h>
 

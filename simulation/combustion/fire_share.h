@@ -1,0 +1,40 @@
+/// @file fire_share.h
+/// Which part of hot matter a picture shows as fire.
+///
+/// @formula fire-share
+/// The part of a blob's opacity that counts as fire in the layers of a picture; the rest is smoke.
+///
+/// symbol   unit   meaning
+///   T        K      temperature
+///   T0       K      of the first visible glow
+///   T1       K      at which the glow outshines daylight on smoke, > T0
+///   F        1      share of fire
+/// @derivation
+///   u = (T - T0) / (T1 - T0) clamped to [0, 1],   F = u^2 (3 - 2 u)                         (1)
+/// @source    elementary (cubic step); the temperatures are those of the matter: gas takes them from its
+/// preset, solid
+///            fragments from the colors of incandescence
+/// @deviation none
+/// @valid     T0 < T1; NaN gives 0
+/// @accuracy  float rounding
+/// @tests     tests/simulation/combustion/test_fire_share.cpp
+#pragma once
+
+#include "foundation/math/elementary.h"
+
+namespace fx::sim {
+
+/// [K] Between which matter goes over from smoke to fire.
+struct GlowRange
+{
+    float first;  ///< T0
+    float bright; ///< T1
+};
+
+/// [1] F of matter of `temperature` [K].
+inline float fireShareOf(float temperature, const GlowRange& glow)
+{
+    return base::smoothStep(glow.first, glow.bright, temperature); // (1)
+}
+
+} // namespace fx::sim

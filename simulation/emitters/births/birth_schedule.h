@@ -1,0 +1,225 @@
+/// @file birth_schedule.h
+/// When particles are born: integers only, so that no frame rate gains or loses one.
+///
+/// @formula birth-ticks
+/// The tick at which a rate emitter gives birth to its particle i, and how many are born before a tick.
+///
+/// symbol   unit     meaning
+///   r       1/s      birth rate, a whole multiple of 2^-32
+///   F       1/s      ticks per second
+///   psi     1        phase in [0, 1), a whole multiple of 2^-24, drawn from the instance's seed
+///   D       1        one particle: 2^32 F, or 2^48 F where the rate changes
+///   q       1        what the first tick of a piece of time adds
+///   m       1        by how much each tick adds more than the one before it, 0 for a constant rate
+///   R       1        progress at the beginning of a piece minus what has been born, -D < R <= 0
+///   L       1        ticks of a 64th of the duration
+/// @derivation
+///   Particle i is born at the tick floor((i + psi) F / r), which lies in [0, T) when i + psi < r T / F (1)
+///   so ceil(r T / F - psi) particles are born before tick T (2) In integers, with progress P(0) = -psi D,
+///   and n ticks of a piece adding
+///       S(n) = q n + m n (n - 1) / 2,   q = 2^32 r                                              (3)
+///   births of the piece before its tick n = ceil((R + S(n)) / D), and its birth j happens at the largest n
+///   with
+///       S(n) <= j D - R,   for m = 0 that is floor((j D - R) / q)                               (4)
+///   Where the rate runs straight from ra to rb over L ticks, with D = 2^48 F,
+///       q = 2^48 ra + m k at tick k of it,   m = 2^48 (rb - ra) / L rounded towards 0           (5)
+///   Progress is a sum of integers, and S(k + n) = S(k) + S(n) of the piece that begins at k: any partition
+///   of time into steps gives the same births. At a constant rate there are no births within floor(-R / q)
+///   ticks of a moment: windows that end by then are put together and their progress is added later. (6)
+/// @source    elementary
+/// @deviation none
+/// @valid     r <= 1e9 /s (larger is taken as that; NaN and negative as 0); a rate that changes over more
+/// than
+///            1e6 s is taken as constant; 128-bit products below 2^126
+/// @accuracy  exact for the rounded rate, whose relative error is <= 2^-33 / r; (5) loses up to L 2^-48 /s
+/// @tests     tests/simulation/test_birth_schedule.cpp
+///            tests/simulation/particles/modules/test_birth_rates.cpp
+#pragma once
+
+#include "simulation/emitters/births/birth_log.h"
+#include "simulation/particles/birth.h"
+#include "simulation/particles/emitter_settings.h"
+#include "simulation/state/state_reader.h"
+
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace fx::sim {
+
+/// Births of a step: how many there were, of which the first `stored` were written.
+struct BirthCount
+{
+    uint64_t total = 0;
+    uint64_t stored = 0;
+};
+
+/// An interval of local time and the host's parameters in it.
+struct BirthWindow
+{
+    base::Ticks begin;
+    base::Ticks end;      ///< the next window begins here
+    double intensity = 1; ///< multiplies rate and burst counts
+    bool emitting = true; ///< false: what would be born in the window never is
+};
+
+/// Births at a constant rate, one after another, found without dividing: (4) of birth-ticks.
+struct EvenBirths
+{
+    base::Ticks tick = kForever; ///< of the next
+    base::Ticks stride = 0;      ///< whole ticks from one to the next
+    uint64_t rest = 0;           ///< what the quotient of `tick` leaves
+    uint64_t more = 0;           ///< by which it grows from one to the next
+    uint64_t rate = 1;           ///< q, the divisor
+
+    void goOn()
+    {
+        tick += stride;
+        rest += more;
+        if (rest >= rate) {
+            rest -= rate;
+            ++tick;
+        }
+    }
+};
+
+/// Rate and bursts of one emitter, advanced window by window without gaps. Ties: bursts by declaration, then
+/// rate.
+class BirthSchedule
+{
+public:
+    /// @param emission its `start` delays rate and bursts alike; bursts for ever end with its duration
+    BirthSchedule(const Emission& emission, std::pmr::memory_resource* memory);
+
+    /// Draws the phase. Before the first advance.
+    void setPhase(float phase);
+    /// What decides about bursts of a probability below 1. Before the first advance.
+    void setSeed(uint64_t seed, uint32_t solverIndex);
+    /// Receives all births of constant rates from now on; null for none. It must outlive its use.
+    void setLog(BirthLog* log) { log_ = log; }
+    /// All births of the window in order; those that do not fit into `out` are counted and keep their index.
+    BirthCount advance(const BirthWindow& window, std::span<Birth> out);
+    /// The same, but births are handed over whenever `room` is full and at the end, up to `most` of them.
+    /// @param take called as take(std::span<const Birth>)
+    template <class Take>
+    BirthCount advance(const BirthWindow& window, std::span<Birth> room, uint64_t most, Take&& take)
+    {
+        const auto call = [](void* user, std::span<const Birth> births) {
+            (*static_cast<std::remove_reference_t<Take>*>(user))(births);
+        };
+        base::Ticks end;
+        return advanceTo(window, {room, most, call, &take}, end);
+    }
+    /// The same as far as `wanted` of them go or a little farther, at least one.
+    /// @param outReached where the next window has to begin: its end, or before it, also in the middle of
+    ///                   what is born at one tick
+    template <class Take>
+    BirthCount advance(const BirthWindow& window, std::span<Birth> room, uint64_t most, uint64_t wanted,
+                       base::Ticks& outReached, Take&& take)
+    {
+        const auto call = [](void* user, std::span<const Birth> births) {
+            (*static_cast<std::remove_reference_t<Take>*>(user))(births);
+        };
+        return advanceTo(window, {room, most, call, &take, wanted}, outReached);
+    }
+    /// No births before this local time, as long as the conditions of the last window hold; 0 when unknown.
+    /// Windows up to it may be skipped.
+    base::Ticks quietUntil() const { return quiet_.until; }
+    /// Windows up to `tick` have been left out; nothing happens when it is not beyond them.
+    void passTo(base::Ticks tick)
+    {
+        if (tick > quiet_.to && tick <= quiet_.until)
+            quiet_.to = tick;
+    }
+    /// All births from `tick`, the end of the last window, until end(), as long as the host's parameters do
+    /// not change; none unless they come at a constant rate of at least 1e-3 /s by now.
+    std::optional<EvenBirths> evenBirths(base::Ticks tick, double intensity, bool emitting) const;
+    base::Ticks end() const { return end_; } ///< of the rate
+    /// True when nothing can be born from `tick` on.
+    bool exhausted(base::Ticks tick) const;
+    /// No births from `tick`, the end of the last window, until then, as long as the host's parameters do not
+    /// change. A lower bound.
+    base::Ticks quietUntil(base::Ticks tick, double intensity, bool emitting) const;
+
+    /// What has been born so far; rate and bursts are the definition's.
+    /// @param now windows up to there have been left out, as passTo()
+    void save(StateWriter& writer, base::Ticks now = 0) const;
+    void restore(StateReader& reader);
+
+private:
+    struct ScheduledBurst
+    {
+        base::Ticks tick;     ///< of the first cycle
+        base::Ticks interval; ///< between cycles
+        uint64_t cycles;
+        uint32_t count;
+        float probability;
+        uint64_t next = 0;  ///< cycle
+        uint32_t given = 0; ///< births of it
+
+        base::Ticks nextTick() const
+        {
+            return next < cycles ? tick + base::Ticks(next) * interval : kForever;
+        }
+    };
+    /// A stretch of time over which the rate runs straight.
+    struct Piece
+    {
+        base::Ticks begin, end;
+        WideInt rate;  ///< q
+        WideInt slope; ///< m
+
+        WideInt sum(base::Ticks n) const; ///< S
+        base::Ticks tickOf(WideInt sum) const;
+    };
+    /// Where births go.
+    struct Outlet
+    {
+        std::span<Birth> room;
+        uint64_t most;                                    ///< births that are wanted
+        void (*take)(void* user, std::span<const Birth>); ///< null: they stay in `room`
+        void* user;
+        uint64_t wanted = UINT64_MAX; ///< births after which it may end before the window does
+    };
+    struct Writer;
+
+    /// Windows without births whose progress has not been added yet.
+    struct Quiet
+    {
+        base::Ticks from = 0;
+        base::Ticks to = 0;    ///< they are [from, to)
+        base::Ticks until = 0; ///< no births before this under the same conditions
+        double intensity = 0;
+        bool emitting = false;
+        WideInt rate = 0; ///< q
+    };
+
+    BirthCount advanceTo(const BirthWindow& window, const Outlet& outlet, base::Ticks& outReached);
+    bool staysQuiet(const BirthWindow& window);
+    void endQuiet();
+    void findQuiet(const BirthWindow& window);
+    WideInt particle() const; ///< D
+    Piece pieceAt(base::Ticks tick, base::Ticks end, const BirthWindow& window) const;
+    base::Ticks giveRate(base::Ticks from, base::Ticks to, const BirthWindow& window, Writer& writer);
+    bool giveBurst(ScheduledBurst& burst, const BirthWindow& window, Writer& writer);
+    ScheduledBurst* nextBurst(base::Ticks end);
+    bool happens(const ScheduledBurst& burst) const;
+
+    Quiet quiet_; ///< first: most steps look at nothing else
+    float rate_;
+    base::Ticks start_;
+    base::Ticks end_;
+    base::ScalarCurve shape_;
+    bool curved_;
+    std::pmr::vector<ScheduledBurst> bursts_; ///< by declaration
+    uint64_t seed_ = 0;
+    uint32_t solverIndex_ = 0;
+    WideInt progress_ = 0; ///< R
+    uint64_t nextIndex_ = 0;
+    BirthLog* log_ = nullptr;
+};
+
+} // namespace fx::sim

@@ -1,0 +1,147 @@
+/// @file emitter_pool.h
+/// Small emitters of one definition that share the rows of one store.
+///
+/// Rows stand in the order of birth over all members, so the pass over them meets full vectors of particles
+/// of nearly one age and no empty rows, however few particles a member has. A member costs nothing in a step
+/// in which none of its particles is born or dies. Each gets the same bits as by itself: random numbers are
+/// those of its seed, ages are differences of ticks, and a birth whose row in the member's own store would be
+/// taken is dropped. Only where memory runs out as the rows grow, a birth is dropped that the emitter by
+/// itself would have had room for; it is counted like the others.
+#pragma once
+
+#include "simulation/emitters/births/birth_schedule.h"
+#include "simulation/emitters/pools/pooled_emitter.h"
+#include "simulation/particles/birth_kernel.h"
+#include "simulation/particles/particle_store.h"
+#include "simulation/solver/solver.h"
+
+#include <glm/vec3.hpp>
+
+#include <memory>
+#include <memory_resource>
+#include <vector>
+
+namespace fx::sim {
+
+/// What a pool needs to know of an emitter that joins it.
+struct PoolEntry
+{
+    PooledEmitter* emitter;
+    uint32_t user;      ///< identifies the emitter for the owner of the pool
+    uint64_t seed;      ///< of its instance
+    base::Ticks offset; ///< its local time minus the pool's
+    EvenBirths births;  ///< local time
+    base::Ticks end;    ///< no births from then on, local time
+};
+
+/// Threads: one at a time (the scene thread); a publication is spread over the task runner where it pays.
+class EmitterPool
+{
+public:
+    /// @param pull [m/s2] of all members, see LookJob
+    /// @param revision goes up with each member that comes or goes
+    EmitterPool(std::shared_ptr<const ParticleProgram> program, const glm::vec3& pull, uint64_t& revision,
+                std::pmr::memory_resource* memory);
+
+    bool fits(const ParticleProgram& program, const glm::vec3& pull) const;
+    uint32_t members() const { return taken_; }
+    bool empty() const { return taken_ == 0; }
+    base::Ticks now() const { return now_; }
+    /// So many emitters, this one among them, have wanted to join in step `number`.
+    uint32_t offer(uint64_t number)
+    {
+        offers_ = offered_ == number ? offers_ + 1 : 1;
+        offered_ = number;
+        return offers_;
+    }
+    uint64_t offered() const { return offered_; } ///< number of the step of the last offer
+
+    /// Takes the particles of an emitter, whose state is that of the pool's time `now`.
+    /// @return the member; kNoMember, and nothing has changed, when there is no memory
+    uint32_t admit(const PoolEntry& entry, base::Ticks now);
+    static constexpr uint32_t kNoMember = ~0u;
+    /// A member is none any more; what it holds is lost.
+    void forget(uint32_t member);
+    /// Writes the present state of a member into its emitter; it stays a member.
+    void write(uint32_t member) const;
+
+    /// All births and deaths up to `to`. Members that have no particles any more, or no births to come,
+    /// leave.
+    /// @param outLeft gains their users
+    void step(base::Ticks to, StepCounters& counters, std::vector<uint32_t>& outLeft);
+    /// Members keep their numbers as long as they stay.
+    void publish(base::KindId kind, base::TaskRunner& tasks, base::FrameSnapshot& snapshot) const;
+
+    /// Calls f(emitter, user) for all members; f may dismiss them.
+    template <class F>
+    void forEach(F&& f)
+    {
+        for (size_t m = 0; m < members_.size(); ++m)
+            if (members_[m].emitter)
+                f(*members_[m].emitter, members_[m].user);
+    }
+    uint32_t countAlive(uint32_t member) const;
+    bool isAnyAlive(uint32_t member) const
+    {
+        return now_ < members_[member].frontUntil || countAlive(member) > 0;
+    }
+    const ParticleProgram& program() const { return *program_; }
+
+private:
+    struct Member
+    {
+        PooledEmitter* emitter = nullptr; ///< null: free
+        uint64_t seed = 0;
+        EvenBirths births;   ///< the pool's time
+        base::Ticks end = 0; ///< no births from then on, likewise
+        uint64_t next = 0;   ///< birth index
+        uint64_t front = 0;  ///< the oldest index that lives
+        base::Ticks frontUntil = 0;
+        uint32_t nextRow = 0; ///< of its own store
+        uint32_t frontRow = 0;
+        uint32_t rows = 0; ///< of its own store that are in use
+        uint32_t highWater = 0;
+        uint32_t user = 0;
+        uint64_t dropped = 0;
+        base::Ticks offset = 0; ///< local time minus the pool's
+    };
+
+    size_t placeOfName(uint32_t name) const { return placeOf(name >> 8, name & 0xFF); }
+    size_t placeOf(uint32_t member, uint32_t row) const { return size_t(member) * each_ + row; }
+    /// Whether the particle of the place is alive at `tick`; then `outRow` is its row.
+    bool lives(uint64_t serial, base::Ticks tick, uint32_t& outRow) const;
+    void makeRoom(uint32_t member, uint64_t rows);
+    void rebuild(uint64_t rows);
+    void put(uint32_t member, uint64_t particle, uint32_t row, uint64_t serial);
+    void takeRows(uint32_t member, const ParticleStore& own);
+    void giveBirths(uint32_t member, base::Ticks to, StepCounters& counters);
+    bool findRoom();
+    void makeBirths();
+    void retire(uint32_t member);
+    void wakeLater(uint32_t member);
+    void nameOwners(base::PooledRows& out) const;
+
+    std::shared_ptr<const ParticleProgram> program_;
+    glm::vec3 pull_;
+    uint32_t each_; ///< rows of the own store of each member
+    uint64_t& revision_;
+    std::pmr::memory_resource* memory_;
+    ParticleStore store_;           ///< a ring of all births; its indices are serial numbers
+    std::vector<uint32_t> owner_;   ///< by row: member and row of its own store, see base::PooledRows
+    std::vector<uint64_t> index_;   ///< by row: birth index in the member
+    std::vector<uint64_t> serial_;  ///< by place: the particle last born there, kNobody
+    std::vector<base::Ticks> wake_; ///< by member: a step that ends there or later is not like standing still
+    std::vector<uint32_t> counts_;  ///< by member: count of its group
+    std::vector<Member> members_;
+    std::vector<uint32_t> free_;
+    std::vector<uint32_t> due_;
+    std::vector<PooledBirth> births_; ///< wait to be made, from store_.next() on
+    uint64_t number_ = 0;             ///< of this order of rows, see base::PooledRows::writer
+    uint64_t rowsInUse_ = 0;
+    uint32_t taken_ = 0; ///< members
+    base::Ticks now_ = 0;
+    uint64_t offered_ = 0;
+    uint32_t offers_ = 0;
+};
+
+} // namespace fx::sim

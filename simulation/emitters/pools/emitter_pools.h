@@ -1,0 +1,64 @@
+/// @file emitter_pools.h
+/// The pools of a world.
+#pragma once
+
+#include "simulation/emitters/pools/emitter_pool.h"
+
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <vector>
+
+namespace fx::sim {
+
+/// An emitter that has been stepped to `now` and could go on in a pool.
+struct PoolRequest
+{
+    uint32_t user;      ///< see PoolEntry
+    uint64_t step;      ///< number of the step that took it there
+    base::Ticks now;    ///< pool's time
+    base::Ticks offset; ///< local time minus the pool's
+};
+
+/// Longer steps are taken by each emitter by itself: ages of brief lives must stay within 32 bits.
+constexpr base::Ticks kLongestPoolStep = base::kTicksPerSecond / 16;
+
+/// Threads: one at a time.
+class EmitterPools
+{
+public:
+    explicit EmitterPools(std::pmr::memory_resource* memory) : memory_(memory) {}
+
+    /// Changes with every member that comes or goes.
+    uint64_t revision() const { return revision_; }
+    bool empty() const { return pools_.empty() || members() == 0; }
+    uint32_t members() const;
+    base::Ticks now() const { return now_; } ///< end of the last step
+    /// Publishes all pools that have members.
+    void publish(base::KindId kind, base::TaskRunner& tasks, base::FrameSnapshot& snapshot) const;
+    size_t indexOf(const EmitterPool& pool) const; ///< among those
+
+    /// The pool that an emitter may join now: one that has members, or that so many want to join in this step
+    /// that it is worth it. Null where there is none, or no memory.
+    EmitterPool* offer(const std::shared_ptr<const ParticleProgram>& program, const glm::vec3& pull,
+                       uint64_t step);
+    /// @param outLeft see EmitterPool::step()
+    void step(base::Ticks to, StepCounters& counters, std::vector<uint32_t>& outLeft);
+    /// Calls f(emitter, user) for all members; f may let them leave.
+    template <class F>
+    void forEach(F&& f)
+    {
+        for (const std::unique_ptr<EmitterPool>& pool : pools_)
+            pool->forEach(f);
+    }
+
+private:
+    void forgetEmpty(uint64_t step);
+
+    std::pmr::memory_resource* memory_;
+    uint64_t revision_ = 1;
+    base::Ticks now_ = 0;
+    std::vector<std::unique_ptr<EmitterPool>> pools_;
+};
+
+} // namespace fx::sim

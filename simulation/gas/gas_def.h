@@ -1,0 +1,65 @@
+/// @file gas_def.h
+/// What a preset says about one explosion of gas: what burns, how much energy it has, how it moves and looks.
+#pragma once
+
+#include "foundation/math/curve.h"
+#include "foundation/snapshot/blob_kind.h"
+#include "simulation/combustion/materials.h"
+#include "simulation/solver/solver.h"
+
+#include <glm/vec3.hpp>
+
+#include <string>
+
+namespace fx::sim {
+
+/// A charge let go at local time `start`. Mass, size, temperature, pressure, soot and duration follow from
+/// the material and the energy, see charge_plan.h.
+struct GasDef final : SolverDef
+{
+    std::string name;
+    uint32_t particles = 400;                          ///< 8 .. 20000, at medium quality
+    glm::vec3 position{0.0f};                          ///< [m] center of the initial ball
+    float start = 0.0f;                                ///< [s]
+    const Material* material = findMaterial("petrol"); ///< never null
+    double energy = 20e6;                              ///< [J] > 0
+    float pressureRatio =
+        12.0f;                ///< [1] initial pressure over the air's, 1 .. 100, where the charge detonates
+    float soundSpeed = 60.0f; ///< [m/s] limit on the speed of sound, 0 for none: shorter steps, true blast
+    float jitter = 0.15f;     ///< [1] of the particle spacing: seeds the instabilities
+    float lumpiness = 0.3f;   ///< [1] 0 .. 1, unevenness of the throw in large jets
+    float throwSpeed = 1.0f;  ///< [1] multiple of the speed at which the material is thrown out
+    glm::vec3 initialBias{0.0f}; ///< [m/s] added to every particle
+    float entrainment = 1.0f;    ///< [1] multiple of the air that a thermal takes in, while it burns
+    float radiation = 1.0f;      ///< [1] multiple of black-body loss
+    float drag = 0.35f;          ///< [1/s] momentum shared with the air
+    float braking = 0.3f;        ///< [1] multiple of the momentum lost to the air that is driven ahead
+    float buoyancy = 1.0f;       ///< [1] multiple of Archimedes' force
+    float rolling = 1.0f;        ///< [1] 0 .. 1, how much the rising cloud turns over like a vortex ring
+    float curlStrength = 2.5f;   ///< [m/s] turbulence below the particles' size
+    float curlScale = 2.0f;      ///< [m]
+    float viscosity = 1.0f;      ///< [1] largest alpha of the artificial viscosity, 0 .. 4
+
+    // optics
+    float opacity = 1.0f; ///< [1] multiple of the extinction of the soot and salts that the material leaves
+    base::ColorCurve smokeTint{std::array{1.0f, 1.0f, 1.0f}}; ///< multiple of their albedo, t = share burnt
+    float sootTemperature = 1100.0f; ///< [K] below which soot no longer glows as fire in the picture's layers
+    float growth = 1.4f;             ///< [1] radius of a blob over half the kernel's support
+    float heat = 1.0f;               ///< see EmitterDef
+    float dissipation = 0.12f;       ///< [1/s] rate at which cold smoke thins out
+    float detailAmount = 0.8f;
+    float detailScale = 1.5f;
+    float anisotropy = 0.3f;
+
+    std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
+                                   std::pmr::memory_resource* memory) const override;
+    uint32_t capacity() const override { return particles; }
+    uint64_t bytes() const override;
+    double workOf(const StepLoad& load) const override;
+    bool publishes(const base::KindDesc& kind) const override { return kind == base::kBlobKind; }
+    bool bendsLight() const override { return heat > 0.0f; }
+    bool collides() const override { return true; }
+    CatchUp catchUp() const override { return CatchUp::Authoritative; }
+};
+
+} // namespace fx::sim

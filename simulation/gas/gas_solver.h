@@ -1,0 +1,107 @@
+/// @file gas_solver.h
+/// One explosion of gas of one instance.
+#pragma once
+
+#include "simulation/gas/gas_air.h"
+#include "simulation/gas/gas_def.h"
+#include "simulation/gas/gas_parcels.h"
+#include "simulation/solver/budgeted_solver.h"
+#include "simulation/sph/dynamics/gas_dynamics.h"
+
+namespace fx::sim {
+
+/// Most sub-steps between two exchanges with the air. What they do not cover is not simulated, and reported
+/// as debt.
+constexpr uint32_t kMostGasSubSteps = 400;
+constexpr double kMostGasSlices = 64.0; ///< exchanges with the air in a step
+constexpr double kGasCourant = 0.6;
+
+// [unit] of base::WorkBudget, for each particle
+constexpr uint64_t kGasReleaseWork = 200;
+constexpr uint64_t kGasExchangeWork = 80;
+constexpr uint64_t kGasShownWork = 12;
+constexpr uint64_t kGasBytes = 1500; ///< [byte] of each particle, about, lists of neighbors included
+
+/// [m] Support of particles with so many neighbors that fill a ball of `radius` evenly.
+double evenSupport(double radius, uint32_t particles, double neighbors);
+
+/// Gas dynamics between exchanges with the air, which come as often as the cloud moves a third of its size,
+/// and in every step.
+class GasSolver final : public Solver, public BudgetedSolver
+{
+public:
+    /// @param def outlives the solver
+    /// @param kind of the groups it publishes
+    GasSolver(const GasDef& def, const Quality& quality, base::KindId kind,
+              std::pmr::memory_resource* memory);
+
+    void step(const StepContext& context) override
+    {
+        base::WorkBudget unlimited;
+        proceed(context, unlimited);
+    }
+    bool proceed(const StepContext& context, base::WorkBudget& work) override;
+    void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const override;
+    /// Not divided.
+    bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
+                            PublicationPlace& /*ioPlace*/, base::WorkBudget& work) const override
+    {
+        publish(base, snapshot);
+        work.spend(kGasShownWork * elementCount());
+        return true;
+    }
+    bool finished(base::Ticks) const override { return done_; }
+    uint32_t elementCount() const override { return done_ ? 0 : gas_.count(); }
+    void save(StateWriter& writer) const override;
+    void restore(StateReader& reader) override;
+    BudgetedSolver* budgeted() override { return this; }
+
+private:
+    /// A step that goes on in further calls.
+    struct Open
+    {
+        base::Ticks tick = -1; ///< at which it began; -1 while there is none
+        double seconds = 0;    ///< [s] of all of it
+        double left = 0;       ///< [s] of that, from the beginning of the slice in hand
+        double slice = 0;      ///< [s] of gas dynamics between two exchanges; 0 between slices
+    };
+    bool waitsForRelease(const StepContext& context, const base::WorkBudget& work) const;
+    bool begin(const StepContext& context, base::WorkBudget& work);
+    bool release(const StepContext& context);
+    std::span<glm::vec3> ways(const StepContext& context);
+    /// [m/s]
+    struct FlowSpeeds
+    {
+        double flow;         ///< root mean square
+        double sound;        ///< of the hottest gas
+        double reducedSound; ///< that is simulated
+    };
+    FlowSpeeds speedsOf(const StepContext& context, const ThermalFlow& thermal) const;
+    double exchange(const StepContext& context, double longest, double shortest);
+    void takeIn(double pressureScale, base::TaskRunner& tasks);
+    /// @param before [m] of each parcel by id, where its way began; empty without geometry
+    void settle(const StepContext& context, float seconds, std::span<const glm::vec3> before);
+    void retireWhenDissolved();
+    void writeMotion(class BlobWriter& writer) const;
+    void writeLooks(class BlobWriter& writer) const;
+
+    const GasDef& def_;
+    Quality quality_;
+    base::KindId kind_;
+    ChargePlan plan_; ///< at the def's energy
+    GasThermodynamics thermodynamics_;
+    uint32_t particles_;
+    GasDynamics<float> gas_;
+    GasParcels parcels_;
+    base::Column<GasParticle> scratch_; ///< of the release
+    std::pmr::memory_resource* memory_;
+    base::Column<glm::vec3> ways_; ///< [m] where the way of each parcel began; made when geometry is met
+    Open open_;
+    float hottest_ = 0;    ///< [K] of all parcels at the end of the last step
+    base::Ticks released_; ///< local time of the release
+    base::Ticks now_ = 0;  ///< end of the last step
+    bool begun_ = false;
+    bool done_ = false;
+};
+
+} // namespace fx::sim

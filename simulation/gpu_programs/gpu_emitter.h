@@ -1,0 +1,93 @@
+/// @file gpu_emitter.h
+/// An emitter's births and conditions while the GPU computes its particles, or while it might.
+///
+/// It listens all the time. While it is on, the emitter has no rows: births are only counted, and what is
+/// published is what they are computed from. The rows come back bit for bit whenever they are needed.
+#pragma once
+
+#include "simulation/emitters/births/birth_log.h"
+#include "simulation/gpu_programs/gpu_replay.h"
+#include "simulation/gpu_programs/step_log.h"
+#include "simulation/particles/reach/particle_reach.h"
+
+#include <limits>
+#include <memory_resource>
+#include <vector>
+
+namespace fx::sim {
+
+class GpuEmitter
+{
+public:
+    /// @param program one with a program for the GPU; outlives it
+    GpuEmitter(const ParticleProgram& program, std::pmr::memory_resource* memory);
+
+    /// Log of births, filled by BirthSchedule.
+    BirthLog& log() { return log_; }
+    const BirthLog& log() const { return log_; }
+
+    /// Nothing is known of what happened before `now`, unless that is 0. Ends.
+    void clear(const BirthKey& key, base::Ticks now, uint64_t next, const glm::vec3& pull);
+    /// A step that is about to be taken, wherever that happens. Only where motion has no closed form.
+    void noteStep(const StepContext& context);
+    /// Gravity or wind change.
+    void setPull(base::Ticks now, const glm::vec3& pull);
+    /// Births were dropped before `now`.
+    void noteDrop(base::Ticks now) { dropped_ = now; }
+    /// Whether births since the last forget() surely found their rows free.
+    bool surelyFits() const { return log_.next() - log_.front() <= rows_; }
+    /// Forgets what can no longer be alive at `now`.
+    void forget(base::Ticks now);
+
+    /// Whether a step needs more than the GPU supports.
+    bool asksTooMuch(const StepContext& context) const
+    {
+        constexpr base::Ticks kLongest = std::numeric_limits<uint32_t>::max(); // about 6 s
+        return (heedsHost_ && (context.collider || context.contactHook)) ||
+               (steps_ && context.stepTicks > kLongest);
+    }
+    /// Whether particles may die before their time.
+    bool kills() const { return kills_; }
+    bool isOn() const { return on_; }
+    /// Whether all that lives at `now` is known, and small enough to be published.
+    bool mayBegin(base::Ticks now) const;
+    bool mayGoOn(base::Ticks now) const;
+    void begin() { on_ = true; }
+    void end() { on_ = false; }
+
+    /// Births that may be alive; at least as many as are.
+    uint32_t count() const { return uint32_t(log_.next() - log_.front()); }
+    /// True when no particle is alive at `now`. Examines each birth, once after the last one.
+    bool isEmpty(const BirthKey& key, base::Ticks now) const;
+
+    /// The rows at `now`. @param store is filled; its `placed` is kept
+    LookJob rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const;
+    /// Adds a group of the kind "gpuParticle".
+    void publish(const base::GroupInfo& base, base::KindId kind, const BirthKey& key, base::Ticks now,
+                 base::FrameSnapshot& snapshot) const;
+
+private:
+    float oldestAge(base::Ticks now) const; ///< [s] upper bound of the age of living particles
+    base::Bounds bounds(base::Ticks now, float secondsBack) const;
+    StepWeather weather(base::Ticks now) const;
+    base::Ticks lastDeath(const BirthKey& key) const;
+
+    const ParticleProgram& program_;
+    uint32_t rows_;
+    base::Ticks window_; ///< [tick] longer than any life
+    bool steps_;         ///< motion has no closed form
+    bool kills_;
+    bool heedsHost_;
+    bool meetsGround_ = false; ///< see StepWeather
+    bool meetsOthers_ = false;
+    BirthLog log_;
+    StepLog stepLog_;
+    std::pmr::vector<MotionCondition> conditions_; ///< the first holds for all that may be alive
+    base::Ticks known_ = 0;                        ///< nothing is missing since then
+    base::Ticks dropped_ = -1;                     ///< [tick] births were dropped before then; -1: never
+    bool on_ = false;
+    mutable uint64_t deathsOf_ = ~uint64_t(0); ///< index of the next birth when the next member was found
+    mutable base::Ticks lastDeath_ = 0;
+};
+
+} // namespace fx::sim

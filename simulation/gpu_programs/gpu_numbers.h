@@ -1,0 +1,17 @@
+/// @file gpu_numbers.h
+/// What the GPU has to know of an emitter's births and looks.
+#pragma once
+
+#include "foundation/snapshot/gpu_particles.h"
+#include "simulation/particles/emitter_settings.h"
+#include "simulation/particles/particle_program.h"
+
+namespace fx::sim {
+
+/// @param def its shape is one that GpuShape has
+base::GpuShape gpuShapeOf(const EmitterSettings& def);
+
+/// The same. @param program of `def`
+base::GpuParticleNumbers gpuNumbersOf(const EmitterSettings& def, const ParticleProgram& program);
+
+} // namespace fx::sim

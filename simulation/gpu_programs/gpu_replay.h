@@ -1,0 +1,67 @@
+/// @file gpu_replay.h
+/// The rows of an emitter from nothing but its births: what the GPU computes, on the CPU and bit for bit as
+/// if it had been stepped there all along.
+#pragma once
+
+#include "simulation/gpu_programs/step_log.h"
+#include "simulation/particles/birth_kernel.h"
+#include "simulation/particles/look_kernel.h"
+
+#include <glm/vec3.hpp>
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace fx::sim {
+
+/// What acts on ballistic particles from a moment on.
+struct MotionCondition
+{
+    base::Ticks begin; ///< local time
+    glm::vec3 pull;    ///< [m/s2] see LookJob
+};
+
+/// One step of particles whose motion has no closed form.
+struct ReplayStep
+{
+    base::Ticks begin, end;
+    glm::vec3 gravity; ///< see StepConditions
+    glm::vec3 wind;
+    float ground;
+};
+
+/// [tick] Longer than any life, roundings included.
+base::Ticks longestKept(const ParticleProgram& program);
+
+/// The steps of a group that ended after `since`.
+std::vector<ReplayStep> stepsOf(const base::SnapshotGroup& group, base::Ticks since);
+
+/// What modules get for one of them; neither memory nor tasks.
+StepContext contextOf(const ReplayStep& step, const BirthKey& key);
+
+struct ReplayInput
+{
+    BirthKey key;
+    uint64_t first; ///< births [first, next)
+    uint64_t next;
+    /// The ticks of the births from `first` on, which do not fall.
+    std::function<void(uint64_t first, std::span<base::Ticks> out)> ticksOf;
+    std::span<const MotionCondition> conditions; ///< ascending, at least one
+    base::Ticks now;
+    bool placed;                            ///< see ParticleStore::placed
+    std::span<const ReplayStep> steps = {}; ///< all in which they lived; where motion has no closed form
+};
+
+/// Fills `store` with what lives of the births. @return what there is to be looked at
+LookJob replayBirths(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
+/// The same step by step.
+LookJob replaySteps(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
+
+/// From now on, motion begins where it has come to.
+void restartMotion(const LookJob& job, ParticleStore& store);
+
+/// As base::GpuParticleProgram::replay.
+void replayGroup(const ParticleProgram& program, const base::SnapshotGroup& group, base::FrameSnapshot& out);
+
+} // namespace fx::sim

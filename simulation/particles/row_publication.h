@@ -1,0 +1,36 @@
+/// @file row_publication.h
+/// Rows of particles as groups of the kind "particle".
+#pragma once
+
+#include "simulation/particles/emitter_settings.h"
+#include "simulation/particles/look_kernel.h"
+#include "simulation/solver/budgeted_solver.h"
+
+#include <span>
+
+namespace fx::sim {
+
+/// @param arcPerTile [m] of a ribbon; 1 elsewhere
+void writeConstants(const EmitterSettings& def, const EmitterLook& look, float arcPerTile,
+                    std::span<float> constants);
+
+/// The columns of a group of the kind "particle", null where it lacks one.
+LookColumns columnsOf(base::SnapshotGroup& group);
+
+/// Whose group is published, and of which kind.
+struct GroupPlace
+{
+    base::KindId kind;
+    const base::GroupInfo& base;
+};
+
+/// Adds a group of `rows` particles, whose columns are filled afterwards.
+base::SnapshotGroup& addRows(const ParticleProgram& program, uint32_t capacity, uint32_t rows,
+                             const GroupPlace& place, base::FrameSnapshot& snapshot);
+
+/// Publishes rows as a group of the kind of particles, as BudgetedSolver::proceedPublication().
+/// @param tasks null: on the calling thread
+bool publishRows(const LookJob& job, const GroupPlace& group, base::TaskRunner* tasks,
+                 base::FrameSnapshot& snapshot, PublicationPlace& place, base::WorkBudget& work);
+
+} // namespace fx::sim

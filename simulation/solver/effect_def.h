@@ -1,0 +1,123 @@
+/// @file effect_def.h
+/// What a preset says, ready to run: the immutable definition that all its instances share.
+#pragma once
+
+#include "foundation/time/ticks.h"
+#include "simulation/solver/solver.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fx::sim {
+
+/// What an instance is expected to need, at medium quality, with steps of 1/60 s.
+struct EffectCost
+{
+    double stepWork = 0;  ///< [unit] of base::WorkBudget, of the most expensive step
+    double startWork = 0; ///< [unit] of the prewarm
+    uint64_t memory = 0;  ///< [byte] of solvers and snapshots
+};
+
+struct EffectDef
+{
+    std::string name;
+    uint64_t fingerprint = 0; ///< of all that the preset says: equal for equal presets; 0 when there was none
+    base::Ticks duration = 0; ///< end of the effect's life; 0 for "until its solvers have finished"
+    base::Ticks prewarm = 0;  ///< an instance starts as if it had run for so long
+    uint32_t subSteps = 1;    ///< steps of the effect per step of the scene, 1..16
+    glm::vec3 wind{0.0f};     ///< [m/s] local
+    bool hasGround = true;    ///< particles stay above the instance's y = 0
+    std::optional<CatchUp> offscreen; ///< what becomes of it out of sight; none: what its solvers ask for
+    float bound = 0; ///< [m] local distance from the origin that nothing passes; 0: as its solvers estimate
+    std::vector<std::unique_ptr<const SolverDef>> solvers;
+    /// Where events of one solver's particles give birth in another's: all solvers, causes before effects.
+    std::vector<uint32_t> order;
+    std::vector<std::string> hostEvents; ///< names of what the host may say
+    EffectCost cost;                     ///< as the preset's loader has estimated it
+
+    /// True when the host's geometry changes what it does.
+    bool collides() const
+    {
+        return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->collides(); });
+    }
+
+    /// True when what happens depends on where the host has put the instance, even without geometry.
+    bool heedsPlacement() const
+    {
+        return std::any_of(solvers.begin(), solvers.end(),
+                           [](const auto& def) { return def->heedsPlacement(); });
+    }
+
+    /// True when one of its solvers publishes groups of `kind`.
+    bool publishes(const base::KindDesc& kind) const
+    {
+        return std::any_of(solvers.begin(), solvers.end(),
+                           [&](const auto& def) { return def->publishes(kind); });
+    }
+
+    bool bendsLight() const
+    {
+        return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->bendsLight(); });
+    }
+
+    /// Of all its solvers, which may cause births in each other.
+    Influence influence() const
+    {
+        Influence sum;
+        for (const auto& def : solvers)
+            sum.add(def->influence());
+        return sum;
+    }
+
+    /// The preset's choice, or the most careful one that a solver requires.
+    CatchUp catchUp() const
+    {
+        if (offscreen)
+            return *offscreen;
+        CatchUp most = CatchUp::Analytic;
+        for (const auto& def : solvers)
+            most = std::max(most, def->catchUp());
+        return most;
+    }
+
+    /// [m] local radius about the origin in which everything stays; infinite when unknown.
+    float reach(float gravity, float windSpeed) const
+    {
+        if (bound > 0)
+            return bound;
+        const float seconds = duration > 0 ? float(base::toSeconds(duration)) : 1e6f;
+        float most = 0;
+        std::vector<BirthReach> births(solvers.size());
+        for (size_t i = 0; i < solvers.size(); ++i) {
+            const size_t solver = order.empty() ? i : order[i]; // causes first
+            most = std::max(
+                most, solvers[solver]->reachFrom({gravity, windSpeed, seconds}, births[solver], births));
+        }
+        return most;
+    }
+
+    /// [byte] that emitters take in each instance that is simulated by itself, snapshots left out.
+    uint64_t bytes() const
+    {
+        uint64_t sum = 0;
+        for (const auto& def : solvers)
+            sum += def->bytes();
+        return sum;
+    }
+
+    /// Most elements alive at once, at medium quality.
+    uint64_t capacity() const
+    {
+        uint64_t sum = 0;
+        for (const auto& def : solvers)
+            sum += def->capacity();
+        return sum;
+    }
+};
+
+} // namespace fx::sim

@@ -1,0 +1,30 @@
+/// @file finite_memory_solver.h
+/// States that depend on a limited past only.
+#pragma once
+
+#include "simulation/solver/solver.h"
+
+namespace fx::sim {
+
+/// A solver whose elements all die within a known time, so that its state need not be kept while it is out of
+/// sight for longer. See Solver::finiteMemory().
+class FiniteMemorySolver
+{
+public:
+    /// [tick] of local time after which nothing is left of what lives now, as long as the host's parameters
+    /// stay as they are; the largest number where that cannot be told.
+    virtual base::Ticks influenceHorizon(const InstanceParameters& parameters) const = 0;
+
+    /// Solver::save() without what lives. The state that Solver::restore() makes of it is right once
+    /// influenceHorizon() has passed.
+    virtual void saveBriefly(StateWriter& writer) const = 0;
+
+    /// Goes forwards to local time `tick` without those who are born meanwhile: right once influenceHorizon()
+    /// has passed after it. Only where that is known; the context's own tick and stepTicks are ignored.
+    virtual void passOver(const StepContext& context, base::Ticks tick) = 0;
+
+protected:
+    ~FiniteMemorySolver() = default;
+};
+
+} // namespace fx::sim

@@ -1,0 +1,417 @@
+/// @file world.h
+/// Holds the instances that exist and steps the given ones.
+///
+/// Instances that must come out alike are simulated once: same effect, seed, start and quality, same
+/// intensity and emission, same gravity and wind in local space; and the same placement, when they meet the
+/// geometry of the host. Each is published at its own placement. Sharing never changes results: when one of
+/// them is changed, its state is copied first.
+///
+/// A simulation all of whose instances are hidden is paused: it costs nothing until catchUp() takes it to the
+/// present, and changes meanwhile are applied at the time at which they were made.
+///
+/// Threads: one thread at a time (the scene thread). Work inside a step is spread over the task runner.
+#pragma once
+
+#include "foundation/math/geometry.h"
+#include "foundation/memory/arena.h"
+#include "simulation/emitters/events/event_board.h"
+#include "simulation/emitters/pools/emitter_crowd.h"
+#include "simulation/emitters/pools/emitter_pools.h"
+#include "simulation/solver/effect_def.h"
+#include "simulation/world/run_pool.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace fx::sim {
+
+/// How an instance enters the world.
+struct InstanceStart
+{
+    uint64_t instance = 0; ///< identity, unique while the instance lives
+    uint64_t seed = 0;
+    base::Ticks startTick = 0; ///< scene time of local tick 0
+    base::Placement placement;
+    InstanceParameters parameters;
+    QualityLevel quality = QualityLevel::Medium; ///< for life
+    uint32_t rate = kNormalRate;                 ///< see RunClock, from the start on
+    std::optional<RunClock> clock{};             ///< when the host has changed its time; else from the above
+};
+
+/// What all instances of a world share.
+struct Environment
+{
+    glm::vec3 gravity{0.0f, -9.80665f, 0.0f};     ///< [m/s2] world
+    bool hasGround = true;                        ///< false: no effect has a ground, whatever its preset says
+    std::shared_ptr<const DistanceField> field{}; ///< geometry of the host; null for none
+};
+
+/// Index of an instance inside the world; valid until removed.
+using Slot = uint32_t;
+
+class World
+{
+public:
+    /// @param share false: every instance is simulated by itself
+    World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory,
+          const Environment& environment = {}, bool share = true);
+
+    /// Creates all solvers of `effect`. Strong guarantee: on an exception nothing has changed.
+    /// @param hidden begin out of sight: solvers are created when it becomes visible
+    Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden = false);
+    void remove(Slot slot);
+    /// The same at the end of an instance's life: its solvers wait for the next instance of their kind.
+    void retire(Slot slot);
+
+    // ---- out of sight; hidden slots are not given to step() and publish() ----
+    void hide(Slot slot);
+    void show(Slot slot); ///< after catchUp() has said true
+    bool isHidden(Slot slot) const { return instances_[slot].hidden; }
+    /// True when the state has not reached the present.
+    bool lags(Slot slot) const;
+    base::Ticks simulated(Slot slot) const
+    {
+        const Run& run = runs_.at(instances_[slot].run);
+        return run.pooled ? pools_.now() : run.simulated;
+    }
+    /// True when it has so many pending changes that it should be caught up.
+    bool crowded(Slot slot) const;
+    /// Takes a hidden instance towards the present, as if it had never been out of sight unless `policy` says
+    /// otherwise; the past that it begins with, prewarm, first. Strong guarantee for each step.
+    /// @param ioBudget [1] particle steps that may be taken; each step costs one more than its particles. The
+    ///                 last one may exceed it.
+    /// @param work     ends it as well, also in the middle of a step, with which the next call goes on
+    /// @return true when it is at the present, or finished
+    bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget, StepCounters& counters,
+                 base::WorkBudget& work);
+    bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget, StepCounters& counters)
+    {
+        base::WorkBudget unlimited;
+        return catchUp(slot, policy, stepTicks, ioBudget, counters, unlimited);
+    }
+    /// One step of any length from where the state is to the present, of a hidden instance; or what is left
+    /// of one that found too little work.
+    void stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work);
+    /// Takes an instance through the past that it begins with, prewarm, before its first step.
+    /// @return whether it is through; otherwise it has to be hidden, and catchUp() goes on
+    bool arrive(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work)
+    {
+        return arrive(instances_[slot].run, now_, stepTicks, work, counters);
+    }
+    /// Ends the step that catchUp() has begun and not ended.
+    void closeStep(Slot slot) { closeRun(instances_[slot].run); }
+    /// True while the past that an instance begins with, or is taken to by seekTo(), is not simulated yet.
+    bool isArriving(Slot slot) const { return runs_.at(instances_[slot].run).arriving; }
+    /// [tick] of local time that is missing of it.
+    base::Ticks missing(Slot slot) const
+    {
+        const Run& run = runs_.at(instances_[slot].run);
+        return run.arriving ? run.target - run.reached : 0;
+    }
+    /// Puts the solvers of a paused simulation aside and keeps its state as bytes.
+    /// @param mayForget it will be caught up without a trace: particles that will be dead by then need not be
+    ///             kept
+    /// @return scene time at which another call would free more; the largest number for never
+    base::Ticks release(Slot slot, bool mayForget);
+    /// Where nothing is left of what lived long ago, a lagging simulation goes to a step shortly before the
+    /// present from which catchUp() gives the same bits as from where it was.
+    void passOver(Slot slot, base::Ticks stepTicks);
+    /// Gives a hidden instance its solvers back.
+    void materialize(Slot slot) { runs_.materialize(instances_[slot].run); }
+    /// Frees solvers that were put aside before `tick`.
+    void trimSpares(base::Ticks tick) { runs_.trimSpares(tick); }
+    size_t spares() const { return runs_.spares(); } ///< solvers put aside, in sets of an instance's
+    /// Scene time, at least the present, up to which steps change nothing that is seen of the instance: they
+    /// are not taken.
+    base::Ticks restsUntil(Slot slot) const;
+    uint32_t pooled() const
+    {
+        return pools_.members();
+    }                                             ///< instances that are computed together, see EmitterPool
+    uint32_t resting() const { return resting_; } ///< slots that the last step() let rest
+    /// false: every step is taken.
+    void allowRest(bool allow) { mayRest_ = allow; }
+    /// false: every emitter is computed by itself, from the next step on. Results are the same.
+    void allowPools(bool allow) { mayPool_ = allow; }
+    /// Whether emitters that may be computed on the GPU are published as what is needed for that, from the
+    /// next step on; see StepContext::gpuParticles.
+    void setGpuParticles(bool onGpu) { gpuParticles_ = onGpu; }
+    /// Takes what rests to the present, so that it can be saved and hashed.
+    void endRests();
+    /// The present, after restore(): all that there is has reached it.
+    void setNow(base::Ticks now);
+
+    const Environment& environment() const { return environment_; }
+    /// Exchanges the geometry of the host, from the next step on; null for none. Strong guarantee; needs
+    /// memory when instances at different places were simulated as one.
+    void setField(std::shared_ptr<const DistanceField> field);
+
+    /// What stands in the way of particles that ask the host, from the next step on; without `meet` nothing.
+    /// As setField().
+    void setContact(const HostContact& contact);
+    const HostContact& contact() const { return contact_; }
+    /// Answers of the host since the last call that were none.
+    uint64_t takeContactFaults() { return contactFaults_ == 0 ? 0 : contactFaults_.exchange(0); }
+
+    // Strong guarantee; both may need memory when the instance no longer comes out like others.
+    void setPlacement(Slot slot, const base::Placement& placement);
+    void setParameters(Slot slot, const InstanceParameters& parameters);
+    /// Plays an instance at another rate from now on. As setParameters().
+    void setRate(Slot slot, uint32_t rate);
+    /// Takes an instance to local time `to`, as if it had been played to there from its first step on, in
+    /// steps of `stepTicks`, under the conditions that hold now; events of the host are not replayed. Strong
+    /// guarantee.
+    /// @return whether it is there; otherwise as arrive()
+    bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
+                base::WorkBudget& work);
+    bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters)
+    {
+        base::WorkBudget unlimited;
+        return seekTo(slot, to, stepTicks, counters, unlimited);
+    }
+    base::Ticks localTime(Slot slot) const { return clockOf(slot).toLocal(now_); }
+    /// See RunClock; the present one, told or not.
+    RunClock clockOf(Slot slot) const;
+    /// Tells an instance that something happened; it hears of it when its state reaches the present, with the
+    /// next step. Strong guarantee; may need memory.
+    void tell(Slot slot, const HostEvent& event);
+    /// True at the end of the effect's duration, when all solvers have finished, and when an instance that no
+    /// longer emits is empty.
+    bool finished(Slot slot, base::Ticks sceneTick) const;
+    uint32_t elementCount(Slot slot) const;
+    bool hasElements(Slot slot) const; ///< whether that is not 0
+    const EffectDef& effect(Slot slot) const;
+    uint32_t simulations() const { return runs_.count(); } ///< at most one an instance
+
+    /// Steps each slot of `active` from scene time `tick` to `tick + stepTicks`, in the order of the list. A
+    /// slot whose start lies inside the step begins at its own start tick; one that starts later is left
+    /// alone.
+    StepCounters step(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
+    /// The same in parts: beginStep() once, then proceed() until it says true. The bits are the same. While
+    /// a step is in hand, changes of instances wait for its end, see endStep(), and only those functions may
+    /// be called that change an instance or ask what it is.
+    void beginStep(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
+    /// @param work     one piece at least is done: a sub-step of a solver, or of a gas one of its own
+    /// @param counters gains what was done in the step, when it is complete
+    /// After an exception no step is open.
+    bool proceed(base::WorkBudget& work, StepCounters& counters);
+    /// Whether there is a step in hand: one that is not complete, or that is being published.
+    bool isStepping() const { return hand_.isOpen || publication_.isOpen; }
+    bool isPublishing() const { return publication_.isOpen; }
+    /// Makes the changes that have waited. After an exception, those that are left wait for the next call.
+    void makeChanges();
+    bool hasChanges() const { return !waiting_.empty() || !leaving_.empty(); }
+
+    /// A step without instances: time advances to `now`.
+    void passTime(base::Ticks now)
+    {
+        if (!pools_.empty())
+            endPools();
+        now_ = now;
+        resting_ = 0;
+    }
+
+    /// Writes the groups of each slot of `active`, in the order of the list.
+    void publish(std::span<const Slot> active, base::FrameSnapshot& snapshot);
+    /// The same in parts: beginPublication() once, then proceedPublication() until it says true. The bits are
+    /// the same. Meanwhile as with a step in hand; no other code may write to `snapshot`.
+    void beginPublication(std::span<const Slot> active, base::FrameSnapshot& snapshot);
+    /// After an exception there is no publication in hand.
+    bool proceedPublication(base::WorkBudget& work);
+    void dropPublication() { publication_.isOpen = false; } ///< what is written of the snapshot is useless
+
+    /// Hash of the states behind `slots`; the same for shared and unshared ones.
+    uint64_t hash(std::span<const Slot> slots) const;
+    /// Writes the states behind `slots`, each once.
+    void save(std::span<const Slot> slots, StateWriter& writer) const;
+
+    /// An instance to be restored: what add() would be given.
+    struct Entry
+    {
+        std::shared_ptr<const EffectDef> effect;
+        InstanceStart start;
+    };
+    /// Fills an empty world with instances in the order in which save() was given them.
+    /// @param outSlots as many as `entries`
+    /// After a failure, kept by the reader, the world may only be destroyed.
+    void restore(std::span<const Entry> entries, StateReader& reader, std::span<Slot> outSlots);
+    /// Exchanges all instances with a world of the same schema, memory and environment.
+    void swap(World& other) noexcept;
+
+private:
+    struct Instance
+    {
+        RunIndex run = kNoRun;
+        bool hidden = false;
+        uint32_t wanted = 0; ///< place in wanted_, from 1 on, of what `start` becomes; 0: unchanged
+        InstanceStart start;
+    };
+
+    /// A change of an instance while a step is in hand.
+    struct Waiting
+    {
+        Slot slot;
+        std::optional<HostEvent> event; ///< none: its start is to be what is wanted
+    };
+
+    /// A step of which some is still to be done.
+    struct StepInHand
+    {
+        bool isOpen = false;
+        bool isPlanned = false;
+        base::Ticks tick = 0;
+        base::Ticks stepTicks = 0;
+        size_t place = 0; ///< in the list, of the run in hand
+        std::span<const Slot> active;
+        std::span<const Slot> list;           ///< those of them that are in no pool
+        std::vector<Slot> ownActive, ownList; ///< their memory, between two calls
+        StepCounters counters;
+        std::optional<EventBoard> board;    ///< of the sub-step in hand
+        std::span<const HostEvent> heard{}; ///< likewise
+    };
+    /// A publication of which some is still to be written.
+    struct PublicationInHand
+    {
+        bool isOpen = false;
+        bool hasPools = false;
+        size_t place = 0; ///< in the list, of the slot in hand
+        std::span<const Slot> list;
+        std::vector<Slot> own; ///< its memory, between two calls
+        uint32_t solver = 0;   ///< of that slot
+        PublicationPlace part; ///< of that solver
+        base::FrameSnapshot* snapshot = nullptr;
+    };
+    /// A step of one run.
+    struct RunStep
+    {
+        base::Ticks tick; ///< scene time
+        base::Ticks stepTicks;
+        EmitterCrowd* crowd = nullptr;              ///< null unless it is closed before the run is read
+        std::optional<EventBoard>* board = nullptr; ///< null: the run has its own, see linkedPartOf()
+    };
+    struct LocalSpan
+    {
+        base::Ticks begin; ///< local time
+        base::Ticks end;
+    };
+
+    /// What is found anew only when the list or the pools have changed.
+    struct Plan
+    {
+        std::vector<Slot> active; ///< the list
+        std::vector<Slot> others; ///< those of it that are in no pool
+        uint64_t revision = 0;    ///< of the pools
+
+        bool holds(std::span<const Slot> list, uint64_t now) const
+        {
+            return revision == now && std::ranges::equal(active, list);
+        }
+    };
+    bool canPool(const Run& run) const;
+    void leavePool(RunIndex index);
+    void endPools();
+    void stepPools(std::span<const Slot> active, bool isPlanned, StepCounters& counters);
+    void joinPools();
+    void planStep(std::span<const Slot> active);
+    void planPublication(std::span<const Slot> active);
+    void makeRoster(std::span<const Slot> active);
+    bool publishSlots(base::WorkBudget& work);
+    bool stepSlot(base::WorkBudget& work);
+    void keepStep();
+    void dropStep();
+    void changeAfterStep(Slot slot, const InstanceStart& start);
+    /// What the host has made of it, also where that waits for the end of the step in hand.
+    const InstanceStart& wantedOf(Slot slot) const
+    {
+        const Instance& instance = instances_[slot];
+        return instance.wanted > 0 ? wanted_[instance.wanted - 1] : instance.start;
+    }
+    bool publishSlot(Slot slot, base::WorkBudget& work);
+
+    RunConditions conditionsOf(const EffectDef& effect, const InstanceStart& start) const;
+    Slot takeSlot(const InstanceStart& start, RunIndex run);
+    /// The run of an instance becomes one that has the conditions of `start`.
+    void change(Slot slot, const InstanceStart& start);
+    RunIndex changeLater(RunIndex index, const RunConditions& wanted);
+    bool isLagging(const Run& run) const { return run.isPaused() && run.simulated < now_; }
+    base::Ticks restOf(const Run& run) const;
+    void endRest(RunIndex index, base::Ticks tick);
+    bool isFinished(const Run& run, base::Ticks sceneTick) const;
+    bool seek(RunIndex index, base::Ticks to, StepCounters& counters);
+    template <class F>
+    void withContext(RunIndex index, StepCounters& counters, F&& body);
+    void divideByPlacement();
+    void divideRuns(std::span<const Slot> active);
+    bool stepSolvers(Run& run, StepContext& context, std::optional<EventBoard>& ioBoard,
+                     base::WorkBudget& work);
+    bool stepPart(RunIndex index, StepContext& context, const LocalSpan& time,
+                  std::optional<EventBoard>& ioBoard, base::WorkBudget& work);
+    LinkedPart* linkedPartOf(Run& run);
+    bool arrive(RunIndex index, base::Ticks tick, base::Ticks stepTicks, base::WorkBudget& work,
+                StepCounters& counters);
+    void setOut(RunIndex index, const LocalSpan& way, base::Ticks stepTicks, StepCounters& counters);
+    bool replay(RunIndex index, base::WorkBudget& work, StepCounters& counters);
+    bool replayPart(RunIndex index, base::WorkBudget& work, StepCounters& counters);
+    void closeRun(RunIndex index);
+    bool jump(RunIndex index, base::Ticks from, base::Ticks to, StepCounters& counters);
+    bool playTo(RunIndex index, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
+                base::WorkBudget& work);
+    static void restoreSolvers(Run& run, const StateBuffer& state);
+    void isolate(Slot slot);
+    std::span<const HostEvent> hear(RunIndex index, base::Ticks tick, base::Arena& scratch);
+    void restoreTold(Run& run, StateReader& reader);
+    bool stepRun(RunIndex index, const RunStep& step, base::WorkBudget& work, StepCounters& counters);
+    void fetchAhead(std::span<const Slot> active, size_t place) const;
+    void passQuietly(Run& run, StepCounters& counters);
+    base::Ticks quietOf(Run& run) const;
+    RunIndex restoreRun(const Entry& first, StateReader& reader);
+    RunIndex joinRun(RunIndex index, const Entry& entry, StateReader& reader);
+
+    void reserveTelling();
+    void tellAll();
+    static void standStill(const Run& run);
+
+    Environment environment_;
+    HostContact contact_;
+    std::atomic<uint64_t> contactFaults_{0};
+    const base::SnapshotSchema* schema_;
+    base::TaskRunner* tasks_;
+    std::pmr::memory_resource* memory_;
+    bool share_;
+    base::Arena scratch_;
+    EmitterCrowd crowd_; ///< of the step or the publication in hand; empty otherwise
+    EmitterPools pools_; ///< before the runs, whose solvers are in them
+    RunPool runs_;
+    std::vector<Instance> instances_;
+    std::vector<Slot> free_;
+    Plan stepPlan_;
+    StepInHand hand_;
+    PublicationInHand publication_;
+    StepCounters closed_;               ///< work of steps that had to be ended, not counted yet
+    std::vector<Waiting> waiting_;      ///< in the order of the calls
+    std::vector<InstanceStart> wanted_; ///< from the end of the step in hand on
+    std::vector<Slot> leaving_;         ///< likewise, removed
+    std::vector<RunIndex> joining_;     ///< runs that a step has taken to where a pool could go on
+    std::vector<RunIndex> left_;        ///< runs that left their pool in a step
+    Plan publishPlan_;
+    uint64_t placed_ = 0; ///< of publishPlan_: see moves_
+    uint64_t moves_ = 1;  ///< goes up when an instance whose run is in a pool has been moved
+    std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_; ///< snapshots hold some of them
+    std::shared_ptr<base::GroupRoster> roster_;                  ///< of the last publication
+    std::vector<uint32_t> ends_;                                 ///< see FrameSnapshot::setRoster()
+    uint64_t stepNumber_ = 0;
+    uint64_t boards_ = 0; ///< so many EventBoards have been made
+    base::Ticks now_ = 0; ///< end of the last step
+    uint32_t resting_ = 0;
+    bool mayRest_ = true;
+    bool mayPool_ = true;
+    bool gpuParticles_ = false;
+};
+
+} // namespace fx::sim

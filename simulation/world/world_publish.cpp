@@ -1,0 +1,100 @@
+// What a world publishes, which a budget of work may divide: between solvers, and inside of those that can be
+// divided.
+#include "foundation/simd/floating_point_scope.h"
+#include "simulation/world/world.h"
+
+#include <algorithm>
+
+namespace fx::sim {
+
+void World::publish(std::span<const Slot> active, base::FrameSnapshot& snapshot)
+{
+    base::WorkBudget unlimited;
+    beginPublication(active, snapshot);
+    proceedPublication(unlimited);
+}
+
+void World::beginPublication(std::span<const Slot> active, base::FrameSnapshot& snapshot)
+{
+    PublicationInHand& hand = publication_;
+    hand.isOpen = false;
+    hand.hasPools = !pools_.empty();
+    if (hand.hasPools)
+        planPublication(active);
+    hand.list = hand.hasPools ? publishPlan_.others : active;
+    hand.place = 0;
+    hand.solver = 0;
+    hand.part = {};
+    hand.snapshot = &snapshot;
+    hand.isOpen = true;
+}
+
+bool World::proceedPublication(base::WorkBudget& work)
+{
+    PublicationInHand& hand = publication_;
+    if (!hand.isOpen)
+        return true;
+    const base::FloatingPointScope floatingPoint;
+    struct Ending // also after an exception, which ends the publication
+    {
+        PublicationInHand& hand;
+        bool goesOn = false;
+        ~Ending() { hand.isOpen = goesOn; }
+    } ending{hand};
+    crowd_.beginPublication(*hand.snapshot, tasks_);
+    const bool areWritten = publishSlots(work);
+    work.spend(crowd_.endPublication());
+    if (!areWritten) {
+        if (!hand.hasPools && hand.list.data() != hand.own.data()) { // the list may be gone by the next call
+            hand.own.assign(hand.list.begin(), hand.list.end());
+            hand.list = hand.own;
+        }
+        ending.goesOn = true;
+        return false;
+    }
+    if (hand.hasPools) {
+        pools_.publish(schema_->find(base::kParticleKind.name), *tasks_, *hand.snapshot);
+        hand.snapshot->setRoster(roster_, ends_);
+    }
+    return true;
+}
+
+bool World::publishSlots(base::WorkBudget& work)
+{
+    PublicationInHand& hand = publication_;
+    for (; hand.place < hand.list.size(); ++hand.place) {
+        fetchAhead(hand.list, hand.place);
+        if (!publishSlot(hand.list[hand.place], work))
+            return false;
+        hand.solver = 0;
+        if (hand.hasPools)
+            ends_.push_back(uint32_t(hand.snapshot->addedCount()));
+    }
+    return true;
+}
+
+/// The solvers of an instance that are still to be published.
+bool World::publishSlot(Slot slot, base::WorkBudget& work)
+{
+    PublicationInHand& hand = publication_;
+    const Instance& instance = instances_[slot];
+    const Run& run = runs_.at(instance.run);
+    base::GroupInfo info;
+    info.instance = instance.start.instance;
+    info.placement = instance.start.placement;
+    for (; hand.solver < run.solvers.size(); ++hand.solver) {
+        if (work.isSpent())
+            return false;
+        info.solver = hand.solver;
+        Solver& solver = run.only ? *run.only : *run.solvers[hand.solver];
+        const PooledEmitter* const emitter = solver.pooledEmitter();
+        if (emitter && emitter->joinPublication(info, *hand.snapshot, crowd_))
+            continue;
+        if (!publishWithin(solver, info, *hand.snapshot, hand.part, work))
+            return false;
+        hand.part = {};
+    }
+    return true;
+}
+
+} // namespace fx::sim
