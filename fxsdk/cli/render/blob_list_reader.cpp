@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view kHeader = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-constexpr size_t kColumns = 9;
+constexpr std::string_view kOptional = ",g"; ///< what the header may end with
+constexpr size_t kColumns = 10;
 constexpr double kLargest = 1e12;
 
 /// What a column may hold.
@@ -34,6 +35,7 @@ constexpr std::array<Column, kColumns> kColumn{{
     {"er", 0.0, kLargest, false, "a number from 0 to 1e12"},
     {"eg", 0.0, kLargest, false, "a number from 0 to 1e12"},
     {"eb", 0.0, kLargest, false, "a number from 0 to 1e12"},
+    {"g", -0.99, 0.99, false, "a number from -0.99 to 0.99"},
 }};
 
 using Row = std::array<double, kColumns>;
@@ -68,8 +70,13 @@ public:
         if (text_.starts_with(kByteOrderMark)) // spreadsheets write one
             text_.remove_prefix(kByteOrderMark.size());
         std::string_view line;
-        if (!nextLine(line) || withoutSpaces(line) != kHeader)
-            return failed(1, "the first line must be " + std::string(kHeader));
+        const bool isThere = nextLine(line);
+        std::string_view header = withoutSpaces(line);
+        columns_ = header.ends_with(kOptional) ? kColumns : kColumns - 1;
+        if (columns_ == kColumns)
+            header.remove_suffix(kOptional.size());
+        if (!isThere || header != kHeader)
+            return failed(1, "the first line must be " + std::string(kHeader) + ", and may end with ,g");
         std::vector<render::MediumBlob> blobs;
         while (nextLine(line)) {
             if (withoutSpaces(line).empty())
@@ -105,12 +112,14 @@ private:
     base::Status readRow(std::string_view line, Row& out) const
     {
         size_t at = 0;
-        for (size_t c = 0; c < kColumns; ++c) {
+        for (size_t c = 0; c < columns_; ++c) {
             const size_t end = std::min(line.find(',', at), line.size());
-            if (c + 1 < kColumns && end == line.size())
-                return failed(line.size() + 1, "expected 9 numbers, found " + std::to_string(c + 1));
-            if (c + 1 == kColumns && end != line.size())
-                return failed(end + 1, "expected the end of the line after 9 numbers");
+            if (c + 1 < columns_ && end == line.size())
+                return failed(line.size() + 1, "expected " + std::to_string(columns_) + " numbers, found " +
+                                                   std::to_string(c + 1));
+            if (c + 1 == columns_ && end != line.size())
+                return failed(end + 1,
+                              "expected the end of the line after " + std::to_string(columns_) + " numbers");
             if (base::Status status = readNumber(line.substr(at, end - at), at + 1, kColumn[c], out[c]);
                 !status)
                 return status;
@@ -139,13 +148,15 @@ private:
         blob.crossSection = row[4];
         blob.albedo = glm::dvec3(row[5]);
         blob.source = (1.0 - row[5]) * glm::dvec3(row[6], row[7], row[8]);
+        blob.anisotropy = row[9];
         return blob;
     }
 
     std::string_view text_;
     const std::string& name_;
     size_t at_ = 0;
-    size_t line_ = 0; ///< number of the line read last, from 1
+    size_t columns_ = kColumns; ///< of this list
+    size_t line_ = 0;           ///< number of the line read last, from 1
 };
 
 } // namespace

@@ -44,7 +44,7 @@ std::optional<std::array<double, kViewNumbers>> parseNumbers(const std::string& 
 
 void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments)
 {
-    const char* const group = "Reference renderer";
+    const char* const group = "Reference renderer and path tracer";
     command
         .add_option(
             "--integrator", arguments.integrator,
@@ -91,6 +91,29 @@ void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments)
         .add_flag(
             "--resume", arguments.resume,
             "Go on with the tiles in OUTPUT.journal, which an earlier run of the same command left behind")
+        ->group(group);
+}
+
+void addPathOptions(CLI::App& command, ReferenceArguments& arguments)
+{
+    const char* const group = "Path tracer";
+    command.add_option("--spp", arguments.paths, "Paths of a pixel; 64, and at most 65536 with --error")
+        ->check(CLI::Range(1u, 1u << 24))
+        ->group(group);
+    command
+        .add_option("--error", arguments.error,
+                    "As many paths as bring the standard error of written values down to this: 0.01 is one "
+                    "percent of white")
+        ->check(CLI::Range(1e-6, 1e6))
+        ->group(group);
+    command
+        .add_option("--bounces", arguments.bounces,
+                    "Longest path: 1 scatters light once; any number without this option")
+        ->check(CLI::Range(0u, 1000000u))
+        ->group(group);
+    command.add_option("--sun-angle", arguments.sunAngle, "Diameter of the sun in degrees")
+        ->check(CLI::Range(0.0, 180.0))
+        ->capture_default_str()
         ->group(group);
 }
 

@@ -1,5 +1,5 @@
 /// @file reference_options.h
-/// The arguments of fx render that belong to the reference renderer.
+/// The arguments of fx render that belong to the renderers without a GPU.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -26,7 +26,11 @@ struct ReferenceArguments
     std::string view;   ///< "ex,ey,ez,tx,ty,tz,fov": replaces the camera
     std::string camera; ///< a scene file whose camera is used
     int samples = 1;
-    uint32_t threads = 0; ///< 0: all
+    std::optional<uint32_t> paths;   ///< of a pixel; none: 64, or as many as `error` asks for
+    std::optional<double> error;     ///< [1] standard error of written values
+    std::optional<uint32_t> bounces; ///< none: any number
+    double sunAngle = 0.53;          ///< [degree] diameter of the sun
+    uint32_t threads = 0;            ///< 0: all
     bool resume = false;
 };
 
@@ -40,6 +44,7 @@ struct ReferencePlan
 };
 
 void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments);
+void addPathOptions(CLI::App& command, ReferenceArguments& arguments);
 
 /// @return InvalidArgument, which is a usage error
 base::Result<ReferencePlan> planReference(const ReferenceArguments& arguments);

@@ -4,9 +4,9 @@
 #include "fxsdk/cli/commands.h"
 #include "fxsdk/cli/render/depth_contacts.h"
 #include "fxsdk/cli/render/frame_output.h"
-#include "fxsdk/cli/render/reference_render.h"
 #include "fxsdk/cli/render/render_options.h"
 #include "fxsdk/cli/render/render_statistics.h"
+#include "fxsdk/cli/render/tiled_render.h"
 #include "fxsdk/cli/scene/default_stage.h"
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/cli/support/exit_code.h"
@@ -18,7 +18,9 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace fx::cli {
 namespace {
@@ -50,6 +52,19 @@ base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, 
     options.quality = io.simulationQuality;
     if (base::Status status = frameEffect(*scene, io.frames.back().tick, options); !status)
         return status;
+    return scene;
+}
+
+/// @param lights whose lights, sky and exposure take the place of the scene's; null: none
+base::Result<scene_file::SceneFile> loadLitInput(const RenderArguments& arguments, RenderPlan& io,
+                                                 const scene_file::SceneFile* lights)
+{
+    auto scene = loadInput(arguments, io);
+    if (!scene.ok() || !lights)
+        return scene;
+    scene->view.lighting = lights->view.lighting;
+    scene->view.exposureEv100 = lights->view.exposureEv100;
+    scene->background = lights->background;
     return scene;
 }
 
@@ -143,14 +158,22 @@ int runRender(const RenderArguments& arguments)
         failed(plan.status());
         return kUsage;
     }
-    if (arguments.renderer == "reference")
-        return runReference(arguments, *plan, [&] { return loadInput(arguments, *plan); });
+    std::optional<scene_file::SceneFile> lights;
+    if (!arguments.lights.empty()) {
+        auto file = scene_file::loadSceneFile(arguments.lights);
+        if (!file.ok())
+            return failed(file.status());
+        lights = std::move(*file);
+    }
+    const auto load = [&] { return loadLitInput(arguments, *plan, lights ? &*lights : nullptr); };
+    if (arguments.renderer != "gl")
+        return runTiled(arguments, *plan, lights ? &*lights : nullptr, load);
     if (isBlobList(arguments.input)) {
-        failed(
-            {base::Code::InvalidArgument, arguments.input + ": a list of blobs needs --renderer reference"});
+        failed({base::Code::InvalidArgument,
+                arguments.input + ": a list of blobs needs --renderer reference or path"});
         return kUsage;
     }
-    const auto scene = loadInput(arguments, *plan);
+    const auto scene = load();
     if (!scene.ok())
         return failed(scene.status());
     for (const preset::Diagnostic& warning : scene->warnings)

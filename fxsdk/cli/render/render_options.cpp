@@ -150,13 +150,16 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
         ->check(oneOf({"cpu", "gpu", "auto"}));
     command.add_option("--exposure", arguments.exposureEv100, "Exposure [EV100] instead of the scene's")
         ->check(CLI::Range(-20.0, 40.0));
+    command.add_option("--lights", arguments.lights,
+                       "Lights, sky and exposure of this scene file instead of the scene's");
     command.add_flag("--no-dazzle", arguments.noDazzle, "Without glare (EXR never has it)");
     command.add_flag("--no-shimmer", arguments.noShimmer, "Without heat shimmer (EXR never has it)");
     command
-        .add_option("--renderer", arguments.renderer,
-                    "gl, or reference: the ray integral on the processor, exact and slow, to EXR; draws "
-                    "*.blobs.csv too")
-        ->check(oneOf({"gl", "reference"}))
+        .add_option(
+            "--renderer", arguments.renderer,
+            "gl; reference: the ray integral on the processor, exact and slow; path: light scattered any "
+            "number of times, without bias. The last two write EXR and draw *.blobs.csv too")
+        ->check(oneOf({"gl", "reference", "path"}))
         ->capture_default_str();
     command.add_flag(
         "--overlay", arguments.overlay,
@@ -206,6 +209,7 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments)
     addEconomyOptions(command, arguments);
     addReportOptions(command, arguments);
     addReferenceOptions(command, arguments.reference);
+    addPathOptions(command, arguments.reference);
 }
 
 int RenderPlan::sheetColumns() const
@@ -229,6 +233,9 @@ base::Result<RenderPlan> planRender(const RenderArguments& arguments)
     if (!std::isfinite(arguments.time.value_or(kDefaultTime)) || !std::isfinite(arguments.framesPerSecond) ||
         !std::isfinite(arguments.exposureEv100.value_or(0.0f)))
         return usage("--time, --fps and --exposure must be numbers");
+    const ReferenceArguments& tiled = arguments.reference;
+    if (arguments.renderer != "path" && (tiled.paths || tiled.error || tiled.bounces))
+        return usage("--spp, --error and --bounces need --renderer path");
     plan.framesPerSecond = arguments.framesPerSecond;
     plan.stepsPerSecond = arguments.quality == "reference" ? 120 : 60;
     if (arguments.quality == "reference" || arguments.quality == "low")

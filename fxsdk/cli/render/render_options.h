@@ -33,6 +33,7 @@ struct RenderArguments
     std::string statistics; ///< file, empty for none
     std::string times;      ///< "A,B,..." [s] instead of frames; empty: none
     std::string compute;    ///< empty: what emitters say
+    std::string lights;     ///< a scene file whose lights, sky and exposure are used; empty: the scene's own
     double framesPerSecond = 30.0;
     std::optional<double> time; ///< [s] none: the preset's preview's, or half a second
     std::optional<uint64_t> seed;

@@ -1,6 +1,7 @@
-#include "fxsdk/cli/render/reference_render.h"
+#include "fxsdk/cli/render/tiled_render.h"
 
 #include "fxsdk/cli/render/blob_list_reader.h"
+#include "fxsdk/cli/render/picture_renderer.h"
 #include "fxsdk/cli/render/reference_scene.h"
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/cli/support/exit_code.h"
@@ -19,54 +20,40 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-base::Status writeExr(const std::filesystem::path& path, const render::ReferenceRenderer& renderer, int width,
+base::Status writeExr(const std::filesystem::path& path, const PictureRenderer& renderer, int width,
                       int height, float whiteLuminance, uint32_t threads)
 {
-    namespace channel = render::reference_channel;
-    using render::ExrPrecision;
     render::ExrImage image{width, height, {}, whiteLuminance};
-    const std::pair<const char*, uint32_t> layers[] = {{"", channel::Color},
-                                                       {"background", channel::Background},
-                                                       {"fire", channel::Fire},
-                                                       {"smoke", channel::Smoke},
-                                                       {"dust", channel::Dust}};
     std::vector<std::vector<float>> pixels;
-    for (const auto& [name, first] : layers) {
-        pixels.push_back(renderer.interleaved(first));
-        render::addRgba(image, name, pixels.back(), ExrPrecision::Float);
-    }
-    render::addPlane(image, "depth.Z", renderer.pixels(channel::Depth), ExrPrecision::Float);
-    render::addPlane(image, "opticalDepth.Y", renderer.pixels(channel::OpticalDepth), ExrPrecision::Float);
+    renderer.addChannels(image, pixels);
     const auto bytes = render::encodeExr(image, threads);
     return bytes.ok() ? writeFileAtomically(path, *bytes) : bytes.status();
 }
 
 /// Everything between the checked arguments and the last file.
-class ReferenceJob
+class TiledJob
 {
 public:
-    ReferenceJob(const RenderArguments& arguments, const RenderPlan& plan, const ReferencePlan& reference)
-        : arguments_(arguments), plan_(plan), camera_(reference.camera),
+    TiledJob(const RenderArguments& arguments, const RenderPlan& plan, const ReferencePlan& reference,
+             const scene_file::SceneFile* lights)
+        : arguments_(arguments), plan_(plan), reference_(reference), lights_(lights),
           tasks_(base::makeTbbRunner(arguments.reference.threads))
-    {
-        settings_.width = plan.width;
-        settings_.height = plan.height;
-        settings_.samples = arguments.reference.samples;
-        settings_.isSingle = reference.isSingle;
-        settings_.scattering = reference.scattering;
-        settings_.integral = reference.integral;
-    }
+    {}
 
     base::Status runBlobList()
     {
         auto blobs = loadBlobList(arguments_.input);
         if (!blobs.ok())
             return blobs.status();
-        if (arguments_.exposureEv100)
+        if (lights_)
+            setExposure(arguments_.exposureEv100.value_or(lights_->view.exposureEv100));
+        else if (arguments_.exposureEv100)
             setExposure(*arguments_.exposureEv100);
         ReferenceFrame frame;
         frame.scene.blobs = std::move(*blobs);
         frame.scene.opaque.isEmpty = true;
+        if (lights_)
+            frame.scene.opaque.lighting = lights_->view.lighting;
         for (const RenderPlan::Frame& moment : plan_.frames)
             if (base::Status status = renderFrame(moment, frame); !status)
                 return status;
@@ -107,21 +94,18 @@ public:
     const Machine& machine() const { return machine_; }
 
 private:
-    void setExposure(float ev100)
-    {
-        white_ = 1.2f * std::exp2(ev100);
-        settings_.exposure = 1.0 / double(white_);
-    }
+    void setExposure(float ev100) { white_ = 1.2f * std::exp2(ev100); }
 
     base::Status renderFrame(const RenderPlan::Frame& moment, ReferenceFrame& frame)
     {
-        if (camera_)
-            frame.scene.camera = *camera_;
+        if (reference_.camera)
+            frame.scene.camera = *reference_.camera;
         else if (path_)
             frame.scene.camera = cameraOf(*path_, base::toSeconds(moment.tick));
         const Clock::time_point start = Clock::now();
-        render::ReferenceRenderer renderer;
-        if (base::Status status = renderer.build(frame.scene, settings_, *tasks_); !status)
+        const std::unique_ptr<PictureRenderer> made = makeRenderer();
+        PictureRenderer& renderer = *made;
+        if (base::Status status = renderer.build(frame.scene, 1.0 / double(white_), *tasks_); !status)
             return status;
         const std::filesystem::path file = plan_.output.frame(moment.number);
         render::TileJournal journal(file.string() + ".journal", renderer.key());
@@ -138,37 +122,38 @@ private:
             !status)
             return status;
         journal.remove();
-        report(moment, frame, renderer.work(),
-               std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+        report(moment, frame, renderer, std::chrono::duration<double>(Clock::now() - start).count());
         return {};
     }
 
-    base::Status renderTiles(render::ReferenceRenderer& renderer, render::TileJournal& journal)
+    std::unique_ptr<PictureRenderer> makeRenderer() const
+    {
+        if (arguments_.renderer == "path")
+            return makePathPicture(arguments_.reference, plan_.width, plan_.height, arguments_.seed);
+        return makeReferencePicture(arguments_.reference, reference_, plan_.width, plan_.height);
+    }
+
+    base::Status renderTiles(PictureRenderer& renderer, render::TileJournal& journal)
     {
         Progress progress("tile", renderer.tileCount(), !arguments_.json);
         return renderer.render(&journal,
                                {[&](uint32_t done, uint32_t) { progress.update(done); }, interruptRequested});
     }
 
-    void report(const RenderPlan::Frame& moment, const ReferenceFrame& frame,
-                const render::ReferenceWork& work, double milliseconds)
+    void report(const RenderPlan::Frame& moment, const ReferenceFrame& frame, const PictureRenderer& renderer,
+                double seconds)
     {
-        if (work.nonFinite > 0)
-            std::fprintf(stderr,
-                         "warning: %llu values of the picture were not finite, and were written as opaque "
-                         "medium without light\n",
-                         static_cast<unsigned long long>(work.nonFinite));
+        if (renderer.nonFinite() > 0)
+            std::fprintf(stderr, "warning: %llu values of the picture were not finite, and were %s\n",
+                         static_cast<unsigned long long>(renderer.nonFinite()),
+                         arguments_.renderer == "path" ? "counted as black"
+                                                       : "written as opaque medium without light");
         nlohmann::json line;
         line["time"] = base::toSeconds(moment.tick);
-        line["renderer"] = "reference";
-        line["integrator"] = render::schemeName(settings_.integral.scheme);
-        line["scattering"] = arguments_.reference.scattering;
-        line["precision"] = arguments_.reference.precision;
+        renderer.addStatistics(line, seconds);
         line["blobs"] = frame.scene.blobs.size();
-        line["nonfinite"] = frame.nonFinite + work.nonFinite;
-        line["rays"] = work.rays;
-        line["hits"] = work.hits;
-        line["ms_render"] = milliseconds;
+        line["nonfinite"] = frame.nonFinite + renderer.nonFinite();
+        line["ms_render"] = 1e3 * seconds;
         statistics_ += line.dump() + "\n";
         if (!arguments_.json)
             return;
@@ -188,10 +173,10 @@ private:
 
     const RenderArguments& arguments_;
     const RenderPlan& plan_;
-    std::optional<render::ReferenceCamera> camera_; ///< of --view
-    std::optional<scene_file::CameraPath> path_;    ///< of --camera
+    const ReferencePlan& reference_;
+    const scene_file::SceneFile* lights_;        ///< of --lights; null: none
+    std::optional<scene_file::CameraPath> path_; ///< of --camera
     std::unique_ptr<base::TaskRunner> tasks_;
-    render::ReferenceSettings settings_;
     float white_ = 1.0f; ///< [cd/m2] that is written as 1
     Machine machine_ = readMachine();
     std::string statistics_; ///< the text of the file
@@ -209,7 +194,7 @@ int failedUsage(const base::Status& status)
     return kUsage;
 }
 
-base::Status runScene(ReferenceJob& job, const base::Result<scene_file::SceneFile>& scene)
+base::Status runScene(TiledJob& job, const base::Result<scene_file::SceneFile>& scene)
 {
     if (!scene.ok())
         return scene.status();
@@ -225,22 +210,22 @@ bool isBlobList(const std::string& input)
     return input.ends_with(".blobs.csv");
 }
 
-int runReference(const RenderArguments& arguments, const RenderPlan& plan,
-                 const std::function<base::Result<scene_file::SceneFile>()>& loadScene)
+int runTiled(const RenderArguments& arguments, const RenderPlan& plan, const scene_file::SceneFile* lights,
+             const std::function<base::Result<scene_file::SceneFile>()>& loadScene)
 {
     const auto reference = planReference(arguments.reference);
     if (!reference.ok())
         return failedUsage(reference.status());
     if (plan.output.kind != OutputKind::Exr)
-        return failedUsage(
-            {base::Code::InvalidArgument, "--renderer reference writes EXR files: -o NAME.exr"});
+        return failedUsage({base::Code::InvalidArgument,
+                            "--renderer " + arguments.renderer + " writes EXR files: -o NAME.exr"});
     for (const RenderPlan::Frame& moment : plan.frames)
         if (base::Status status = checkTarget(plan.output.frame(moment.number)); !status)
             return failed(status);
     if (isBlobList(arguments.input) && !reference->camera && arguments.reference.camera.empty())
         return failedUsage(
             {base::Code::InvalidArgument, arguments.input + ": a list of blobs needs --view or --camera"});
-    ReferenceJob job(arguments, plan, *reference);
+    TiledJob job(arguments, plan, *reference, lights);
     if (base::Status status = checkPictureMemory(plan.width, plan.height, job.machine().memory); !status)
         return failed(status);
     if (base::Status status = job.chooseCamera(); !status)

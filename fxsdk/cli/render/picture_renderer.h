@@ -1,0 +1,43 @@
+/// @file picture_renderer.h
+/// The renderers that need no GPU, as fx render sees them: tiles, a journal, channels of an EXR file.
+#pragma once
+
+#include "fxsdk/cli/render/reference_options.h"
+#include "rendering/exr/exr_encoder.h"
+#include "rendering/reference/render/reference_scene.h"
+#include "rendering/reference/render/tiled_picture.h"
+
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace fx::cli {
+
+/// One picture at a time. See ReferenceRenderer and PathRenderer for what the calls do.
+class PictureRenderer
+{
+public:
+    virtual ~PictureRenderer() = default;
+
+    /// @param exposure [m2/cd] written value per luminance
+    virtual base::Status build(const render::ReferenceScene& scene, double exposure,
+                               base::TaskRunner& tasks) = 0;
+    virtual uint64_t key() const = 0;
+    virtual uint32_t tileCount() const = 0;
+    virtual void restore(uint32_t tile, std::span<const float> values) = 0;
+    virtual base::Status render(render::TileJournal* journal, const render::RenderCallbacks& callbacks) = 0;
+    /// @param outPixels keeps what the channels of `io` point to
+    virtual void addChannels(render::ExrImage& io, std::vector<std::vector<float>>& outPixels) const = 0;
+    /// @param seconds that render() took
+    virtual void addStatistics(nlohmann::json& io, double seconds) const = 0;
+    virtual uint64_t nonFinite() const = 0; ///< values or paths that gave no number
+};
+
+std::unique_ptr<PictureRenderer> makeReferencePicture(const ReferenceArguments& arguments,
+                                                      const ReferencePlan& plan, int width, int height);
+std::unique_ptr<PictureRenderer> makePathPicture(const ReferenceArguments& arguments, int width, int height,
+                                                 std::optional<uint64_t> seed);
+
+} // namespace fx::cli
