@@ -1,5 +1,7 @@
 #include "fxsdk/presets/effect_cost.h"
 
+#include "foundation/tasks/work_budget.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
