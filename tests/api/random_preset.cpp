@@ -412,8 +412,9 @@ namespace {
 std::string grid(uint32_t channels, double low, double high)
 {
     constexpr int kNodes = 4 * 3 * 5;
-    std::string bytes = "fxgrid 1\nnodes 4 3 5\nchannels " + std::to_string(channels) +
-                        "\nlow -0.6 -0.4 -0.5\ncell 0.4 0.3 0.2\ndata\n";
+    std::string bytes = "fxgrid 1\nnodes 4 3 5\nchannels ";
+    bytes += std::to_string(channels);
+    bytes += "\nlow -0.6 -0.4 -0.5\ncell 0.4 0.3 0.2\ndata\n";
     Dice dice(channels);
     for (uint32_t i = 0; i < kNodes * channels; ++i) {
         const auto word = std::bit_cast<uint32_t>(float(dice.between(low, high)));
