@@ -1,7 +1,6 @@
 // fx bench budget: real frames whose load jumps, under a budget, with the controller and without.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/quality/budget_check.h"
-#include "benchmarks/scenes/quality_options.h"
 #include "benchmarks/scenes/quality_stage.h"
 #include "fxsdk/assets/read_file.h"
 #include "fxsdk/cli/scene/default_stage.h"
