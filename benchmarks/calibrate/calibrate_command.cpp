@@ -4,6 +4,7 @@
 
 #include "benchmarks/accuracy/accuracy_measure.h"
 #include "benchmarks/calibrate/calibrate_ladders.h"
+#include "benchmarks/report/provenance.h"
 #include "benchmarks/scenes/quality_stage.h"
 #include "fxsdk/cli/commands.h"
 #include "fxsdk/cli/support/atomic_file.h"

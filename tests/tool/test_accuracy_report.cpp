@@ -3,6 +3,7 @@
 #include "benchmarks/accuracy/accuracy_technique.h"
 #include "benchmarks/measure/callgrind.h"
 #include "benchmarks/report/label_places.h"
+#include "benchmarks/report/provenance.h"
 
 #include <gtest/gtest.h>
 
