@@ -9,6 +9,7 @@
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/techniques.h"
+#include "simulation/emitters/emitter_def.h"
 #include "simulation/gpu_programs/gpu_program.h"
 
 #include <CLI/CLI.hpp>
