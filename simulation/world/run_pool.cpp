@@ -73,7 +73,7 @@ void Run::saveBriefly(StateWriter& writer) const
         solver->finiteMemory()->saveBriefly(writer);
 }
 
-base::Ticks Run::memory() const
+base::Ticks Run::influenceHorizon() const
 {
     if (!changes.empty() || !told.empty() || conditions.clock.rate == 0)
         return kNever;

@@ -121,7 +121,7 @@ struct Run
     bool isPaused() const { return hidden == users; }
     /// [tick] of local time after which nothing is left of what lives now, see influenceHorizon(); kNever
     /// also while the host has more to tell.
-    base::Ticks memory() const;
+    base::Ticks influenceHorizon() const;
     /// The solvers have been made or given away.
     void meetSolvers() { only = solvers.size() == 1 ? solvers.front().get() : nullptr; }
     void save(StateWriter& writer) const;

@@ -71,9 +71,9 @@ void RunPool::release(RunIndex index, base::Ticks now, bool mayForget)
     Run& run = runs_[index];
     if (!isReleased) {
         const RunClock& clock = run.conditions.clock;
-        const base::Ticks memory = run.memory();
+        const base::Ticks horizon = run.influenceHorizon();
         run.forgottenAt =
-            memory == Run::kNever ? memory : clock.toScene(clock.toLocal(run.simulated) + memory);
+            horizon == Run::kNever ? horizon : clock.toScene(clock.toLocal(run.simulated) + horizon);
     }
     const bool brief = mayForget && run.forgottenAt <= now;
     if (!run.fresh) {

@@ -336,11 +336,11 @@ void World::passOver(Slot slot, base::Ticks stepTicks)
     if (!isLagging(runs_.at(index)) || runs_.at(index).arriving || runs_.at(index).inStep)
         return;
     runs_.materialize(index);
-    const base::Ticks memory = runs_.at(index).memory();
-    if (memory == Run::kNever)
+    const base::Ticks horizon = runs_.at(index).influenceHorizon();
+    if (horizon == Run::kNever)
         return;
     const RunClock clock = runs_.at(index).conditions.clock;
-    const base::Ticks local = clock.toLocal(now_) - memory;
+    const base::Ticks local = clock.toLocal(now_) - horizon;
     const base::Ticks from = local > 0 ? clock.toScene(local) / stepTicks * stepTicks : 0;
     if (from <= runs_.at(index).simulated || isFinished(runs_.at(index), runs_.at(index).simulated))
         return;

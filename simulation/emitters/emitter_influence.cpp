@@ -1,4 +1,4 @@
-// What an emitter need not remember.
+// How long what is alive influences an emitter, and states without it.
 #include "simulation/emitters/emitter_solver.h"
 
 #include <limits>
