@@ -112,8 +112,8 @@ struct InstanceSetup
     sim::InstanceParameters parameters;
     bool destroyWhenFinished = false;
     sim::QualityLevel quality = sim::QualityLevel::Medium;
-    uint32_t rate = sim::kNormalRate;        ///< see sim::RunClock
-    std::optional<sim::RunClock> clock = {}; ///< once the host has changed its time
+    uint32_t rate = sim::kNormalRate;             ///< see sim::InstanceClock
+    std::optional<sim::InstanceClock> clock = {}; ///< once the host has changed its time
 };
 
 /// Exact counts since the scene was created, unless they say "now".
@@ -163,7 +163,7 @@ public:
     uint32_t particles(LocalId id);
     void setPlacement(LocalId id, const base::Placement& placement);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
-    /// @param rate see sim::RunClock
+    /// @param rate see sim::InstanceClock
     void setRate(LocalId id, uint32_t rate);
     /// Takes an instance to a local time; the next update() shows it, also one without a step.
     /// @return InvalidArgument before its start and after its end

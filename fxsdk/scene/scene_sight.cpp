@@ -391,7 +391,7 @@ base::Ticks Scene::endOf(const Instance& instance) const
     if (duration <= 0)
         return std::numeric_limits<base::Ticks>::max();
     const InstanceSetup& setup = instance.setup;
-    const sim::RunClock atStart{setup.startTick, setup.effect->prewarm, setup.rate};
+    const sim::InstanceClock atStart{setup.startTick, setup.effect->prewarm, setup.rate};
     return setup.clock.value_or(atStart).toScene(duration);
 }
 

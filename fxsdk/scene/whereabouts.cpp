@@ -1,6 +1,6 @@
 #include "fxsdk/scene/whereabouts.h"
 
-#include "simulation/world/run_clock.h"
+#include "simulation/world/instance_clock.h"
 
 #include <glm/common.hpp>
 

@@ -25,7 +25,7 @@ struct Circumstances
     float wind = 0;                ///< [m/s] world, the host's
     float localWind = 0;           ///< [m/s] local
     double speed = 0;              ///< [m/s] world, of births, in the instance's time
-    uint32_t slowest = UINT32_MAX; ///< see sim::RunClock::rate
+    uint32_t slowest = UINT32_MAX; ///< see sim::InstanceClock::rate
 
     void add(const Circumstances& more);
     bool operator==(const Circumstances&) const = default;

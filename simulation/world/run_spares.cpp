@@ -1,5 +1,6 @@
-// The free list: solvers of removed and released runs, reused by the next run of the same effect.
-#include "simulation/world/run_pool.h"
+// The free list: solvers of removed and released simulations, reused by the next simulation of the same
+// effect.
+#include "simulation/world/simulation_pool.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -7,109 +8,110 @@
 
 namespace fx::sim {
 
-/// Gives `run` solvers in the state before their first step.
-void RunPool::makeSolvers(Run& run)
+/// Gives `simulation` solvers in the state before their first step.
+void SimulationPool::makeSolvers(SharedSimulation& simulation)
 {
     const auto fits = [&](const Spare& spare) {
-        return spare.effect == run.effect && spare.level == run.conditions.quality.level;
+        return spare.effect == simulation.effect && spare.level == simulation.conditions.quality.level;
     };
     const auto found = std::find_if(spares_.begin(), spares_.end(), fits);
     if (found != spares_.end()) {
-        run.solvers = std::move(found->solvers);
-        run.pristine = std::move(found->pristine);
+        simulation.solvers = std::move(found->solvers);
+        simulation.pristine = std::move(found->pristine);
         spares_.erase(found);
-        StateReader reader(run.pristine->bytes());
-        run.restore(reader);
+        StateReader reader(simulation.pristine->bytes());
+        simulation.restore(reader);
         if (!reader.ok() || reader.left() != 0)
             throw std::logic_error("a solver does not take its first state: " + reader.status().message());
-        run.meetSolvers();
+        simulation.updateOnly();
         return;
     }
     std::vector<std::unique_ptr<Solver>> solvers;
-    solvers.reserve(run.effect->solvers.size());
-    for (const std::unique_ptr<const SolverDef>& def : run.effect->solvers)
-        solvers.push_back(def->create(*schema_, run.conditions.quality, memory_));
+    solvers.reserve(simulation.effect->solvers.size());
+    for (const std::unique_ptr<const SolverDef>& def : simulation.effect->solvers)
+        solvers.push_back(def->create(*schema_, simulation.conditions.quality, memory_));
     auto pristine =
         std::allocate_shared<StateBuffer>(std::pmr::polymorphic_allocator<StateBuffer>(memory_), memory_);
     for (const std::unique_ptr<Solver>& solver : solvers)
         solver->save(*pristine);
-    run.solvers = std::move(solvers);
-    run.meetSolvers();
-    run.pristine = std::move(pristine);
+    simulation.solvers = std::move(solvers);
+    simulation.updateOnly();
+    simulation.pristine = std::move(pristine);
 }
 
-void RunPool::materialize(RunIndex index)
+void SimulationPool::materialize(SimulationIndex index)
 {
-    Run& run = runs_[index];
-    if (!run.released)
+    SharedSimulation& simulation = simulations_[index];
+    if (!simulation.released)
         return;
-    Run made;
-    made.effect = run.effect;
-    made.conditions.quality = run.conditions.quality;
+    SharedSimulation made;
+    made.effect = simulation.effect;
+    made.conditions.quality = simulation.conditions.quality;
     makeSolvers(made); // may throw; afterwards only a solver that refuses its own state does
-    if (run.kept) {
-        StateReader reader(run.kept->bytes());
+    if (simulation.kept) {
+        StateReader reader(simulation.kept->bytes());
         made.restore(reader);
         if (!reader.ok() || reader.left() != 0)
             throw std::logic_error("a solver does not take its own state: " + reader.status().message());
     }
-    run.solvers = std::move(made.solvers);
-    run.meetSolvers();
-    run.pristine = std::move(made.pristine);
-    run.kept.reset();
-    run.released = run.brief = false;
+    simulation.solvers = std::move(made.solvers);
+    simulation.updateOnly();
+    simulation.pristine = std::move(made.pristine);
+    simulation.kept.reset();
+    simulation.released = simulation.brief = false;
 }
 
-void RunPool::release(RunIndex index, base::Ticks now, bool mayForget)
+void SimulationPool::release(SimulationIndex index, base::Ticks now, bool mayForget)
 {
-    const bool isReleased = runs_[index].released;
-    mayForget = mayForget && runs_[index].changes.empty();
-    if (isReleased && (!mayForget || runs_[index].brief || runs_[index].forgottenAt > now))
+    const bool isReleased = simulations_[index].released;
+    mayForget = mayForget && simulations_[index].changes.empty();
+    if (isReleased && (!mayForget || simulations_[index].brief || simulations_[index].forgottenAt > now))
         return;
     if (isReleased)
         materialize(index);
-    Run& run = runs_[index];
+    SharedSimulation& simulation = simulations_[index];
     if (!isReleased) {
-        const RunClock& clock = run.conditions.clock;
-        const base::Ticks horizon = run.influenceHorizon();
-        run.forgottenAt =
-            horizon == Run::kNever ? horizon : clock.toScene(clock.toLocal(run.simulated) + horizon);
+        const InstanceClock& clock = simulation.conditions.clock;
+        const base::Ticks horizon = simulation.influenceHorizon();
+        simulation.forgottenAt = horizon == SharedSimulation::kNever
+                                     ? horizon
+                                     : clock.toScene(clock.toLocal(simulation.simulated) + horizon);
     }
-    const bool brief = mayForget && run.forgottenAt <= now;
-    if (!run.fresh) {
+    const bool brief = mayForget && simulation.forgottenAt <= now;
+    if (!simulation.fresh) {
         StateBuffer state(memory_);
-        brief ? run.saveBriefly(state) : run.save(state);
+        brief ? simulation.saveBriefly(state) : simulation.save(state);
         state.shrink();
-        run.kept.emplace(std::move(state));
+        simulation.kept.emplace(std::move(state));
     }
-    putAside(run, now);
-    run.released = true;
-    run.brief = brief;
+    putAside(simulation, now);
+    simulation.released = true;
+    simulation.brief = brief;
 }
 
 /// Never fails. The oldest make room.
-void RunPool::putAside(Run& run, base::Ticks now)
+void SimulationPool::putAside(SharedSimulation& simulation, base::Ticks now)
 {
-    if (run.solvers.empty())
+    if (simulation.solvers.empty())
         return;
     if (spares_.size() == kMostSpares)
         spares_.erase(spares_.begin());
-    spares_.push_back(
-        {run.effect, run.conditions.quality.level, std::move(run.solvers), std::move(run.pristine), now});
-    run.solvers.clear();
-    run.meetSolvers();
+    spares_.push_back({simulation.effect, simulation.conditions.quality.level, std::move(simulation.solvers),
+                       std::move(simulation.pristine), now});
+    simulation.solvers.clear();
+    simulation.updateOnly();
 }
 
-void RunPool::trimSpares(base::Ticks tick)
+void SimulationPool::trimSpares(base::Ticks tick)
 {
     const auto isOld = [tick](const Spare& spare) { return spare.since < tick; };
     spares_.erase(spares_.begin(), std::find_if_not(spares_.begin(), spares_.end(), isOld));
 }
 
-void RunPool::retire(RunIndex index, base::Ticks now)
+void SimulationPool::retire(SimulationIndex index, base::Ticks now)
 {
-    if (Run& run = runs_[index]; run.users == 1 && !run.released)
-        putAside(run, now);
+    if (SharedSimulation& simulation = simulations_[index]; simulation.users == 1 && !simulation.released)
+        putAside(simulation, now);
     leave(index);
 }
 

@@ -78,15 +78,15 @@ bool World::publishSlot(Slot slot, base::WorkBudget& work)
 {
     PublicationInHand& hand = publication_;
     const Instance& instance = instances_[slot];
-    const Run& run = runs_.at(instance.run);
+    const SharedSimulation& simulation = simulations_.at(instance.simulation);
     base::GroupInfo info;
     info.instance = instance.start.instance;
     info.placement = instance.start.placement;
-    for (; hand.solver < run.solvers.size(); ++hand.solver) {
+    for (; hand.solver < simulation.solvers.size(); ++hand.solver) {
         if (work.isSpent())
             return false;
         info.solver = hand.solver;
-        Solver& solver = run.only ? *run.only : *run.solvers[hand.solver];
+        Solver& solver = simulation.only ? *simulation.only : *simulation.solvers[hand.solver];
         const PooledEmitter* const emitter = solver.pooledEmitter();
         if (emitter && emitter->joinPublication(info, *hand.snapshot, crowd_))
             continue;

@@ -1,7 +1,7 @@
 // How far an instance is said to reach while the host moves it and changes the wind, against where its
 // particles are.
 #include "fxsdk/scene/whereabouts.h"
-#include "simulation/world/run_clock.h"
+#include "simulation/world/instance_clock.h"
 #include "tests/api/sight_stage.h"
 
 #include <gtest/gtest.h>

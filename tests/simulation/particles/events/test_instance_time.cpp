@@ -110,7 +110,7 @@ TEST(InstanceTime, twiceTheSpeedTakesTheSameSteps)
 
 TEST(InstanceTime, aSpeedOfAThirdReachesAClosedFormExactlyAtItsOwnTicks)
 {
-    const RunClock clock{5, 7, kNormalRate / 3};
+    const InstanceClock clock{5, 7, kNormalRate / 3};
     for (base::Ticks tick = 5; tick < 400; ++tick) {
         EXPECT_EQ(clock.toLocal(tick), 7 + (tick - 5) * (kNormalRate / 3) / kNormalRate);
         EXPECT_LE(clock.toLocal(clock.toScene(clock.toLocal(tick))), clock.toLocal(tick));

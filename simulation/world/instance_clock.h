@@ -1,4 +1,4 @@
-/// @file run_clock.h
+/// @file instance_clock.h
 /// From the time of the scene to the time of an instance.
 ///
 /// @formula instance-clock
@@ -28,10 +28,10 @@
 
 namespace fx::sim {
 
-constexpr uint32_t kNormalRate = 1u << 16; ///< local time runs like the scene's
+constexpr uint32_t kNormalRate = 1u << 16; ///< local time advances like the scene's
 constexpr uint32_t kHighestRate = 16u << 16;
 
-struct RunClock
+struct InstanceClock
 {
     base::Ticks scene = 0;       ///< s0
     base::Ticks local = 0;       ///< l0
@@ -57,7 +57,7 @@ struct RunClock
         const Wide ticks = (((Wide(since) + 1) << 16) - 1) / rate; // (2)
         return base::Ticks(std::min<Wide>(Wide(scene) + ticks, INT64_MAX / 4));
     }
-    bool operator==(const RunClock&) const = default;
+    bool operator==(const InstanceClock&) const = default;
 };
 
 } // namespace fx::sim

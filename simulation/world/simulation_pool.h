@@ -1,6 +1,6 @@
-/// @file run_pool.h
-/// The simulations behind the instances of a world. Instances that must come out alike share one run; a run
-/// is divided by copying its state as soon as one of its instances is to differ.
+/// @file simulation_pool.h
+/// The simulations behind the instances of a world. Instances that must come out alike share one simulation;
+/// a shared simulation is divided by copying its state as soon as one of its instances is to differ.
 #pragma once
 
 #include "foundation/math/geometry.h"
@@ -9,7 +9,7 @@
 #include "simulation/solver/effect_def.h"
 #include "simulation/solver/finite_memory_solver.h"
 #include "simulation/solver/seekable_solver.h"
-#include "simulation/world/run_clock.h"
+#include "simulation/world/instance_clock.h"
 
 #include <array>
 #include <cstdint>
@@ -21,13 +21,13 @@
 
 namespace fx::sim {
 
-/// Everything that decides what a run computes, as its solvers see it. Position and scale are not in it, nor
-/// is a rotation that leaves gravity and wind as they are, unless the run collides with the host's geometry
-/// or its effect depends on its placement.
-struct RunConditions
+/// Everything that decides what a shared simulation computes, as its solvers see it. Position and scale are
+/// not in it, nor is a rotation that leaves gravity and wind as they are, unless the simulation collides with
+/// the host's geometry or its effect depends on its placement.
+struct SimulationConditions
 {
     uint64_t seed = 0;
-    RunClock clock; ///< its anchor is the start, or when the host last changed its time
+    InstanceClock clock; ///< its anchor is the start, or when the host last changed its time
     Quality quality;
     glm::vec3 gravity{0.0f};              ///< [m/s2] local
     glm::vec3 wind{0.0f};                 ///< [m/s] local, the effect's and the host's
@@ -39,12 +39,12 @@ struct RunConditions
     glm::vec3 worldWind{0.0f}; ///< [m/s] world, the host's, where the effect depends on its placement
 
     /// Bit for bit.
-    bool equals(const RunConditions& other) const;
+    bool equals(const SimulationConditions& other) const;
     uint64_t hash() const;
 };
 
-/// A sub-step of solvers that exchange events, of a run that is not stepped with the others: the events stay
-/// while the sub-step waits for another call.
+/// A sub-step of solvers that exchange events, of a shared simulation that is not stepped with the others:
+/// the events stay while the sub-step waits for another call.
 struct LinkedPart
 {
     explicit LinkedPart(std::pmr::memory_resource* memory) : scratch(memory) {}
@@ -55,13 +55,13 @@ struct LinkedPart
 };
 
 /// The solvers of one effect and their inputs.
-struct Run
+struct SharedSimulation
 {
-    /// A change of the conditions of a paused run, from a time on that it has not reached.
+    /// A change of the conditions of a paused simulation, from a time on that it has not reached.
     struct Change
     {
         base::Ticks tick; ///< scene time
-        RunConditions conditions;
+        SimulationConditions conditions;
         std::shared_ptr<const DistanceField> field; ///< keeps that of the conditions
     };
 
@@ -82,22 +82,22 @@ struct Run
     base::Ticks quietOffset = 0; ///< local minus scene time meanwhile
     uint64_t steppedIn = 0;      ///< number of the last step that stepped it
     uint32_t users = 0;          ///< instances that it stands for; 0: unused
-    uint32_t hidden = 0;         ///< users that are out of sight; when all are, the run is paused
+    uint32_t hidden = 0;         ///< users that are out of sight; when all are, the simulation is paused
     bool pooled = false;         ///< its only solver is in a pool; `simulated` is of the time before
     bool released =
         false; ///< its solvers are gone; `kept`, or nothing when it has not begun, says how it was
     std::shared_ptr<const EffectDef> effect;
-    RunConditions conditions;
-    std::vector<Change> changes;                 ///< of a paused run, by tick
+    SimulationConditions conditions;
+    std::vector<Change> changes;                 ///< of a paused simulation, by tick
     std::vector<Told> told;                      ///< by the host, not heard yet, by tick
-    std::shared_ptr<const DistanceField> field;  ///< keeps that of the conditions of a paused run
+    std::shared_ptr<const DistanceField> field;  ///< keeps that of the conditions of a paused simulation
     std::shared_ptr<const StateBuffer> pristine; ///< of the solvers before their first step
     std::optional<StateBuffer> kept;
     bool brief = false; ///< what is kept lacks what lived, none of which is alive by now
     base::Ticks forgottenAt =
-        kNever;             ///< scene time after which no particle of the state is alive; of a released run
+        kNever; ///< scene time after which no particle of the state is alive; of a released simulation
     bool fresh = false;     ///< no step has touched it: another instance may still join
-    uint32_t nextFresh = 0; ///< see RunPool
+    uint32_t nextFresh = 0; ///< see SimulationPool
 
     // A step in hand, see World::proceed(), and a past that is still to be simulated, see World::arrive().
     bool inStep = false;                  ///< some of its sub-steps are complete, or one is in hand
@@ -115,7 +115,7 @@ struct Run
     uint64_t visitedIn = 0; ///< number of the last step that had it in its list
     uint64_t dividedIn = 0; ///< number of the last step that had only some of its users
     uint32_t visits = 0;    ///< users in the list of that step
-    uint32_t division = 0;  ///< run of those users
+    uint32_t division = 0;  ///< simulation of those users
 
     static constexpr base::Ticks kNever = std::numeric_limits<base::Ticks>::max();
     bool isPaused() const { return hidden == users; }
@@ -123,62 +123,63 @@ struct Run
     /// also while the host has more to tell.
     base::Ticks influenceHorizon() const;
     /// The solvers have been made or given away.
-    void meetSolvers() { only = solvers.size() == 1 ? solvers.front().get() : nullptr; }
+    void updateOnly() { only = solvers.size() == 1 ? solvers.front().get() : nullptr; }
     void save(StateWriter& writer) const;
     void saveBriefly(StateWriter& writer) const;
     void restore(StateReader& reader);
 };
 
-using RunIndex = uint32_t;
-constexpr RunIndex kNoRun = ~0u;
+using SimulationIndex = uint32_t;
+constexpr SimulationIndex kNoSimulation = ~0u;
 
-class RunPool
+class SimulationPool
 {
 public:
-    /// @param share false: every instance has a run of its own
-    RunPool(const base::SnapshotSchema* schema, std::pmr::memory_resource* memory, bool share);
+    /// @param share false: every instance has a simulation of its own
+    SimulationPool(const base::SnapshotSchema* schema, std::pmr::memory_resource* memory, bool share);
 
-    Run& at(RunIndex index) { return runs_[index]; }
-    const Run& at(RunIndex index) const { return runs_[index]; }
-    uint32_t count() const { return count_; }    ///< runs in use
-    size_t size() const { return runs_.size(); } ///< one more than the largest index
+    SharedSimulation& at(SimulationIndex index) { return simulations_[index]; }
+    const SharedSimulation& at(SimulationIndex index) const { return simulations_[index]; }
+    uint32_t count() const { return count_; }           ///< simulations in use
+    size_t size() const { return simulations_.size(); } ///< one more than the largest index
 
     // What makes solvers may throw std::bad_alloc; then nothing has changed.
 
-    /// One more instance: joins a fresh run that is equal, or starts one.
+    /// One more instance: joins a fresh simulation that is equal, or starts one.
     /// @param released start it without solvers
-    RunIndex enter(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions,
-                   bool released = false);
-    /// A run without users, which no instance joins before welcome().
-    RunIndex create(const std::shared_ptr<const EffectDef>& effect, const RunConditions& conditions,
-                    bool released = false);
-    /// Gives a released run its solvers back.
-    void materialize(RunIndex index);
-    /// Puts the solvers of a run aside for others of its kind and keeps its state as bytes.
+    SimulationIndex acquire(const std::shared_ptr<const EffectDef>& effect,
+                            const SimulationConditions& conditions, bool released = false);
+    /// A simulation without users, which no instance joins before publish().
+    SimulationIndex create(const std::shared_ptr<const EffectDef>& effect,
+                           const SimulationConditions& conditions, bool released = false);
+    /// Gives a released simulation its solvers back.
+    void materialize(SimulationIndex index);
+    /// Puts the solvers of a shared simulation aside for others of its kind and keeps its state as bytes.
     /// @param mayForget what lives need not be kept once all of it is dead
-    void release(RunIndex index, base::Ticks now, bool mayForget);
+    void release(SimulationIndex index, base::Ticks now, bool mayForget);
     /// Frees the solvers that were put aside before `tick`.
     void trimSpares(base::Ticks tick);
     size_t spares() const { return spares_.size(); }
-    /// A copy of a run, with its state and one user.
-    RunIndex copy(RunIndex index);
-    /// All users of a run are to have other conditions from now on. Never fails.
-    void reset(RunIndex index, const RunConditions& conditions);
-    /// One user of a run is to have other conditions from now on. @return the run it then belongs to
-    RunIndex change(RunIndex index, const RunConditions& conditions);
+    /// A copy of a shared simulation, with its state and one user.
+    SimulationIndex copy(SimulationIndex index);
+    /// All users of a shared simulation are to have other conditions from now on. Never fails.
+    void reset(SimulationIndex index, const SimulationConditions& conditions);
+    /// One user of a shared simulation is to have other conditions from now on. @return the simulation it
+    /// then belongs to
+    SimulationIndex change(SimulationIndex index, const SimulationConditions& conditions);
     /// One user fewer; the last one takes the solvers with it.
-    void leave(RunIndex index);
+    void leave(SimulationIndex index);
     /// The same, but the solvers are put aside for others of their kind.
-    void retire(RunIndex index, base::Ticks now);
-    /// The run is stepped: it is no longer fresh.
-    void touch(RunIndex index);
-    /// A fresh run may be joined from now on.
-    void welcome(RunIndex index);
+    void retire(SimulationIndex index, base::Ticks now);
+    /// The simulation is stepped: it is no longer fresh.
+    void touch(SimulationIndex index);
+    /// A fresh simulation may be joined from now on.
+    void publish(SimulationIndex index);
 
-    void swap(RunPool& other) noexcept;
+    void swap(SimulationPool& other) noexcept;
 
 private:
-    /// Solvers without a run.
+    /// Solvers of the free list.
     struct Spare
     {
         std::shared_ptr<const EffectDef> effect;
@@ -189,19 +190,23 @@ private:
     };
     static constexpr size_t kChains = 256;
     static constexpr size_t kMostSpares = 256;
-    void makeSolvers(Run& run);
-    void putAside(Run& run, base::Ticks now);
-    uint32_t& chainOf(const Run& run) { return chains_[run.conditions.hash() % kChains]; }
-    RunIndex findFresh(const EffectDef* effect, const RunConditions& conditions) const;
-    void unlink(RunIndex index);
+    void makeSolvers(SharedSimulation& simulation);
+    void putAside(SharedSimulation& simulation, base::Ticks now);
+    uint32_t& chainOf(const SharedSimulation& simulation)
+    {
+        return chains_[simulation.conditions.hash() % kChains];
+    }
+    SimulationIndex findFresh(const EffectDef* effect, const SimulationConditions& conditions) const;
+    void unlink(SimulationIndex index);
 
     const base::SnapshotSchema* schema_;
     std::pmr::memory_resource* memory_;
     bool share_;
-    std::vector<Run> runs_;
-    std::vector<RunIndex> free_;
-    std::vector<Spare> spares_;            ///< by time
-    std::array<RunIndex, kChains> chains_; ///< first fresh run of each hash; Run::nextFresh is the next
+    std::vector<SharedSimulation> simulations_;
+    std::vector<SimulationIndex> free_;
+    std::vector<Spare> spares_; ///< by time
+    std::array<SimulationIndex, kChains>
+        chains_; ///< first fresh simulation of each hash; SharedSimulation::nextFresh is the next
     uint32_t count_ = 0;
 };
 
