@@ -89,7 +89,7 @@ void Scene::becomePresent(uint32_t index)
     Instance& instance = instances_.at(index);
     ++update_.returned;
     if (world_.finished(instance.slot, clock_.simulated()) && instance.setup.startTick < clock_.simulated()) {
-        world_.retire(instance.slot);
+        world_.recycle(instance.slot);
         finish(index);
         return;
     }
@@ -116,7 +116,7 @@ void Scene::ringAlarms(base::Ticks until)
                 becomePresent(index);
         } else if (isOver) {
             takeBack(index);
-            world_.retire(instance.slot);
+            world_.recycle(instance.slot);
             finish(index);
         } else {
             const base::Ticks next = world_.release(instance.slot, mayForget(instance.policy));
@@ -190,7 +190,7 @@ void Scene::settleOne(uint32_t index, bool alsoInexact)
         return;
     }
     takeBack(index);
-    world_.retire(instance.slot);
+    world_.recycle(instance.slot);
     finish(index);
 }
 

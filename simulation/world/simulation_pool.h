@@ -154,12 +154,12 @@ public:
                            const SimulationConditions& conditions, bool released = false);
     /// Gives a released simulation its solvers back.
     void materialize(SimulationIndex index);
-    /// Puts the solvers of a shared simulation aside for others of its kind and keeps its state as bytes.
+    /// Moves the solvers of a shared simulation to the free list and keeps its state as bytes.
     /// @param mayForget what lives need not be kept once all of it is dead
     void release(SimulationIndex index, base::Ticks now, bool mayForget);
-    /// Frees the solvers that were put aside before `tick`.
-    void trimSpares(base::Ticks tick);
-    size_t spares() const { return spares_.size(); }
+    /// Frees solvers that have been in the free list since before `tick`.
+    void trimFreeList(base::Ticks tick);
+    size_t freeSolvers() const { return freeList_.size(); }
     /// A copy of a shared simulation, with its state and one user.
     SimulationIndex copy(SimulationIndex index);
     /// All users of a shared simulation are to have other conditions from now on. Never fails.
@@ -169,8 +169,8 @@ public:
     SimulationIndex change(SimulationIndex index, const SimulationConditions& conditions);
     /// One user fewer; the last one takes the solvers with it.
     void leave(SimulationIndex index);
-    /// The same, but the solvers are put aside for others of their kind.
-    void retire(SimulationIndex index, base::Ticks now);
+    /// The same, but the solvers go to the free list.
+    void recycle(SimulationIndex index, base::Ticks now);
     /// The simulation is stepped: it is no longer fresh.
     void touch(SimulationIndex index);
     /// A fresh simulation may be joined from now on.
@@ -180,7 +180,7 @@ public:
 
 private:
     /// Solvers of the free list.
-    struct Spare
+    struct FreeSolvers
     {
         std::shared_ptr<const EffectDef> effect;
         QualityLevel level;
@@ -189,9 +189,9 @@ private:
         base::Ticks since; ///< scene time
     };
     static constexpr size_t kChains = 256;
-    static constexpr size_t kMostSpares = 256;
+    static constexpr size_t kMostFreeSolvers = 256;
     void makeSolvers(SharedSimulation& simulation);
-    void putAside(SharedSimulation& simulation, base::Ticks now);
+    void addToFreeList(SharedSimulation& simulation, base::Ticks now);
     uint32_t& chainOf(const SharedSimulation& simulation)
     {
         return chains_[simulation.conditions.hash() % kChains];
@@ -204,7 +204,7 @@ private:
     bool share_;
     std::vector<SharedSimulation> simulations_;
     std::vector<SimulationIndex> free_;
-    std::vector<Spare> spares_; ///< by time
+    std::vector<FreeSolvers> freeList_; ///< by time
     std::array<SimulationIndex, kChains>
         chains_; ///< first fresh simulation of each hash; SharedSimulation::nextFresh is the next
     uint32_t count_ = 0;

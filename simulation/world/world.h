@@ -66,8 +66,8 @@ public:
     /// @param hidden begin out of sight: solvers are created when it becomes visible
     Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden = false);
     void remove(Slot slot);
-    /// The same at the end of an instance's life: its solvers wait for the next instance of their kind.
-    void retire(Slot slot);
+    /// The same at the end of an instance's life: its solvers go to the free list.
+    void recycle(Slot slot);
 
     // ---- out of sight; hidden slots are not given to step() and publish() ----
     void hide(Slot slot);
@@ -114,7 +114,7 @@ public:
         const SharedSimulation& simulation = simulations_.at(instances_[slot].simulation);
         return simulation.arriving ? simulation.target - simulation.reached : 0;
     }
-    /// Puts the solvers of a paused simulation aside and keeps its state as bytes.
+    /// Moves the solvers of a paused simulation to the free list and keeps its state as bytes.
     /// @param mayForget it will be caught up without a trace: particles that will be dead by then need not be
     ///             kept
     /// @return scene time at which another call would free more; the largest number for never
@@ -124,9 +124,9 @@ public:
     void passOver(Slot slot, base::Ticks stepTicks);
     /// Gives a hidden instance its solvers back.
     void materialize(Slot slot) { simulations_.materialize(instances_[slot].simulation); }
-    /// Frees solvers that were put aside before `tick`.
-    void trimSpares(base::Ticks tick) { simulations_.trimSpares(tick); }
-    size_t spares() const { return simulations_.spares(); } ///< solvers put aside, in sets of an instance's
+    /// Frees solvers that have been in the free list since before `tick`.
+    void trimFreeList(base::Ticks tick) { simulations_.trimFreeList(tick); }
+    size_t freeSolvers() const { return simulations_.freeSolvers(); } ///< sets of solvers in the free list
     /// Scene time, at least the present, up to which steps change nothing that is seen of the instance: they
     /// are not taken.
     base::Ticks restsUntil(Slot slot) const;

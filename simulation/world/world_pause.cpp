@@ -32,13 +32,13 @@ void World::show(Slot slot)
     --simulations_.at(instance.simulation).hidden;
 }
 
-void World::retire(Slot slot)
+void World::recycle(Slot slot)
 {
     Instance& instance = instances_[slot];
     if (instance.hidden)
         --simulations_.at(instance.simulation).hidden;
     leavePool(instance.simulation);
-    simulations_.retire(instance.simulation, now_);
+    simulations_.recycle(instance.simulation, now_);
     instance = Instance{};
     free_.push_back(slot);
 }

@@ -11,14 +11,14 @@ namespace fx::sim {
 /// Gives `simulation` solvers in the state before their first step.
 void SimulationPool::makeSolvers(SharedSimulation& simulation)
 {
-    const auto fits = [&](const Spare& spare) {
-        return spare.effect == simulation.effect && spare.level == simulation.conditions.quality.level;
+    const auto fits = [&](const FreeSolvers& free) {
+        return free.effect == simulation.effect && free.level == simulation.conditions.quality.level;
     };
-    const auto found = std::find_if(spares_.begin(), spares_.end(), fits);
-    if (found != spares_.end()) {
+    const auto found = std::find_if(freeList_.begin(), freeList_.end(), fits);
+    if (found != freeList_.end()) {
         simulation.solvers = std::move(found->solvers);
         simulation.pristine = std::move(found->pristine);
-        spares_.erase(found);
+        freeList_.erase(found);
         StateReader reader(simulation.pristine->bytes());
         simulation.restore(reader);
         if (!reader.ok() || reader.left() != 0)
@@ -84,34 +84,34 @@ void SimulationPool::release(SimulationIndex index, base::Ticks now, bool mayFor
         state.shrink();
         simulation.kept.emplace(std::move(state));
     }
-    putAside(simulation, now);
+    addToFreeList(simulation, now);
     simulation.released = true;
     simulation.brief = brief;
 }
 
 /// Never fails. The oldest make room.
-void SimulationPool::putAside(SharedSimulation& simulation, base::Ticks now)
+void SimulationPool::addToFreeList(SharedSimulation& simulation, base::Ticks now)
 {
     if (simulation.solvers.empty())
         return;
-    if (spares_.size() == kMostSpares)
-        spares_.erase(spares_.begin());
-    spares_.push_back({simulation.effect, simulation.conditions.quality.level, std::move(simulation.solvers),
-                       std::move(simulation.pristine), now});
+    if (freeList_.size() == kMostFreeSolvers)
+        freeList_.erase(freeList_.begin());
+    freeList_.push_back({simulation.effect, simulation.conditions.quality.level,
+                         std::move(simulation.solvers), std::move(simulation.pristine), now});
     simulation.solvers.clear();
     simulation.updateOnly();
 }
 
-void SimulationPool::trimSpares(base::Ticks tick)
+void SimulationPool::trimFreeList(base::Ticks tick)
 {
-    const auto isOld = [tick](const Spare& spare) { return spare.since < tick; };
-    spares_.erase(spares_.begin(), std::find_if_not(spares_.begin(), spares_.end(), isOld));
+    const auto isOld = [tick](const FreeSolvers& free) { return free.since < tick; };
+    freeList_.erase(freeList_.begin(), std::find_if_not(freeList_.begin(), freeList_.end(), isOld));
 }
 
-void SimulationPool::retire(SimulationIndex index, base::Ticks now)
+void SimulationPool::recycle(SimulationIndex index, base::Ticks now)
 {
     if (SharedSimulation& simulation = simulations_[index]; simulation.users == 1 && !simulation.released)
-        putAside(simulation, now);
+        addToFreeList(simulation, now);
     leave(index);
 }
 
