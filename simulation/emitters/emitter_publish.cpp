@@ -1,6 +1,6 @@
 #include "simulation/emitters/emitter_solver.h"
 
-#include "simulation/emitters/pools/emitter_crowd.h"
+#include "simulation/emitters/pools/spawn_batch.h"
 #include "simulation/particles/row_publication.h"
 
 namespace fx::sim {
@@ -53,7 +53,7 @@ bool EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSna
 }
 
 bool EmitterSolver::joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
-                                    EmitterCrowd& crowd) const
+                                    SpawnBatch& spawnBatch) const
 {
     if (!publishesWithMany_)
         return false;
@@ -64,7 +64,7 @@ bool EmitterSolver::joinPublication(const base::GroupInfo& base, base::FrameSnap
     if (rows == 0)
         return true;
     store_.fetch();
-    LookJob& job = crowd.add(group);
+    LookJob& job = spawnBatch.add(group);
     fill(job);
     job.secondsBack = snapshot.secondsBack();
     return true;

@@ -3,7 +3,7 @@
 #include "foundation/memory/out_of_memory.h"
 #include "foundation/random/philox.h"
 #include "foundation/tasks/parallel_rows.h"
-#include "simulation/emitters/pools/emitter_crowd.h"
+#include "simulation/emitters/pools/spawn_batch.h"
 #include "simulation/particles/birth_kernel.h"
 #include "simulation/particles/tile_step.h"
 
@@ -220,7 +220,7 @@ void EmitterSolver::openStep(const StepContext& context)
 void EmitterSolver::closeStep(const StepContext& context)
 {
     open_.tick = -1;
-    if (!context.crowd || !context.crowd->waitsFor(*this))
+    if (!context.spawnBatch || !context.spawnBatch->waitsFor(*this))
         endStep(*context.counters);
     offerToGpu(open_.droppedBefore, open_.isWanted);
 }
@@ -245,7 +245,7 @@ bool EmitterSolver::stepAlone(const StepContext& context, base::WorkBudget& work
 /// Whether births wait for those of others.
 bool EmitterSolver::joins(const StepContext& context) const
 {
-    return context.crowd && bornWithMany_ && store_.placed == program_.stores[stored::X];
+    return context.spawnBatch && bornWithMany_ && store_.placed == program_.stores[stored::X];
 }
 
 std::span<Birth> EmitterSolver::birthRoom(const StepContext& context) const
@@ -311,13 +311,13 @@ void EmitterSolver::noteRefusals()
 
 void EmitterSolver::storeBatch(const StepContext& context, std::span<const Birth> births)
 {
-    if (joins(context) && births.size() <= EmitterCrowd::kMostAtOnce) {
-        context.crowd->wait(*this, context, births);
+    if (joins(context) && births.size() <= SpawnBatch::kMostAtOnce) {
+        context.spawnBatch->wait(*this, context, births);
         store_.advance(births.size());
         return;
     }
-    if (context.crowd && context.crowd->waitsFor(*this))
-        context.crowd->makeBirths(); // they come first
+    if (context.spawnBatch && context.spawnBatch->waitsFor(*this))
+        context.spawnBatch->makeBirths(); // they come first
     std::atomic<uint32_t> living{0};
     parallelRows(*context.tasks, uint32_t(births.size()), kMinBirths, [&](uint32_t begin, uint32_t end) {
         living += storeBirths(program_, {context.seed, context.solverIndex},

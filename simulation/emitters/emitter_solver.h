@@ -90,7 +90,7 @@ public:
     bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                             PublicationPlace& place, base::WorkBudget& work) const override;
     bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
-                         EmitterCrowd& crowd) const override;
+                         SpawnBatch& spawnBatch) const override;
     bool finished(base::Ticks tick) const override;
     /// Exact but while the GPU computes the particles; then an upper bound.
     uint32_t elementCount() const override;
@@ -304,7 +304,7 @@ private:
     uint32_t highWater_ = 0;
     bool varied_ = false; ///< they were others before
     bool started_ = false;
-    bool bornWithMany_;      ///< see EmitterCrowd
+    bool bornWithMany_;      ///< see SpawnBatch
     bool publishesWithMany_; ///< likewise
     bool poolable_;
     uint32_t member_ = 0;         ///< of the pool

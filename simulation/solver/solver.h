@@ -95,7 +95,7 @@ struct HostContact
                 float outNormal[3]) = nullptr;
 };
 
-class EmitterCrowd;
+class SpawnBatch;
 class EventBoard;
 
 /// An event of the host.
@@ -123,7 +123,7 @@ struct StepContext
     const ContactHook* contactHook = nullptr; ///< null for none
     EventBoard* board = nullptr;              ///< events between solvers in this step; null for none
     std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
-    EmitterCrowd* crowd = nullptr; ///< may defer births until the end of the step; null: make them at once
+    SpawnBatch* spawnBatch = nullptr; ///< may defer births until the end of the step; null: make them at once
     base::Placement placement{}; ///< target of the instance's motion; default unless the effect depends on it
     float moveShare = 1.0f;      ///< [1] of the rest of the way there that it goes in this step, 0..1
     glm::vec3 worldGravity{0.0f}; ///< [m/s2] world

@@ -24,7 +24,7 @@ glm::vec3 toLocal(const base::Placement& placement, const glm::vec3& world)
 World::World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory,
              const Environment& environment, bool share)
     : environment_(environment), schema_(schema), tasks_(tasks), memory_(memory), share_(share),
-      scratch_(memory), crowd_(memory), pools_(memory), simulations_(schema, memory, share)
+      scratch_(memory), spawnBatch_(memory), pools_(memory), simulations_(schema, memory, share)
 {}
 
 Slot World::add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden)

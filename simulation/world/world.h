@@ -15,8 +15,8 @@
 #include "foundation/math/geometry.h"
 #include "foundation/memory/arena.h"
 #include "simulation/emitters/events/event_board.h"
-#include "simulation/emitters/pools/emitter_crowd.h"
 #include "simulation/emitters/pools/emitter_pools.h"
+#include "simulation/emitters/pools/spawn_batch.h"
 #include "simulation/solver/effect_def.h"
 #include "simulation/world/simulation_pool.h"
 
@@ -292,7 +292,7 @@ private:
     {
         base::Ticks tick; ///< scene time
         base::Ticks stepTicks;
-        EmitterCrowd* crowd = nullptr; ///< null unless it is closed before the simulation is read
+        SpawnBatch* spawnBatch = nullptr; ///< null unless it is closed before the simulation is read
         std::optional<EventBoard>* board = nullptr; ///< null: the simulation has its own, see linkedPartOf()
     };
     struct LocalSpan
@@ -389,8 +389,8 @@ private:
     std::pmr::memory_resource* memory_;
     bool share_;
     base::Arena scratch_;
-    EmitterCrowd crowd_; ///< of the step or the publication in hand; empty otherwise
-    EmitterPools pools_; ///< before the simulations, whose solvers are in them
+    SpawnBatch spawnBatch_; ///< of the step or the publication in hand; empty otherwise
+    EmitterPools pools_;    ///< before the simulations, whose solvers are in them
     SimulationPool simulations_;
     std::vector<Instance> instances_;
     std::vector<Slot> free_;

@@ -41,9 +41,9 @@ bool World::proceedPublication(base::WorkBudget& work)
         bool goesOn = false;
         ~Ending() { hand.isOpen = goesOn; }
     } ending{hand};
-    crowd_.beginPublication(*hand.snapshot, tasks_);
+    spawnBatch_.beginPublication(*hand.snapshot, tasks_);
     const bool areWritten = publishSlots(work);
-    work.spend(crowd_.endPublication());
+    work.spend(spawnBatch_.endPublication());
     if (!areWritten) {
         if (!hand.hasPools && hand.list.data() != hand.own.data()) { // the list may be gone by the next call
             hand.own.assign(hand.list.begin(), hand.list.end());
@@ -88,7 +88,7 @@ bool World::publishSlot(Slot slot, base::WorkBudget& work)
         info.solver = hand.solver;
         Solver& solver = simulation.only ? *simulation.only : *simulation.solvers[hand.solver];
         const PooledEmitter* const emitter = solver.pooledEmitter();
-        if (emitter && emitter->joinPublication(info, *hand.snapshot, crowd_))
+        if (emitter && emitter->joinPublication(info, *hand.snapshot, spawnBatch_))
             continue;
         if (!publishWithin(solver, info, *hand.snapshot, hand.part, work))
             return false;

@@ -9,7 +9,7 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint64_t kTogetherWork = 4; // particles of pools and crowds that count one unit
+constexpr uint64_t kTogetherWork = 4; // particles of pools and spawn batches that count one unit
 
 base::Ticks partsOf(const EffectDef& effect)
 {
@@ -37,7 +37,7 @@ void World::beginStep(std::span<const Slot> active, base::Ticks tick, base::Tick
         return;
     const base::FloatingPointScope floatingPoint;
     ++stepNumber_;
-    crowd_.forget();
+    spawnBatch_.forget();
     joining_.clear();
     divideSimulations(active);
     if (!mayPool_ || pools_.now() != tick || stepTicks > kLongestPoolStep)
@@ -75,7 +75,7 @@ bool World::proceed(base::WorkBudget& work, StepCounters& counters)
             return false;
         }
     const StepCounters before = hand_.counters;
-    crowd_.close();
+    spawnBatch_.close();
     stepPools(hand_.active, hand_.isPlanned, hand_.counters);
     const StepCounters together = hand_.counters.since(before);
     work.spend(together.particleSteps / kTogetherWork + together.born - together.dropped);
@@ -133,7 +133,8 @@ bool World::stepSlot(base::WorkBudget& work)
         }
         endRest(index, hand_.tick);
     }
-    if (!stepSimulation(index, {hand_.tick, hand_.stepTicks, &crowd_, &hand_.board}, work, hand_.counters))
+    if (!stepSimulation(index, {hand_.tick, hand_.stepTicks, &spawnBatch_, &hand_.board}, work,
+                        hand_.counters))
         return false;
     if (!mayRest_)
         return true;
@@ -164,7 +165,7 @@ bool World::stepSimulation(SimulationIndex index, const SimulationStep& step, ba
         const InstanceClock& clock = simulation.conditions.clock;
         const base::Ticks turns = (clock.rate + kNormalRate - 1) / kNormalRate;
         const base::Ticks parts = partsOf(*simulation.effect) * std::max<base::Ticks>(turns, 1);
-        context.crowd = parts == 1 ? step.crowd : nullptr;
+        context.spawnBatch = parts == 1 ? step.spawnBatch : nullptr;
         LinkedPart* const own = step.board ? nullptr : linkedPartOf(simulation);
         std::optional<EventBoard> none; // of solvers without events
         std::optional<EventBoard>& board = own ? own->board : step.board ? *step.board : none;

@@ -139,14 +139,14 @@ Seen play(bool together, bool mayPass, std::unique_ptr<base::TaskRunner> tasks =
 
 } // namespace
 
-TEST(EmitterCrowd, manySmallEmittersComeOutAsEachByItself)
+TEST(SpawnBatch, manySmallEmittersComeOutAsEachByItself)
 {
     const Seen alone = play(false, true);
     EXPECT_GT(alone.dropped, 0u);
     EXPECT_EQ(play(true, true), alone);
 }
 
-TEST(EmitterCrowd, whatItDoesIsWhatASolverDoesWithoutIt)
+TEST(SpawnBatch, whatItDoesIsWhatASolverDoesWithoutIt)
 {
     base::SnapshotSchema schema;
     schema.add(base::kBlobKind);
@@ -191,12 +191,12 @@ TEST(EmitterCrowd, whatItDoesIsWhatASolverDoesWithoutIt)
     }
 }
 
-TEST(EmitterCrowd, stepsThatAreNotTakenLeaveNoTrace)
+TEST(SpawnBatch, stepsThatAreNotTakenLeaveNoTrace)
 {
     EXPECT_EQ(play(true, true), play(true, false));
 }
 
-TEST(EmitterCrowd, everyNumberOfWorkersGivesTheSameBits)
+TEST(SpawnBatch, everyNumberOfWorkersGivesTheSameBits)
 {
     const RealThreads threadsOfAnyMachine(7);
     const Seen want = play(true, true);
@@ -204,7 +204,7 @@ TEST(EmitterCrowd, everyNumberOfWorkersGivesTheSameBits)
         EXPECT_EQ(play(true, true, base::makeTbbRunner(threads)), want) << threads;
 }
 
-TEST(EmitterCrowd, scatteredBirthsAreThoseOfEachEmitter)
+TEST(SpawnBatch, scatteredBirthsAreThoseOfEachEmitter)
 {
     const auto def = spriteEmitter(10.0f, {0.5f, 3.0f});
     def->maxParticles = 12;

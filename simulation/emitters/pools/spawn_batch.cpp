@@ -1,4 +1,4 @@
-#include "simulation/emitters/pools/emitter_crowd.h"
+#include "simulation/emitters/pools/spawn_batch.h"
 
 #include "foundation/tasks/parallel_rows.h"
 #include "simulation/particles/rows_of_a_task.h"
@@ -13,11 +13,11 @@ constexpr size_t kMostBirths = 1024; // that wait at a time
 
 } // namespace
 
-EmitterCrowd::EmitterCrowd(std::pmr::memory_resource* memory)
+SpawnBatch::SpawnBatch(std::pmr::memory_resource* memory)
     : births_(memory), owners_(memory), alike_(memory), alikeOwners_(memory), open_(memory)
 {}
 
-void EmitterCrowd::wait(PooledEmitter& emitter, const StepContext& context, std::span<const Birth> births)
+void SpawnBatch::wait(PooledEmitter& emitter, const StepContext& context, std::span<const Birth> births)
 {
     if (births_.capacity() == 0)
         makeRoom();
@@ -37,7 +37,7 @@ void EmitterCrowd::wait(PooledEmitter& emitter, const StepContext& context, std:
 }
 
 /// All that it will ever take, so that later steps allocate nothing.
-void EmitterCrowd::makeRoom()
+void SpawnBatch::makeRoom()
 {
     owners_.reserve(kMostBirths);
     alike_.reserve(kMostBirths);
@@ -46,7 +46,7 @@ void EmitterCrowd::makeRoom()
     births_.reserve(kMostBirths);
 }
 
-void EmitterCrowd::close()
+void SpawnBatch::close()
 {
     makeBirths();
     for (PooledEmitter* const emitter : open_)
@@ -55,7 +55,7 @@ void EmitterCrowd::close()
 }
 
 /// Emitters of one definition together, whatever stands between them.
-void EmitterCrowd::makeBirths()
+void SpawnBatch::makeBirths()
 {
     for (size_t i = 0; i < owners_.size(); ++i)
         if (owners_[i].program)
@@ -64,7 +64,7 @@ void EmitterCrowd::makeBirths()
     owners_.clear();
 }
 
-void EmitterCrowd::makeBirthsLike(const Owner& first)
+void SpawnBatch::makeBirthsLike(const Owner& first)
 {
     const Owner kind = first;
     alike_.clear();
@@ -83,14 +83,14 @@ void EmitterCrowd::makeBirthsLike(const Owner& first)
             alikeOwners_[i]->refuse(1, *counters_);
 }
 
-void EmitterCrowd::forget()
+void SpawnBatch::forget()
 {
     births_.clear();
     owners_.clear();
     open_.clear();
 }
 
-void EmitterCrowd::beginPublication(base::FrameSnapshot& snapshot, base::TaskRunner* tasks)
+void SpawnBatch::beginPublication(base::FrameSnapshot& snapshot, base::TaskRunner* tasks)
 {
     partCount_ = 0;
     rows_ = 0;
@@ -98,7 +98,7 @@ void EmitterCrowd::beginPublication(base::FrameSnapshot& snapshot, base::TaskRun
     tasks_ = tasks;
 }
 
-uint64_t EmitterCrowd::endPublication()
+uint64_t SpawnBatch::endPublication()
 {
     writeParts();
     snapshot_ = nullptr;
@@ -106,7 +106,7 @@ uint64_t EmitterCrowd::endPublication()
     return uint64_t(emitter_work::kDrawn * double(rows_));
 }
 
-void EmitterCrowd::writeParts()
+void SpawnBatch::writeParts()
 {
     const auto parts = std::span<LookPart>(parts_).first(partCount_);
     size_t bytes = 0;

@@ -1,4 +1,4 @@
-/// @file emitter_crowd.h
+/// @file spawn_batch.h
 /// What many small emitters do together: births of one step, and what is published of one moment. Each gets
 /// the same bits as by itself; together they share the random numbers of a vector, and what a pass over
 /// particles costs before its first row.
@@ -15,10 +15,10 @@
 namespace fx::sim {
 
 /// Threads: one at a time (the scene thread); a publication is spread over the task runner where it pays.
-class EmitterCrowd
+class SpawnBatch
 {
 public:
-    explicit EmitterCrowd(std::pmr::memory_resource* memory);
+    explicit SpawnBatch(std::pmr::memory_resource* memory);
 
     // ---- a step ----
     static constexpr size_t kMostAtOnce = 256; ///< births that wait together; more fill vectors by themselves
