@@ -13,7 +13,7 @@
 #include "fxsdk/activation/hidden_tree.h"
 #include "fxsdk/activation/wake_queue.h"
 #include "fxsdk/scene/id_table.h"
-#include "fxsdk/scene/whereabouts.h"
+#include "fxsdk/scene/motion_history.h"
 #include "simulation/world/world.h"
 
 #include <atomic>
@@ -272,10 +272,10 @@ private:
         bool isLate = false;        ///< waking: its past was too much work for the update in which it began
         uint32_t lastParticles = 0; ///< when it was hidden
         ActivationHints hints;
-        double reach = 0;                  ///< [m] world
-        float localReach = 0;              ///< [m] of the effect in a wind of reachWind
-        float reachWind = -1;              ///< [m/s] local; negative before it was measured
-        std::unique_ptr<Whereabouts> past; ///< where what is now does not tell everything
+        double reach = 0;                    ///< [m] world
+        float localReach = 0;                ///< [m] of the effect in a wind of reachWind
+        float reachWind = -1;                ///< [m/s] local; negative before it was measured
+        std::unique_ptr<MotionHistory> past; ///< where what is now does not tell everything
     };
     struct Restored; ///< a state on its way into the scene
 
@@ -317,8 +317,8 @@ private:
     double significanceOf(const Instance& instance) const;
     uint64_t particlesOf(const Instance& instance) const;
     void measure(Instance& instance) const; ///< how far it reaches
-    Circumstances circumstancesOf(const InstanceSetup& setup, const sim::Influence& influence) const;
-    Circumstances pastOf(Instance& instance, bool stays, const sim::Influence& influence) const;
+    BoundsInputs boundsInputsOf(const InstanceSetup& setup, const sim::Influence& influence) const;
+    BoundsInputs pastOf(Instance& instance, bool stays, const sim::Influence& influence) const;
     Reason judge(const Instance& instance, bool isSeen);
     void reconsider(const base::StepPlan& plan);
     void lookAround();

@@ -47,11 +47,11 @@ bool Scene::mayHide(const Instance& instance) const
     return !options_.lockStep || (isExact(instance.policy) && !instance.setup.destroyWhenFinished);
 }
 
-Circumstances Scene::circumstancesOf(const InstanceSetup& setup, const sim::Influence& influence) const
+BoundsInputs Scene::boundsInputsOf(const InstanceSetup& setup, const sim::Influence& influence) const
 {
     const base::Placement& to = setup.placement;
     const base::Placement& from = setup.cameFrom ? *setup.cameFrom : to;
-    Circumstances is;
+    BoundsInputs is;
     is.low = is.high = to.position;
     is.smallest = is.largest = to.scale;
     is.wind = glm::length(setup.parameters.wind);
@@ -72,14 +72,14 @@ Circumstances Scene::circumstancesOf(const InstanceSetup& setup, const sim::Infl
 
 /// What has to be reckoned with besides what is so now: kept where particles stay behind, and from the first
 /// time on that the wind grows weaker.
-Circumstances Scene::pastOf(Instance& instance, bool stays, const sim::Influence& influence) const
+BoundsInputs Scene::pastOf(Instance& instance, bool stays, const sim::Influence& influence) const
 {
-    const Circumstances is = circumstancesOf(instance.setup, influence);
+    const BoundsInputs is = boundsInputsOf(instance.setup, influence);
     const float before = instance.reachWind - glm::length(instance.setup.effect->wind);
     const bool calms = instance.reachWind >= 0.0f && is.localWind < before;
     if (!instance.past && (stays || calms)) {
-        instance.past.reset(new (std::nothrow) Whereabouts);
-        Circumstances was = is;
+        instance.past.reset(new (std::nothrow) MotionHistory);
+        BoundsInputs was = is;
         was.localWind = std::max(was.localWind, before);
         if (!instance.past)
             return was; // stays as far as it was, for ever
@@ -99,7 +99,7 @@ void Scene::measure(Instance& instance) const
     const sim::EffectDef& effect = *setup.effect;
     const sim::Influence influence = effect.influence();
     const bool stays = effect.heedsPlacement() && !(effect.bound > 0);
-    const Circumstances past = pastOf(instance, stays, influence);
+    const BoundsInputs past = pastOf(instance, stays, influence);
     const float wind = glm::length(effect.wind) + (stays ? past.wind / past.smallest : past.localWind);
     if (wind != instance.reachWind) {
         instance.localReach = effect.reach(glm::length(options_.environment.gravity), wind);

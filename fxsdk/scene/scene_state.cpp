@@ -284,7 +284,7 @@ void Scene::restoreInstances(sim::StateReader& reader, const Effects& effects, R
             instance.setup.effect = effects[effect];
             instance.policy = instance.setup.effect->catchUp();
             if (isBlown(*instance.setup.effect))
-                instance.past.reset(new (std::nothrow) Whereabouts);
+                instance.past.reset(new (std::nothrow) MotionHistory);
             measure(instance);
             if (instance.past) { // a state does not tell where it has been, and in which wind
 

@@ -1,6 +1,6 @@
 // How far an instance is said to reach while the host moves it and changes the wind, against where its
 // particles are.
-#include "fxsdk/scene/whereabouts.h"
+#include "fxsdk/scene/motion_history.h"
 #include "simulation/world/instance_clock.h"
 #include "tests/api/sight_stage.h"
 
@@ -62,7 +62,7 @@ base::Placement onTheWay(int step)
 
 } // namespace
 
-TEST(Whereabouts, whatIsCarriedReachesToAllThatItLeavesBehind)
+TEST(MotionHistory, whatIsCarriedReachesToAllThatItLeavesBehind)
 {
     for (const float inherited : {0.0f, 1.0f}) {
         SightStage stage(neverCulled());
@@ -80,7 +80,7 @@ TEST(Whereabouts, whatIsCarriedReachesToAllThatItLeavesBehind)
     }
 }
 
-TEST(Whereabouts, aTorchThatStandsReachesAsFarAsOneThatCannotBeCarried)
+TEST(MotionHistory, aTorchThatStandsReachesAsFarAsOneThatCannotBeCarried)
 {
     SightStage stage;
     const auto carried = stage.add(torch(1.0f), kAhead);
@@ -91,7 +91,7 @@ TEST(Whereabouts, aTorchThatStandsReachesAsFarAsOneThatCannotBeCarried)
     EXPECT_LT(stage.scene().activity(carried).reach, 3.0);
 }
 
-TEST(Whereabouts, whatIsCarriedOutOfSightComesBackAsIfItHadNeverBeenHidden)
+TEST(MotionHistory, whatIsCarriedOutOfSightComesBackAsIfItHadNeverBeenHidden)
 {
     SightStage stage, always(neverCulled());
     const Effect effect = torch(0.5f);
@@ -118,7 +118,7 @@ TEST(Whereabouts, whatIsCarriedOutOfSightComesBackAsIfItHadNeverBeenHidden)
     EXPECT_EQ(stage.scene().stateHash(), always.scene().stateHash());
 }
 
-TEST(Whereabouts, whatAStormHasBlownAwayIsReachedUntilItIsGone)
+TEST(MotionHistory, whatAStormHasBlownAwayIsReachedUntilItIsGone)
 {
     SightStage stage(neverCulled());
     Effect effect = fountainEffect(false, 2.0f);
@@ -144,7 +144,7 @@ TEST(Whereabouts, whatAStormHasBlownAwayIsReachedUntilItIsGone)
     EXPECT_EQ(stage.scene().activity(id).reach, calm);
 }
 
-TEST(Whereabouts, afterALifetimeARestoredTorchReachesAsFarAsItCanAgain)
+TEST(MotionHistory, afterALifetimeARestoredTorchReachesAsFarAsItCanAgain)
 {
     SightStage stage;
     const Effect effect = torch(0.0f);
@@ -163,7 +163,7 @@ TEST(Whereabouts, afterALifetimeARestoredTorchReachesAsFarAsItCanAgain)
     EXPECT_LT(stage.scene().activity(id).reach, 3.0);
 }
 
-TEST(Whereabouts, afterARestoreNobodyKnowsOfAStormUntilItIsGone)
+TEST(MotionHistory, afterARestoreNobodyKnowsOfAStormUntilItIsGone)
 {
     SightStage stage;
     Effect effect = fountainEffect(false, 2.0f);
@@ -188,11 +188,11 @@ TEST(Whereabouts, afterARestoreNobodyKnowsOfAStormUntilItIsGone)
     EXPECT_LT(stage.scene().activity(id).reach, 1e3);
 }
 
-TEST(Whereabouts, slowTimeForgetsLater)
+TEST(MotionHistory, slowTimeForgetsLater)
 {
-    scene::Whereabouts normal, slow;
+    scene::MotionHistory normal, slow;
     for (int step = 0; step < 100; ++step) {
-        scene::Circumstances is;
+        scene::BoundsInputs is;
         is.low = is.high = {double(step), 0, 0};
         is.smallest = is.largest = 1;
         is.slowest = sim::kNormalRate;

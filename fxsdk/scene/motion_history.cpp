@@ -1,4 +1,4 @@
-#include "fxsdk/scene/whereabouts.h"
+#include "fxsdk/scene/motion_history.h"
 
 #include "simulation/world/instance_clock.h"
 
@@ -8,7 +8,7 @@
 
 namespace fx::scene {
 
-void Circumstances::add(const Circumstances& more)
+void BoundsInputs::add(const BoundsInputs& more)
 {
     low = glm::min(low, more.low);
     high = glm::max(high, more.high);
@@ -20,7 +20,7 @@ void Circumstances::add(const Circumstances& more)
     slowest = std::min(slowest, more.slowest);
 }
 
-void Whereabouts::note(base::Ticks now, const Circumstances& is, float seconds)
+void MotionHistory::note(base::Ticks now, const BoundsInputs& is, float seconds)
 {
     const double passed = base::toSeconds(std::max<base::Ticks>(now - begun_, 0)) *
                           (double(newer_.slowest) / double(sim::kNormalRate));
@@ -36,14 +36,14 @@ void Whereabouts::note(base::Ticks now, const Circumstances& is, float seconds)
     last_ = is;
 }
 
-bool Whereabouts::isSettled() const
+bool MotionHistory::isSettled() const
 {
     return isKnown() && newer_ == last_ && (!(older_.largest > 0.0f) || older_ == last_);
 }
 
-Circumstances Whereabouts::all() const
+BoundsInputs MotionHistory::all() const
 {
-    Circumstances all = older_;
+    BoundsInputs all = older_;
     all.add(newer_);
     return all;
 }

@@ -1,4 +1,4 @@
-/// @file whereabouts.h
+/// @file motion_history.h
 /// Where an instance has been and what has blown about it for as long as that matters to what is alive.
 ///
 /// Time is cut into parts that are at least as long as anything lives. What is alive was born within the
@@ -16,7 +16,7 @@
 namespace fx::scene {
 
 /// What was so at one moment, or the most of several.
-struct Circumstances
+struct BoundsInputs
 {
     glm::dvec3 low{std::numeric_limits<double>::infinity()}; ///< [m] world, of positions
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
@@ -27,15 +27,15 @@ struct Circumstances
     double speed = 0;              ///< [m/s] world, of births, in the instance's time
     uint32_t slowest = UINT32_MAX; ///< see sim::InstanceClock::rate
 
-    void add(const Circumstances& more);
-    bool operator==(const Circumstances&) const = default;
+    void add(const BoundsInputs& more);
+    bool operator==(const BoundsInputs&) const = default;
 };
 
-class Whereabouts
+class MotionHistory
 {
 public:
     /// @param now [tick] of the scene, rising
-    void note(base::Ticks now, const Circumstances& is, float seconds);
+    void note(base::Ticks now, const BoundsInputs& is, float seconds);
     /// No time of the instance has passed before `now` since the last note.
     void restart(base::Ticks now) { begun_ = now; }
     /// The past is unknown.
@@ -44,10 +44,10 @@ public:
     bool isKnown() const { return unknown_ == 0; }
     /// All has been as it is now: later notes of the same change nothing.
     bool isSettled() const;
-    Circumstances all() const;
+    BoundsInputs all() const;
 
 private:
-    Circumstances last_, newer_, older_;
+    BoundsInputs last_, newer_, older_;
     base::Ticks begun_ = 0;
     int unknown_ = 0; ///< parts of time that have to end
 };
