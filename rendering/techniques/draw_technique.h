@@ -11,7 +11,7 @@
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/draw_order/draw_runs.h"
 #include "rendering/frame/fragment_counts.h"
-#include "rendering/frame/snapshot_stamps.h"
+#include "rendering/frame/snapshot_revisions.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/frame_graph/frame_graph.h"
@@ -41,8 +41,8 @@ constexpr uint32_t kIdleFrames = 300; ///< without use, until buffers and textur
 struct GatherInputs
 {
     const base::SnapshotPair* snapshots; ///< without the older one where nothing moves between the two
-    StampPair stamps;
-    SnapshotRowStamps newerRows, olderRows;
+    RevisionPair revisions;
+    SnapshotRowRevisions newerRows, olderRows;
     const FrameRequest* request;
     const ViewSettings* settings;
     const CameraGeometry* camera;

@@ -1,4 +1,4 @@
-#include "rendering/frame/row_stamps.h"
+#include "rendering/frame/row_revisions.h"
 
 #include "foundation/math/hash.h"
 #include "foundation/memory/same_bytes.h"
@@ -93,23 +93,23 @@ void SamePools::build(const base::FrameSnapshot& newer, const base::FrameSnapsho
     }
 }
 
-uint64_t RowStamps::stampOf(const base::FrameSnapshot& newer, size_t g, const base::FrameSnapshot* older,
-                            uint64_t& ioLast) const
+uint64_t RowRevisions::revisionOf(const base::FrameSnapshot& newer, size_t g,
+                                  const base::FrameSnapshot* older, uint64_t& ioLast) const
 {
     const base::GroupName name = newer.name(g);
     const size_t same = before_.empty() ? kNoGroup : findSameGroup(older, name, g);
-    if (same == kNoGroup || before_[same].stamp == 0)
+    if (same == kNoGroup || before_[same].revision == 0)
         return ++ioLast;
     const base::GroupRoster::Entry* const entry = newer.pooled(g);
     const base::GroupRoster::Entry* const before = older->pooled(same);
     const bool isSame = entry || before ? entry && before && pools_.holdSame(*entry, *before)
                                         : haveSameRows(newer.group(g), older->group(same),
                                                        newer.schema().kind(name.kind).columns);
-    return isSame ? before_[same].stamp : ++ioLast;
+    return isSame ? before_[same].revision : ++ioLast;
 }
 
-/// The first group with the same rows gives its stamp to the others. Those of pools are not compared.
-void RowStamps::findAlike(const base::FrameSnapshot& snapshot, size_t g)
+/// The first group with the same rows gives its revision to the others. Those of pools are not compared.
+void RowRevisions::findAlike(const base::FrameSnapshot& snapshot, size_t g)
 {
     const base::SnapshotGroup& group = snapshot.group(g);
     const auto columns = snapshot.schema().kind(group.info().kind).columns;
@@ -121,16 +121,18 @@ void RowStamps::findAlike(const base::FrameSnapshot& snapshot, size_t g)
             return;
         }
         const size_t other = table_[at];
-        if (parts_[other].stamp != parts_[g].stamp && !haveSameRows(snapshot.group(other), group, columns))
+        if (parts_[other].revision != parts_[g].revision &&
+            !haveSameRows(snapshot.group(other), group, columns))
             continue;
         alike_[g] = uint32_t(other);
-        parts_[g].stamp = parts_[other].stamp;
+        parts_[g].revision = parts_[other].revision;
         return;
     }
 }
 
-void RowStamps::build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older,
-                      const SnapshotRowStamps& before, std::span<const base::KindId> kinds, uint64_t& ioLast)
+void RowRevisions::build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older,
+                         const SnapshotRowRevisions& before, std::span<const base::KindId> kinds,
+                         uint64_t& ioLast)
 {
     before_.assign(before.parts.begin(), before.parts.end()); // they may be these
     const size_t count = newer.groupCount();
@@ -142,14 +144,14 @@ void RowStamps::build(const base::FrameSnapshot& newer, const base::FrameSnapsho
         alike_[g] = uint32_t(g);
         if (const base::GroupRoster::Entry* const entry = newer.pooled(g)) {
             const uint32_t rows = newer.pool(entry->pool).counts[entry->member];
-            parts_[g] = {0, rows, rows > 0 ? stampOf(newer, g, older, ioLast) : 0};
+            parts_[g] = {0, rows, rows > 0 ? revisionOf(newer, g, older, ioLast) : 0};
             continue;
         }
         const base::SnapshotGroup& group = newer.group(g);
         parts_[g] = {0, group.count(), 0};
         if (!hasRows(group, kinds))
             continue;
-        parts_[g].stamp = stampOf(newer, g, older, ioLast);
+        parts_[g].revision = revisionOf(newer, g, older, ioLast);
         findAlike(newer, g);
     }
 }

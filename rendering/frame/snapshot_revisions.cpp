@@ -1,4 +1,4 @@
-#include "rendering/frame/snapshot_stamps.h"
+#include "rendering/frame/snapshot_revisions.h"
 
 #include "foundation/memory/same_bytes.h"
 
@@ -63,31 +63,31 @@ bool holdSame(const base::FrameSnapshot& a, const base::FrameSnapshot& b)
     return true;
 }
 
-StampPair SnapshotStamps::stampsOf(const base::SnapshotPair& snapshots)
+RevisionPair SnapshotRevisions::revisionsOf(const base::SnapshotPair& snapshots)
 {
-    StampPair stamps;
+    RevisionPair revisions;
     if (snapshots.older) {
         if (!find(*snapshots.older))
             remember(*snapshots.older, nullptr, ++last_);
-        stamps.older = find(*snapshots.older)->stamp;
+        revisions.older = find(*snapshots.older)->revision;
     }
     if (snapshots.newer) {
         if (!find(*snapshots.newer)) {
             const bool isSame = snapshots.older && holdSame(*snapshots.newer, *snapshots.older);
-            remember(*snapshots.newer, snapshots.older, isSame ? stamps.older : ++last_);
+            remember(*snapshots.newer, snapshots.older, isSame ? revisions.older : ++last_);
         }
-        stamps.newer = find(*snapshots.newer)->stamp;
+        revisions.newer = find(*snapshots.newer)->revision;
     }
-    return stamps;
+    return revisions;
 }
 
-SnapshotRowStamps SnapshotStamps::rowsOf(const base::FrameSnapshot& snapshot) const
+SnapshotRowRevisions SnapshotRevisions::rowsOf(const base::FrameSnapshot& snapshot) const
 {
     const Known* known = find(snapshot);
-    return known ? known->rows.stamps() : SnapshotRowStamps{};
+    return known ? known->rows.revisions() : SnapshotRowRevisions{};
 }
 
-const SnapshotStamps::Known* SnapshotStamps::find(const base::FrameSnapshot& snapshot) const
+const SnapshotRevisions::Known* SnapshotRevisions::find(const base::FrameSnapshot& snapshot) const
 {
     for (const Known& known : known_)
         if (known.snapshot == &snapshot && known.sequence == snapshot.sequence() &&
@@ -96,10 +96,10 @@ const SnapshotStamps::Known* SnapshotStamps::find(const base::FrameSnapshot& sna
     return nullptr;
 }
 
-void SnapshotStamps::remember(const base::FrameSnapshot& snapshot, const base::FrameSnapshot* older,
-                              uint64_t stamp)
+void SnapshotRevisions::remember(const base::FrameSnapshot& snapshot, const base::FrameSnapshot* older,
+                                 uint64_t revision)
 {
-    const SnapshotRowStamps before = older ? rowsOf(*older) : SnapshotRowStamps{};
+    const SnapshotRowRevisions before = older ? rowsOf(*older) : SnapshotRowRevisions{};
     if (&known_[next_] == (older ? find(*older) : nullptr))
         next_ = (next_ + 1) % known_.size(); // it has to stay for this frame
     Known& known = known_[next_];
@@ -110,7 +110,7 @@ void SnapshotStamps::remember(const base::FrameSnapshot& snapshot, const base::F
     known.snapshot = &snapshot;
     known.sequence = snapshot.sequence();
     known.tick = snapshot.tick();
-    known.stamp = stamp;
+    known.revision = revision;
     next_ = (next_ + 1) % known_.size();
 }
 

@@ -1,4 +1,4 @@
-/// @file row_stamps.h
+/// @file row_revisions.h
 /// Numbers that tell whether rows, such as those of particles and ribbons, are those that were uploaded
 /// before, group by group, and whether several groups hold the same rows, as instances do that share a
 /// simulation.
@@ -16,22 +16,22 @@
 namespace fx::render {
 
 /// Some rows of a group. Equal numbers, 0 apart, stand for the same columns, bit for bit.
-struct RowStamp
+struct RowRevision
 {
     uint32_t first = 0, count = 0;
-    uint64_t stamp = 0; ///< 0: nothing is known
+    uint64_t revision = 0; ///< 0: nothing is known
 
-    bool operator==(const RowStamp&) const = default;
+    bool operator==(const RowRevision&) const = default;
 };
 
 /// Of all groups of a snapshot.
-struct SnapshotRowStamps
+struct SnapshotRowRevisions
 {
-    std::span<const RowStamp> parts; ///< of all groups, one after the other
-    std::span<const size_t> begin;   ///< of each group, and the end; empty: one part a group
-    std::span<const uint32_t> alike; ///< first group with the same rows, or the group; empty: all differ
+    std::span<const RowRevision> parts; ///< of all groups, one after the other
+    std::span<const size_t> begin;      ///< of each group, and the end; empty: one part a group
+    std::span<const uint32_t> alike;    ///< first group with the same rows, or the group; empty: all differ
 
-    std::span<const RowStamp> of(size_t group) const
+    std::span<const RowRevision> of(size_t group) const
     {
         return begin.empty() ? parts.subspan(group, 1)
                              : parts.subspan(begin[group], begin[group + 1] - begin[group]);
@@ -66,28 +66,29 @@ private:
     std::pmr::vector<uint32_t> same_; ///< by pool of the newer snapshot: of the older one
 };
 
-/// Stamps the groups of some kinds of snapshots that follow each other.
-class RowStamps
+/// Gives revisions to the groups of some kinds of snapshots that follow each other.
+class RowRevisions
 {
 public:
-    explicit RowStamps(std::pmr::memory_resource* memory)
+    explicit RowRevisions(std::pmr::memory_resource* memory)
         : parts_(memory), before_(memory), alike_(memory), table_(memory), pools_(memory)
     {}
 
-    /// @param older  null, or a snapshot of the same scene; what it shares with `newer` has the same stamps
-    /// @param before stamps of `older`; without parts: not known
+    /// @param older  null, or a snapshot of the same scene; what it shares with `newer` has the same
+    /// revisions
+    /// @param before revisions of `older`; without parts: not known
     /// @param kinds  those that are stamped; pools are stamped in any case
     void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older,
-               const SnapshotRowStamps& before, std::span<const base::KindId> kinds, uint64_t& ioLast);
-    SnapshotRowStamps stamps() const { return {parts_, {}, alike_}; }
+               const SnapshotRowRevisions& before, std::span<const base::KindId> kinds, uint64_t& ioLast);
+    SnapshotRowRevisions revisions() const { return {parts_, {}, alike_}; }
 
 private:
-    uint64_t stampOf(const base::FrameSnapshot& newer, size_t group, const base::FrameSnapshot* older,
-                     uint64_t& ioLast) const;
+    uint64_t revisionOf(const base::FrameSnapshot& newer, size_t group, const base::FrameSnapshot* older,
+                        uint64_t& ioLast) const;
     void findAlike(const base::FrameSnapshot& snapshot, size_t group);
 
-    std::pmr::vector<RowStamp> parts_;
-    std::pmr::vector<RowStamp> before_;
+    std::pmr::vector<RowRevision> parts_;
+    std::pmr::vector<RowRevision> before_;
     std::pmr::vector<uint32_t> alike_;
     std::pmr::vector<uint32_t> table_; ///< groups by a sample of their rows; open addressing
     SamePools pools_;
