@@ -3,7 +3,7 @@
 #pragma once
 
 #include "rendering/draw_order/depth_sort.h"
-#include "rendering/draw_order/draw_runs.h"
+#include "rendering/draw_order/draw_batcher.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
 #include "rendering/lights/extinction_grid.h"

@@ -5,7 +5,7 @@
 
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/draw_order/depth_sort.h"
-#include "rendering/draw_order/draw_runs.h"
+#include "rendering/draw_order/draw_batcher.h"
 #include "rendering/frame/fragment_counts.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/gpu_particles/gpu_order_pass.h"
@@ -83,7 +83,7 @@ public:
     std::span<ParticleBatch> batches() { return batches_; }
     /// In which order the rows of computed batches are to be drawn.
     std::span<const GpuOrderJob> gpuOrders() const { return gpuOrders_; }
-    /// Batches that do not hide, for DrawRuns.
+    /// Batches that do not hide, for DrawBatcher.
     std::span<const DrawStream> streams() const { return streams_; }
     const DrawnCounts& drawn() const { return drawn_; }
     uint64_t orderedRows() const { return orderedRows_; } ///< in orders

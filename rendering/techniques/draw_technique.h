@@ -9,7 +9,7 @@
 #include "foundation/result/status.h"
 #include "foundation/snapshot/gpu_particles.h"
 #include "foundation/snapshot/snapshot_ring.h"
-#include "rendering/draw_order/draw_runs.h"
+#include "rendering/draw_order/draw_batcher.h"
 #include "rendering/frame/fragment_counts.h"
 #include "rendering/frame/snapshot_revisions.h"
 #include "rendering/frame/view_block.h"

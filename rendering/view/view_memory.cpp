@@ -10,7 +10,7 @@ namespace fx::render {
 ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
                          DrawTechniques list)
     : device(d), graph(memory), backend(*d, memory), techniques(list), parts(memory), lod(memory),
-      runs(memory), streams(memory), solids(memory), revisions(memory), targetCheck(*d),
+      batcher(memory), streams(memory), solids(memory), revisions(memory), targetCheck(*d),
       timer(*d, render::passGroups(list))
 {
     const TechniqueSetup setup{d, schema, memory, list};

@@ -45,9 +45,9 @@ struct ViewRenderer::Impl
     DrawTechniques techniques;
     std::pmr::vector<std::unique_ptr<TechniqueView>> parts; ///< of techniques, in their order
     LevelOfDetail lod;
-    DrawRuns runs;
+    DrawBatcher batcher;
     std::pmr::vector<DrawStream> streams;
-    std::span<const MediaRun> mediaRuns;
+    std::span<const DrawBatch> mediaBatches;
     std::pmr::vector<const MediaSource*> solids;
     SnapshotRevisions revisions;
     std::optional<FrameKey> key; ///< of the lists above and of what is on the GPU; nothing: not to be used

@@ -119,7 +119,7 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
                               contentOf(now, request.interpolation)};
     streams.clear();
     solids.clear();
-    mediaRuns = {};
+    mediaBatches = {};
     GatheredFrame gathered{&streams};
     for (const auto& part : parts)
         if (base::Status status = part->gather(inputs, gathered); !status)
@@ -128,7 +128,7 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
         if (const MediaSource* source = part->solids())
             solids.push_back(source);
     fragments = gathered.fragments;
-    mediaRuns = runs.build(streams);
+    mediaBatches = batcher.build(streams);
     return {};
 }
 
@@ -196,7 +196,7 @@ base::Status ViewRenderer::check(const FrameRequest& request)
 base::Status ViewRenderer::Impl::draw(const FrameRequest& request, const ViewSettings& settings, int divisor)
 {
     graph.begin();
-    outputs = buildViewGraph(graph, {&request, &settings, parts, mediaRuns, solids, divisor});
+    outputs = buildViewGraph(graph, {&request, &settings, parts, mediaBatches, solids, divisor});
     if (!outputs.anyPass)
         return {};
     graph.compile();

@@ -1,4 +1,4 @@
-#include "rendering/draw_order/draw_runs.h"
+#include "rendering/draw_order/draw_batcher.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ float DrawStream::at(uint32_t i) const
 }
 
 /// The range in which more than one stream lies, or a little more.
-DrawRuns::Range DrawRuns::overlapOf(std::span<const DrawStream> streams)
+DrawBatcher::Range DrawBatcher::overlapOf(std::span<const DrawStream> streams)
 {
     byFar_.resize(streams.size());
     std::iota(byFar_.begin(), byFar_.end(), 0u);
@@ -65,17 +65,17 @@ DrawRuns::Range DrawRuns::overlapOf(std::span<const DrawStream> streams)
     return overlap;
 }
 
-void DrawRuns::add(const Part& part, const DrawStream& stream)
+void DrawBatcher::add(const Part& part, const DrawStream& stream)
 {
-    if (!runs_.empty() && runs_.back().source == stream.source && runs_.back().batch == stream.batch &&
-        runs_.back().first + runs_.back().count == part.first)
-        runs_.back().count += part.count;
+    if (!batches_.empty() && batches_.back().source == stream.source &&
+        batches_.back().batch == stream.batch && batches_.back().first + batches_.back().count == part.first)
+        batches_.back().count += part.count;
     else
-        runs_.push_back({stream.batch, part.first, part.count, stream.source});
+        batches_.push_back({stream.batch, part.first, part.count, stream.source});
 }
 
 /// What of each stream is farther than `edge`, or all that is left.
-void DrawRuns::takeParts(std::span<const DrawStream> streams, bool isLast, float edge)
+void DrawBatcher::takeParts(std::span<const DrawStream> streams, bool isLast, float edge)
 {
     parts_.clear();
     for (uint32_t s = 0; s < streams.size(); ++s) {
@@ -88,12 +88,12 @@ void DrawRuns::takeParts(std::span<const DrawStream> streams, bool isLast, float
 }
 
 /// @param goesOn the stream that was drawn last comes first
-void DrawRuns::arrange(bool goesOn)
+void DrawBatcher::arrange(bool goesOn)
 {
     std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
         return a.middle != b.middle ? a.middle > b.middle : a.stream < b.stream;
     });
-    if (!goesOn || runs_.empty())
+    if (!goesOn || batches_.empty())
         return;
     const auto last =
         std::ranges::find_if(parts_, [&](const Part& part) { return part.stream == lastStream_; });
@@ -102,9 +102,9 @@ void DrawRuns::arrange(bool goesOn)
 }
 
 /// @param slabs 0: every stream stays whole
-void DrawRuns::cut(std::span<const DrawStream> streams, const Range& overlap, uint32_t slabs)
+void DrawBatcher::cut(std::span<const DrawStream> streams, const Range& overlap, uint32_t slabs)
 {
-    runs_.clear();
+    batches_.clear();
     begin_.assign(streams.size(), 0u);
     for (uint32_t slab = 0; slab <= slabs; ++slab) { // before the first and behind the last nothing overlaps
         const bool isLast = slabs == 0;
@@ -122,16 +122,16 @@ void DrawRuns::cut(std::span<const DrawStream> streams, const Range& overlap, ui
         add(part, streams[part.stream]);
 }
 
-std::span<const MediaRun> DrawRuns::build(std::span<const DrawStream> streams)
+std::span<const DrawBatch> DrawBatcher::build(std::span<const DrawStream> streams)
 {
     const Range overlap = overlapOf(streams);
     uint32_t slabs = overlap.near > overlap.far ? 0 : kMostSlabs;
     cut(streams, overlap, slabs);
-    while (slabs > 0 && runs_.size() > kMostTurns) {
-        slabs = std::min(slabs - 1, uint32_t(uint64_t(slabs) * kMostTurns / runs_.size()));
+    while (slabs > 0 && batches_.size() > kMostBatches) {
+        slabs = std::min(slabs - 1, uint32_t(uint64_t(slabs) * kMostBatches / batches_.size()));
         cut(streams, overlap, slabs);
     }
-    return runs_;
+    return batches_;
 }
 
 } // namespace fx::render

@@ -1,5 +1,6 @@
-/// @file draw_runs.h
-/// In which order blobs and groups of particles take turns, so that they cover each other by distance.
+/// @file draw_batcher.h
+/// Divides blobs and groups of particles into batches by depth slabs, so that they cover each other by
+/// distance.
 #pragma once
 
 #include "rendering/passes/media_source.h"
@@ -28,26 +29,26 @@ struct DrawStream
 };
 
 /// Keeps its memory from frame to frame.
-class DrawRuns
+class DrawBatcher
 {
 public:
-    explicit DrawRuns(std::pmr::memory_resource* memory)
-        : byFar_(memory), begin_(memory), parts_(memory), runs_(memory)
+    explicit DrawBatcher(std::pmr::memory_resource* memory)
+        : byFar_(memory), begin_(memory), parts_(memory), batches_(memory)
     {}
 
-    static constexpr uint32_t kMostTurns = 16;
+    static constexpr uint32_t kMostBatches = 16;
 
-    /// Cuts the streams into runs, farthest first. Streams stay whole whose ranges of distance do not
+    /// Cuts the streams into batches, farthest first. Streams stay whole whose ranges of distance do not
     /// overlap, or which only add. Where others overlap, that range is cut into slabs of equal thickness, 32
-    /// or as many as kMostTurns runs allow: between slabs the order is by distance. Within one it is stream
-    /// by stream: first what was drawn last, so that it goes on, then the one that is farther in the middle.
-    /// Things in a wrong order are no farther apart than a slab is thick: for two streams 1/13 of the range
-    /// that they share, for three 1/6.
+    /// or as many as kMostBatches batches allow: between slabs the order is by distance. Within one it is
+    /// stream by stream: first what was drawn last, so that it goes on, then the one that is farther in the
+    /// middle. Things in a wrong order are no farther apart than a slab is thick: for two streams 1/13 of the
+    /// range that they share, for three 1/6.
     ///
-    /// More than kMostTurns streams are one run each, or little more.
+    /// More than kMostBatches streams are one batch each, or little more.
     /// @param streams each of at least one element
     /// @return valid until the next call
-    std::span<const MediaRun> build(std::span<const DrawStream> streams);
+    std::span<const DrawBatch> build(std::span<const DrawStream> streams);
 
 private:
     struct Part
@@ -69,8 +70,8 @@ private:
     std::pmr::vector<uint32_t> byFar_;
     std::pmr::vector<uint32_t> begin_;
     std::pmr::vector<Part> parts_;
-    std::pmr::vector<MediaRun> runs_;
-    uint32_t lastStream_ = 0; ///< of runs_
+    std::pmr::vector<DrawBatch> batches_;
+    uint32_t lastStream_ = 0; ///< of batches_
 };
 
 } // namespace fx::render
