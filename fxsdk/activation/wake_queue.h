@@ -22,7 +22,7 @@ struct Sleeper
 class WakeQueue
 {
 public:
-    explicit WakeQueue(std::pmr::memory_resource* memory) : heap_(memory), places_(memory) {}
+    explicit WakeQueue(std::pmr::memory_resource* memory) : heap_(memory), slots_(memory) {}
 
     /// Makes sure that add() of keys up to `key` does not allocate up to a size of `count`.
     void reserve(uint32_t key, size_t count);
@@ -35,12 +35,12 @@ public:
     const Sleeper& earliest() const { return heap_.front(); } ///< not of an empty queue
 
 private:
-    void place(size_t at, const Sleeper& sleeper);
+    void put(size_t at, const Sleeper& sleeper);
     void rise(size_t at);
     void sink(size_t at);
 
     std::pmr::vector<Sleeper> heap_;
-    std::pmr::vector<uint32_t> places_; ///< by key: index in heap_
+    std::pmr::vector<uint32_t> slots_; ///< by key: index in heap_
 };
 
 } // namespace fx::activation

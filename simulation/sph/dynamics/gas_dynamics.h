@@ -113,7 +113,7 @@ struct AdvanceReport
 };
 
 /// What outer physics (drag, buoyancy, combustion) sees and may change between two calls of advance. Arrays
-/// are indexed by place, an order that changes with every advance; id[place] is the index with which the
+/// are indexed by slot, an order that changes with every advance; id[slot] is the index with which the
 /// particle was added. After writing, call edited().
 template <class T>
 struct GasView

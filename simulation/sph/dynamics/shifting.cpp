@@ -16,7 +16,7 @@ namespace fx::sim {
 namespace {
 
 constexpr double kRange = 1.15;      ///< [1] of the concentration, in spacings
-constexpr uint32_t kPairBatch = 128; ///< places of a task in loops over neighbors
+constexpr uint32_t kPairBatch = 128; ///< slots of a task in loops over neighbors
 constexpr uint32_t kRowBatch = 1024;
 
 /// Lists of all particles where they are, which the last evaluation usually leaves behind.
@@ -81,8 +81,8 @@ void shiftParticles(DynamicsState<T>& s, double strength, double longest, base::
     const CrowdingResults<T> sums{s.nowX.data(),    s.nowY.data(),        s.nowZ.data(),
                                   s.heating.data(), s.signalSpeed.data(), s.fastestNeighbor.data()};
     parallelRows(tasks, s.count, kPairBatch, [&](uint32_t begin, uint32_t end) {
-        const std::span<const uint32_t> places = s.active.first(s.count).subspan(begin, end - begin);
-        sumCrowding<T>({std::min(kRange * perSupport, 1.0), s.pairsOf(places), sums});
+        const std::span<const uint32_t> slots = s.active.first(s.count).subspan(begin, end - begin);
+        sumCrowding<T>({std::min(kRange * perSupport, 1.0), s.pairsOf(slots), sums});
         for (uint32_t i = begin; i < end; ++i) {
             const Vector shift = displacementOf(T(strength) * Vector(sums.x[i], sums.y[i], sums.z[i]),
                                                 Vector(sums.outwardX[i], sums.outwardY[i], sums.outwardZ[i]),

@@ -18,8 +18,8 @@ constexpr uint32_t kCrowdingSums = 6; ///< three of (1), three of (2)
 template <class T>
 struct CrowdedOwner
 {
-    CrowdedOwner(double reach, const GasRecord<T>& own, uint32_t place, const ImageRules<T>& images)
-        : owner(own, place, images), support(own.support), mass(own.mass), range(reach),
+    CrowdedOwner(double reach, const GasRecord<T>& own, uint32_t slot, const ImageRules<T>& images)
+        : owner(own, slot, images), support(own.support), mass(own.mass), range(reach),
           perSquare(Pack<T>(1.0) / (support * support))
     {}
     Owner<T> owner;
@@ -64,23 +64,23 @@ void addPiece(const CrowdedOwner<T>& owner, const GasRecord<T>* records, const u
 template <class T>
 void sumAll(const CrowdingCall<T>& call)
 {
-    const PairPlaces<T>& of = call.of;
+    const PairSlots<T>& of = call.of;
     const CrowdingResults<T>& out = call.results;
     const ImageRules<T> images(of.domain);
-    for (const uint32_t place : of.places) {
-        const CrowdedOwner<T> owner(call.range, of.records[place], place, images);
+    for (const uint32_t slot : of.slots) {
+        const CrowdedOwner<T> owner(call.range, of.records[slot], slot, images);
         LaneSums<T, kCrowdingSums> sums;
         sums.clear();
-        of.lists.forEachPiece(place, [&](const uint32_t* entries, uint32_t count, bool)
-                                         HWY_ATTR { addPiece(owner, of.records, entries, count, sums); });
+        of.lists.forEachPiece(slot, [&](const uint32_t* entries, uint32_t count, bool)
+                                        HWY_ATTR { addPiece(owner, of.records, entries, count, sums); });
         T total[kCrowdingSums];
         combineRows<kCrowdingSums>(sums, 0, total, Adding());
-        out.x[place] = total[0];
-        out.y[place] = total[1];
-        out.z[place] = total[2];
-        out.outwardX[place] = total[3];
-        out.outwardY[place] = total[4];
-        out.outwardZ[place] = total[5];
+        out.x[slot] = total[0];
+        out.y[slot] = total[1];
+        out.z[slot] = total[2];
+        out.outwardX[slot] = total[3];
+        out.outwardY[slot] = total[4];
+        out.outwardZ[slot] = total[5];
     }
 }
 

@@ -26,11 +26,11 @@
 /// @tests     tests/simulation/pair_loops/test_crowding_loop.cpp
 #pragma once
 
-#include "simulation/sph/pair_loops/pair_places.h"
+#include "simulation/sph/pair_loops/pair_slots.h"
 
 namespace fx::sim {
 
-/// Where results go: arrays indexed by place. [m]
+/// Where results go: arrays indexed by slot. [m]
 template <class T>
 struct CrowdingResults
 {
@@ -42,11 +42,11 @@ template <class T>
 struct CrowdingCall
 {
     double range; ///< [1] k in (0, 1]
-    PairPlaces<T> of;
+    PairSlots<T> of;
     const CrowdingResults<T>& results;
 };
 
-/// G and E of all places. Reads x, y, z, support and mass of the records; lists must hold all neighbors
+/// G and E of all slots. Reads x, y, z, support and mass of the records; lists must hold all neighbors
 /// within the larger support. Runs on the calling thread (the caller splits the work).
 template <class T>
 void sumCrowding(const CrowdingCall<T>& call);

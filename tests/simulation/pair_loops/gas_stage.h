@@ -170,7 +170,7 @@ public:
                            {at.ax.data(), at.ay.data(), at.az.data(), at.heating.data(),
                             at.signalSpeed.data(), at.fastestNeighbor.data(), at.pairs.data()}});
     }
-    sim::PairPlaces<T> pairs() const { return {lists_, records_.data(), domain_, places_}; }
+    sim::PairSlots<T> pairs() const { return {lists_, records_.data(), domain_, places_}; }
     template <class Results>
     Results sized() const
     {

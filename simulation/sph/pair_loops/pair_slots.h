@@ -1,4 +1,4 @@
-/// @file pair_places.h
+/// @file pair_slots.h
 /// What a loop over pairs reads: the particles that it makes sums for, their neighbors, and a record of each.
 #pragma once
 
@@ -32,12 +32,12 @@ struct alignas(16 * sizeof(T)) GasRecord
 static_assert(sizeof(GasRecord<float>) == 64 && sizeof(GasRecord<double>) == 128);
 
 template <class T>
-struct PairPlaces
+struct PairSlots
 {
     const NeighborLists<T>& lists;
-    const GasRecord<T>* records; ///< by place
+    const GasRecord<T>* records; ///< by slot
     const Domain& domain;
-    std::span<const uint32_t> places; ///< a part of the lists' owners
+    std::span<const uint32_t> slots; ///< a part of the lists' owners
 };
 
 } // namespace fx::sim
