@@ -62,15 +62,15 @@ public:
     }
 
     /// @return what is left out
-    uint64_t write(std::span<uint32_t> looks) const
+    uint64_t write(std::span<uint32_t> factors) const
     {
         if (isStrip(in_.shape))
-            return writeStrips(looks);
+            return writeStrips(factors);
         const float* radius = in_.rows->column(base::particle_column::Radius).data() + part_.first;
         uint32_t kept = 0;
         for (uint32_t i = 0; i < part_.count; ++i) {
-            looks[i] = radius[i] > 0.0f ? pack(birthRank(i), radius[i]) : 0u;
-            kept += looks[i] != 0 ? 1 : 0;
+            factors[i] = radius[i] > 0.0f ? pack(birthRank(i), radius[i]) : 0u;
+            kept += factors[i] != 0 ? 1 : 0;
         }
         return drawn_.pieces - kept;
     }
@@ -78,13 +78,13 @@ public:
 private:
     uint32_t pack(float rank, float radius) const
     {
-        const RowLook look = rowLook(level_, rank, radius * pixelsPerMetre_, in_.shape);
-        if (look.size * look.opacity == 0.0f)
+        const RowFactors factors = rowFactors(level_, rank, radius * pixelsPerMetre_, in_.shape);
+        if (factors.size * factors.opacity == 0.0f)
             return 0;
-        return glm::packHalf2x16({look.size, std::min(look.opacity, kMostOpacity)});
+        return glm::packHalf2x16({factors.size, std::min(factors.opacity, kMostOpacity)});
     }
 
-    uint64_t writeStrips(std::span<uint32_t> looks) const
+    uint64_t writeStrips(std::span<uint32_t> factors) const
     {
         const auto strips = in_.rows->column64(base::ribbon_column::Strip).subspan(part_.first, part_.count);
         const float* widths = in_.rows->column(base::ribbon_column::HalfWidth).data() + part_.first;
@@ -93,10 +93,10 @@ private:
             float widest = 0.0f;
             for (end = begin; end < part_.count && strips[end] == strips[begin]; ++end)
                 widest = std::max(widest, widths[end]);
-            const uint32_t look = pack(birthRank(strips[begin] & kStripNumber), widest);
+            const uint32_t packed = pack(birthRank(strips[begin] & kStripNumber), widest);
             for (uint32_t i = begin; i < end; ++i)
-                looks[i] = i + 1 < end ? look : 0u; // the last point begins no piece
-            kept += look != 0 ? end - begin - 1 : 0;
+                factors[i] = i + 1 < end ? packed : 0u; // the last point begins no piece
+            kept += packed != 0 ? end - begin - 1 : 0;
         }
         return drawn_.pieces - kept;
     }
@@ -118,7 +118,7 @@ base::Placement placeOf(const ThinningInputs& in, const RowPart& part)
 
 } // namespace
 
-RowLook rowLook(const LodLevel& level, float rank, float pixels, RowShape shape)
+RowFactors rowFactors(const LodLevel& level, float rank, float pixels, RowShape shape)
 {
     if (level.ramp.isAll())
         return {1.0f, 1.0f};
@@ -130,15 +130,15 @@ RowLook rowLook(const LodLevel& level, float rank, float pixels, RowShape shape)
             : 1.0f;
     if (isStrip(shape)) {
         const float size = std::min(1.0f / mean, most);
-        return shape == RowShape::Strip ? RowLook{size, weight / (mean * size)} // (3)
-                                        : RowLook{size * weight, 1.0f};         // (4)
+        return shape == RowShape::Strip ? RowFactors{size, weight / (mean * size)} // (3)
+                                        : RowFactors{size * weight, 1.0f};         // (4)
     }
     const float size = std::min(1.0f / std::sqrt(mean), most);
-    return shape == RowShape::Card ? RowLook{size, weight / (mean * size * size)} // (3)
-                                   : RowLook{size * std::sqrt(weight), 1.0f};     // (4)
+    return shape == RowShape::Card ? RowFactors{size, weight / (mean * size * size)} // (3)
+                                   : RowFactors{size * std::sqrt(weight), 1.0f};     // (4)
 }
 
-bool thinRows(const ThinningInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outLooks,
+bool thinRows(const ThinningInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outFactors,
               uint64_t& ioLeftOut)
 {
     const RowPart whole{in.rows->info(), 0, in.rows->count()};
@@ -149,12 +149,12 @@ bool thinRows(const ThinningInputs& in, LevelOfDetail& lod, std::pmr::vector<uin
         PartThinning thinning(in, part, place);
         const bool changes = thinning.choose(lod, place);
         if (changes && !isChanged) {
-            outLooks.resize(in.rows->count());
-            std::fill_n(outLooks.begin(), part.first, glm::packHalf2x16({1.0f, 1.0f})); // nothing so far
+            outFactors.resize(in.rows->count());
+            std::fill_n(outFactors.begin(), part.first, glm::packHalf2x16({1.0f, 1.0f})); // nothing so far
             isChanged = true;
         }
         if (isChanged)
-            ioLeftOut += thinning.write(std::span(outLooks).subspan(part.first, part.count));
+            ioLeftOut += thinning.write(std::span(outFactors).subspan(part.first, part.count));
     }
     return isChanged;
 }

@@ -43,7 +43,7 @@ enum class RowShape : uint8_t
 };
 
 /// By how much a row is larger, and its opacity more, than without a level of detail.
-struct RowLook
+struct RowFactors
 {
     float size;    ///< [1] factor of the radius, or of the half width of a strip
     float opacity; ///< [1] factor
@@ -77,7 +77,7 @@ struct RowLook
 /// @valid     particles without order among each other; additive ones keep their light exactly, on average
 /// @accuracy  factors are rounded to binary16 for drawing: at most 2^-11 of their value
 /// @tests     tests/rendering/view/test_row_thinning.cpp tests/rendering/view/test_thinned_particles.cpp
-RowLook rowLook(const LodLevel& level, float rank, float pixels, RowShape shape);
+RowFactors rowFactors(const LodLevel& level, float rank, float pixels, RowShape shape);
 
 struct ThinningInputs
 {
@@ -90,11 +90,11 @@ struct ThinningInputs
 };
 
 /// Looks at every row.
-/// @param outLooks by row: two binary16 numbers, size in the lower half and opacity; 0: it is not drawn.
+/// @param outFactors by row: two binary16 numbers, size in the lower half and opacity; 0: it is not drawn.
 ///                 Untouched when everything is drawn as it is
 /// @param ioLeftOut grows by the particles, or pieces of strips, that are left to others
 /// @return whether anything is left out or changed
-bool thinRows(const ThinningInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outLooks,
+bool thinRows(const ThinningInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outFactors,
               uint64_t& ioLeftOut);
 
 } // namespace fx::render

@@ -46,21 +46,22 @@ base::Status ensure(GlDevice& device, GlMappedBuffer& buffer, uint64_t bytes, co
 /// What tells which rows are drawn, and how.
 size_t orderBytes(const ParticleGroup& group)
 {
-    const size_t words = group.orderForm == OrderForm::RowLooks ? group.looks.size() : group.order.size();
-    return words * (group.orderForm == OrderForm::LooksBeside ? 8 : 4);
+    const size_t words =
+        group.orderForm == OrderForm::RowFactorsOnly ? group.factors.size() : group.order.size();
+    return words * (group.orderForm == OrderForm::FactorsBeside ? 8 : 4);
 }
 
 void writeOrder(const ParticleGroup& group, uint32_t* out)
 {
     switch (group.orderForm) {
-    case OrderForm::LooksBeside:
+    case OrderForm::FactorsBeside:
         for (const uint32_t row : group.order) {
             *out++ = row;
-            *out++ = group.looks[row];
+            *out++ = group.factors[row];
         }
         break;
-    case OrderForm::RowLooks:
-        std::memcpy(out, group.looks.data(), group.looks.size_bytes());
+    case OrderForm::RowFactorsOnly:
+        std::memcpy(out, group.factors.data(), group.factors.size_bytes());
         break;
     default:
         std::memcpy(out, group.order.data(), group.order.size_bytes());

@@ -25,10 +25,10 @@ namespace fx::render {
 /// How what is uploaded tells which rows are drawn; the shaders know the numbers.
 enum class OrderForm : uint8_t
 {
-    All,         ///< nothing is: all rows, as they are
-    Rows,        ///< a word each
-    LooksBeside, ///< a row and its look, two words
-    RowLooks,    ///< no rows, but the look of each
+    All,            ///< nothing is: all rows, as they are
+    Rows,           ///< a word each
+    FactorsBeside,  ///< a row and its factors, two words
+    RowFactorsOnly, ///< no rows, but the factors of each
 };
 
 /// A group that is drawn, beside the batch of the same index.
@@ -36,12 +36,12 @@ struct ParticleGroup
 {
     const RowTechnique* technique;
     const base::SnapshotGroup* newer;
-    const base::SnapshotGroup* older; ///< null: none, or of a strip
-    size_t newerIndex, olderIndex;    ///< in their snapshots
-    std::span<const uint32_t> order;  ///< rows as they are drawn; empty: all as they are
-    std::span<const uint32_t> looks;  ///< by row, see thinRows(); empty: nothing is thinned out
-    uint32_t texture, motion, mesh;   ///< ids in the asset table
-    int columns, rows;                ///< frames of the texture
+    const base::SnapshotGroup* older;  ///< null: none, or of a strip
+    size_t newerIndex, olderIndex;     ///< in their snapshots
+    std::span<const uint32_t> order;   ///< rows as they are drawn; empty: all as they are
+    std::span<const uint32_t> factors; ///< by row, see thinRows(); empty: nothing is thinned out
+    uint32_t texture, motion, mesh;    ///< ids in the asset table
+    int columns, rows;                 ///< frames of the texture
     OrderForm orderForm = OrderForm::All;
 };
 

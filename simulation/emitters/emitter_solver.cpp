@@ -82,7 +82,7 @@ uint64_t EmitterSolver::bytesOf(const EmitterDef& def, const ParticleProgram& pr
         bytes += RibbonStore::bytesOf(def.trail, def.maxParticles);
     if (def.light.given)
         bytes += rows * sizeof(Light);
-    if (def.look.kind == Appearance::Medium)
+    if (def.appearance.kind == AppearanceKind::Medium)
         bytes += rows * sizeof(uint32_t);
     return bytes;
 }
@@ -100,7 +100,8 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
       rowsByBirth_(memory), stepWork_(sim::stepWork(program_))
 {
     const bool isSmall = store_.capacity() <= kFewRows && !program_.gpu;
-    const bool isDrawn = def.look.kind == Appearance::Sprite || def.look.kind == Appearance::Mesh;
+    const bool isDrawn =
+        def.appearance.kind == AppearanceKind::Sprite || def.appearance.kind == AppearanceKind::Mesh;
     bornWithMany_ =
         isSmall && program_.ballistic && !def.inWorld && !isLinked() && !(def.trail.lifetime > 0.0f);
     publishesWithMany_ = isSmall && isDrawn && !def.inWorld && kinds.particle != base::kNoKind &&
@@ -113,7 +114,7 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
         space_.emplace();
     if (def.light.given)
         lights_.resize(store_.capacity());
-    if (def.look.kind == Appearance::Medium)
+    if (def.appearance.kind == AppearanceKind::Medium)
         rowsByBirth_.resize(store_.capacity());
     if (program_.gpu && kinds.gpuParticle != base::kNoKind)
         schedule_.setLog(&gpu_.emplace(program_, memory).log());
@@ -149,7 +150,7 @@ void EmitterSolver::heedConditions(const StepContext& context)
     if (gpu_)
         gpu_->setPull(now_, conditions.pull);
     if (!gpu_ || !gpu_->isOn())
-        restartMotion(lookJob(), store_);
+        restartMotion(appearanceJob(), store_);
     store_.placed = true;
     motionBegin_ = now_;
     conditions_ = conditions;
@@ -189,7 +190,7 @@ bool EmitterSolver::goOnHere(const StepContext& context, base::WorkBudget& work)
         open_.part = StepPart::Follow;
         open_.row = 0;
     }
-    if (trails_ && !trails_->follow(lookJob(), {context.tick, now_}, open_.row, work))
+    if (trails_ && !trails_->follow(appearanceJob(), {context.tick, now_}, open_.row, work))
         return false;
     closeStep(context);
     return true;

@@ -131,7 +131,7 @@ bool GpuEmitter::isEmpty(const BirthKey& key, base::Ticks now) const
     return log_.empty() || lastDeath(key) < now;
 }
 
-LookJob GpuEmitter::rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const
+AppearanceJob GpuEmitter::rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const
 {
     ReplayInput in{
         key,         log_.front(),
@@ -228,7 +228,7 @@ void GpuEmitter::publish(const base::GroupInfo& base, base::KindId kind, const B
     stepLog_.publish(now, steps);
     put(at, std::span<const base::GpuStepRun>(steps).first(moment.stepRuns));
     group.setProgram(program_.gpu);
-    writeConstants(program_.def, program_.def.look, 1.0f, group.editConstants());
+    writeConstants(program_.def, program_.def.appearance, 1.0f, group.editConstants());
     base::GroupInfo& info = group.editInfo();
     info = base;
     info.kind = kind;

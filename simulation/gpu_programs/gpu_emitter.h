@@ -61,7 +61,7 @@ public:
     bool isEmpty(const BirthKey& key, base::Ticks now) const;
 
     /// The rows at `now`. @param store is filled; its `placed` is kept
-    LookJob rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const;
+    AppearanceJob rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const;
     /// Adds a group of the kind "gpuParticle".
     void publish(const base::GroupInfo& base, base::KindId kind, const BirthKey& key, base::Ticks now,
                  base::FrameSnapshot& snapshot) const;

@@ -104,15 +104,15 @@ public:
         numbers = gpuNumbersOf(def_, program_);
         features.shape = gpuShapeOf(def_);
         features.turned = numbers.axis[1] != 1.0f;
-        features.frames = def_.look.frames == FrameClock::OverLife    ? base::GpuFrames::OverLife
-                          : def_.look.frames == FrameClock::PerSecond ? base::GpuFrames::PerSecond
-                                                                      : base::GpuFrames::First;
+        features.frames = def_.appearance.frames == FrameClock::OverLife    ? base::GpuFrames::OverLife
+                          : def_.appearance.frames == FrameClock::PerSecond ? base::GpuFrames::PerSecond
+                                                                            : base::GpuFrames::First;
         features.brief = program_.brief;
         features.lifeVaries = program_.stores[stored::PerLife];
         features.drags = numbers.drag > 0.0f;
         features.bySpeed = program_.bySpeed != nullptr;
         features.wide = def_.births != nullptr;
-        features.lifeTable = program_.looks.byTable;
+        features.lifeTable = program_.byLife.byTable;
         features.speedTable = features.bySpeed && program_.bySpeed->byTable;
         features.columns = program_.published;
         if (!program_.ballistic)
@@ -205,9 +205,9 @@ std::string_view gpuObstacle(const EmitterSettings& def)
         return "its preset does not ask for the GPU";
     if (def.compute == ComputeOn::Auto && def.maxParticles < kManyParticles)
         return "it has too few particles to be worth it";
-    if (def.look.kind == Appearance::Medium)
+    if (def.appearance.kind == AppearanceKind::Medium)
         return "media are lit on the CPU";
-    if (def.look.kind == Appearance::None)
+    if (def.appearance.kind == AppearanceKind::None)
         return "it is not drawn";
     if (def.fed || !def.events.empty())
         return "it takes part in events";

@@ -156,7 +156,7 @@ TEST(EmitterAdvice, whatTheGpuCannotComputeIsToldWithTheReason)
 {
     sim::EmitterDef any;
     any.compute = sim::ComputeOn::Gpu;
-    any.look.kind = sim::Appearance::Sprite;
+    any.appearance.kind = sim::AppearanceKind::Sprite;
     if (!sim::gpuObstacle(any).empty())
         GTEST_SKIP() << "this build computes no particles on the GPU";
     const std::vector<Diagnostic> found = warningsOf(R"("compute":"gpu","appearance":{"kind":"medium"})");

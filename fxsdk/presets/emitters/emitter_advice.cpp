@@ -92,7 +92,7 @@ void adviseCompute(const PresetValue& element, const sim::EmitterDef& emitter)
 {
     sim::EmitterDef any;
     any.compute = sim::ComputeOn::Gpu;
-    any.look.kind = sim::Appearance::Sprite;
+    any.appearance.kind = sim::AppearanceKind::Sprite;
     const bool canAny = sim::gpuObstacle(any).empty(); // this build at all
     const std::string_view why = sim::gpuObstacle(emitter);
     if (canAny && emitter.compute == sim::ComputeOn::Gpu && !why.empty())
@@ -141,11 +141,11 @@ void adviseEmitters(const PresetValue& root, const sim::EffectDef& effect)
         const sim::EmitterDef& emitter = *emitters[i];
         adviseForces(element, effect.hasGround);
         adviseShape(element);
-        adviseLook(element, emitter);
+        adviseAppearance(element, emitter);
         adviseEvents(element, emitter);
         adviseCompute(element, emitter);
-        if (emitter.look.kind == sim::Appearance::None && emitter.events.empty() && !emitter.light.given &&
-            !(emitter.trail.lifetime > 0.0f) && !meets(element, "hook"))
+        if (emitter.appearance.kind == sim::AppearanceKind::None && emitter.events.empty() &&
+            !emitter.light.given && !(emitter.trail.lifetime > 0.0f) && !meets(element, "hook"))
             element.child("appearance")
                 .warning("kind",
                          "found \"none\" without a trail, a light or events: nothing of this emitter is "

@@ -11,7 +11,7 @@ namespace fx::preset {
 // Parts of adviseEmitters(), each for one emitter.
 void adviseForces(const PresetValue& element, bool hasGround);
 void adviseShape(const PresetValue& element);
-void adviseLook(const PresetValue& element, const sim::EmitterDef& emitter);
+void adviseAppearance(const PresetValue& element, const sim::EmitterDef& emitter);
 
 /// What does not fit: emitters whose particles, those that events give birth to included, exceed their
 /// capacity, and memory above 1 GiB.

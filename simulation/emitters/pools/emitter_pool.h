@@ -38,7 +38,7 @@ struct PoolEntry
 class EmitterPool
 {
 public:
-    /// @param pull [m/s2] of all members, see LookJob
+    /// @param pull [m/s2] of all members, see AppearanceJob
     /// @param revision goes up with each member that comes or goes
     EmitterPool(std::shared_ptr<const ParticleProgram> program, const glm::vec3& pull, uint64_t& revision,
                 std::pmr::memory_resource* memory);

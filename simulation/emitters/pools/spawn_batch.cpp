@@ -108,19 +108,19 @@ uint64_t SpawnBatch::endPublication()
 
 void SpawnBatch::writeParts()
 {
-    const auto parts = std::span<LookPart>(parts_).first(partCount_);
+    const auto parts = std::span<AppearancePart>(parts_).first(partCount_);
     size_t bytes = 0;
-    for (const LookPart& part : parts) {
+    for (const AppearancePart& part : parts) {
         bytes += part.job.rows.count * bytesMoved(*part.job.program);
         rows_ += part.job.rows.count;
     }
     if (bytes <= kBytesOfATask)
-        writeManyLooks(parts);
+        writeManyAppearances(parts);
     else
         parallelRows(
             *tasks_, uint32_t(parts.size()), uint32_t(kBytesOfATask * parts.size() / bytes) + 1,
-            [&](uint32_t begin, uint32_t end) { writeManyLooks(parts.subspan(begin, end - begin)); });
-    for (LookPart& part : parts) {
+            [&](uint32_t begin, uint32_t end) { writeManyAppearances(parts.subspan(begin, end - begin)); });
+    for (AppearancePart& part : parts) {
         part.bounds.radius *= part.job.program->corner;
         snapshot_->editGroup(part.group).editInfo().bounds = part.bounds.box();
     }

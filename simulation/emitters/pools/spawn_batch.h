@@ -5,8 +5,8 @@
 #pragma once
 
 #include "simulation/emitters/pools/pooled_emitter.h"
+#include "simulation/particles/appearance_kernel.h"
 #include "simulation/particles/birth_kernel.h"
-#include "simulation/particles/look_kernel.h"
 
 #include <array>
 #include <memory_resource>
@@ -37,11 +37,11 @@ public:
     // ---- a publication ----
     void beginPublication(base::FrameSnapshot& snapshot, base::TaskRunner* tasks);
     /// The columns of the last group of the snapshot are to be filled, and its bounds. @return what from
-    LookJob& add(base::SnapshotGroup& group)
+    AppearanceJob& add(base::SnapshotGroup& group)
     {
         if (partCount_ == kMostParts)
             writeParts();
-        LookPart& part = parts_[partCount_++];
+        AppearancePart& part = parts_[partCount_++];
         part.storage = group.editStorage();
         part.group = snapshot_->groupCount() - 1;
         return part.job;
@@ -69,7 +69,7 @@ private:
     StepCounters* counters_ = nullptr;
 
     static constexpr size_t kMostParts = 64; ///< with what they read they stay in the caches near the core
-    std::array<LookPart, kMostParts> parts_;
+    std::array<AppearancePart, kMostParts> parts_;
     size_t partCount_ = 0;
     uint64_t rows_ = 0; ///< of the publication
     base::FrameSnapshot* snapshot_ = nullptr;

@@ -75,19 +75,20 @@ float share(float factor, float of)
 /// [m] from a particle's place to the farthest of what is drawn of it.
 float drawnOf(const EmitterSettings& def, float fastest)
 {
-    const EmitterLook& look = def.look;
+    const EmitterAppearance& appearance = def.appearance;
     float drawn = peakOf(def.sizeOverLife) * def.radius.max;
-    if (look.kind == Appearance::Medium)
+    if (appearance.kind == AppearanceKind::Medium)
         drawn += share(def.shutter, fastest);
-    if (look.fastest > 0.0f)
-        drawn *= std::max(peakOf(look.sizeOverSpeed), 1e-4f);
-    if (look.kind == Appearance::Mesh)
-        drawn *= look.meshReach;
-    if (look.kind == Appearance::Sprite)
-        drawn =
-            std::sqrt(1.0f + look.aspect * look.aspect) * drawn +
-            (look.alignment == base::SpriteAlignment::Velocity ? share(0.5f * look.stretch, fastest) : 0.0f);
-    if (look.kind == Appearance::None)
+    if (appearance.fastest > 0.0f)
+        drawn *= std::max(peakOf(appearance.sizeOverSpeed), 1e-4f);
+    if (appearance.kind == AppearanceKind::Mesh)
+        drawn *= appearance.meshReach;
+    if (appearance.kind == AppearanceKind::Sprite)
+        drawn = std::sqrt(1.0f + appearance.aspect * appearance.aspect) * drawn +
+                (appearance.alignment == base::SpriteAlignment::Velocity
+                     ? share(0.5f * appearance.stretch, fastest)
+                     : 0.0f);
+    if (appearance.kind == AppearanceKind::None)
         drawn = 0.0f;
     if (def.trail.lifetime > 0.0f)
         drawn = std::max(drawn, 0.5f * def.trail.width * peakOf(def.trail.widthAlong));
@@ -119,7 +120,7 @@ base::Bounds ballOf(const EmitterSettings& def, const FlightBound& bound, const 
                     float secondsBack)
 {
     float reach = reachOf(def, conditions, {}, {});
-    if (def.look.alignment == base::SpriteAlignment::Velocity || def.look.stretch > 0.0f) {
+    if (def.appearance.alignment == base::SpriteAlignment::Velocity || def.appearance.stretch > 0.0f) {
         // Particles born since the snapshot before are drawn on the tangent of their path.
         const float back = std::min(float(bound.seconds), secondsBack), fastest = fastestOf(bound);
         const float grown = float(bound.acceleration + bound.drag * (double(fastest) + bound.air));
@@ -154,7 +155,7 @@ base::Bounds boundsOfStepped(const EmitterSettings& def, const StepWeather& weat
         box.max.y = isSteady ? std::max(box.max.y, weather.highGround + drawn) : ball.max.y;
         const float shapes = def.births ? def.births->extent() : glm::length(def.size);
         const float lowest = std::min(weather.lowGround, def.position.y - shapes) - drawn;
-        if (!(def.look.stretch > 0.0f) && def.look.alignment != base::SpriteAlignment::Velocity)
+        if (!(def.appearance.stretch > 0.0f) && def.appearance.alignment != base::SpriteAlignment::Velocity)
             box.min.y = std::max(box.min.y, lowest);
     }
     box.min = glm::max(box.min, ball.min);

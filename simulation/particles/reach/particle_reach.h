@@ -3,8 +3,8 @@
 #pragma once
 
 #include "foundation/math/geometry.h"
+#include "simulation/particles/appearance_kernel.h"
 #include "simulation/particles/emitter_settings.h"
-#include "simulation/particles/look_kernel.h"
 #include "simulation/solver/solver.h"
 
 #include <glm/vec3.hpp>
@@ -27,7 +27,7 @@ base::Bounds boundsOfAll(const EmitterSettings& def, const glm::vec3& low, const
 struct StepWeather
 {
     ReachConditions strongest; ///< and how long that is
-    glm::vec3 low{0.0f};       ///< [m/s2] between these were the pulls of gravity and wind, see LookJob
+    glm::vec3 low{0.0f};       ///< [m/s2] between these were the pulls of gravity and wind, see AppearanceJob
     glm::vec3 high{0.0f};
     float lowGround = 0.0f; ///< [m] between these was the ground plane, -infinity for none
     float highGround = 0.0f;

@@ -36,9 +36,10 @@ double meanCover(const render::LodLevel& level, RowShape shape, float pixels = 1
     constexpr int kRanks = 1 << 16;
     double sum = 0.0;
     for (int i = 0; i < kRanks; ++i) {
-        const render::RowLook look = render::rowLook(level, (float(i) + 0.5f) / float(kRanks), pixels, shape);
-        const double size = double(look.size);
-        sum += (isStrip ? size : size * size) * double(look.opacity);
+        const render::RowFactors factors =
+            render::rowFactors(level, (float(i) + 0.5f) / float(kRanks), pixels, shape);
+        const double size = double(factors.size);
+        sum += (isStrip ? size : size * size) * double(factors.opacity);
     }
     return sum / kRanks;
 }
@@ -93,48 +94,50 @@ protected:
         base::Placement place;
         place.position = {0, 0, -distance};
         leftOut_ = 0;
-        return render::thinRows({&group, parts, place, shape, &camera, 659.0f}, lod_, looks_, leftOut_);
+        return render::thinRows({&group, parts, place, shape, &camera, 659.0f}, lod_, factors_, leftOut_);
     }
-    size_t kept() const { return looks_.size() - size_t(std::count(looks_.begin(), looks_.end(), 0u)); }
+    size_t kept() const { return factors_.size() - size_t(std::count(factors_.begin(), factors_.end(), 0u)); }
 
     base::SnapshotSchema schema_;
     base::KindId particles_ = 0, ribbons_ = 0;
     render::LevelOfDetail lod_{std::pmr::get_default_resource()};
-    std::pmr::vector<uint32_t> looks_;
+    std::pmr::vector<uint32_t> factors_;
     uint64_t leftOut_ = 0;
 };
 
 } // namespace
 
-TEST(RowLook, coverIsKeptOnAverageForAllShapes)
+TEST(RowFactors, coverIsKeptOnAverageForAllShapes)
 {
     for (const float share : {0.01f, 0.1f, 0.5f, 0.9f, 1.2f})
         for (const RowShape shape : {RowShape::Card, RowShape::Body, RowShape::Strip, RowShape::SolidStrip})
             EXPECT_NEAR(meanCover(levelOf(share), shape), 1.0, 1e-3) << share << " " << int(shape);
 }
 
-TEST(RowLook, whereGrowthIsLimitedOpacityMakesUpForIt)
+TEST(RowFactors, whereGrowthIsLimitedOpacityMakesUpForIt)
 {
     for (const float grown : {0.5f, 1.0f, 2.0f, 5.0f})
         for (const RowShape shape : {RowShape::Card, RowShape::Strip})
             EXPECT_NEAR(meanCover(levelOf(0.05f, grown), shape), 1.0, 1e-3) << grown << " " << int(shape);
     EXPECT_LT(meanCover(levelOf(0.05f, 2.0f), RowShape::Body), 0.5) << "what hides cannot";
-    const render::RowLook look = render::rowLook(levelOf(0.05f, 2.0f), 0.0f, 1.0f, RowShape::Card);
-    EXPECT_EQ(look.size, 2.0f) << "the limit";
-    EXPECT_EQ(render::rowLook(levelOf(0.05f, 2.0f), 0.0f, 3.0f, RowShape::Card).size, 1.0f)
+    const render::RowFactors factors = render::rowFactors(levelOf(0.05f, 2.0f), 0.0f, 1.0f, RowShape::Card);
+    EXPECT_EQ(factors.size, 2.0f) << "the limit";
+    EXPECT_EQ(render::rowFactors(levelOf(0.05f, 2.0f), 0.0f, 3.0f, RowShape::Card).size, 1.0f)
         << "what is larger than the limit does not grow";
 }
 
-TEST(RowLook, whatHasGoneStaysAwayWhileTheShareFallsAndFadesBefore)
+TEST(RowFactors, whatHasGoneStaysAwayWhileTheShareFallsAndFadesBefore)
 {
     for (const RowShape shape : {RowShape::Card, RowShape::Body, RowShape::Strip})
         for (float rank = 0.005f; rank < 1.0f; rank += 0.01f) {
             double before = 1.0;
             for (float share = LodRamp::kAll; share > 0.02f; share *= 0.98f) {
                 const render::LodLevel level = levelOf(share);
-                const render::RowLook look = render::rowLook(level, rank, 1.0f, shape);
-                const double area = double(shape == RowShape::Strip ? look.size : look.size * look.size);
-                const double cover = area * double(look.opacity * level.ramp.mean()); // one that is sure: 1
+                const render::RowFactors factors = render::rowFactors(level, rank, 1.0f, shape);
+                const double area =
+                    double(shape == RowShape::Strip ? factors.size : factors.size * factors.size);
+                const double cover =
+                    area * double(factors.opacity * level.ramp.mean()); // one that is sure: 1
                 ASSERT_LT(before - cover, 0.05) << "it fades, it does not jump";
                 ASSERT_LT(cover - before, 1e-4) << "and does not come back";
                 before = cover;
@@ -143,7 +146,7 @@ TEST(RowLook, whatHasGoneStaysAwayWhileTheShareFallsAndFadesBefore)
 }
 
 /// Rays through cards that are strewn at random: mean and variance of the light that passes.
-TEST(RowLook, theKeptOnesLetAsMuchLightPassAsAllInMeanAndInVariance)
+TEST(RowFactors, theKeptOnesLetAsMuchLightPassAsAllInMeanAndInVariance)
 {
     constexpr int kCards = 60'000;
     constexpr double kSide = 60.0, kHalf = 0.15, kOpacity = 0.3;
@@ -156,16 +159,16 @@ TEST(RowLook, theKeptOnesLetAsMuchLightPassAsAllInMeanAndInVariance)
         constexpr int kRays = 300; // along each side
         std::vector<double> passes(size_t(kRays) * kRays, 1.0);
         for (size_t i = 0; i < centers.size(); ++i) {
-            render::RowLook look =
-                render::rowLook(levelOf(share), render::birthRank(i), 1.0f, RowShape::Card);
+            render::RowFactors factors =
+                render::rowFactors(levelOf(share), render::birthRank(i), 1.0f, RowShape::Card);
             if (!compensates)
-                look = {1.0f, look.opacity > 0.0f ? 1.0f : 0.0f};
-            const double half = kHalf * double(look.size), step = kSide / kRays;
+                factors = {1.0f, factors.opacity > 0.0f ? 1.0f : 0.0f};
+            const double half = kHalf * double(factors.size), step = kSide / kRays;
             const auto [x, y] = centers[i];
             for (int a = int(std::ceil((x - half) / step - 0.5)); (a + 0.5) * step < x + half; ++a)
                 for (int b = int(std::ceil((y - half) / step - 0.5)); (b + 0.5) * step < y + half; ++b)
                     passes[size_t((b + kRays) % kRays) * kRays + size_t((a + kRays) % kRays)] *=
-                        1.0 - kOpacity * double(look.opacity);
+                        1.0 - kOpacity * double(factors.opacity);
         }
         double mean = 0.0, square = 0.0;
         for (const double t : passes) {
@@ -211,12 +214,12 @@ TEST_F(RowThinning, keepsPartOfWhatItKeepsFromNearer)
     base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
     const auto& group = addRows(snapshot, 3000);
     ASSERT_TRUE(thin(group, 4.0f, RowShape::Card, 60.0f));
-    auto before = looks_;
+    auto before = factors_;
     for (float distance = 70.0f; distance < 600.0f; distance *= 1.1f) {
         ASSERT_TRUE(thin(group, 4.0f, RowShape::Card, distance));
-        for (size_t i = 0; i < looks_.size(); ++i)
-            ASSERT_FALSE(before[i] == 0 && looks_[i] != 0) << i;
-        before = looks_;
+        for (size_t i = 0; i < factors_.size(); ++i)
+            ASSERT_FALSE(before[i] == 0 && factors_[i] != 0) << i;
+        before = factors_;
     }
 }
 
@@ -225,22 +228,22 @@ TEST_F(RowThinning, anEffectKeepsTheSameRowsWhoeverItIsMergedWith)
     base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
     const auto& alone = addRows(snapshot, 600);
     ASSERT_TRUE(thin(alone, 16.0f, RowShape::Card));
-    const auto wanted = looks_;
+    const auto wanted = factors_;
     auto& merged = addRows(snapshot, 1900);
     std::vector<render::RowPart> parts{{ball(2, 1300), 0, 1300}, {ball(1, 600), 1300, 600}};
     parts[0].info.placement.position = {0, 0, -2.0}; // so near that all of it is drawn
     parts[1].info.placement.position = {0, 0, -100.0};
     ASSERT_TRUE(thin(merged, 16.0f, RowShape::Card, 0.0f, parts));
     const uint32_t unchanged = glm::packHalf2x16({1.0f, 1.0f});
-    EXPECT_EQ(std::count(looks_.begin(), looks_.begin() + 1300, unchanged), 1300);
-    EXPECT_TRUE(std::equal(wanted.begin(), wanted.end(), looks_.begin() + 1300));
+    EXPECT_EQ(std::count(factors_.begin(), factors_.begin() + 1300, unchanged), 1300);
+    EXPECT_TRUE(std::equal(wanted.begin(), wanted.end(), factors_.begin() + 1300));
 }
 
 TEST_F(RowThinning, aStripStaysOrGoesAsAWholeWhereverItsRowsAre)
 {
     base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
     ASSERT_TRUE(thin(addStrips(snapshot, 100, 200), 16.0f, RowShape::Strip));
-    const auto before = looks_;
+    const auto before = factors_;
     for (size_t i = 0; i < before.size(); ++i) {
         EXPECT_EQ(before[i], i % 5 == 4 ? 0u : before[i / 5 * 5]) << i;
         EXPECT_TRUE(i % 5 == 4 || before[i] == 0 || kept() > 0);
@@ -248,5 +251,6 @@ TEST_F(RowThinning, aStripStaysOrGoesAsAWholeWhereverItsRowsAre)
     EXPECT_EQ(kept() + leftOut_, 800u);
     ASSERT_TRUE(thin(addStrips(snapshot, 90, 200, uint64_t(9) << 40), 16.0f, RowShape::Strip));
     for (size_t i = 0; i + 50 < before.size(); ++i)
-        ASSERT_EQ(looks_[i + 50], before[i]) << "ten older strips more, and another number in a merged group";
+        ASSERT_EQ(factors_[i + 50], before[i])
+            << "ten older strips more, and another number in a merged group";
 }

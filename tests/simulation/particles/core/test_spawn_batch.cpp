@@ -21,14 +21,14 @@ std::vector<std::shared_ptr<const sim::EffectDef>> smallEffects()
     }
     defs[1]->shape = sim::EmitterShape::Point; // no places, one lifetime: the fused kernel
     defs[1]->lifetime = {2.0f, 2.0f};
-    defs[1]->look.spin = {0.0f, 0.0f};
-    defs[2]->look.kind = sim::Appearance::Mesh;
+    defs[1]->appearance.spin = {0.0f, 0.0f};
+    defs[2]->appearance.kind = sim::AppearanceKind::Mesh;
     defs[2]->lifetime = {0.5f, 5.0f};
     defs[2]->emission.bursts = {{0.3f, 8, 5, 0.7f, 0.6f}};
     defs[2]->maxParticles = 9; // some find no row
     defs[3]->forces.curlStrength = 1.0f;
-    defs[4]->look.kind = sim::Appearance::Medium;
-    defs[5]->look.alignment = base::SpriteAlignment::Velocity;
+    defs[4]->appearance.kind = sim::AppearanceKind::Medium;
+    defs[5]->appearance.alignment = base::SpriteAlignment::Velocity;
     std::vector<std::shared_ptr<const sim::EffectDef>> effects;
     for (auto& def : defs) {
         auto effect = std::make_shared<sim::EffectDef>();

@@ -1,4 +1,4 @@
-/// @file look_kernel.h
+/// @file appearance_kernel.h
 /// From the state of particles to what is seen of them: one pass over memory, written where it is published.
 ///
 /// @formula ballistic-motion
@@ -37,7 +37,7 @@ constexpr float kLongestStep = 1.0f; ///< [s] between two snapshots
 constexpr float kFarAway = std::numeric_limits<float>::infinity();
 
 /// What all particles of an emitter have in common when they are looked at.
-struct LookJob
+struct AppearanceJob
 {
     const ParticleProgram* program;
     const ParticleStore* store;
@@ -49,7 +49,7 @@ struct LookJob
 };
 
 /// Columns of a group of the kind "particle"; null where it has none.
-struct LookColumns
+struct AppearanceColumns
 {
     float* x;
     float* y;
@@ -66,32 +66,33 @@ struct LookColumns
 };
 
 /// Box around the centers, and the largest half height of what is drawn there.
-struct LookBounds
+struct AppearanceBounds
 {
     glm::vec3 low{kFarAway};
     glm::vec3 high{-kFarAway};
     float radius = 0;
 
-    void add(const LookBounds& other);
+    void add(const AppearanceBounds& other);
     base::Bounds box() const;
 };
 
 /// Writes the rows [begin, end); begin is a multiple of kTilePadding, end too or the window's count. Empty
 /// rows are zero throughout.
-LookBounds writeLooks(const LookJob& job, const LookColumns& out, uint32_t begin, uint32_t end);
+AppearanceBounds writeAppearance(const AppearanceJob& job, const AppearanceColumns& out, uint32_t begin,
+                                 uint32_t end);
 
 /// One of many groups that are written together.
-struct LookPart
+struct AppearancePart
 {
-    LookJob job;
+    AppearanceJob job;
     float* storage; ///< see base::SnapshotGroup::editStorage(); columns are those that the program publishes
     size_t group;   ///< of the snapshot
-    LookBounds bounds; ///< out
+    AppearanceBounds bounds; ///< out
 };
 
-/// The same as writeLooks() for all rows of each part, bit for bit; much cheaper where parts are small. Parts
-/// of one program that follow each other share the most.
-void writeManyLooks(std::span<LookPart> parts);
+/// The same as writeAppearance() for all rows of each part, bit for bit; much cheaper where parts are small.
+/// Parts of one program that follow each other share the most.
+void writeManyAppearances(std::span<AppearancePart> parts);
 
 /// Where particles are and how they move, for rows that are read one by one.
 struct alignas(64) MotionTile
@@ -103,6 +104,6 @@ struct alignas(64) MotionTile
 };
 
 /// Fills the first `count` rows from those that begin at `row`, a multiple of kTilePadding.
-void readMotion(const LookJob& job, uint32_t row, uint32_t count, MotionTile& out);
+void readMotion(const AppearanceJob& job, uint32_t row, uint32_t count, MotionTile& out);
 
 } // namespace fx::sim

@@ -12,10 +12,10 @@ namespace {
 template <class E, size_t N>
 using Names = std::array<std::pair<std::string_view, E>, N>;
 
-constexpr Names<sim::Appearance, 4> kKinds{{{"medium", sim::Appearance::Medium},
-                                            {"sprite", sim::Appearance::Sprite},
-                                            {"mesh", sim::Appearance::Mesh},
-                                            {"none", sim::Appearance::None}}};
+constexpr Names<sim::AppearanceKind, 4> kKinds{{{"medium", sim::AppearanceKind::Medium},
+                                                {"sprite", sim::AppearanceKind::Sprite},
+                                                {"mesh", sim::AppearanceKind::Mesh},
+                                                {"none", sim::AppearanceKind::None}}};
 constexpr Names<base::ParticleBlend, 3> kBlends{{{"alpha", base::ParticleBlend::Alpha},
                                                  {"additive", base::ParticleBlend::Additive},
                                                  {"opaque", base::ParticleBlend::Opaque}}};
@@ -62,7 +62,7 @@ base::AssetId readAssetId(const PresetValue& value, const char* member, const Lo
     return 0;
 }
 
-void readAssets(const PresetValue& value, sim::EmitterLook& out)
+void readAssets(const PresetValue& value, sim::EmitterAppearance& out)
 {
     asset::AssetLoader& loader = *value.assets();
     const auto image = [&](asset::ImageUse use) {
@@ -77,13 +77,13 @@ void readAssets(const PresetValue& value, sim::EmitterLook& out)
     });
     if (const base::MeshAsset* mesh = loader.table().mesh(out.mesh))
         out.meshReach = mesh->reach;
-    if (out.kind == sim::Appearance::Mesh && !value.has("mesh"))
+    if (out.kind == sim::AppearanceKind::Mesh && !value.has("mesh"))
         value.error("kind", "found kind \"mesh\" without a mesh; add \"mesh\": \"NAME.obj\"");
     if (out.motion != 0 && out.texture == 0 && !value.has("texture"))
         value.warning("motion", "motion vectors without a texture do nothing");
 }
 
-void readFrames(const PresetValue& value, sim::EmitterLook& out)
+void readFrames(const PresetValue& value, sim::EmitterAppearance& out)
 {
     value.read("tileColumns", out.tileColumns);
     value.read("tileRows", out.tileRows);
@@ -94,7 +94,7 @@ void readFrames(const PresetValue& value, sim::EmitterLook& out)
     value.read("firstFrame", out.firstFrame);
 }
 
-void readColors(const PresetValue& value, sim::EmitterLook& out)
+void readColors(const PresetValue& value, sim::EmitterAppearance& out)
 {
     value.read("colorOverLife", out.colorOverLife);
     value.read("opacity", out.opacity);
@@ -111,14 +111,15 @@ void readTrailTexture(const PresetValue& trail, sim::RibbonDef& out)
     readName(trail, "textureMode", Names<bool, 2>{{{"tile", true}, {"stretch", false}}}, isTiled);
     if (!isTiled)
         out.arcPerTile = 0.0f;
-    out.look.texture = readAssetId(trail, "texture", [&](const std::string& name, std::string& warning) {
-        return trail.assets()->image(name, asset::ImageUse::Color, 1, 1, warning);
-    });
+    out.appearance.texture =
+        readAssetId(trail, "texture", [&](const std::string& name, std::string& warning) {
+            return trail.assets()->image(name, asset::ImageUse::Color, 1, 1, warning);
+        });
 }
 
 } // namespace
 
-void readEmitterLook(const PresetValue& appearance, sim::EmitterLook& out)
+void readEmitterAppearance(const PresetValue& appearance, sim::EmitterAppearance& out)
 {
     readName(appearance, "kind", kKinds, out.kind);
     readName(appearance, "blend", kBlends, out.blend);
@@ -156,11 +157,11 @@ void readEmitterTrail(const PresetValue& trail, sim::RibbonDef& out)
     trail.read("widthAlong", out.widthAlong);
     trail.read("colorAlong", out.colorAlong);
     trail.read("opacityAlong", out.opacityAlong);
-    readName(trail, "blend", kBlends, out.look.blend);
-    trail.read("orderBias", out.look.orderBias);
-    trail.read("luminance", out.look.luminance);
-    trail.read("lit", out.look.lit);
-    trail.read("softness", out.look.softness);
+    readName(trail, "blend", kBlends, out.appearance.blend);
+    trail.read("orderBias", out.appearance.orderBias);
+    trail.read("luminance", out.appearance.luminance);
+    trail.read("lit", out.appearance.lit);
+    trail.read("softness", out.appearance.softness);
 }
 
 void readEmitterLight(const PresetValue& element, sim::LightDef& out)

@@ -1,4 +1,4 @@
-/// @file look_lanes-inl.h
+/// @file appearance_lanes-inl.h
 /// The pass that writes the kind "particle". Included once for each instruction set.
 #if defined(FX_PARTICLE_LOOK_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PARTICLE_LOOK_LANES_INL
@@ -41,7 +41,7 @@ struct BoundsLanes
         }
         radius = hn::Max(radius, r); // that of an empty row is 0
     }
-    HWY_INLINE void store(LookBounds& out) const
+    HWY_INLINE void store(AppearanceBounds& out) const
     {
         for (int a = 0; a < 3; ++a) {
             out.low[a] = hn::GetLane(hn::MinOfLanes(kFloats, low[a]));
@@ -51,24 +51,25 @@ struct BoundsLanes
     }
 };
 
-class Looks
+class AppearanceLanes
 {
 public:
-    Looks(const LookJob& job, const LookColumns& out)
-        : job_(&job), look_(job.program->def.look), out_(out), radius_(*job.store, stored::Radius),
-          amount_(*job.store, stored::Amount), brightness_(*job.store, stored::Brightness),
-          angle_(*job.store, stored::Angle), spin_(*job.store, stored::Spin),
+    AppearanceLanes(const AppearanceJob& job, const AppearanceColumns& out)
+        : job_(&job), appearance_(job.program->def.appearance), out_(out),
+          radius_(*job.store, stored::Radius), amount_(*job.store, stored::Amount),
+          brightness_(*job.store, stored::Brightness), angle_(*job.store, stored::Angle),
+          spin_(*job.store, stored::Spin),
           frame_(*job.store, stored::Frame), axis_{{*job.store, stored::AxisX},
                                                    {*job.store, stored::AxisY},
                                                    {*job.store, stored::AxisZ}},
           tint_{
               {*job.store, stored::TintRed}, {*job.store, stored::TintGreen}, {*job.store, stored::TintBlue}},
-          frames_(float(look_.tileColumns * look_.tileRows)),
+          frames_(float(appearance_.tileColumns * appearance_.tileRows)),
           bright_(brightness_.rows || brightness_.constant != 1.0f)
     {}
 
     /// Goes on with another job of the same program.
-    HWY_INLINE void turnTo(const LookJob& job)
+    HWY_INLINE void turnTo(const AppearanceJob& job)
     {
         job_ = &job;
         radius_.turnTo(*job_->store, stored::Radius);
@@ -86,15 +87,16 @@ public:
     }
 
     /// @tparam kPlain ParticleProgram::plain
-    /// @tparam kStream whether what is plain is written past the caches; otherwise LookColumns says
+    /// @tparam kStream whether what is plain is written past the caches; otherwise AppearanceColumns says
     template <bool kBallistic, bool kBrief, bool kPlain, bool kStream>
-    void run(uint32_t begin, uint32_t end, LookBounds& outBounds) const
+    void run(uint32_t begin, uint32_t end, AppearanceBounds& outBounds) const
     {
         runWith<kPlain, kStream>(MotionReader<kBallistic, kBrief>(*job_), begin, end, outBounds);
         leaveVectors();
     }
     template <bool kPlain, bool kStream, class Reader>
-    HWY_INLINE void runWith(const Reader& reader, uint32_t begin, uint32_t end, LookBounds& outBounds) const
+    HWY_INLINE void runWith(const Reader& reader, uint32_t begin, uint32_t end,
+                            AppearanceBounds& outBounds) const
     {
         const bool moving = !kPlain && (out_.velocity[0] || job_->program->bySpeed);
         const bool stream = kPlain ? kStream : out_.stream;
@@ -213,9 +215,9 @@ private:
     HWY_INLINE void writeOrientation(uint32_t row, Which alive, Floats angle) const;
     HWY_INLINE Floats frameAt(uint32_t row, const MotionLanes& motion) const;
 
-    const LookJob* job_;
-    const EmitterLook& look_;
-    const LookColumns& out_;
+    const AppearanceJob* job_;
+    const EmitterAppearance& appearance_;
+    const AppearanceColumns& out_;
     Source radius_, amount_, brightness_, angle_, spin_, frame_;
     Source axis_[3];
     Source tint_[3];
@@ -224,22 +226,22 @@ private:
 };
 
 template <bool kPlain, bool kStream, bool kFull>
-HWY_INLINE void Looks::write(uint32_t row, Which alive, const MotionLanes& motion, Pieces& pieces,
-                             BoundsLanes& bounds) const
+HWY_INLINE void AppearanceLanes::write(uint32_t row, Which alive, const MotionLanes& motion, Pieces& pieces,
+                                       BoundsLanes& bounds) const
 {
     const auto ofAlive = [alive](Floats x) HWY_ATTR { return kFull ? x : hn::IfThenElseZero(alive, x); };
-    const CurveLanes looks(job_->program->looks, motion.life, pieces.life);
-    Floats radius = radius_.at(row) * hn::Max(looks.value(look_channel::Size), all(1e-4f));
-    Floats rgb[3] = {looks.value(look_channel::Red), looks.value(look_channel::Green),
-                     looks.value(look_channel::Blue)};
-    Floats opacity = amount_.at(row) * looks.value(look_channel::Opacity);
+    const CurveLanes curves(job_->program->byLife, motion.life, pieces.life);
+    Floats radius = radius_.at(row) * hn::Max(curves.value(appearance_channel::Size), all(1e-4f));
+    Floats rgb[3] = {curves.value(appearance_channel::Red), curves.value(appearance_channel::Green),
+                     curves.value(appearance_channel::Blue)};
+    Floats opacity = amount_.at(row) * curves.value(appearance_channel::Opacity);
     if (!kPlain && job_->program->bySpeed) {
         const Floats* v = motion.velocity;
         const Floats speed = hn::Sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-        const CurveLanes fast(*job_->program->bySpeed, hn::Min(speed * all(1.0f / look_.fastest), all(1.0f)),
-                              pieces.speed);
-        radius = radius * hn::Max(fast.value(look_channel::Size), all(1e-4f));
-        opacity = opacity * fast.value(look_channel::Opacity);
+        const CurveLanes fast(*job_->program->bySpeed,
+                              hn::Min(speed * all(1.0f / appearance_.fastest), all(1.0f)), pieces.speed);
+        radius = radius * hn::Max(fast.value(appearance_channel::Size), all(1e-4f));
+        opacity = opacity * fast.value(appearance_channel::Opacity);
         for (uint32_t c = 0; c < 3; ++c)
             rgb[c] = rgb[c] * fast.value(c);
     }
@@ -271,8 +273,8 @@ HWY_INLINE void Looks::write(uint32_t row, Which alive, const MotionLanes& motio
 /// Sprites are longer by their way, along it unless they turn, and what was born since the snapshot before is
 /// drawn on its way since then. Ages do not identify those: they count time of the instance, which may run
 /// faster.
-HWY_INLINE void Looks::addMoving(Which alive, const MotionLanes& motion, Floats radius,
-                                 BoundsLanes& bounds) const
+HWY_INLINE void AppearanceLanes::addMoving(Which alive, const MotionLanes& motion, Floats radius,
+                                           BoundsLanes& bounds) const
 {
     const Floats* v = motion.velocity;
     const Floats along = all(job_->program->along);
@@ -287,7 +289,7 @@ HWY_INLINE void Looks::addMoving(Which alive, const MotionLanes& motion, Floats 
     bounds.add<false>(alive, tail, hn::Zero(kFloats));
 }
 
-HWY_INLINE void Looks::writeMore(uint32_t row, Which alive, const MotionLanes& motion) const
+HWY_INLINE void AppearanceLanes::writeMore(uint32_t row, Which alive, const MotionLanes& motion) const
 {
     if (out_.velocity[0])
         for (int a = 0; a < 3; ++a)
@@ -307,7 +309,7 @@ HWY_INLINE void Looks::writeMore(uint32_t row, Which alive, const MotionLanes& m
 }
 
 /// The rotation by an angle about the particle's axis.
-HWY_INLINE void Looks::writeOrientation(uint32_t row, Which alive, Floats angle) const
+HWY_INLINE void AppearanceLanes::writeOrientation(uint32_t row, Which alive, Floats angle) const
 {
     const SinCosLanes half = sinCosTurns(angle * all(0.0795774715f)); // half of it, in turns
     for (int a = 0; a < 3; ++a)
@@ -315,18 +317,18 @@ HWY_INLINE void Looks::writeOrientation(uint32_t row, Which alive, Floats angle)
     put(hn::IfThenElseZero(alive, half.cos), out_.orientation[3] + row);
 }
 
-HWY_INLINE Floats Looks::frameAt(uint32_t row, const MotionLanes& motion) const
+HWY_INLINE Floats AppearanceLanes::frameAt(uint32_t row, const MotionLanes& motion) const
 {
     const Floats first = frame_.at(row);
-    if (look_.frames == FrameClock::OverLife)
+    if (appearance_.frames == FrameClock::OverLife)
         return first + motion.life * all(frames_);
-    if (look_.frames == FrameClock::None)
+    if (appearance_.frames == FrameClock::None)
         return first;
-    const Floats gone = first + motion.age * all(look_.framesPerSecond);
+    const Floats gone = first + motion.age * all(appearance_.framesPerSecond);
     return gone - hn::Floor(gone * all(1.0f / frames_)) * all(frames_);
 }
 
-inline void Looks::writeNobody(uint32_t row) const
+inline void AppearanceLanes::writeNobody(uint32_t row) const
 {
     const Floats zero = hn::Zero(kFloats);
     for (float* column : {out_.x, out_.y, out_.z, out_.age, out_.radius, out_.velocity[0], out_.velocity[1],

@@ -1,11 +1,11 @@
-#include "simulation/particles/look_kernel.h"
+#include "simulation/particles/appearance_kernel.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simulation/particles/look_kernel.cpp"
+#define HWY_TARGET_INCLUDE "simulation/particles/appearance_kernel.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
 #include "foundation/simd/instruction_set.h"
-#include "simulation/particles/look_lanes-inl.h"
+#include "simulation/particles/appearance_lanes-inl.h"
 
 #include <hwy/cache_control.h>
 
@@ -14,28 +14,29 @@ namespace fx::sim::particles::HWY_NAMESPACE {
 namespace {
 
 template <bool kBrief>
-void writeBallistic(const Looks& looks, const LookJob& job, const LookColumns& out, uint32_t begin,
-                    uint32_t end, LookBounds& bounds)
+void writeBallistic(const AppearanceLanes& appearance, const AppearanceJob& job, const AppearanceColumns& out,
+                    uint32_t begin, uint32_t end, AppearanceBounds& bounds)
 {
     if (!job.program->plain)
-        looks.run<true, kBrief, false, false>(begin, end, bounds);
+        appearance.run<true, kBrief, false, false>(begin, end, bounds);
     else if (out.stream)
-        looks.run<true, kBrief, true, true>(begin, end, bounds);
+        appearance.run<true, kBrief, true, true>(begin, end, bounds);
     else
-        looks.run<true, kBrief, true, false>(begin, end, bounds);
+        appearance.run<true, kBrief, true, false>(begin, end, bounds);
 }
 
-LookBounds writeLooksLanes(const LookJob& job, const LookColumns& out, uint32_t begin, uint32_t end)
+AppearanceBounds writeAppearanceLanes(const AppearanceJob& job, const AppearanceColumns& out, uint32_t begin,
+                                      uint32_t end)
 {
-    const Looks looks(job, out);
-    LookBounds bounds;
+    const AppearanceLanes appearance(job, out);
+    AppearanceBounds bounds;
     const ParticleProgram& program = *job.program;
     if (program.ballistic)
-        program.brief ? writeBallistic<true>(looks, job, out, begin, end, bounds)
-                      : writeBallistic<false>(looks, job, out, begin, end, bounds);
+        program.brief ? writeBallistic<true>(appearance, job, out, begin, end, bounds)
+                      : writeBallistic<false>(appearance, job, out, begin, end, bounds);
     else
-        program.brief ? looks.run<false, true, false, false>(begin, end, bounds)
-                      : looks.run<false, false, false, false>(begin, end, bounds);
+        program.brief ? appearance.run<false, true, false, false>(begin, end, bounds)
+                      : appearance.run<false, false, false, false>(begin, end, bounds);
     if (out.stream)
         hwy::FlushStream();
     return bounds;
@@ -57,7 +58,7 @@ public:
             }
         published_ = program.published;
     }
-    HWY_INLINE void point(float* storage, bool always, LookColumns& out) const
+    HWY_INLINE void point(float* storage, bool always, AppearanceColumns& out) const
     {
         namespace column = base::particle_column;
         out.x = storage + places_[column::PositionX];
@@ -85,23 +86,23 @@ private:
 };
 
 template <bool kBallistic, bool kBrief, bool kPlain>
-void writeParts(std::span<LookPart> parts)
+void writeParts(std::span<AppearancePart> parts)
 {
-    LookColumns out{};
-    Looks looks(parts[0].job, out);
+    AppearanceColumns out{};
+    AppearanceLanes appearance(parts[0].job, out);
     MotionReader<kBallistic, kBrief> reader(parts[0].job);
     const ColumnPlaces places(*parts[0].job.program);
-    for (LookPart& part : parts) {
+    for (AppearancePart& part : parts) {
         places.point(part.storage, kPlain, out);
-        looks.turnTo(part.job);
+        appearance.turnTo(part.job);
         reader.turnTo(part.job);
-        looks.runWith<kPlain, false>(reader, 0, part.job.rows.count, part.bounds);
+        appearance.runWith<kPlain, false>(reader, 0, part.job.rows.count, part.bounds);
     }
-    Looks::leaveVectors();
+    AppearanceLanes::leaveVectors();
 }
 
 /// @param parts of one program
-void writePartsLanes(std::span<LookPart> parts)
+void writePartsLanes(std::span<AppearancePart> parts)
 {
     const ParticleProgram& program = *parts[0].job.program;
     if (!program.ballistic)
@@ -113,7 +114,7 @@ void writePartsLanes(std::span<LookPart> parts)
 }
 
 template <bool kBallistic, bool kBrief>
-void readTile(const LookJob& job, uint32_t row, uint32_t count, MotionTile& out)
+void readTile(const AppearanceJob& job, uint32_t row, uint32_t count, MotionTile& out)
 {
     const MotionReader<kBallistic, kBrief> reader(job);
     for (uint32_t i = 0; i < count; i += kWidth) {
@@ -127,7 +128,7 @@ void readTile(const LookJob& job, uint32_t row, uint32_t count, MotionTile& out)
     }
 }
 
-void readMotionLanes(const LookJob& job, uint32_t row, uint32_t count, MotionTile& out)
+void readMotionLanes(const AppearanceJob& job, uint32_t row, uint32_t count, MotionTile& out)
 {
     const ParticleProgram& program = *job.program;
     if (program.ballistic)
@@ -147,13 +148,13 @@ namespace fx::sim {
 
 namespace particles {
 namespace {
-HWY_EXPORT(writeLooksLanes);
+HWY_EXPORT(writeAppearanceLanes);
 HWY_EXPORT(writePartsLanes);
 HWY_EXPORT(readMotionLanes);
 } // namespace
 } // namespace particles
 
-void LookBounds::add(const LookBounds& other)
+void AppearanceBounds::add(const AppearanceBounds& other)
 {
     for (int a = 0; a < 3; ++a) {
         low[a] = std::min(low[a], other.low[a]);
@@ -162,7 +163,7 @@ void LookBounds::add(const LookBounds& other)
     radius = std::max(radius, other.radius);
 }
 
-base::Bounds LookBounds::box() const
+base::Bounds AppearanceBounds::box() const
 {
     base::Bounds box;
     if (low.x <= high.x) {
@@ -172,14 +173,15 @@ base::Bounds LookBounds::box() const
     return box;
 }
 
-LookBounds writeLooks(const LookJob& job, const LookColumns& out, uint32_t begin, uint32_t end)
+AppearanceBounds writeAppearance(const AppearanceJob& job, const AppearanceColumns& out, uint32_t begin,
+                                 uint32_t end)
 {
     using namespace particles;
     base::applyInstructionSetLimit();
-    return HWY_DYNAMIC_DISPATCH(writeLooksLanes)(job, out, begin, end);
+    return HWY_DYNAMIC_DISPATCH(writeAppearanceLanes)(job, out, begin, end);
 }
 
-void writeManyLooks(std::span<LookPart> parts)
+void writeManyAppearances(std::span<AppearancePart> parts)
 {
     using namespace particles;
     base::applyInstructionSetLimit();
@@ -191,7 +193,7 @@ void writeManyLooks(std::span<LookPart> parts)
     }
 }
 
-void readMotion(const LookJob& job, uint32_t row, uint32_t count, MotionTile& out)
+void readMotion(const AppearanceJob& job, uint32_t row, uint32_t count, MotionTile& out)
 {
     using namespace particles;
     base::applyInstructionSetLimit();

@@ -10,7 +10,7 @@ namespace fx::preset {
 
 namespace {
 
-using sim::Appearance;
+using sim::AppearanceKind;
 
 std::string nameOf(const PresetValue& value, const char* member, std::string absent)
 {
@@ -60,12 +60,12 @@ void adviseSpeed(const PresetValue& appearance)
                   "without \"fastest\", the speed at which the curve ends; add it");
 }
 
-void adviseFrames(const PresetValue& appearance, const sim::EmitterLook& look)
+void adviseFrames(const PresetValue& appearance, const sim::EmitterAppearance& parsed)
 {
     if (!appearance.has("texture"))
         warnOfAll(appearance, {"frames", "tileColumns", "tileRows", "firstFrame", "frameBlend"},
                   "without a texture that holds the frames; add \"texture\": \"NAME.png\"");
-    else if (look.frames == sim::FrameClock::PerSecond && look.framesPerSecond <= 0.0f)
+    else if (parsed.frames == sim::FrameClock::PerSecond && parsed.framesPerSecond <= 0.0f)
         appearance.warning("frames",
                            "found \"per-second\" with 0 frames per second, so that the first stays; "
                            "add \"framesPerSecond\"");
@@ -83,12 +83,13 @@ void adviseMedium(const PresetValue& element)
 void adviseDrawn(const PresetValue& element, const sim::EmitterDef& emitter)
 {
     const PresetValue appearance = element.child("appearance");
-    const bool isMesh = emitter.look.kind == Appearance::Mesh;
+    const bool isMesh = emitter.appearance.kind == AppearanceKind::Mesh;
     adviseSpeed(appearance);
-    adviseFrames(appearance, emitter.look);
+    adviseFrames(appearance, emitter.appearance);
     if (!isMesh)
         warnOfAll(appearance, {"mesh"}, "on the kind \"sprite\"; add \"kind\": \"mesh\"");
-    if (emitter.look.stretch > 0.0f && (isMesh || emitter.look.alignment != base::SpriteAlignment::Velocity))
+    if (emitter.appearance.stretch > 0.0f &&
+        (isMesh || emitter.appearance.alignment != base::SpriteAlignment::Velocity))
         appearance.warning("stretch", "has no effect unless sprites stand along the velocity; add "
                                       "\"alignment\": \"velocity\"");
     warnOfAll(element,
@@ -101,8 +102,8 @@ void adviseDrawn(const PresetValue& element, const sim::EmitterDef& emitter)
 /// The light of what shines not: see LightDef::intensity.
 void adviseLight(const PresetValue& element, const sim::EmitterDef& emitter)
 {
-    const bool isMedium = emitter.look.kind == Appearance::Medium;
-    bool glows = !isMedium && (emitter.look.luminance > 0.0f || emitter.light.intensity > 0.0f);
+    const bool isMedium = emitter.appearance.kind == AppearanceKind::Medium;
+    bool glows = !isMedium && (emitter.appearance.luminance > 0.0f || emitter.light.intensity > 0.0f);
     for (size_t i = 0; isMedium && i <= base::kCurveSamples; ++i)
         for (const float part : emitter.emissionOverLife.at(float(i) / float(base::kCurveSamples)))
             glows = glows || part > 0.0f;
@@ -143,11 +144,11 @@ void adviseShape(const PresetValue& element)
         adviseSpline(element);
 }
 
-void adviseLook(const PresetValue& element, const sim::EmitterDef& emitter)
+void adviseAppearance(const PresetValue& element, const sim::EmitterDef& emitter)
 {
-    if (emitter.look.kind == Appearance::Medium)
+    if (emitter.appearance.kind == AppearanceKind::Medium)
         adviseMedium(element);
-    else if (emitter.look.kind != Appearance::None)
+    else if (emitter.appearance.kind != AppearanceKind::None)
         adviseDrawn(element, emitter);
     adviseLight(element, emitter);
 }

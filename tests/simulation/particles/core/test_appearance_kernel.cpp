@@ -37,15 +37,15 @@ double channel(uint64_t color, int c)
 
 } // namespace
 
-TEST(LookKernel, colorsAreTheNearestHalfFloats)
+TEST(AppearanceKernel, colorsAreTheNearestHalfFloats)
 {
     for (const float value : {0.0f, 1e-8f, 3e-8f, 5.9604645e-8f, 2.1e-5f, 6.1e-5f, 6.2e-5f, 0.1f, 0.33333334f,
                               1.0f, 1.00048828125f, 1.0014648f, 777.7f, 65504.0f})
     {
         Stage stage;
         auto def = burstEmitter(1);
-        def->look.kind = sim::Appearance::Sprite;
-        def->look.colorOverLife = base::ColorCurve(std::array{value, 2.0f * value, 0.5f});
+        def->appearance.kind = sim::AppearanceKind::Sprite;
+        def->appearance.colorOverLife = base::ColorCurve(std::array{value, 2.0f * value, 0.5f});
         stage.add({}, std::move(def));
         stage.step();
         const uint64_t color = stage.look().group(0).column64(column::Color)[0];
@@ -55,7 +55,7 @@ TEST(LookKernel, colorsAreTheNearestHalfFloats)
     }
 }
 
-TEST(LookKernel, sizeColorAndOpacityFollowTheirCurves)
+TEST(AppearanceKernel, sizeColorAndOpacityFollowTheirCurves)
 {
     Stage stage;
     auto def = spriteEmitter(500.0f, {1.0f, 2.0f});
@@ -63,10 +63,10 @@ TEST(LookKernel, sizeColorAndOpacityFollowTheirCurves)
     def->lifetime = {2.0f, 2.0f};
     const std::array<base::CurveKey<3>, 3> keys{
         {{0.0f, {1.0f, 0.5f, 0.0f}}, {0.5f, {0.25f, 1.0f, 4.0f}}, {1.0f, {0.0f, 0.0f, 1.0f}}}};
-    def->look.colorOverLife = base::ColorCurve(std::span<const base::CurveKey<3>>(keys));
+    def->appearance.colorOverLife = base::ColorCurve(std::span<const base::CurveKey<3>>(keys));
     const std::array<base::CurveKey<1>, 2> grow{{{0.0f, {1.0f}}, {1.0f, {3.0f}}}};
     def->sizeOverLife = base::ScalarCurve(std::span<const base::CurveKey<1>>(grow));
-    const base::ColorCurve colors = def->look.colorOverLife;
+    const base::ColorCurve colors = def->appearance.colorOverLife;
     const base::ScalarCurve sizes = def->sizeOverLife, opacities = def->opacityOverLife;
     stage.add({}, std::move(def));
     stage.play(110);
@@ -82,7 +82,7 @@ TEST(LookKernel, sizeColorAndOpacityFollowTheirCurves)
     }
 }
 
-TEST(LookKernel, emptyRowsAreZeroThroughoutAndTheLivingKeepTheirs)
+TEST(AppearanceKernel, emptyRowsAreZeroThroughoutAndTheLivingKeepTheirs)
 {
     Stage stage;
     auto def = spriteEmitter(301.0f, {0.2f, 1.4f});
@@ -111,7 +111,7 @@ TEST(LookKernel, emptyRowsAreZeroThroughoutAndTheLivingKeepTheirs)
     }
 }
 
-TEST(LookKernel, boundsHoldEverySprite)
+TEST(AppearanceKernel, boundsHoldEverySprite)
 {
     Stage stage;
     stage.add({}, spriteEmitter(900.0f, {0.2f, 1.0f}));
@@ -132,17 +132,17 @@ TEST(LookKernel, boundsHoldEverySprite)
     EXPECT_NEAR(bounds.max.y, highest, 0.06f); // the largest radius more at most
 }
 
-TEST(LookKernel, flipBooksRunOverLifeOrByTheSecond)
+TEST(AppearanceKernel, flipBooksRunOverLifeOrByTheSecond)
 {
     for (const bool overLife : {true, false}) {
         Stage stage;
         auto def = burstEmitter(1);
-        def->look.kind = sim::Appearance::Sprite;
+        def->appearance.kind = sim::AppearanceKind::Sprite;
         def->lifetime = {2.0f, 2.0f};
-        def->look.tileColumns = 4;
-        def->look.tileRows = 2;
-        def->look.frames = overLife ? sim::FrameClock::OverLife : sim::FrameClock::PerSecond;
-        def->look.framesPerSecond = 10.0f;
+        def->appearance.tileColumns = 4;
+        def->appearance.tileRows = 2;
+        def->appearance.frames = overLife ? sim::FrameClock::OverLife : sim::FrameClock::PerSecond;
+        def->appearance.framesPerSecond = 10.0f;
         stage.add({}, std::move(def));
         stage.play(60);
         EXPECT_NEAR(stage.look().group(0).column(column::Frame)[0], overLife ? 4.0f : 2.0f, 1e-4f);

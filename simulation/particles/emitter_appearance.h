@@ -1,4 +1,4 @@
-/// @file emitter_look.h
+/// @file emitter_appearance.h
 /// How the particles of an emitter are drawn when they are not a medium.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace fx::sim {
 
-enum class Appearance : uint8_t
+enum class AppearanceKind : uint8_t
 {
     Medium, ///< balls of participating medium: the kind "blob"
     Sprite, ///< the kind "particle"
@@ -25,9 +25,9 @@ enum class FrameClock : uint8_t
     PerSecond, ///< `framesPerSecond`, from the first again after the last
 };
 
-struct EmitterLook
+struct EmitterAppearance
 {
-    Appearance kind = Appearance::Medium;
+    AppearanceKind kind = AppearanceKind::Medium;
 
     // Constants of the group, see base::particle_constant.
     base::ParticleBlend blend = base::ParticleBlend::Alpha;
