@@ -10,7 +10,7 @@
 #include "fxsdk/activation/active_list.h"
 #include "fxsdk/activation/budget.h"
 #include "fxsdk/activation/focus.h"
-#include "fxsdk/activation/hidden_tree.h"
+#include "fxsdk/activation/sphere_hierarchy.h"
 #include "fxsdk/activation/wake_queue.h"
 #include "fxsdk/scene/id_table.h"
 #include "fxsdk/scene/motion_history.h"
@@ -266,7 +266,7 @@ private:
         InstanceState state = InstanceState::Finished;
         Reason reason = Reason::None; ///< of being hidden
         sim::CatchUp policy = sim::CatchUp::Replay;
-        activation::HiddenTree::Leaf leaf = activation::HiddenTree::kNone;
+        activation::SphereHierarchy::Leaf leaf = activation::SphereHierarchy::kNone;
         bool hasAlarm = false;
         bool wasResting = false;    ///< before it began to wake
         bool isLate = false;        ///< waking: its past was too much work for the update in which it began
@@ -373,10 +373,10 @@ private:
     activation::WakeQueue dormant_;
     activation::ActiveList active_;
     activation::ActiveList waking_;
-    activation::ActiveList denied_; ///< in sight, beyond the budget
-    activation::ActiveList coarse_; ///< hidden, stepped coarsely
-    activation::HiddenTree tree_;   ///< hidden for where they are
-    activation::WakeQueue alarms_;  ///< of hidden and resting ones
+    activation::ActiveList denied_;    ///< in sight, beyond the budget
+    activation::ActiveList coarse_;    ///< hidden, stepped coarsely
+    activation::SphereHierarchy tree_; ///< hidden because of their position
+    activation::WakeQueue alarms_;     ///< of hidden and resting ones
     activation::FocusSet focus_;
     activation::Budget budget_;
     std::pmr::vector<activation::Candidate> candidates_; ///< scratch

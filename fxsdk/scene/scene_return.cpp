@@ -196,7 +196,7 @@ void Scene::settleOne(uint32_t index, bool alsoInexact)
 
 void Scene::forgetSight()
 {
-    activation::HiddenTree noTree(memory_);
+    activation::SphereHierarchy noTree(memory_);
     activation::WakeQueue noAlarms(memory_);
     std::swap(tree_, noTree);
     std::swap(alarms_, noAlarms);

@@ -174,10 +174,10 @@ void Scene::setHints(LocalId id, const ActivationHints& hints)
     const Reason reason = judge(instance, false); // it would not be tested again otherwise
     if (reason == Reason::None)
         return comeBack(indexOf(id));
-    const bool isInTree = instance.leaf != activation::HiddenTree::kNone;
+    const bool isInTree = instance.leaf != activation::SphereHierarchy::kNone;
     if (isInTree)
         tree_.remove(instance.leaf);
-    instance.leaf = activation::HiddenTree::kNone;
+    instance.leaf = activation::SphereHierarchy::kNone;
     try {
         if (reason != Reason::Occluded)
             instance.leaf = tree_.insert(indexOf(id), ballOf(instance), sightOf(hints));
@@ -201,7 +201,7 @@ void Scene::setPlacement(LocalId id, const base::Placement& placement)
     instance.setup.placement = placement;
     measure(instance);
     lookAgain_ = true;
-    if (instance.leaf != activation::HiddenTree::kNone) {
+    if (instance.leaf != activation::SphereHierarchy::kNone) {
         tree_.remove(instance.leaf);
         instance.leaf = tree_.insert(indexOf(id), ballOf(instance), sightOf(instance.hints)); // has room
     }
@@ -369,9 +369,9 @@ void Scene::takeBack(uint32_t index)
     if (instance.hasAlarm)
         alarms_.remove(index);
     instance.hasAlarm = false;
-    if (instance.leaf != activation::HiddenTree::kNone)
+    if (instance.leaf != activation::SphereHierarchy::kNone)
         tree_.remove(instance.leaf);
-    instance.leaf = activation::HiddenTree::kNone;
+    instance.leaf = activation::SphereHierarchy::kNone;
     if (instance.state == InstanceState::Waking)
         waking_.remove(instance.serial);
     if (instance.state == InstanceState::Resting)

@@ -1,4 +1,4 @@
-#include "fxsdk/activation/hidden_tree.h"
+#include "fxsdk/activation/sphere_hierarchy.h"
 
 #include <glm/geometric.hpp>
 
@@ -23,7 +23,7 @@ Ball around(const Ball& a, const Ball& b)
 
 } // namespace
 
-uint32_t HiddenTree::take()
+uint32_t SphereHierarchy::take()
 {
     const uint32_t node = free_;
     free_ = nodes_[node].parent;
@@ -32,14 +32,14 @@ uint32_t HiddenTree::take()
     return node;
 }
 
-void HiddenTree::giveBack(uint32_t node)
+void SphereHierarchy::giveBack(uint32_t node)
 {
     nodes_[node].parent = free_;
     free_ = node;
     ++unused_;
 }
 
-HiddenTree::Leaf HiddenTree::insert(uint32_t key, const Ball& ball, double sight)
+SphereHierarchy::Leaf SphereHierarchy::insert(uint32_t key, const Ball& ball, double sight)
 {
     nodes_.reserve(nodes_.size() + 2 <= nodes_.capacity() ? 0 : 2 * nodes_.size() + 2);
     stack_.reserve(nodes_.capacity());
@@ -68,7 +68,7 @@ HiddenTree::Leaf HiddenTree::insert(uint32_t key, const Ball& ball, double sight
     return leaf;
 }
 
-void HiddenTree::remove(Leaf leaf)
+void SphereHierarchy::remove(Leaf leaf)
 {
     const uint32_t joint = nodes_[leaf].parent;
     if (joint == kNone) {
@@ -87,7 +87,7 @@ void HiddenTree::remove(Leaf leaf)
 }
 
 /// The node beside which a ball makes the balls on the way down grow least.
-uint32_t HiddenTree::siblingFor(const Ball& ball) const
+uint32_t SphereHierarchy::siblingFor(const Ball& ball) const
 {
     uint32_t at = root_;
     while (nodes_[at].height > 0) {
@@ -105,7 +105,7 @@ uint32_t HiddenTree::siblingFor(const Ball& ball) const
     return at;
 }
 
-void HiddenTree::replaceChild(uint32_t parent, uint32_t was, uint32_t is)
+void SphereHierarchy::replaceChild(uint32_t parent, uint32_t was, uint32_t is)
 {
     if (parent == kNone)
         root_ = is;
@@ -113,7 +113,7 @@ void HiddenTree::replaceChild(uint32_t parent, uint32_t was, uint32_t is)
         nodes_[parent].child[nodes_[parent].child[0] == was ? 0 : 1] = is;
 }
 
-void HiddenTree::enclose(uint32_t at)
+void SphereHierarchy::enclose(uint32_t at)
 {
     Node& node = nodes_[at];
     const Node& a = nodes_[node.child[0]];
@@ -124,7 +124,7 @@ void HiddenTree::enclose(uint32_t at)
 }
 
 /// Balances and encloses from `node` up to the root.
-void HiddenTree::refit(uint32_t node)
+void SphereHierarchy::refit(uint32_t node)
 {
     while (node != kNone) {
         node = balance(node);
@@ -134,7 +134,7 @@ void HiddenTree::refit(uint32_t node)
 }
 
 /// @return the node that stands where `at` stood
-uint32_t HiddenTree::balance(uint32_t at)
+uint32_t SphereHierarchy::balance(uint32_t at)
 {
     const uint32_t h0 = nodes_[nodes_[at].child[0]].height;
     const uint32_t h1 = nodes_[nodes_[at].child[1]].height;
@@ -146,7 +146,7 @@ uint32_t HiddenTree::balance(uint32_t at)
 }
 
 /// The heavy child rises above `at`, which takes over the lower of its children.
-void HiddenTree::rotate(uint32_t at, int heavy)
+void SphereHierarchy::rotate(uint32_t at, int heavy)
 {
     const uint32_t rising = nodes_[at].child[heavy];
     const uint32_t parent = nodes_[at].parent;

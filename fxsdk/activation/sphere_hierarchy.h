@@ -1,5 +1,6 @@
-/// @file hidden_tree.h
-/// What is out of sight, so that a camera finds what comes into view without visiting the rest.
+/// @file sphere_hierarchy.h
+/// A bounding-volume hierarchy of hidden instances: a camera finds those that come into view without visiting
+/// the rest.
 #pragma once
 
 #include "fxsdk/activation/focus.h"
@@ -10,17 +11,17 @@
 
 namespace fx::activation {
 
-/// A balanced binary tree of balls in balls: inserting and removing are logarithmic, a query visits what is
+/// A balanced binary tree of bounding spheres: inserting and removing are logarithmic, a query visits what is
 /// in sight and what lies beside it. The idea of growing such a tree leaf by leaf, kept balanced by
 /// rotations, is that of many physics engines' broad phases; see Ericson, Real-Time Collision Detection,
 /// section 6.2.
-class HiddenTree
+class SphereHierarchy
 {
 public:
     using Leaf = uint32_t;
     static constexpr Leaf kNone = ~0u;
 
-    explicit HiddenTree(std::pmr::memory_resource* memory) : nodes_(memory), stack_(memory) {}
+    explicit SphereHierarchy(std::pmr::memory_resource* memory) : nodes_(memory), stack_(memory) {}
 
     /// Strong guarantee.
     /// @param sight [m] how far it can be seen, may be infinite
