@@ -11,7 +11,7 @@
 #include "fxsdk/activation/budget.h"
 #include "fxsdk/activation/focus.h"
 #include "fxsdk/activation/sphere_hierarchy.h"
-#include "fxsdk/activation/wake_queue.h"
+#include "fxsdk/activation/timer_queue.h"
 #include "fxsdk/scene/id_table.h"
 #include "fxsdk/scene/motion_history.h"
 #include "simulation/world/world.h"
@@ -370,13 +370,13 @@ private:
     base::StepClock clock_;
     sim::World world_;
     IdTable<Instance> instances_;
-    activation::WakeQueue dormant_;
+    activation::TimerQueue dormant_;
     activation::ActiveList active_;
     activation::ActiveList waking_;
     activation::ActiveList denied_;    ///< in sight, beyond the budget
     activation::ActiveList coarse_;    ///< hidden, stepped coarsely
     activation::SphereHierarchy tree_; ///< hidden because of their position
-    activation::WakeQueue alarms_;     ///< of hidden and resting ones
+    activation::TimerQueue alarms_;    ///< of hidden and resting ones
     activation::FocusSet focus_;
     activation::Budget budget_;
     std::pmr::vector<activation::Candidate> candidates_; ///< scratch

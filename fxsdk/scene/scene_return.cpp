@@ -197,7 +197,7 @@ void Scene::settleOne(uint32_t index, bool alsoInexact)
 void Scene::forgetSight()
 {
     activation::SphereHierarchy noTree(memory_);
-    activation::WakeQueue noAlarms(memory_);
+    activation::TimerQueue noAlarms(memory_);
     std::swap(tree_, noTree);
     std::swap(alarms_, noAlarms);
     const auto all = [](uint32_t, sim::Slot) { return true; };

@@ -130,7 +130,7 @@ struct Scene::Restored
     SceneCounters counters;
     uint64_t nextSerial = 0;
     IdTable<Instance> instances;
-    activation::WakeQueue dormant;
+    activation::TimerQueue dormant;
     activation::ActiveList active;
     std::pmr::vector<LocalId> moved;
     sim::World world;

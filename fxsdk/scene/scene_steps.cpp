@@ -84,7 +84,7 @@ bool Scene::update(double dt)
 /// Whether steps that end by `until` have nothing to do and nothing to show.
 [[gnu::always_inline]] inline bool Scene::isAtRest(base::Ticks until) const
 {
-    const auto isDue = [until](const activation::WakeQueue& queue) {
+    const auto isDue = [until](const activation::TimerQueue& queue) {
         return !queue.empty() && queue.earliest().start <= until;
     };
     const bool isEmpty = active_.size() == 0 && waking_.size() == 0 && denied_.size() == 0 &&

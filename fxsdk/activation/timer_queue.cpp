@@ -1,4 +1,4 @@
-#include "fxsdk/activation/wake_queue.h"
+#include "fxsdk/activation/timer_queue.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,14 +7,14 @@ namespace fx::activation {
 
 namespace {
 
-bool earlier(const Sleeper& a, const Sleeper& b)
+bool earlier(const Timer& a, const Timer& b)
 {
     return a.start != b.start ? a.start < b.start : a.serial < b.serial;
 }
 
 } // namespace
 
-void WakeQueue::reserve(uint32_t key, size_t count)
+void TimerQueue::reserve(uint32_t key, size_t count)
 {
     if (slots_.size() <= key)
         slots_.resize(std::max(size_t(key) + 1, slots_.size() * 2));
@@ -22,19 +22,19 @@ void WakeQueue::reserve(uint32_t key, size_t count)
         heap_.reserve(std::max(count, heap_.capacity() * 2));
 }
 
-void WakeQueue::add(const Sleeper& sleeper)
+void TimerQueue::add(const Timer& timer)
 {
-    if (slots_.size() <= sleeper.key)
-        slots_.resize(size_t(sleeper.key) + 1);
-    heap_.push_back(sleeper);
-    put(heap_.size() - 1, sleeper);
+    if (slots_.size() <= timer.key)
+        slots_.resize(size_t(timer.key) + 1);
+    heap_.push_back(timer);
+    put(heap_.size() - 1, timer);
     rise(heap_.size() - 1);
 }
 
-void WakeQueue::remove(uint32_t key)
+void TimerQueue::remove(uint32_t key)
 {
     const size_t at = slots_[key];
-    const Sleeper last = heap_.back();
+    const Timer last = heap_.back();
     heap_.pop_back();
     if (at == heap_.size())
         return; // it was the last
@@ -43,15 +43,15 @@ void WakeQueue::remove(uint32_t key)
     sink(slots_[last.key]);
 }
 
-void WakeQueue::put(size_t at, const Sleeper& sleeper)
+void TimerQueue::put(size_t at, const Timer& timer)
 {
-    heap_[at] = sleeper;
-    slots_[sleeper.key] = uint32_t(at);
+    heap_[at] = timer;
+    slots_[timer.key] = uint32_t(at);
 }
 
-void WakeQueue::rise(size_t at)
+void TimerQueue::rise(size_t at)
 {
-    const Sleeper moving = heap_[at];
+    const Timer moving = heap_[at];
     while (at > 0 && earlier(moving, heap_[(at - 1) / 2])) {
         put(at, heap_[(at - 1) / 2]);
         at = (at - 1) / 2;
@@ -59,9 +59,9 @@ void WakeQueue::rise(size_t at)
     put(at, moving);
 }
 
-void WakeQueue::sink(size_t at)
+void TimerQueue::sink(size_t at)
 {
-    const Sleeper moving = heap_[at];
+    const Timer moving = heap_[at];
     for (size_t child = 2 * at + 1; child < heap_.size(); child = 2 * at + 1) {
         if (child + 1 < heap_.size() && earlier(heap_[child + 1], heap_[child]))
             ++child;
