@@ -98,7 +98,7 @@ void Scene::measure(Instance& instance) const
     const InstanceSetup& setup = instance.setup;
     const sim::EffectDef& effect = *setup.effect;
     const sim::Influence influence = effect.influence();
-    const bool stays = effect.heedsPlacement() && !(effect.bound > 0);
+    const bool stays = effect.dependsOnPlacement() && !(effect.bound > 0);
     const BoundsInputs past = pastOf(instance, stays, influence);
     const float wind = glm::length(effect.wind) + (stays ? past.wind / past.smallest : past.localWind);
     if (wind != instance.reachWind) {
@@ -192,10 +192,10 @@ void Scene::setPlacement(LocalId id, const base::Placement& placement)
 {
     Instance& instance = *instances_.find(id);
     if (instance.state != InstanceState::Dormant && instance.state != InstanceState::Finished) {
-        if (instance.setup.effect->heedsPlacement() && !instance.setup.cameFrom)
+        if (instance.setup.effect->dependsOnPlacement() && !instance.setup.cameFrom)
             moved_.push_back(id); // may throw, as the next may
         world_.setPlacement(instance.slot, placement);
-        if (instance.setup.effect->heedsPlacement() && !instance.setup.cameFrom)
+        if (instance.setup.effect->dependsOnPlacement() && !instance.setup.cameFrom)
             instance.setup.cameFrom = instance.setup.placement;
     }
     instance.setup.placement = placement;

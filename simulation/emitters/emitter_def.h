@@ -44,7 +44,7 @@ struct EmitterDef final : SolverDef, EmitterSettings
     std::shared_ptr<const base::GpuParticleProgram> gpuProgram() const override;
     Influence influence() const override;
     bool collides() const override;
-    bool heedsPlacement() const override { return inWorld; }
+    bool dependsOnPlacement() const override { return inWorld; }
     /// Analytic when the state is a pure function of time: closed motion, no events, no trails, no moves.
     CatchUp catchUp() const override
     {

@@ -30,7 +30,7 @@ void EmitterSolver::passOver(const StepContext& context, base::Ticks tick)
     if (!started_)
         begin(context);
     schedule_.setSeed(context.seed, context.solverIndex);
-    heedConditions(context);
+    applyConditions(context);
     const BirthWindow past{now_, tick, double(context.parameters->intensity), context.parameters->emitting};
     store_.clear(store_.next() + schedule_.advance(past, {}).total);
     now_ = tick;

@@ -138,7 +138,7 @@ EmitterSolver::Conditions EmitterSolver::conditionsOf(const StepContext& context
 }
 
 /// When gravity or wind change, motion goes on from where it has come to.
-void EmitterSolver::heedConditions(const StepContext& context)
+void EmitterSolver::applyConditions(const StepContext& context)
 {
     const Conditions conditions = conditionsOf(context);
     varied_ = varied_ || !(conditions == conditions_);
@@ -208,7 +208,7 @@ void EmitterSolver::openStep(const StepContext& context)
     const bool isWanted = context.gpuParticles && gpu_ && !gpu_->asksTooMuch(context);
     if (gpu_ && gpu_->isOn() && !isWanted)
         leaveGpu();
-    heedConditions(context);
+    applyConditions(context);
     if (gpu_)
         gpu_->noteStep(context);
     open_ = {};
@@ -443,7 +443,7 @@ void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
         begin(context);
     }
     schedule_.setSeed(context.seed, context.solverIndex);
-    heedConditions(context);
+    applyConditions(context);
     const uint64_t droppedBefore = dropped_;
     base::Ticks from = now_;
     if (neverDrops(double(context.parameters->intensity))) {

@@ -197,7 +197,7 @@ private:
         bool operator==(const Conditions&) const = default;
     };
     Conditions conditionsOf(const StepContext& context) const;
-    void heedConditions(const StepContext& context);
+    void applyConditions(const StepContext& context);
     /// True without particles and without births up to `tick`.
     bool restsThrough(const StepContext& context, base::Ticks tick) const;
     void seekHere(const StepContext& context, base::Ticks tick);

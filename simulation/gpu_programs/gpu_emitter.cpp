@@ -29,8 +29,8 @@ void put(std::byte*& io, std::span<const T> values)
 
 GpuEmitter::GpuEmitter(const ParticleProgram& program, std::pmr::memory_resource* memory)
     : program_(program), rows_(program.gpu->rows), window_(longestKept(program)),
-      steps_(program.gpu->features.steps), kills_(program.gpu->kills), heedsHost_(program.gpu->heedsHost),
-      log_(memory), stepLog_(memory), conditions_(memory)
+      steps_(program.gpu->features.steps), kills_(program.gpu->kills),
+      dependsOnHost_(program.gpu->dependsOnHost), log_(memory), stepLog_(memory), conditions_(memory)
 {
     conditions_.reserve(base::kMostGpuConditions);
     conditions_.push_back({0, glm::vec3(0.0f)});

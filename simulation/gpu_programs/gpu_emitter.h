@@ -43,7 +43,7 @@ public:
     bool asksTooMuch(const StepContext& context) const
     {
         constexpr base::Ticks kLongest = std::numeric_limits<uint32_t>::max(); // about 6 s
-        return (heedsHost_ && (context.collider || context.contactHook)) ||
+        return (dependsOnHost_ && (context.collider || context.contactHook)) ||
                (steps_ && context.stepTicks > kLongest);
     }
     /// Whether particles may die before their time.
@@ -77,7 +77,7 @@ private:
     base::Ticks window_; ///< [tick] longer than any life
     bool steps_;         ///< motion has no closed form
     bool kills_;
-    bool heedsHost_;
+    bool dependsOnHost_;
     bool meetsGround_ = false; ///< see StepWeather
     bool meetsOthers_ = false;
     BirthLog log_;

@@ -154,7 +154,7 @@ private:
         moduleNumbers = std::move(modules.numbers);
         features.stepWords = base::kGpuStepHead + modules.stepWords;
         kills = modules.kills;
-        heedsHost = modules.heedsHost;
+        dependsOnHost = modules.dependsOnHost;
         places_ = scratchPlaces(program_.ops);
     }
 

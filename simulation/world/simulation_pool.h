@@ -35,7 +35,7 @@ struct SimulationConditions
     InstanceParameters parameters;        ///< intensity and emission; its wind is 0, being part of `wind`
     const DistanceField* field = nullptr; ///< the host's geometry; null for none
     bool hasContact = false;              ///< the host's contact function is asked
-    base::Placement placement;            ///< where it is heeded; default elsewhere
+    base::Placement placement;            ///< where it matters; default elsewhere
     glm::vec3 worldWind{0.0f}; ///< [m/s] world, the host's, where the effect depends on its placement
 
     /// Bit for bit.

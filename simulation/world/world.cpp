@@ -157,7 +157,7 @@ SimulationConditions World::conditionsOf(const EffectDef& effect, const Instance
     const bool hasGround = environment_.hasGround && effect.hasGround;
     conditions.groundHeight = hasGround ? 0.0f : -std::numeric_limits<float>::infinity();
     conditions.parameters = {start.parameters.intensity, glm::vec3(0.0f), start.parameters.emitting};
-    if (effect.heedsPlacement()) {
+    if (effect.dependsOnPlacement()) {
         conditions.placement = start.placement;
         conditions.worldWind = start.parameters.wind;
     }

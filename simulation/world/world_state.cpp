@@ -97,7 +97,7 @@ SimulationIndex World::joinSimulation(SimulationIndex index, const Entry& entry,
     const SimulationConditions conditions = conditionsOf(*entry.effect, entry.start);
     // They may have shared one as long as nothing was in their way that only is at one of the places.
     SimulationConditions elsewhere = conditions;
-    if (conditions.hasContact && !entry.effect->heedsPlacement())
+    if (conditions.hasContact && !entry.effect->dependsOnPlacement())
         elsewhere.placement = simulation.conditions.placement;
     reader.require(simulation.effect == entry.effect && simulation.conditions.equals(elsewhere),
                    "instances of the state share a simulation although they differ");
