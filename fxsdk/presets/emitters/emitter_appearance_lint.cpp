@@ -1,5 +1,5 @@
 // Warnings about members of an emitter's shape and appearance that have no effect.
-#include "fxsdk/presets/emitters/emitter_advice.h"
+#include "fxsdk/presets/emitters/emitter_lint.h"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ struct ShapeMember
     std::initializer_list<std::string_view> shapes;
 };
 
-void adviseSpline(const PresetValue& element)
+void lintSpline(const PresetValue& element)
 {
     glm::vec3 first(0.0f);
     element.readElement("points", 0, first);
@@ -51,7 +51,7 @@ void warnOfAll(const PresetValue& value, std::initializer_list<const char*> memb
             value.warning(member, "has no effect " + why);
 }
 
-void adviseSpeed(const PresetValue& appearance)
+void lintSpeed(const PresetValue& appearance)
 {
     float fastest = 0.0f;
     appearance.read("fastest", fastest);
@@ -60,7 +60,7 @@ void adviseSpeed(const PresetValue& appearance)
                   "without \"fastest\", the speed at which the curve ends; add it");
 }
 
-void adviseFrames(const PresetValue& appearance, const sim::EmitterAppearance& parsed)
+void lintFrames(const PresetValue& appearance, const sim::EmitterAppearance& parsed)
 {
     if (!appearance.has("texture"))
         warnOfAll(appearance, {"frames", "tileColumns", "tileRows", "firstFrame", "frameBlend"},
@@ -71,7 +71,7 @@ void adviseFrames(const PresetValue& appearance, const sim::EmitterAppearance& p
                            "add \"framesPerSecond\"");
 }
 
-void adviseMedium(const PresetValue& element)
+void lintMedium(const PresetValue& element)
 {
     const PresetValue appearance = element.child("appearance");
     warnOfAll(appearance,
@@ -80,12 +80,12 @@ void adviseMedium(const PresetValue& element)
               "on the kind \"medium\", which is made of balls of smoke or fire; add \"kind\": \"sprite\"");
 }
 
-void adviseDrawn(const PresetValue& element, const sim::EmitterDef& emitter)
+void lintDrawn(const PresetValue& element, const sim::EmitterDef& emitter)
 {
     const PresetValue appearance = element.child("appearance");
     const bool isMesh = emitter.appearance.kind == AppearanceKind::Mesh;
-    adviseSpeed(appearance);
-    adviseFrames(appearance, emitter.appearance);
+    lintSpeed(appearance);
+    lintFrames(appearance, emitter.appearance);
     if (!isMesh)
         warnOfAll(appearance, {"mesh"}, "on the kind \"sprite\"; add \"kind\": \"mesh\"");
     if (emitter.appearance.stretch > 0.0f &&
@@ -100,7 +100,7 @@ void adviseDrawn(const PresetValue& element, const sim::EmitterDef& emitter)
 }
 
 /// The light of what shines not: see LightDef::intensity.
-void adviseLight(const PresetValue& element, const sim::EmitterDef& emitter)
+void lintLight(const PresetValue& element, const sim::EmitterDef& emitter)
 {
     const bool isMedium = emitter.appearance.kind == AppearanceKind::Medium;
     bool glows = !isMedium && (emitter.appearance.luminance > 0.0f || emitter.light.intensity > 0.0f);
@@ -117,7 +117,7 @@ void adviseLight(const PresetValue& element, const sim::EmitterDef& emitter)
 
 } // namespace
 
-void adviseShape(const PresetValue& element)
+void lintShape(const PresetValue& element)
 {
     static const std::array<ShapeMember, 9> kMembers{{
         {"tube", {"torus"}},
@@ -141,16 +141,16 @@ void adviseShape(const PresetValue& element)
                                          ": take it out, or change \"shape\"");
     }
     if (shape == "spline")
-        adviseSpline(element);
+        lintSpline(element);
 }
 
-void adviseAppearance(const PresetValue& element, const sim::EmitterDef& emitter)
+void lintAppearance(const PresetValue& element, const sim::EmitterDef& emitter)
 {
     if (emitter.appearance.kind == AppearanceKind::Medium)
-        adviseMedium(element);
+        lintMedium(element);
     else if (emitter.appearance.kind != AppearanceKind::None)
-        adviseDrawn(element, emitter);
-    adviseLight(element, emitter);
+        lintDrawn(element, emitter);
+    lintLight(element, emitter);
 }
 
 } // namespace fx::preset

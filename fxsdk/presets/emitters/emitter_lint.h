@@ -1,4 +1,4 @@
-/// @file emitter_advice.h
+/// @file emitter_lint.h
 /// Lint warnings: members of a preset that are valid and have no effect, or cost more than expected.
 #pragma once
 
@@ -8,13 +8,13 @@
 
 namespace fx::preset {
 
-// Parts of adviseEmitters(), each for one emitter.
-void adviseForces(const PresetValue& element, bool hasGround);
-void adviseShape(const PresetValue& element);
-void adviseAppearance(const PresetValue& element, const sim::EmitterDef& emitter);
+// Parts of lintEmitters(), each for one emitter.
+void lintForces(const PresetValue& element, bool hasGround);
+void lintShape(const PresetValue& element);
+void lintAppearance(const PresetValue& element, const sim::EmitterDef& emitter);
 
 /// What does not fit: emitters whose particles, those that events give birth to included, exceed their
 /// capacity, and memory above 1 GiB.
-void adviseCapacity(const PresetValue& root, const sim::EffectDef& effect);
+void lintCapacity(const PresetValue& root, const sim::EffectDef& effect);
 
 } // namespace fx::preset

@@ -1,5 +1,5 @@
 // What an emitter's capacity has to hold.
-#include "fxsdk/presets/emitters/emitter_advice.h"
+#include "fxsdk/presets/emitters/emitter_lint.h"
 
 #include "fxsdk/presets/emitters/birth_count.h"
 
@@ -15,7 +15,7 @@ constexpr double kRoundedDown = 1.0 - 1e-6; // by more than floats are rounded u
 
 } // namespace
 
-void adviseCapacity(const PresetValue& root, const sim::EffectDef& effect)
+void lintCapacity(const PresetValue& root, const sim::EffectDef& effect)
 {
     std::vector<const sim::EmitterDef*> emitters = sim::emittersOf(effect);
     emitters.resize(root.size("emitters")); // they are the first solvers

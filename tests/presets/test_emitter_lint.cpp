@@ -140,7 +140,7 @@ TEST_P(VainMember, isWarnedAboutWithPlaceAndRemedyAndTheRemedyHelps)
         ADD_FAILURE() << toString(left);
 }
 
-TEST(EmitterAdvice, windOfTheEffectNeedsDragSomewhere)
+TEST(EmitterLint, windOfTheEffectNeedsDragSomewhere)
 {
     const auto warnings = [](const std::string& forces) {
         const auto loaded = preset::loadPresetText(
@@ -152,7 +152,7 @@ TEST(EmitterAdvice, windOfTheEffectNeedsDragSomewhere)
     EXPECT_EQ(warnings(R"("drag":1)"), 0u);
 }
 
-TEST(EmitterAdvice, whatTheGpuCannotComputeIsToldWithTheReason)
+TEST(EmitterLint, whatTheGpuCannotComputeIsToldWithTheReason)
 {
     sim::EmitterDef any;
     any.compute = sim::ComputeOn::Gpu;
@@ -167,7 +167,7 @@ TEST(EmitterAdvice, whatTheGpuCannotComputeIsToldWithTheReason)
     EXPECT_TRUE(warningsOf(R"("compute":"auto","appearance":{"kind":"medium"})").empty());
 }
 
-TEST(EmitterAdvice, capacityCountsWhatEventsGiveBirthTo)
+TEST(EmitterLint, capacityCountsWhatEventsGiveBirthTo)
 {
     const std::string cause = R"({"name":"a","emission":{"rate":1000},"maxParticles":2000,"events":[
         {"on":"death","emit":"b","count":100}]})"; // 100000 births a second that live for 5 s
@@ -196,7 +196,7 @@ std::string chainOf(int emitters, int rules)
     return text;
 }
 
-TEST(EmitterAdvice, longChainsOfManyRulesAreCountedOnceAnEmitter)
+TEST(EmitterLint, longChainsOfManyRulesAreCountedOnceAnEmitter)
 {
     // 32^63 ways lead to the last emitter: following each of them would never end.
     const auto loaded = load(chainOf(64, 32));
@@ -205,7 +205,7 @@ TEST(EmitterAdvice, longChainsOfManyRulesAreCountedOnceAnEmitter)
     EXPECT_EQ(loaded->warnings.size(), 64u - 1u); // all but the first have room for too few
 }
 
-TEST(EmitterAdvice, aCapacityIsTooSmallForMoreThanItsOwnNumber)
+TEST(EmitterLint, aCapacityIsTooSmallForMoreThanItsOwnNumber)
 {
     const auto warningsOfCapacity = [](double rate, double lifetime, int capacity) {
         return load(R"({"maxParticles":)" + std::to_string(capacity) + R"(,"emission":{"rate":)" +
@@ -225,7 +225,7 @@ TEST(EmitterAdvice, aCapacityIsTooSmallForMoreThanItsOwnNumber)
             }
 }
 
-TEST(EmitterAdvice, repeatedEventsCountNoMoreThanThoseWhoLiveCanCause)
+TEST(EmitterLint, repeatedEventsCountNoMoreThanThoseWhoLiveCanCause)
 {
     const auto warnings = [](const std::string& capacity) { // 10 that puff every 0.1 s, for 1 s each: 10 * 11
         return load(R"({"emission":{"bursts":[{"time":0,"count":10}]},"lifetime":5,"events":[
@@ -237,7 +237,7 @@ TEST(EmitterAdvice, repeatedEventsCountNoMoreThanThoseWhoLiveCanCause)
     EXPECT_EQ(warnings("105"), 1u);
 }
 
-TEST(EmitterAdvice, aLostTargetIsTheOnlyError)
+TEST(EmitterLint, aLostTargetIsTheOnlyError)
 {
     const std::string b = R"(,{"name":"b"})";
     for (const std::string& rest : {R"("c"}]})" + b, R"("b"}]})" + b + b, R"("a"}]})" + b}) {
@@ -250,7 +250,7 @@ TEST(EmitterAdvice, aLostTargetIsTheOnlyError)
     }
 }
 
-TEST(EmitterAdvice, theBytesThatAreToldAreThoseThatAreTaken)
+TEST(EmitterLint, theBytesThatAreToldAreThoseThatAreTaken)
 {
     base::SnapshotSchema schema;
     for (const std::string members :
@@ -268,7 +268,7 @@ TEST(EmitterAdvice, theBytesThatAreToldAreThoseThatAreTaken)
     }
 }
 
-TEST(EmitterAdvice, muchMemoryIsWarnedAbout)
+TEST(EmitterLint, muchMemoryIsWarnedAbout)
 {
     const auto loaded =
         load(R"({"emission":{"rate":1},"maxParticles":16777216,"trail":{"lifetime":1,"maxPoints":256}})");
@@ -278,7 +278,7 @@ TEST(EmitterAdvice, muchMemoryIsWarnedAbout)
         << loaded->warnings[0].message;
 }
 
-TEST(EmitterAdvice, misspeltChoicesAndMissingFilesAreExplained)
+TEST(EmitterLint, misspeltChoicesAndMissingFilesAreExplained)
 {
     const auto messageOf = [](const std::string& members) {
         return load(R"({"emission":{"rate":1},)" + members + "}").status().message();
@@ -290,7 +290,7 @@ TEST(EmitterAdvice, misspeltChoicesAndMissingFilesAreExplained)
               std::string::npos);
 }
 
-TEST(EmitterAdvice, brokenMeshesAndGridsAreNamed)
+TEST(EmitterLint, brokenMeshesAndGridsAreNamed)
 {
     const test::TempFolder folder;
     folder.write("bad.obj", "v 0 0\n");

@@ -1,4 +1,4 @@
-#include "fxsdk/presets/emitters/emitter_advice.h"
+#include "fxsdk/presets/emitters/emitter_lint.h"
 
 #include "fxsdk/presets/emitters/emitter_technique.h"
 #include "simulation/gpu_programs/gpu_program.h"
@@ -46,7 +46,7 @@ bool meetsAnything(const PresetValue& element, const sim::EmitterDef& emitter)
 constexpr const char* kNeedsDrag =
     "particles follow the air by their drag alone, and this emitter has none: add \"drag\" to its forces";
 
-void adviseAir(const PresetValue& forces)
+void lintAir(const PresetValue& forces)
 {
     if (isSet(forces, "drag") || isSet(forces, "quadraticDrag"))
         return;
@@ -67,7 +67,7 @@ void adviseAir(const PresetValue& forces)
     }
 }
 
-void adviseObstacle(const PresetValue& value, bool hasGround)
+void lintObstacle(const PresetValue& value, bool hasGround)
 {
     const std::string shape = nameOf(value, "shape", "");
     const bool isEmpty = value.has("size") && !isSet(value, "size") && !isSet(value, "margin");
@@ -78,7 +78,7 @@ void adviseObstacle(const PresetValue& value, bool hasGround)
                                "of the two out");
 }
 
-void adviseEvents(const PresetValue& element, const sim::EmitterDef& emitter)
+void lintEvents(const PresetValue& element, const sim::EmitterDef& emitter)
 {
     for (size_t i = 0; i < element.size("events"); ++i) {
         const PresetValue event = element.element("events", i);
@@ -88,7 +88,7 @@ void adviseEvents(const PresetValue& element, const sim::EmitterDef& emitter)
     }
 }
 
-void adviseCompute(const PresetValue& element, const sim::EmitterDef& emitter)
+void lintCompute(const PresetValue& element, const sim::EmitterDef& emitter)
 {
     sim::EmitterDef any;
     any.compute = sim::ComputeOn::Gpu;
@@ -100,7 +100,7 @@ void adviseCompute(const PresetValue& element, const sim::EmitterDef& emitter)
                                        "; change that, or leave \"compute\" out");
 }
 
-void adviseWind(const PresetValue& root, const sim::EffectDef& effect)
+void lintWind(const PresetValue& root, const sim::EffectDef& effect)
 {
     if (!isSet(root, "wind") || effect.solvers.size() != root.size("emitters") || effect.solvers.empty())
         return; // gases and fragments feel it
@@ -115,12 +115,12 @@ void adviseWind(const PresetValue& root, const sim::EffectDef& effect)
 
 } // namespace
 
-void adviseForces(const PresetValue& element, bool hasGround)
+void lintForces(const PresetValue& element, bool hasGround)
 {
     const PresetValue forces = element.child("forces");
-    adviseAir(forces);
+    lintAir(forces);
     for (size_t i = 0; i < element.size("collisions"); ++i)
-        adviseObstacle(element.element("collisions", i), hasGround);
+        lintObstacle(element.element("collisions", i), hasGround);
     float bounce = -1.0f;
     forces.read("bounce", bounce);
     for (const char* shape : {"ground", "scene"})
@@ -133,17 +133,17 @@ void adviseForces(const PresetValue& element, bool hasGround)
                                    "\"friction\" to one of the collisions");
 }
 
-void adviseEmitters(const PresetValue& root, const sim::EffectDef& effect)
+void lintEmitters(const PresetValue& root, const sim::EffectDef& effect)
 {
     const std::vector<const sim::EmitterDef*> emitters = sim::emittersOf(effect);
     for (size_t i = 0; i < root.size("emitters"); ++i) {
         const PresetValue element = root.element("emitters", i);
         const sim::EmitterDef& emitter = *emitters[i];
-        adviseForces(element, effect.hasGround);
-        adviseShape(element);
-        adviseAppearance(element, emitter);
-        adviseEvents(element, emitter);
-        adviseCompute(element, emitter);
+        lintForces(element, effect.hasGround);
+        lintShape(element);
+        lintAppearance(element, emitter);
+        lintEvents(element, emitter);
+        lintCompute(element, emitter);
         if (emitter.appearance.kind == sim::AppearanceKind::None && emitter.events.empty() &&
             !emitter.light.given && !(emitter.trail.lifetime > 0.0f) && !meets(element, "hook"))
             element.child("appearance")
@@ -151,8 +151,8 @@ void adviseEmitters(const PresetValue& root, const sim::EffectDef& effect)
                          "found \"none\" without a trail, a light or events: nothing of this emitter is "
                          "ever seen; add one of them, or another kind");
     }
-    adviseWind(root, effect);
-    adviseCapacity(root, effect);
+    lintWind(root, effect);
+    lintCapacity(root, effect);
 }
 
 } // namespace fx::preset
