@@ -160,7 +160,7 @@ struct DrawTechnique
     base::Status (*check)(const ViewSettings& settings) = nullptr;
     /// Whether it changes the picture when there is nothing to see; null: no.
     bool (*actsAlone)(const ViewSettings& settings) = nullptr;
-    const QualityLadder* ladder = nullptr; ///< what quality may lower of it; null: nothing
+    const ScalabilitySettings* levels = nullptr; ///< what quality may lower of it; null: nothing
 };
 
 } // namespace fx::render

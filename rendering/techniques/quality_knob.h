@@ -1,6 +1,6 @@
 /// @file quality_knob.h
-/// What quality may lower: the settings of a technique, and the scalability levels (ladder) that they make
-/// up.
+/// What quality may lower: the settings of a technique, and the scalability levels (scalability levels) that
+/// they make up.
 #pragma once
 
 #include "rendering/frame/screen_share.h"
@@ -33,13 +33,13 @@ struct QualityKnob
     void (*lower)(float value, ViewSettings& ioSettings);
 };
 
-/// A ladder of settings that quality is chosen from, measured by calibrations.
-struct QualityLadder
+/// A scalability levels of settings that quality is chosen from, measured by calibrations.
+struct ScalabilitySettings
 {
     std::string_view name;    ///< in calibrations, and of the group of passes whose time it is; empty: none
     std::string_view meaning; ///< in the schema of calibrations
 
-    /// [1] how much an error of the ladder matters on a picture.
+    /// [1] how much an error of the scalability levels matters on a picture.
     double (*weight)(const ScreenShare& covered);
 
     std::span<const QualityKnob> knobs;

@@ -1,4 +1,4 @@
-#include "fxsdk/quality/quality_ladder.h"
+#include "fxsdk/quality/scalability_levels.h"
 
 #include <algorithm>
 #include <type_traits>

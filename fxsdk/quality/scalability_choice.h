@@ -1,4 +1,4 @@
-/// @file ladder_choice.h
+/// @file scalability_choice.h
 /// The settings that make least error within a time.
 #pragma once
 
@@ -8,10 +8,10 @@
 
 namespace fx::quality {
 
-/// What a choice is made of; all spans have one element a ladder.
+/// What a choice is made of; all spans have one element per technique.
 struct ChoiceInputs
 {
-    std::span<const Ladder> ladders;
+    std::span<const ScalabilityLevels> techniqueLevels;
     const CostModel* costs;
     std::span<const double> weights; ///< [1] >= 0 how much each technique matters on the screen
 };
@@ -23,10 +23,10 @@ double estimatedError(const ChoiceInputs& in, const Choice& choice);
 
 /// Climbs from `from` by the step that takes most error away per millisecond, as long as `milliseconds` are
 /// not exceeded. A step may skip others. Gives `from` back when that is too slow already.
-/// @param most no ladder climbs above this
+/// @param most no technique goes above this
 Choice climb(const ChoiceInputs& in, const Choice& from, const Choice& most, double milliseconds);
 
-/// The last step of each ladder.
-Choice highest(std::span<const Ladder> ladders);
+/// The last step of each technique.
+Choice highest(std::span<const ScalabilityLevels> techniqueLevels);
 
 } // namespace fx::quality

@@ -1,4 +1,4 @@
-#include "fxsdk/quality/ladder_choice.h"
+#include "fxsdk/quality/scalability_choice.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace {
 /// A way up, and what it gives.
 struct Way
 {
-    size_t ladder = 0;
+    size_t technique = 0;
     uint8_t step = 0;
     double gain = -1.0; ///< error per millisecond; < 0: there is none
 };
@@ -19,16 +19,16 @@ struct Way
 double predictedMilliseconds(const ChoiceInputs& in, const Choice& choice)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < in.ladders.size(); ++i)
-        sum += in.costs->scale(i) * in.ladders[i].steps[choice[i]].cost;
+    for (size_t i = 0; i < in.techniqueLevels.size(); ++i)
+        sum += in.costs->scale(i) * in.techniqueLevels[i].steps[choice[i]].cost;
     return sum;
 }
 
 double estimatedError(const ChoiceInputs& in, const Choice& choice)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < in.ladders.size(); ++i)
-        sum += in.weights[i] * in.ladders[i].steps[choice[i]].error;
+    for (size_t i = 0; i < in.techniqueLevels.size(); ++i)
+        sum += in.weights[i] * in.techniqueLevels[i].steps[choice[i]].error;
     return sum;
 }
 
@@ -40,8 +40,8 @@ Choice climb(const ChoiceInputs& in, const Choice& from, const Choice& most, dou
     for (;;) {
         Way best;
         double bestCost = 0.0;
-        for (size_t i = 0; i < in.ladders.size(); ++i) {
-            const std::vector<LadderStep>& steps = in.ladders[i].steps;
+        for (size_t i = 0; i < in.techniqueLevels.size(); ++i) {
+            const std::vector<ScalabilityLevel>& steps = in.techniqueLevels[i].steps;
             for (uint8_t k = uint8_t(choice[i] + 1); k <= most[i]; ++k) {
                 const double cost = in.costs->scale(i) * (steps[k].cost - steps[choice[i]].cost);
                 const double gain = in.weights[i] * (steps[choice[i]].error - steps[k].error);
@@ -55,16 +55,16 @@ Choice climb(const ChoiceInputs& in, const Choice& from, const Choice& most, dou
         }
         if (best.gain < 0.0)
             return choice;
-        choice[best.ladder] = best.step;
+        choice[best.technique] = best.step;
         left -= bestCost;
     }
 }
 
-Choice highest(std::span<const Ladder> ladders)
+Choice highest(std::span<const ScalabilityLevels> techniqueLevels)
 {
     Choice choice{};
-    for (size_t i = 0; i < ladders.size(); ++i)
-        choice[i] = uint8_t(ladders[i].steps.size() - 1);
+    for (size_t i = 0; i < techniqueLevels.size(); ++i)
+        choice[i] = uint8_t(techniqueLevels[i].steps.size() - 1);
     return choice;
 }
 

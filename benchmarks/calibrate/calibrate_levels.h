@@ -1,11 +1,11 @@
-/// @file calibrate_ladders.h
-/// Measures the ladders of quality on this machine: every setting of a technique on frames of several
+/// @file calibrate_levels.h
+/// Measures the scalability levels on this machine: every setting of a technique on frames of several
 /// presets.
 #pragma once
 
 #include "benchmarks/accuracy/accuracy_curve.h"
 #include "benchmarks/scenes/quality_stage.h"
-#include "fxsdk/quality/quality_ladder.h"
+#include "fxsdk/quality/scalability_levels.h"
 
 #include <functional>
 #include <optional>
@@ -23,23 +23,24 @@ struct CalibrateRules
 };
 
 /// The measured settings of one technique and those of them that are worth having.
-struct MeasuredLadder
+struct MeasuredLevels
 {
     AccuracyCurve curve; ///< the first point is the best setting
-    quality::Ladder ladder;
+    quality::ScalabilityLevels levels;
 };
 
 struct MeasuredCalibration
 {
-    std::vector<MeasuredLadder> ladders;
+    std::vector<MeasuredLevels> techniqueLevels;
     StageClock clock;
     std::string renderer; ///< as the driver names itself
 };
 
-base::Result<MeasuredCalibration> measureLadders(const CalibrateRules& rules);
+base::Result<MeasuredCalibration> measureLevels(const CalibrateRules& rules);
 
-/// The front of a curve as a ladder: from the baseline downwards, each step at least a tenth cheaper than the
-/// one above it and more wrong, at most quality::kMostSteps.
-quality::Ladder ladderOf(const AccuracyCurve& curve, const std::vector<quality::Knobs>& knobs);
+/// The front of a curve as a list of scalability levels: from the baseline downwards, each step at least a
+/// tenth cheaper than the one above it and more wrong, at most quality::kMostSteps.
+quality::ScalabilityLevels scalabilityLevelsOf(const AccuracyCurve& curve,
+                                               const std::vector<quality::Knobs>& knobs);
 
 } // namespace fx::cli

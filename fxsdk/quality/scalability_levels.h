@@ -1,4 +1,4 @@
-/// @file quality_ladder.h
+/// @file scalability_levels.h
 /// What a technique costs and how wrong it is, setting by setting: the data that quality is chosen from.
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace fx::quality {
 
-constexpr size_t kMostLadders = 8; ///< techniques that are chosen at once
-constexpr size_t kMostSteps = 16;  ///< of one ladder
+constexpr size_t kMostTechniques = 8; ///< techniques that are chosen at once
+constexpr size_t kMostSteps = 16;     ///< of one technique
 
 /// The settings of techniques that a step lowers; what is absent stays as the host has it.
 struct Knobs
@@ -28,7 +28,7 @@ struct Knobs
 };
 
 /// One setting of a technique.
-struct LadderStep
+struct ScalabilityLevel
 {
     double cost = 0;  ///< [1] time in units of the last step's, >= 0
     double error = 0; ///< [1] mean difference from the last step's picture, in units of the light in it
@@ -36,16 +36,16 @@ struct LadderStep
 };
 
 /// The settings of one technique worth having: each costs more than the one before and is less wrong.
-struct Ladder
+struct ScalabilityLevels
 {
     std::string technique;
-    std::vector<LadderStep> steps; ///< 1 to kMostSteps
+    std::vector<ScalabilityLevel> steps; ///< 1 to kMostSteps
 };
 
 struct Calibration
 {
     std::string origin; ///< machine and version that measured it
-    std::vector<Ladder> ladders;
+    std::vector<ScalabilityLevels> techniqueLevels;
 };
 
 /// The value of the setting that render::QualityKnob::name names; nothing: it is absent, or there is no such
@@ -58,16 +58,16 @@ template <class F>
 void forEachKnob(F&& f, render::DrawTechniques techniques = render::drawTechniques())
 {
     for (const render::DrawTechnique* technique : techniques)
-        if (technique->ladder)
-            for (const render::QualityKnob& knob : technique->ladder->knobs)
+        if (technique->levels)
+            for (const render::QualityKnob& knob : technique->levels->knobs)
                 f(knob);
 }
 
 /// What `first` sets, and what `second` sets besides.
 Knobs merged(const Knobs& first, const Knobs& second);
 
-/// Index of the step of each ladder.
-using Choice = std::array<uint8_t, kMostLadders>;
+/// Index of the step of each technique.
+using Choice = std::array<uint8_t, kMostTechniques>;
 
 /// Lowers `ioSettings` to what the knobs say. Never above what the host asked for.
 void apply(const Knobs& knobs, render::ViewSettings& ioSettings);

@@ -1,6 +1,6 @@
-// What the choice of settings promises, for thousands of random ladders, loads and budgets.
+// What the choice of settings promises, for thousands of random scalability levels, loads and budgets.
 #include "foundation/random/philox.h"
-#include "fxsdk/quality/ladder_choice.h"
+#include "fxsdk/quality/scalability_choice.h"
 
 #include <gtest/gtest.h>
 
@@ -24,27 +24,27 @@ private:
 
 struct Case
 {
-    std::vector<Ladder> ladders;
+    std::vector<ScalabilityLevels> techniqueLevels;
     CostModel costs;
-    std::array<double, kMostLadders> weights{};
-    ChoiceInputs inputs() const { return {ladders, &costs, weights}; }
+    std::array<double, kMostTechniques> weights{};
+    ChoiceInputs inputs() const { return {techniqueLevels, &costs, weights}; }
 };
 
 Case randomCase(uint32_t stream)
 {
     Draw draw(stream);
     Case made;
-    const size_t count = 1 + size_t(draw() * kMostLadders);
+    const size_t count = 1 + size_t(draw() * kMostTechniques);
     for (size_t i = 0; i < count; ++i) {
-        Ladder ladder{"random", {}};
+        ScalabilityLevels levels{"random", {}};
         const size_t steps = 1 + size_t(draw() * kMostSteps);
         double cost = draw() < 0.3 ? 0.0 : draw();
         double error = 0.0;
         for (size_t k = 0; k < steps; ++k, cost += 0.01 + draw())
-            ladder.steps.push_back({cost, 0.0, {}});
+            levels.steps.push_back({cost, 0.0, {}});
         for (size_t k = steps - 1; k-- > 0;)
-            ladder.steps[k].error = error += 0.001 + draw() * draw();
-        made.ladders.push_back(ladder);
+            levels.steps[k].error = error += 0.001 + draw() * draw();
+        made.techniqueLevels.push_back(levels);
         made.costs.observe(i, 1.0, draw() * 5.0);
         made.weights[i] = draw() < 0.2 ? 0.0 : draw();
     }
@@ -55,13 +55,13 @@ constexpr uint32_t kCases = 3000;
 
 } // namespace
 
-TEST(LadderChoice, costRisesAndErrorFallsWithEveryStep)
+TEST(ScalabilityChoice, costRisesAndErrorFallsWithEveryStep)
 {
     for (uint32_t stream = 0; stream < kCases; ++stream) {
         const Case made = randomCase(stream);
-        for (size_t i = 0; i < made.ladders.size(); ++i) {
+        for (size_t i = 0; i < made.techniqueLevels.size(); ++i) {
             Choice choice{};
-            for (uint8_t k = 1; k < made.ladders[i].steps.size(); ++k) {
+            for (uint8_t k = 1; k < made.techniqueLevels[i].steps.size(); ++k) {
                 const Choice before = choice;
                 choice[i] = k;
                 EXPECT_GT(predictedMilliseconds(made.inputs(), choice),
@@ -72,14 +72,14 @@ TEST(LadderChoice, costRisesAndErrorFallsWithEveryStep)
     }
 }
 
-TEST(LadderChoice, neverExceedsItsTimeUnlessTheLowestDoes)
+TEST(ScalabilityChoice, neverExceedsItsTimeUnlessTheLowestDoes)
 {
     for (uint32_t stream = 0; stream < kCases; ++stream) {
         const Case made = randomCase(stream);
         Draw draw(stream + 100'000);
         const double budget = 40.0 * draw();
         const double lowest = predictedMilliseconds(made.inputs(), {});
-        const Choice choice = climb(made.inputs(), {}, highest(made.ladders), budget);
+        const Choice choice = climb(made.inputs(), {}, highest(made.techniqueLevels), budget);
         if (lowest > budget) {
             EXPECT_EQ(choice, Choice{});
         } else {
@@ -88,14 +88,14 @@ TEST(LadderChoice, neverExceedsItsTimeUnlessTheLowestDoes)
     }
 }
 
-TEST(LadderChoice, leavesNoStepThatWouldStillFit)
+TEST(ScalabilityChoice, leavesNoStepThatWouldStillFit)
 {
     for (uint32_t stream = 0; stream < kCases; ++stream) {
         const Case made = randomCase(stream);
         const double budget = 10.0;
-        const Choice choice = climb(made.inputs(), {}, highest(made.ladders), budget);
-        for (size_t i = 0; i < made.ladders.size(); ++i) {
-            if (choice[i] + 1u >= made.ladders[i].steps.size())
+        const Choice choice = climb(made.inputs(), {}, highest(made.techniqueLevels), budget);
+        for (size_t i = 0; i < made.techniqueLevels.size(); ++i) {
+            if (choice[i] + 1u >= made.techniqueLevels[i].steps.size())
                 continue;
             Choice higher = choice;
             ++higher[i];
@@ -104,26 +104,26 @@ TEST(LadderChoice, leavesNoStepThatWouldStillFit)
     }
 }
 
-TEST(LadderChoice, staysBelowWhatItIsAllowed)
+TEST(ScalabilityChoice, staysBelowWhatItIsAllowed)
 {
     for (uint32_t stream = 0; stream < kCases; ++stream) {
         const Case made = randomCase(stream);
-        Choice most = highest(made.ladders);
+        Choice most = highest(made.techniqueLevels);
         for (uint8_t& step : most)
             step = uint8_t(step / 2);
         EXPECT_EQ(climb(made.inputs(), {}, most, 1e9), most);
     }
 }
 
-TEST(LadderChoice, aStepThatHelpsLittleDoesNotHideTheGreatOneBehindIt)
+TEST(ScalabilityChoice, aStepThatHelpsLittleDoesNotHideTheGreatOneBehindIt)
 {
     CostModel costs;
     costs.observe(0, 1.0, 1.0);
     costs.observe(1, 1.0, 1.0);
-    const std::vector<Ladder> ladders = {{"a", {{0.0, 1.0, {}}, {0.9, 0.99, {}}, {1.0, 0.0, {}}}},
-                                         {"b", {{0.0, 0.5, {}}, {1.0, 0.0, {}}}}};
+    const std::vector<ScalabilityLevels> techniqueLevels = {
+        {"a", {{0.0, 1.0, {}}, {0.9, 0.99, {}}, {1.0, 0.0, {}}}}, {"b", {{0.0, 0.5, {}}, {1.0, 0.0, {}}}}};
     const std::array<double, 2> weights = {1.0, 1.0};
-    const Choice choice = climb({ladders, &costs, weights}, {}, highest(ladders), 1.0);
+    const Choice choice = climb({techniqueLevels, &costs, weights}, {}, highest(techniqueLevels), 1.0);
     EXPECT_EQ(choice[0], 2);
     EXPECT_EQ(choice[1], 0);
 }

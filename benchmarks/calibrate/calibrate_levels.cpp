@@ -1,4 +1,4 @@
-#include "benchmarks/calibrate/calibrate_ladders.h"
+#include "benchmarks/calibrate/calibrate_levels.h"
 
 #include "fxsdk/cli/scene/default_stage.h"
 #include "fxsdk/cli/support/interrupt.h"
@@ -197,7 +197,7 @@ base::Status measureSubject(const Subject& subject, const CalibrateRules& rules,
 
 } // namespace
 
-quality::Ladder ladderOf(const AccuracyCurve& curve, const std::vector<Knobs>& knobs)
+quality::ScalabilityLevels scalabilityLevelsOf(const AccuracyCurve& curve, const std::vector<Knobs>& knobs)
 {
     std::vector<size_t> front;
     for (size_t k = 1; k < curve.points.size(); ++k)
@@ -206,10 +206,10 @@ quality::Ladder ladderOf(const AccuracyCurve& curve, const std::vector<Knobs>& k
     std::stable_sort(front.begin(), front.end(),
                      [&](size_t a, size_t b) { return timeRatio(curve, a).best > timeRatio(curve, b).best; });
     const auto rounded = [](double x) { return std::round(x * 1e4) / 1e4; };
-    std::vector<quality::LadderStep> falling = {{1.0, 0.0, knobs[0]}};
+    std::vector<quality::ScalabilityLevel> falling = {{1.0, 0.0, knobs[0]}};
     for (const size_t k : front) {
-        const quality::LadderStep step{rounded(timeRatio(curve, k).best), rounded(shownError(curve, k)),
-                                       knobs[k]};
+        const quality::ScalabilityLevel step{rounded(timeRatio(curve, k).best), rounded(shownError(curve, k)),
+                                             knobs[k]};
         if (falling.size() < quality::kMostSteps && step.cost <= kLeastStep * falling.back().cost &&
             step.error > falling.back().error)
             falling.push_back(step);
@@ -217,7 +217,7 @@ quality::Ladder ladderOf(const AccuracyCurve& curve, const std::vector<Knobs>& k
     return {curve.technique, {falling.rbegin(), falling.rend()}};
 }
 
-base::Result<MeasuredCalibration> measureLadders(const CalibrateRules& rules)
+base::Result<MeasuredCalibration> measureLevels(const CalibrateRules& rules)
 {
     MeasuredCalibration calibration;
     const Subject subjects[] = {media(), shimmer(), dazzle()};
@@ -231,7 +231,7 @@ base::Result<MeasuredCalibration> measureLadders(const CalibrateRules& rules)
             rules.progress(done, all);
     };
     for (const Subject& subject : subjects) {
-        MeasuredLadder measured{emptyCurve(subject), {}};
+        MeasuredLevels measured{emptyCurve(subject), {}};
         if (base::Status status = measureSubject(subject, rules, roundDone, measured.curve, calibration);
             !status)
             return status;
@@ -240,8 +240,8 @@ base::Result<MeasuredCalibration> measureLadders(const CalibrateRules& rules)
                                                           "' could not be measured; try --clock wall");
         if (subject.countsOff)
             measured.curve.points.back().seconds.assign(rules.repetitions, 0.0);
-        measured.ladder = ladderOf(measured.curve, subject.settings);
-        calibration.ladders.push_back(std::move(measured));
+        measured.levels = scalabilityLevelsOf(measured.curve, subject.settings);
+        calibration.techniqueLevels.push_back(std::move(measured));
     }
     return calibration;
 }
