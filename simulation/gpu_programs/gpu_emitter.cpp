@@ -155,11 +155,11 @@ float GpuEmitter::oldestAge(base::Ticks now) const
     return float(base::toSeconds(std::min(oldest, program_.longestLife)));
 }
 
-StepWeather GpuEmitter::weather(base::Ticks now) const
+ConditionsRange GpuEmitter::conditionsRange(base::Ticks now) const
 {
     const EmitterSettings& def = program_.def;
     const float drag = def.forces.drag > 0.0f ? std::min(def.forces.drag, 1e6f) : 0.0f;
-    StepWeather out;
+    ConditionsRange out;
     out.low = glm::vec3(kFarAway);
     out.high = -out.low;
     out.lowGround = kFarAway;
@@ -182,7 +182,7 @@ StepWeather GpuEmitter::weather(base::Ticks now) const
 base::Bounds GpuEmitter::bounds(base::Ticks now, float secondsBack) const
 {
     if (steps_) {
-        StepWeather met = weather(now);
+        ConditionsRange met = conditionsRange(now);
         met.secondsBack = secondsBack;
         return boundsOfStepped(program_.def, met);
     }

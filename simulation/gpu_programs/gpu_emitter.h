@@ -69,7 +69,7 @@ public:
 private:
     float oldestAge(base::Ticks now) const; ///< [s] upper bound of the age of living particles
     base::Bounds bounds(base::Ticks now, float secondsBack) const;
-    StepWeather weather(base::Ticks now) const;
+    ConditionsRange conditionsRange(base::Ticks now) const;
     base::Ticks lastDeath(const BirthKey& key) const;
 
     const ParticleProgram& program_;
@@ -78,7 +78,7 @@ private:
     bool steps_;         ///< motion has no closed form
     bool kills_;
     bool dependsOnHost_;
-    bool meetsGround_ = false; ///< see StepWeather
+    bool meetsGround_ = false; ///< see ConditionsRange
     bool meetsOthers_ = false;
     BirthLog log_;
     StepLog stepLog_;

@@ -78,9 +78,9 @@ std::string_view obstacleOfSteps(const EmitterSettings& def)
                    "large";
     if (scratchPlaces(ops).back() > kScratchBytes || modules.uses.size() > kMostModules)
         return "it has too many modules";
-    StepWeather weather;
-    weather.strongest = {kSome, kSome, kSome};
-    const base::Bounds bounds = boundsOfStepped(def, weather);
+    ConditionsRange conditions;
+    conditions.strongest = {kSome, kSome, kSome};
+    const base::Bounds bounds = boundsOfStepped(def, conditions);
     return std::isfinite(bounds.max.x) ? "" : "nothing says how far its particles may get";
 }
 

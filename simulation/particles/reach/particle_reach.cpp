@@ -138,23 +138,23 @@ base::Bounds ballOf(const EmitterSettings& def, const FlightBound& bound, const 
 /// ballistic particle whose pull is the largest that there may be: what the ground takes away makes it
 /// smaller. Upwards that is so when all pulls are downwards and equal, as a bounce then rises to no more than
 /// it fell from.
-base::Bounds boundsOfStepped(const EmitterSettings& def, const StepWeather& weather)
+base::Bounds boundsOfStepped(const EmitterSettings& def, const ConditionsRange& conditions)
 {
-    const FlightBound bound = flightOf(def, weather.strongest, {});
-    const base::Bounds ball = ballOf(def, bound, weather.strongest, weather.secondsBack);
-    if (weather.meetsOthers || followsAir(def) || !std::isfinite(ball.max.x))
+    const FlightBound bound = flightOf(def, conditions.strongest, {});
+    const base::Bounds ball = ballOf(def, bound, conditions.strongest, conditions.secondsBack);
+    if (conditions.meetsOthers || followsAir(def) || !std::isfinite(ball.max.x))
         return ball;
-    const double steady = double(weather.strongest.gravity) * double(std::abs(def.forces.gravity));
-    const double air = bound.air - double(weather.strongest.wind) - double(glm::length(def.forces.wind));
+    const double steady = double(conditions.strongest.gravity) * double(std::abs(def.forces.gravity));
+    const double air = bound.air - double(conditions.strongest.wind) - double(glm::length(def.forces.wind));
     const auto any = float((bound.acceleration - steady + bound.drag * air) * (1.0 + 1e-6)); // anywhere to
-    const glm::vec3 low = weather.low - any, high = weather.high + any;
-    base::Bounds box = boundsOfAll(def, low, high, float(bound.seconds), weather.secondsBack);
-    if (weather.meetsGround && weather.highGround > -1e30f) {
+    const glm::vec3 low = conditions.low - any, high = conditions.high + any;
+    base::Bounds box = boundsOfAll(def, low, high, float(bound.seconds), conditions.secondsBack);
+    if (conditions.meetsGround && conditions.highGround > -1e30f) {
         const bool isSteady = high.y < 0.0f && low.y >= 1.0001f * high.y;
         const float drawn = drawnOf(def, fastestOf(bound));
-        box.max.y = isSteady ? std::max(box.max.y, weather.highGround + drawn) : ball.max.y;
+        box.max.y = isSteady ? std::max(box.max.y, conditions.highGround + drawn) : ball.max.y;
         const float shapes = def.births ? def.births->extent() : glm::length(def.size);
-        const float lowest = std::min(weather.lowGround, def.position.y - shapes) - drawn;
+        const float lowest = std::min(conditions.lowGround, def.position.y - shapes) - drawn;
         if (!(def.appearance.stretch > 0.0f) && def.appearance.alignment != base::SpriteAlignment::Velocity)
             box.min.y = std::max(box.min.y, lowest);
     }

@@ -23,8 +23,8 @@ float reachOf(const EmitterSettings& def, const ReachConditions& conditions, con
 base::Bounds boundsOfAll(const EmitterSettings& def, const glm::vec3& low, const glm::vec3& high,
                          float seconds, float secondsBack);
 
-/// What has acted on particles since the oldest of them was born, besides modules.
-struct StepWeather
+/// Ranges of what has acted on particles since the oldest of them was born, besides modules.
+struct ConditionsRange
 {
     ReachConditions strongest; ///< and how long that is
     glm::vec3 low{0.0f};       ///< [m/s2] between these were the pulls of gravity and wind, see AppearanceJob
@@ -37,6 +37,6 @@ struct StepWeather
 };
 
 /// As boundsOfAll() where modules move particles; infinite when nobody knows.
-base::Bounds boundsOfStepped(const EmitterSettings& def, const StepWeather& weather);
+base::Bounds boundsOfStepped(const EmitterSettings& def, const ConditionsRange& conditions);
 
 } // namespace fx::sim
