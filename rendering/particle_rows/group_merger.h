@@ -5,7 +5,7 @@
 
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/frame/snapshot_revisions.h"
-#include "rendering/lod/row_thinning.h"
+#include "rendering/lod/stochastic_simplification.h"
 #include "rendering/particle_rows/merged_rows.h"
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include "foundation/snapshot/gpu_particles.h"
 #include "rendering/frame/snapshot_match.h"
 #include "rendering/gl/gl_device.h"
-#include "rendering/lod/row_thinning.h"
+#include "rendering/lod/stochastic_simplification.h"
 
 #include <algorithm>
 #include <bit>

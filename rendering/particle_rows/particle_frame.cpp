@@ -4,7 +4,7 @@
 #include "rendering/frame/exposure.h"
 #include "rendering/frame/snapshot_match.h"
 #include "rendering/frame/view_volume.h"
-#include "rendering/lod/row_thinning.h"
+#include "rendering/lod/stochastic_simplification.h"
 #include "rendering/particle_rows/particle_estimate.h"
 
 #include <glm/common.hpp>
@@ -311,8 +311,8 @@ bool ParticleFrame::thin(const ParticleFrameInputs& in, const base::Placement& p
                                                     : (batch.isSolid ? RowShape::Body : RowShape::Card);
     const float pixels = 0.5f * float(in.request->targets.height) * std::abs(in.camera->clipScale.y);
     const auto parts = in.merger ? in.merger->partsOf(group.newerIndex) : std::span<const RowPart>{};
-    return thinRows({group.newer, parts, place, shape, in.camera, pixels}, *in.lod, orderer.factors,
-                    thinnedRows_);
+    return simplifyRows({group.newer, parts, place, shape, in.camera, pixels}, *in.lod, orderer.factors,
+                        thinnedRows_);
 }
 
 /// The shortest; all keep looks as they are, so that a change of the form changes no picture.

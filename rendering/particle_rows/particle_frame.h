@@ -39,7 +39,7 @@ struct ParticleGroup
     const base::SnapshotGroup* older;  ///< null: none, or of a strip
     size_t newerIndex, olderIndex;     ///< in their snapshots
     std::span<const uint32_t> order;   ///< rows as they are drawn; empty: all as they are
-    std::span<const uint32_t> factors; ///< by row, see thinRows(); empty: nothing is thinned out
+    std::span<const uint32_t> factors; ///< by row, see simplifyRows(); empty: nothing is thinned out
     uint32_t texture, motion, mesh;    ///< ids in the asset table
     int columns, rows;                 ///< frames of the texture
     OrderForm orderForm = OrderForm::All;

@@ -1,4 +1,4 @@
-#include "rendering/lod/row_thinning.h"
+#include "rendering/lod/stochastic_simplification.h"
 
 #include "foundation/snapshot/particle_kind.h"
 
@@ -42,10 +42,10 @@ DrawnRows countDrawn(const base::SnapshotGroup& group, uint32_t first, uint32_t 
 namespace {
 
 /// The rows of one effect.
-class PartThinning
+class PartSimplification
 {
 public:
-    PartThinning(const ThinningInputs& in, const RowPart& part, const base::Placement& place)
+    PartSimplification(const SimplificationInputs& in, const RowPart& part, const base::Placement& place)
         : in_(in), part_(part), drawn_(countDrawn(*in.rows, part.first, part.count, isStrip(in.shape)))
     {
         const base::Bounds& bounds = part.info.bounds;
@@ -101,7 +101,7 @@ private:
         return drawn_.pieces - kept;
     }
 
-    const ThinningInputs& in_;
+    const SimplificationInputs& in_;
     const RowPart& part_;
     DrawnRows drawn_;
     float pixelsPerMetre_ = 1.0f;
@@ -109,7 +109,7 @@ private:
 };
 
 /// An effect that is part of a merged group stands where the newer snapshot has it.
-base::Placement placeOf(const ThinningInputs& in, const RowPart& part)
+base::Placement placeOf(const SimplificationInputs& in, const RowPart& part)
 {
     base::Placement place = part.info.placement;
     place.position -= in.camera->eye;
@@ -138,23 +138,23 @@ RowFactors rowFactors(const LodLevel& level, float rank, float pixels, RowShape 
                                    : RowFactors{size * std::sqrt(weight), 1.0f};     // (4)
 }
 
-bool thinRows(const ThinningInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outFactors,
-              uint64_t& ioLeftOut)
+bool simplifyRows(const SimplificationInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outFactors,
+                  uint64_t& ioLeftOut)
 {
     const RowPart whole{in.rows->info(), 0, in.rows->count()};
     const std::span<const RowPart> parts = in.parts.empty() ? std::span(&whole, 1) : in.parts;
     bool isChanged = false;
     for (const RowPart& part : parts) {
         const base::Placement place = placeOf(in, part);
-        PartThinning thinning(in, part, place);
-        const bool changes = thinning.choose(lod, place);
+        PartSimplification simplification(in, part, place);
+        const bool changes = simplification.choose(lod, place);
         if (changes && !isChanged) {
             outFactors.resize(in.rows->count());
             std::fill_n(outFactors.begin(), part.first, glm::packHalf2x16({1.0f, 1.0f})); // nothing so far
             isChanged = true;
         }
         if (isChanged)
-            ioLeftOut += thinning.write(std::span(outFactors).subspan(part.first, part.count));
+            ioLeftOut += simplification.write(std::span(outFactors).subspan(part.first, part.count));
     }
     return isChanged;
 }

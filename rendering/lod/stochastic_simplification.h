@@ -1,6 +1,6 @@
-/// @file row_thinning.h
-/// Which particles, meshes and trails of a far effect are drawn, and how large and how opaque, so that those
-/// stand for all.
+/// @file stochastic_simplification.h
+/// Stochastic simplification [CHPR07] of far effects: which particles, meshes and trails are drawn, how large
+/// and how opaque, so that they cover as much as all.
 ///
 /// A row of particles is the same particle for life, and so is a strip of a ribbon: its rank follows from the
 /// number of the row or of the strip, so what has been left out does not come back by the next frame, and a
@@ -71,15 +71,17 @@ struct RowFactors
 ///   A strip grows in width only: g is the factor of its half width, for others of the radius squared. A long
 ///   sprite grows across until it is a square, so that streaks keep their length.
 ///
-/// @source    textbook: generating function of the Poisson distribution
+/// @source    [CHPR07] for drawing a share of the elements with a larger area; (1)-(2) are ours, by the
+///            generating function of the Poisson distribution
 /// @deviation the limits of growth are those of formula lod-weight; a' is at most 1 where it covers; with (4)
 ///            what grows less than 1 / m covers less, which happens only where bodies overlap many times
 /// @valid     particles without order among each other; additive ones keep their light exactly, on average
 /// @accuracy  factors are rounded to binary16 for drawing: at most 2^-11 of their value
-/// @tests     tests/rendering/view/test_row_thinning.cpp tests/rendering/view/test_thinned_particles.cpp
+/// @tests     tests/rendering/view/test_stochastic_simplification.cpp
+///            tests/rendering/view/test_thinned_particles.cpp
 RowFactors rowFactors(const LodLevel& level, float rank, float pixels, RowShape shape);
 
-struct ThinningInputs
+struct SimplificationInputs
 {
     const base::SnapshotGroup* rows;
     std::span<const RowPart> parts; ///< empty: all rows are of the group's own effect
@@ -94,7 +96,7 @@ struct ThinningInputs
 ///                 Untouched when everything is drawn as it is
 /// @param ioLeftOut grows by the particles, or pieces of strips, that are left to others
 /// @return whether anything is left out or changed
-bool thinRows(const ThinningInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outFactors,
-              uint64_t& ioLeftOut);
+bool simplifyRows(const SimplificationInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outFactors,
+                  uint64_t& ioLeftOut);
 
 } // namespace fx::render

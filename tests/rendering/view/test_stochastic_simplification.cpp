@@ -1,6 +1,6 @@
 // What is left out of far sprites, meshes and ribbons, and that what remains stands for all of it. No GL.
 #include "foundation/snapshot/particle_kind.h"
-#include "rendering/lod/row_thinning.h"
+#include "rendering/lod/stochastic_simplification.h"
 #include "rendering/stage/stage_camera.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -44,10 +44,10 @@ double meanCover(const render::LodLevel& level, RowShape shape, float pixels = 1
     return sum / kRanks;
 }
 
-class RowThinning : public testing::Test
+class StochasticSimplification : public testing::Test
 {
 protected:
-    RowThinning()
+    StochasticSimplification()
     {
         particles_ = schema_.add(base::kParticleKind), ribbons_ = schema_.add(base::kRibbonKind);
     }
@@ -94,7 +94,7 @@ protected:
         base::Placement place;
         place.position = {0, 0, -distance};
         leftOut_ = 0;
-        return render::thinRows({&group, parts, place, shape, &camera, 659.0f}, lod_, factors_, leftOut_);
+        return render::simplifyRows({&group, parts, place, shape, &camera, 659.0f}, lod_, factors_, leftOut_);
     }
     size_t kept() const { return factors_.size() - size_t(std::count(factors_.begin(), factors_.end(), 0u)); }
 
@@ -188,7 +188,7 @@ TEST(RowFactors, theKeptOnesLetAsMuchLightPassAsAllInMeanAndInVariance)
     }
 }
 
-TEST_F(RowThinning, isNothingWithoutBiasAndFromNear)
+TEST_F(StochasticSimplification, isNothingWithoutBiasAndFromNear)
 {
     base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
     const auto& group = addRows(snapshot, 1000);
@@ -200,7 +200,7 @@ TEST_F(RowThinning, isNothingWithoutBiasAndFromNear)
     EXPECT_GT(leftOut_, 500u);
 }
 
-TEST_F(RowThinning, emptyRowsDoNotCount)
+TEST_F(StochasticSimplification, emptyRowsDoNotCount)
 {
     base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
     auto& group = addRows(snapshot, 4000);
@@ -209,7 +209,7 @@ TEST_F(RowThinning, emptyRowsDoNotCount)
     EXPECT_FALSE(thin(group, 4.0f, RowShape::Card)) << "forty that live are few enough";
 }
 
-TEST_F(RowThinning, keepsPartOfWhatItKeepsFromNearer)
+TEST_F(StochasticSimplification, keepsPartOfWhatItKeepsFromNearer)
 {
     base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
     const auto& group = addRows(snapshot, 3000);
@@ -223,7 +223,7 @@ TEST_F(RowThinning, keepsPartOfWhatItKeepsFromNearer)
     }
 }
 
-TEST_F(RowThinning, anEffectKeepsTheSameRowsWhoeverItIsMergedWith)
+TEST_F(StochasticSimplification, anEffectKeepsTheSameRowsWhoeverItIsMergedWith)
 {
     base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
     const auto& alone = addRows(snapshot, 600);
@@ -239,7 +239,7 @@ TEST_F(RowThinning, anEffectKeepsTheSameRowsWhoeverItIsMergedWith)
     EXPECT_TRUE(std::equal(wanted.begin(), wanted.end(), factors_.begin() + 1300));
 }
 
-TEST_F(RowThinning, aStripStaysOrGoesAsAWholeWhereverItsRowsAre)
+TEST_F(StochasticSimplification, aStripStaysOrGoesAsAWholeWhereverItsRowsAre)
 {
     base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
     ASSERT_TRUE(thin(addStrips(snapshot, 100, 200), 16.0f, RowShape::Strip));
