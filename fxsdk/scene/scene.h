@@ -321,7 +321,7 @@ private:
     BoundsInputs pastOf(Instance& instance, bool stays, const sim::Influence& influence) const;
     Reason judge(const Instance& instance, bool isSeen);
     void reconsider(const base::StepPlan& plan);
-    void lookAround();
+    void updateVisibility();
     void lookAtDenied();
     void keepBudget();
     bool sendOut(uint32_t index, Reason reason);
@@ -387,7 +387,7 @@ private:
     uint64_t shownWork_ = 0;            ///< [unit] spent on the publication in hand, or the last one
     base::Ticks published_ = 0;         ///< scene time of the last publication
     std::pmr::vector<LocalId> moved_;   ///< instances with InstanceSetup::cameFrom, and perhaps others
-    bool lookAgain_ = false;            ///< an instance or a camera has moved
+    bool visibilityStale_ = false;      ///< an instance or a camera has moved
     bool memoryFailed_ = false;
     bool sought_ = false; ///< seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;

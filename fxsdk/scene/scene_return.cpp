@@ -26,7 +26,7 @@ void Scene::comeBack(uint32_t index)
     instance.state = InstanceState::Waking;
     instance.reason = Reason::CatchingUp;
     waking_.insert(instance.serial, index, instance.slot);
-    lookAgain_ = true;
+    visibilityStale_ = true;
 }
 
 /// The most significant ones first, as far as the budget of an update goes.
@@ -207,7 +207,7 @@ void Scene::forgetSight()
     hidden_ = resting_ = 0;
     emptyPublications_ = 0;
     sought_ = false;
-    lookAgain_ = true;
+    visibilityStale_ = true;
 }
 
 } // namespace fx::scene

@@ -154,13 +154,13 @@ void Scene::setFocus(std::span<const activation::Frustum> frusta)
     focus_.clear();
     for (const activation::Frustum& frustum : frusta)
         focus_.add(frustum);
-    lookAgain_ = true;
+    visibilityStale_ = true;
 }
 
 void Scene::setBudget(const activation::Budget& budget)
 {
     budget_ = budget;
-    lookAgain_ = true;
+    visibilityStale_ = true;
 }
 
 void Scene::setHints(LocalId id, const ActivationHints& hints)
@@ -168,7 +168,7 @@ void Scene::setHints(LocalId id, const ActivationHints& hints)
     Instance& instance = *instances_.find(id);
     const ActivationHints before = instance.hints;
     instance.hints = hints;
-    lookAgain_ = true;
+    visibilityStale_ = true;
     if (instance.state != InstanceState::Hidden || instance.reason == Reason::Budget)
         return;
     const Reason reason = judge(instance, false); // it would not be tested again otherwise
@@ -200,7 +200,7 @@ void Scene::setPlacement(LocalId id, const base::Placement& placement)
     }
     instance.setup.placement = placement;
     measure(instance);
-    lookAgain_ = true;
+    visibilityStale_ = true;
     if (instance.leaf != activation::SphereHierarchy::kNone) {
         tree_.remove(instance.leaf);
         instance.leaf = tree_.insert(indexOf(id), ballOf(instance), sightOf(instance.hints)); // has room
@@ -217,7 +217,7 @@ void Scene::setParameters(LocalId id, const sim::InstanceParameters& parameters)
         world_.setParameters(instance.slot, parameters); // may throw
     instance.setup.parameters = parameters;
     measure(instance);
-    lookAgain_ = true;
+    visibilityStale_ = true;
     if (instance.state == InstanceState::Resting ||
         (instance.state == InstanceState::Hidden && world_.crowded(instance.slot)))
         comeBack(indexOf(id));
@@ -225,8 +225,8 @@ void Scene::setParameters(LocalId id, const sim::InstanceParameters& parameters)
 
 void Scene::reconsider(const base::StepPlan& plan)
 {
-    if (lookAgain_)
-        lookAround();
+    if (visibilityStale_)
+        updateVisibility();
     if (budget_.any())
         keepBudget();
     if (waking_.size() == 0)
@@ -238,9 +238,9 @@ void Scene::reconsider(const base::StepPlan& plan)
         stageReturned(plan.firstStep);
 }
 
-void Scene::lookAround()
+void Scene::updateVisibility()
 {
-    lookAgain_ = false;
+    visibilityStale_ = false;
     const auto leaves = [this](uint32_t index, sim::Slot) {
         Instance& instance = instances_.at(index);
         if (instance.past && !instance.past->isSettled())

@@ -89,7 +89,8 @@ bool Scene::update(double dt)
     };
     const bool isEmpty = active_.size() == 0 && waking_.size() == 0 && denied_.size() == 0 &&
                          coarse_.size() == 0 && arrived_.empty() && world_.freeSolvers() == 0;
-    const bool isAsked = lookAgain_ || sought_ || !moved_.empty() || !seeks_.empty() || world_.hasChanges();
+    const bool isAsked =
+        visibilityStale_ || sought_ || !moved_.empty() || !seeks_.empty() || world_.hasChanges();
     return emptyPublications_ > kMostEmpty && isEmpty && !isAsked && !world_.isStepping() &&
            !isDue(dormant_) && !isDue(alarms_);
 }
