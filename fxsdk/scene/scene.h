@@ -170,7 +170,7 @@ public:
     base::Status seek(LocalId id, base::Ticks local);
     /// Tells an instance that what its preset calls `name` happened `count` times.
     /// @return NotFound when its preset has no such event, InvalidArgument before its start
-    base::Status tell(LocalId id, std::string_view name, uint32_t count);
+    base::Status postEvent(LocalId id, std::string_view name, uint32_t count);
     void setHints(LocalId id, const ActivationHints& hints);
 
     /// What is known about why an instance costs what it costs.

@@ -75,7 +75,7 @@ void SharedSimulation::saveBriefly(StateWriter& writer) const
 
 base::Ticks SharedSimulation::influenceHorizon() const
 {
-    if (!changes.empty() || !told.empty() || conditions.clock.rate == 0)
+    if (!changes.empty() || !pendingEvents.empty() || conditions.clock.rate == 0)
         return kNever;
     base::Ticks longest = 0;
     for (const std::unique_ptr<Solver>& solver : solvers) {
@@ -145,7 +145,7 @@ SimulationIndex SimulationPool::copy(SimulationIndex index)
     simulations_[index].save(state);
     const std::shared_ptr<const EffectDef> effect = simulations_[index].effect;
     std::vector<SharedSimulation::Change> changes = simulations_[index].changes;
-    std::vector<SharedSimulation::Told> told = simulations_[index].told;
+    std::vector<SharedSimulation::PendingEvent> pendingEvents = simulations_[index].pendingEvents;
     const SimulationIndex made = create(effect, simulations_[index].conditions, simulations_[index].released);
     const SharedSimulation& from = simulations_[index];
     SharedSimulation& simulation = simulations_[made];
@@ -157,7 +157,7 @@ SimulationIndex SimulationPool::copy(SimulationIndex index)
     simulation.target = from.target;
     simulation.stepLength = from.stepLength;
     simulation.changes = std::move(changes);
-    simulation.told = std::move(told);
+    simulation.pendingEvents = std::move(pendingEvents);
     simulation.field = from.field;
     if (simulation.released) {
         simulation.pristine = from.pristine;

@@ -51,7 +51,7 @@ struct LinkedPart
 
     base::Arena scratch;
     std::optional<EventBoard> board;
-    std::span<const HostEvent> heard{}; ///< in `scratch`
+    std::span<const HostEvent> hostEvents{}; ///< in `scratch`
 };
 
 /// The solvers of one effect and their inputs.
@@ -66,7 +66,7 @@ struct SharedSimulation
     };
 
     /// An event of the host.
-    struct Told
+    struct PendingEvent
     {
         base::Ticks tick; ///< scene time
         HostEvent event;
@@ -89,7 +89,7 @@ struct SharedSimulation
     std::shared_ptr<const EffectDef> effect;
     SimulationConditions conditions;
     std::vector<Change> changes;                 ///< of a paused simulation, by tick
-    std::vector<Told> told;                      ///< by the host, not heard yet, by tick
+    std::vector<PendingEvent> pendingEvents;     ///< by the host, not hostEvents yet, by tick
     std::shared_ptr<const DistanceField> field;  ///< keeps that of the conditions of a paused simulation
     std::shared_ptr<const StateBuffer> pristine; ///< of the solvers before their first step
     std::optional<StateBuffer> kept;

@@ -132,7 +132,7 @@ void World::makeChanges()
         if (instances_[next.slot].simulation == kNoSimulation)
             continue; // it has ended with the step
         if (next.event) {
-            tell(next.slot, *next.event);
+            postEvent(next.slot, *next.event);
             continue;
         }
         change(next.slot, wantedOf(next.slot));
@@ -252,7 +252,7 @@ void World::passQuietly(SharedSimulation& simulation, StepCounters& counters)
 base::Ticks World::quietOf(SharedSimulation& simulation) const
 {
     const InstanceClock& clock = simulation.conditions.clock;
-    if (clock.rate != kNormalRate || simulation.effect->subSteps > 1 || !simulation.told.empty())
+    if (clock.rate != kNormalRate || simulation.effect->subSteps > 1 || !simulation.pendingEvents.empty())
         return 0;
     simulation.quietOffset = clock.local - clock.scene;
     const base::Ticks local = simulation.simulated + simulation.quietOffset;

@@ -180,7 +180,7 @@ public:
     InstanceClock clockOf(Slot slot) const;
     /// Tells an instance that something happened; it hears of it when its state reaches the present, with the
     /// next step. Strong guarantee; may need memory.
-    void tell(Slot slot, const HostEvent& event);
+    void postEvent(Slot slot, const HostEvent& event);
     /// True at the end of the effect's duration, when all solvers have finished, and when an instance that no
     /// longer emits is empty.
     bool finished(Slot slot, base::Ticks sceneTick) const;
@@ -272,8 +272,8 @@ private:
         std::span<const Slot> list;           ///< those of them that are in no pool
         std::vector<Slot> ownActive, ownList; ///< their memory, between two calls
         StepCounters counters;
-        std::optional<EventBoard> board;    ///< of the sub-step in hand
-        std::span<const HostEvent> heard{}; ///< likewise
+        std::optional<EventBoard> board;         ///< of the sub-step in hand
+        std::span<const HostEvent> hostEvents{}; ///< likewise
     };
     /// A publication of which some is still to be written.
     struct PublicationInHand
@@ -367,8 +367,8 @@ private:
                 base::WorkBudget& work);
     static void restoreSolvers(SharedSimulation& simulation, const StateBuffer& state);
     void isolate(Slot slot);
-    std::span<const HostEvent> hear(SimulationIndex index, base::Ticks tick, base::Arena& scratch);
-    void restoreTold(SharedSimulation& simulation, StateReader& reader);
+    std::span<const HostEvent> takeEvents(SimulationIndex index, base::Ticks tick, base::Arena& scratch);
+    void restorePending(SharedSimulation& simulation, StateReader& reader);
     bool stepSimulation(SimulationIndex index, const SimulationStep& step, base::WorkBudget& work,
                         StepCounters& counters);
     void fetchAhead(std::span<const Slot> active, size_t place) const;
@@ -377,8 +377,8 @@ private:
     SimulationIndex restoreSimulation(const Entry& first, StateReader& reader);
     SimulationIndex joinSimulation(SimulationIndex index, const Entry& entry, StateReader& reader);
 
-    void reserveTelling();
-    void tellAll();
+    void reserveUpdates();
+    void updateConditions();
     static void standStill(const SharedSimulation& simulation);
 
     Environment environment_;

@@ -46,44 +46,46 @@ LinkedPart* World::linkedPartOf(SharedSimulation& simulation)
     return simulation.linked.get();
 }
 
-void World::tell(Slot slot, const HostEvent& event)
+void World::postEvent(Slot slot, const HostEvent& event)
 {
     if (isStepping())
         return waiting_.push_back({slot, event});
     isolate(slot);
     const SimulationIndex index = instances_[slot].simulation;
-    simulations_.at(index).told.push_back({now_, event});
+    simulations_.at(index).pendingEvents.push_back({now_, event});
     simulations_.touch(index); // no instance may join it any more
 }
 
 /// Takes the pending events of the simulation up to scene time `tick`.
-std::span<const HostEvent> World::hear(SimulationIndex index, base::Ticks tick, base::Arena& scratch)
+std::span<const HostEvent> World::takeEvents(SimulationIndex index, base::Ticks tick, base::Arena& scratch)
 {
     SharedSimulation& simulation = simulations_.at(index);
-    if (simulation.told.empty())
+    if (simulation.pendingEvents.empty())
         return {};
     const base::Ticks until = std::max(tick, simulation.conditions.clock.scene);
-    const auto end = std::find_if(simulation.told.begin(), simulation.told.end(),
-                                  [until](const SharedSimulation::Told& told) { return told.tick > until; });
-    const std::span<HostEvent> heard = scratch.allocate<HostEvent>(size_t(end - simulation.told.begin()));
-    std::transform(simulation.told.begin(), end, heard.begin(),
-                   [](const SharedSimulation::Told& told) { return told.event; });
-    simulation.told.erase(simulation.told.begin(), end);
-    return heard;
+    const auto end =
+        std::find_if(simulation.pendingEvents.begin(), simulation.pendingEvents.end(),
+                     [until](const SharedSimulation::PendingEvent& pending) { return pending.tick > until; });
+    const std::span<HostEvent> hostEvents =
+        scratch.allocate<HostEvent>(size_t(end - simulation.pendingEvents.begin()));
+    std::transform(simulation.pendingEvents.begin(), end, hostEvents.begin(),
+                   [](const SharedSimulation::PendingEvent& pending) { return pending.event; });
+    simulation.pendingEvents.erase(simulation.pendingEvents.begin(), end);
+    return hostEvents;
 }
 
-void World::restoreTold(SharedSimulation& simulation, StateReader& reader)
+void World::restorePending(SharedSimulation& simulation, StateReader& reader)
 {
     const size_t known = simulation.effect->hostEvents.size();
     if (known == 0)
         return;
     const uint32_t count = reader.value<uint32_t>(0, 1u << 20, "too many events wait");
     for (uint32_t i = 0; i < count && reader.ok(); ++i) {
-        SharedSimulation::Told told{};
-        told.tick = reader.value<base::Ticks>();
-        told.event.event = reader.value<uint32_t>(0, uint32_t(known - 1), "an event is unknown");
-        told.event.count = reader.value<uint32_t>();
-        simulation.told.push_back(told);
+        SharedSimulation::PendingEvent pending{};
+        pending.tick = reader.value<base::Ticks>();
+        pending.event.event = reader.value<uint32_t>(0, uint32_t(known - 1), "an event is unknown");
+        pending.event.count = reader.value<uint32_t>();
+        simulation.pendingEvents.push_back(pending);
     }
 }
 

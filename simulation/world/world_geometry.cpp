@@ -39,13 +39,13 @@ void World::setField(std::shared_ptr<const DistanceField> field)
     endRests();
     if (field)
         divideByPlacement();
-    reserveTelling();
+    reserveUpdates();
     for (const Instance& instance : instances_) // paused simulations still have to meet the old one
         if (instance.simulation != kNoSimulation && isLagging(simulations_.at(instance.simulation)) &&
             !simulations_.at(instance.simulation).field)
             simulations_.at(instance.simulation).field = environment_.field;
     std::swap(environment_.field, field); // the old one lives on until no simulation names it
-    tellAll();
+    updateConditions();
 }
 
 void World::setContact(const HostContact& contact)
@@ -53,13 +53,13 @@ void World::setContact(const HostContact& contact)
     endRests();
     if (contact.meet)
         divideByPlacement();
-    reserveTelling();
+    reserveUpdates();
     contact_ = contact;
-    tellAll();
+    updateConditions();
 }
 
-/// Room for tellAll(), which must not fail half way.
-void World::reserveTelling()
+/// Room for updateConditions(), which must not fail half way.
+void World::reserveUpdates()
 {
     for (const Instance& instance : instances_) {
         if (instance.simulation == kNoSimulation || !isLagging(simulations_.at(instance.simulation)))
@@ -71,8 +71,8 @@ void World::reserveTelling()
     }
 }
 
-/// Applies the present conditions to all simulations. Never fails after reserveTelling().
-void World::tellAll()
+/// Applies the present conditions to all simulations. Never fails after reserveUpdates().
+void World::updateConditions()
 {
     for (const Instance& instance : instances_) {
         if (instance.simulation == kNoSimulation)

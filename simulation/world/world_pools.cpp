@@ -23,8 +23,8 @@ uint64_t nextShape()
 bool World::canPool(const SharedSimulation& simulation) const
 {
     return mayPool_ && simulation.only && simulation.users == 1 && simulation.hidden == 0 &&
-           simulation.effect->subSteps <= 1 && simulation.told.empty() && simulation.changes.empty() &&
-           simulation.conditions.clock.rate == kNormalRate;
+           simulation.effect->subSteps <= 1 && simulation.pendingEvents.empty() &&
+           simulation.changes.empty() && simulation.conditions.clock.rate == kNormalRate;
 }
 
 /// Its solver goes on by itself.

@@ -12,11 +12,11 @@ void saveTold(const SharedSimulation& simulation, StateWriter& writer)
 {
     if (simulation.effect->hostEvents.empty())
         return;
-    writer.value(uint32_t(simulation.told.size()));
-    for (const SharedSimulation::Told& told : simulation.told) {
-        writer.value(told.tick);
-        writer.value(told.event.event);
-        writer.value(told.event.count);
+    writer.value(uint32_t(simulation.pendingEvents.size()));
+    for (const SharedSimulation::PendingEvent& pending : simulation.pendingEvents) {
+        writer.value(pending.tick);
+        writer.value(pending.event.event);
+        writer.value(pending.event.count);
     }
 }
 
@@ -85,7 +85,7 @@ SimulationIndex World::restoreSimulation(const Entry& first, StateReader& reader
     simulation.users = 1;
     simulation.fresh = fresh;
     simulation.restore(reader);
-    restoreTold(simulation, reader);
+    restorePending(simulation, reader);
     simulations_.publish(index);
     return index;
 }

@@ -169,7 +169,7 @@ bool World::stepSimulation(SimulationIndex index, const SimulationStep& step, ba
         LinkedPart* const own = step.board ? nullptr : linkedPartOf(simulation);
         std::optional<EventBoard> none; // of solvers without events
         std::optional<EventBoard>& board = own ? own->board : step.board ? *step.board : none;
-        std::span<const HostEvent>& heard = own ? own->heard : hand_.heard;
+        std::span<const HostEvent>& hostEvents = own ? own->hostEvents : hand_.hostEvents;
         if (own)
             context.scratch = &own->scratch;
         for (; simulation.part < parts; ++simulation.part) {
@@ -183,9 +183,9 @@ bool World::stepSimulation(SimulationIndex index, const SimulationStep& step, ba
                     isComplete = false;
                     return;
                 }
-                heard = hear(index, step.tick, *context.scratch);
+                hostEvents = takeEvents(index, step.tick, *context.scratch);
             }
-            context.hostEvents = heard;
+            context.hostEvents = hostEvents;
             context.moveShare = float(double(to - from) / double(step.tick + step.stepTicks - from));
             isComplete = stepPart(index, context, {clock.toLocal(from), clock.toLocal(to)}, board, work);
             if (!isComplete)

@@ -83,7 +83,7 @@ bool World::seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounter
     }
     counters += done;
     simulation.changes.clear();
-    simulation.told.clear();
+    simulation.pendingEvents.clear();
     simulation.field.reset();
     instances_[slot].start.clock = simulation.conditions.clock;
     return isThere;

@@ -148,7 +148,7 @@ TEST(InstanceTime, whatTheHostSaysIsHeardWithTheNextStep)
     const Slot slot = stage.add({}, effect);
     stage.play(10);
     EXPECT_TRUE(particlesOf(stage.look(), 1).empty());
-    stage.world().tell(slot, {0, 3});
+    stage.world().postEvent(slot, {0, 3});
     StateBuffer before(&stage.memory());
     stage.world().save(std::array{slot}, before); // what is not heard yet is part of the state
     stage.step();
