@@ -59,7 +59,7 @@ bool RibbonStore::follow(const AppearanceJob& job, const Span& step, uint32_t& i
             return false;
         Trail& trail = trails_[ioRow];
         const uint64_t index = store.index[ioRow];
-        if (index != kNobody && index != trail.index && store.born[ioRow] >= step.begin &&
+        if (index != kNoParticle && index != trail.index && store.born[ioRow] >= step.begin &&
             store.born[ioRow] <= step.end)
             begin(job, ioRow);
         if (trail.count == 0)

@@ -88,9 +88,9 @@ private:
     };
     struct Trail
     {
-        uint64_t index = kNobody; ///< of the particle
-        Point head;               ///< where it is, or died
-        uint32_t first = 0;       ///< oldest point in the ring
+        uint64_t index = kNoParticle; ///< of the particle
+        Point head;                   ///< where it is, or died
+        uint32_t first = 0;           ///< oldest point in the ring
         uint32_t count = 0;
         uint64_t next = 0; ///< k of the next point
         bool ended = false;

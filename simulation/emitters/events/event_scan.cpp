@@ -14,7 +14,7 @@ constexpr uint32_t kFewestOfTile = 16;
 
 bool livesThere(const RowWindow& rows, const ParticleStore& store, uint32_t row)
 {
-    return row < rows.count && (row < rows.gapBegin || row >= rows.gapEnd) && store.index[row] != kNobody;
+    return row < rows.count && (row < rows.gapBegin || row >= rows.gapEnd) && store.index[row] != kNoParticle;
 }
 
 ParticleEvent eventOf(base::Ticks tick, uint64_t index, uint32_t emitter, EventKind kind)
