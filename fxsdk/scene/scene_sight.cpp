@@ -206,7 +206,7 @@ void Scene::setPlacement(LocalId id, const base::Placement& placement)
         instance.leaf = tree_.insert(indexOf(id), ballOf(instance), sightOf(instance.hints)); // has room
     }
     const bool isPaused = instance.state == InstanceState::Hidden || instance.state == InstanceState::Resting;
-    if (isPaused && world_.crowded(instance.slot))
+    if (isPaused && world_.hasManyChanges(instance.slot))
         comeBack(indexOf(id));
 }
 
@@ -219,7 +219,7 @@ void Scene::setParameters(LocalId id, const sim::InstanceParameters& parameters)
     measure(instance);
     visibilityStale_ = true;
     if (instance.state == InstanceState::Resting ||
-        (instance.state == InstanceState::Hidden && world_.crowded(instance.slot)))
+        (instance.state == InstanceState::Hidden && world_.hasManyChanges(instance.slot)))
         comeBack(indexOf(id));
 }
 

@@ -81,7 +81,7 @@ public:
         return simulation.pooled ? pools_.now() : simulation.simulated;
     }
     /// True when it has so many pending changes that it should be caught up.
-    bool crowded(Slot slot) const;
+    bool hasManyChanges(Slot slot) const;
     /// Takes a hidden instance towards the present, as if it had never been out of sight unless `policy` says
     /// otherwise; the past that it begins with, prewarm, first. Strong guarantee for each step.
     /// @param ioBudget [1] particle steps that may be taken; each step costs one more than its particles. The

@@ -49,7 +49,7 @@ bool World::lags(Slot slot) const
     return isLagging(simulation) || simulation.arriving;
 }
 
-bool World::crowded(Slot slot) const
+bool World::hasManyChanges(Slot slot) const
 {
     return simulations_.at(instances_[slot].simulation).changes.size() >= kManyChanges;
 }

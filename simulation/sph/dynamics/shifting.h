@@ -5,7 +5,7 @@
 /// A small displacement to where there is room.
 ///
 /// symbol    unit   meaning
-///   G, E     m      gradient of the concentration, direction out of the gas: particle-crowding
+///   G, E     m      gradient of the concentration, direction out of the gas: particle-concentration
 ///   C        1      strength
 ///   e        1      exposure: gas-density
 ///   s        m      spacing of a particle, (m / rho)^(1/3)

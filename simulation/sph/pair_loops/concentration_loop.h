@@ -1,7 +1,7 @@
-/// @file crowding_loop.h
+/// @file concentration_loop.h
 /// How unevenly neighbors stand around a particle.
 ///
-/// @formula particle-crowding
+/// @formula particle-concentration
 /// The gradient of a concentration of particles that is steepest where they meet, and the way out of the gas.
 ///
 /// symbol    unit   meaning
@@ -23,7 +23,7 @@
 /// @deviation the published concentration is that of the flow's kernel, flat where particles meet
 /// @valid     H > 0, everything finite. Coincident pairs have no direction and add nothing
 /// @accuracy  float rounding; every instruction set gives the same bits
-/// @tests     tests/simulation/pair_loops/test_crowding_loop.cpp
+/// @tests     tests/simulation/pair_loops/test_concentration_loop.cpp
 #pragma once
 
 #include "simulation/sph/pair_loops/pair_slots.h"
@@ -32,23 +32,23 @@ namespace fx::sim {
 
 /// Where results go: arrays indexed by slot. [m]
 template <class T>
-struct CrowdingResults
+struct ConcentrationResults
 {
     T *x, *y, *z;                      ///< G
     T *outwardX, *outwardY, *outwardZ; ///< E
 };
 
 template <class T>
-struct CrowdingCall
+struct ConcentrationCall
 {
     double range; ///< [1] k in (0, 1]
     PairSlots<T> of;
-    const CrowdingResults<T>& results;
+    const ConcentrationResults<T>& results;
 };
 
 /// G and E of all slots. Reads x, y, z, support and mass of the records; lists must hold all neighbors
 /// within the larger support. Runs on the calling thread (the caller splits the work).
 template <class T>
-void sumCrowding(const CrowdingCall<T>& call);
+void sumConcentration(const ConcentrationCall<T>& call);
 
 } // namespace fx::sim

@@ -29,7 +29,7 @@ glm::dvec3 placeOf(const sim::GasRecord<double>& p)
     return {p.x, p.y, p.z};
 }
 
-/// particle-crowding (1) and (2), over all pairs.
+/// particle-concentration (1) and (2), over all pairs.
 struct Reference
 {
     Reference(const Gas& gas, uint32_t i)
@@ -49,21 +49,21 @@ struct Reference
 };
 
 template <class T>
-class CrowdingLoop : public testing::Test
+class ConcentrationLoop : public testing::Test
 {
 protected:
     static constexpr double kBound = sizeof(T) == 4 ? 4e-6 : 1e-14; ///< [m] terms are below the support
 };
 using Precisions = testing::Types<float, double>;
-TYPED_TEST_SUITE(CrowdingLoop, Precisions);
+TYPED_TEST_SUITE(ConcentrationLoop, Precisions);
 
 } // namespace
 
-TYPED_TEST(CrowdingLoop, agreesWithTheSumOverAllPairs)
+TYPED_TEST(ConcentrationLoop, agreesWithTheSumOverAllPairs)
 {
     const GasStage<TypeParam> stage(mixedGas());
     const Gas seen = stage.seen();
-    const auto found = stage.crowding(kRange);
+    const auto found = stage.concentration(kRange);
     double largest = 0;
     for (uint32_t i = 0; i < seen.size(); ++i) {
         const Reference want(seen, i);
@@ -78,11 +78,11 @@ TYPED_TEST(CrowdingLoop, agreesWithTheSumOverAllPairs)
     EXPECT_GT(largest, 0.02);
 }
 
-TYPED_TEST(CrowdingLoop, leavesTheCenterOfMassWhereItIs)
+TYPED_TEST(ConcentrationLoop, leavesTheCenterOfMassWhereItIs)
 {
     const GasStage<TypeParam> stage(mixedGas());
     const Gas seen = stage.seen();
-    const auto found = stage.crowding(kRange);
+    const auto found = stage.concentration(kRange);
     glm::dvec3 sum(0.0);
     double scale = 0;
     for (uint32_t i = 0; i < seen.size(); ++i) {
@@ -93,22 +93,22 @@ TYPED_TEST(CrowdingLoop, leavesTheCenterOfMassWhereItIs)
     EXPECT_LE(glm::length(sum), this->kBound * scale);
 }
 
-TYPED_TEST(CrowdingLoop, seesNothingInALatticeWiderThanItsRangeNorAtOnePlace)
+TYPED_TEST(ConcentrationLoop, seesNothingInALatticeWiderThanItsRangeNorAtOnePlace)
 {
     const GasStage<TypeParam> lattice(latticeGas(5, 0.0, 40), unitBox(sim::AxisKind::Periodic));
-    const auto found = lattice.crowding(0.4); // the support is 2.1 spacings
+    const auto found = lattice.concentration(0.4); // the support is 2.1 spacings
     for (const TypeParam x : found.x)
         EXPECT_EQ(x, TypeParam(0));
     const GasStage<TypeParam> pair(Gas{parcel(0.5, 0.5, 0.5, 0.2), parcel(0.5, 0.5, 0.5, 0.2)});
-    EXPECT_EQ(pair.crowding(kRange).x[0], TypeParam(0));
+    EXPECT_EQ(pair.concentration(kRange).x[0], TypeParam(0));
 }
 
-TYPED_TEST(CrowdingLoop, givesTheSameBitsWithEveryInstructionSet)
+TYPED_TEST(ConcentrationLoop, givesTheSameBitsWithEveryInstructionSet)
 {
     const GasStage<TypeParam> stage(mixedGas());
-    const auto widest = stage.crowding(kRange);
+    const auto widest = stage.concentration(kRange);
     everySet([&](base::InstructionSet) {
-        const auto found = stage.crowding(kRange);
+        const auto found = stage.concentration(kRange);
         EXPECT_EQ(found.x, widest.x);
         EXPECT_EQ(found.outwardZ, widest.outwardZ);
     });

@@ -1,7 +1,7 @@
-#include "simulation/sph/pair_loops/crowding_loop.h"
+#include "simulation/sph/pair_loops/concentration_loop.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simulation/sph/pair_loops/crowding_loop.cpp"
+#define HWY_TARGET_INCLUDE "simulation/sph/pair_loops/concentration_loop.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
 #include "foundation/simd/precision_dispatch.h"
@@ -12,13 +12,13 @@ HWY_BEFORE_NAMESPACE();
 namespace fx::sim::pairs::HWY_NAMESPACE {
 namespace {
 
-constexpr uint32_t kCrowdingSums = 6; ///< three of (1), three of (2)
+constexpr uint32_t kConcentrationSums = 6; ///< three of (1), three of (2)
 
 /// The particle that a list belongs to, in all lanes.
 template <class T>
-struct CrowdedOwner
+struct ConcentrationOwner
 {
-    CrowdedOwner(double reach, const GasRecord<T>& own, uint32_t slot, const ImageRules<T>& images)
+    ConcentrationOwner(double reach, const GasRecord<T>& own, uint32_t slot, const ImageRules<T>& images)
         : owner(own, slot, images), support(own.support), mass(own.mass), range(reach),
           perSquare(Pack<T>(1.0) / (support * support))
     {}
@@ -28,8 +28,8 @@ struct CrowdedOwner
 
 /// One vector of pairs. Padding is the owner itself, which has no direction.
 template <class T>
-HWY_INLINE void addCrowding(const CrowdedOwner<T>& i, const GasRecord<T>* records, const uint32_t* entries,
-                            Pack<T>* sum)
+HWY_INLINE void addConcentration(const ConcentrationOwner<T>& i, const GasRecord<T>* records,
+                                 const uint32_t* entries, Pack<T>* sum)
 {
     const Pack<T> none(0.0), one(1.0), two(2.0);
     const Entries<T> lanes(entries);
@@ -52,29 +52,29 @@ HWY_INLINE void addCrowding(const CrowdedOwner<T>& i, const GasRecord<T>* record
 }
 
 template <class T>
-void addPiece(const CrowdedOwner<T>& owner, const GasRecord<T>* records, const uint32_t* entries,
-              uint32_t count, LaneSums<T, kCrowdingSums>& sums)
+void addPiece(const ConcentrationOwner<T>& owner, const GasRecord<T>* records, const uint32_t* entries,
+              uint32_t count, LaneSums<T, kConcentrationSums>& sums)
 {
     addVectors(
         entries, count, sums, [&](const uint32_t* at, Pack<T>* sum) HWY_ATTR __attribute__((always_inline)) {
-            addCrowding(owner, records, at, sum);
+            addConcentration(owner, records, at, sum);
         });
 }
 
 template <class T>
-void sumAll(const CrowdingCall<T>& call)
+void sumAll(const ConcentrationCall<T>& call)
 {
     const PairSlots<T>& of = call.of;
-    const CrowdingResults<T>& out = call.results;
+    const ConcentrationResults<T>& out = call.results;
     const ImageRules<T> images(of.domain);
     for (const uint32_t slot : of.slots) {
-        const CrowdedOwner<T> owner(call.range, of.records[slot], slot, images);
-        LaneSums<T, kCrowdingSums> sums;
+        const ConcentrationOwner<T> owner(call.range, of.records[slot], slot, images);
+        LaneSums<T, kConcentrationSums> sums;
         sums.clear();
         of.lists.forEachPiece(slot, [&](const uint32_t* entries, uint32_t count, bool)
                                         HWY_ATTR { addPiece(owner, of.records, entries, count, sums); });
-        T total[kCrowdingSums];
-        combineRows<kCrowdingSums>(sums, 0, total, Adding());
+        T total[kConcentrationSums];
+        combineRows<kConcentrationSums>(sums, 0, total, Adding());
         out.x[slot] = total[0];
         out.y[slot] = total[1];
         out.z[slot] = total[2];
@@ -84,7 +84,7 @@ void sumAll(const CrowdingCall<T>& call)
     }
 }
 
-FX_KERNEL_INSTANCES(void, sumAll, CrowdingCall)
+FX_KERNEL_INSTANCES(void, sumAll, ConcentrationCall)
 
 } // namespace
 } // namespace fx::sim::pairs::HWY_NAMESPACE
@@ -94,7 +94,7 @@ HWY_AFTER_NAMESPACE();
 namespace fx::sim {
 
 using namespace pairs;
-FX_KERNEL_DISPATCH(void, sumCrowding, sumAll, CrowdingCall)
+FX_KERNEL_DISPATCH(void, sumConcentration, sumAll, ConcentrationCall)
 
 } // namespace fx::sim
 #endif
