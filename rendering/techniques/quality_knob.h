@@ -24,7 +24,7 @@ struct QualityKnob
     };
 
     std::string_view name;  ///< in calibrations
-    std::string_view label; ///< in texts for people, before the value; a choice is told by the name alone
+    std::string_view label; ///< for display, before the value; a choice shows the name alone
     Type type;
     std::span<const std::string_view> choices; ///< of a choice, cheapest first; otherwise empty
     std::string_view schema;                   ///< JSON Schema of the value in calibrations

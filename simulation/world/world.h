@@ -176,7 +176,7 @@ public:
         return seekTo(slot, to, stepTicks, counters, unlimited);
     }
     base::Ticks localTime(Slot slot) const { return clockOf(slot).toLocal(now_); }
-    /// See InstanceClock; the present one, told or not.
+    /// See InstanceClock; the present one, also while it is pending.
     InstanceClock clockOf(Slot slot) const;
     /// Tells an instance that something happened; it hears of it when its state reaches the present, with the
     /// next step. Strong guarantee; may need memory.

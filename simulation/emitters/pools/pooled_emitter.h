@@ -30,8 +30,8 @@ public:
     virtual void leavePool() = 0;
     virtual const EmitterPool* pool() const = 0; ///< that computes it now, null for none
     virtual uint32_t member() const = 0;         ///< its number in that pool
-    /// Solver::publish(), but what is in the columns may be left to `spawnBatch`. @return false, and nothing
-    /// has happened, when it wants nothing of it
+    /// Solver::publish(), but the columns may be filled later by `spawnBatch`. @return false, and nothing
+    /// has happened, when that is not supported
     virtual bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                                  SpawnBatch& spawnBatch) const = 0;
 

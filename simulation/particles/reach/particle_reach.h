@@ -19,7 +19,7 @@ float reachOf(const EmitterSettings& def, const ReachConditions& conditions, con
 
 /// What is drawn within lives of at most `seconds` stays in this box, whatever is drawn at random.
 /// @param low, high   [m/s2] between these are the pulls, component by component
-/// @param secondsBack [s] to the snapshot before, on the way from which those who were born since are drawn
+/// @param secondsBack [s] to the snapshot before, particles born since are drawn on their path from it
 base::Bounds boundsOfAll(const EmitterSettings& def, const glm::vec3& low, const glm::vec3& high,
                          float seconds, float secondsBack);
 
@@ -36,7 +36,7 @@ struct ConditionsRange
     bool meetsOthers = false;         ///< they may go anywhere from there
 };
 
-/// As boundsOfAll() where modules move particles; infinite when nobody knows.
+/// As boundsOfAll() where modules move particles; infinite when unknown.
 base::Bounds boundsOfStepped(const EmitterSettings& def, const ConditionsRange& conditions);
 
 } // namespace fx::sim

@@ -24,7 +24,7 @@ void evaluateState(DynamicsState<T>& state, base::TaskRunner& tasks);
 template <class T>
 void evaluateForces(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// In first_density.cpp: supports, densities and entropies of particles that have none; sorts everybody.
+/// In first_density.cpp: supports, densities and entropies of particles that have none; sorts all particles.
 /// Bounds of supports that the definition leaves open follow from the median: 1e-4 and 200 times it.
 template <class T>
 void findFirstDensities(DynamicsState<T>& state, base::TaskRunner& tasks);

@@ -13,8 +13,8 @@ namespace fx::sim {
 
 // Frames from their beginning to their end: frame.cpp.
 
-/// Gives new particles supports, densities and entropies, then evaluates everybody if anything has changed
-/// from outside. Nothing to do otherwise.
+/// Gives new particles supports, densities and entropies, then evaluates all particles if anything has
+/// changed from outside. Does nothing otherwise.
 template <class T>
 void prepare(DynamicsState<T>& state, base::TaskRunner& tasks);
 
