@@ -98,4 +98,8 @@ struct AccuracyTechniqueEntry
 /// All techniques, in the order of techniques/CMakeLists.txt.
 const std::vector<AccuracyTechniqueEntry>& accuracyTechniques();
 
+/// Mean, quantiles and largest of |error|, bias of the signed ones. A value that is not finite counts as an
+/// infinite error. Nothing is stored for an empty list.
+void storeErrors(std::vector<double> errors, AccuracySample& outSample);
+
 } // namespace fx::cli

@@ -3,8 +3,9 @@
 /// fxView_SetQualityCalibration.
 
 #include "benchmarks/accuracy/accuracy_measure.h"
-#include "benchmarks/calibrate/calibrate_ladders.h"
-#include "benchmarks/scenes/quality_options.h"
+#include "benchmarks/calibrate/calibrate_levels.h"
+#include "benchmarks/report/provenance.h"
+#include "benchmarks/scenes/quality_stage.h"
 #include "fxsdk/cli/commands.h"
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/cli/support/exit_code.h"
@@ -38,17 +39,17 @@ int failed(const base::Status& status, int exitCode)
     return exitCode;
 }
 
-bool isStep(const MeasuredLadder& measured, size_t point)
+bool isStep(const MeasuredLevels& measured, size_t point)
 {
-    const auto& steps = measured.ladder.steps;
-    return std::any_of(steps.begin(), steps.end(), [&](const quality::LadderStep& step) {
+    const auto& steps = measured.levels.steps;
+    return std::any_of(steps.begin(), steps.end(), [&](const quality::ScalabilityLevel& step) {
         return toText(step.knobs) == measured.curve.points[point].setting.name;
     });
 }
 
 void printText(const MeasuredCalibration& calibration)
 {
-    for (const MeasuredLadder& measured : calibration.ladders) {
+    for (const MeasuredLevels& measured : calibration.techniqueLevels) {
         std::printf("%-44s %10s %8s %17s %8s\n", measured.curve.technique.c_str(), "ms", "cost", "range",
                     "error");
         for (size_t k = 0; k < measured.curve.points.size(); ++k) {
@@ -65,7 +66,7 @@ void printText(const MeasuredCalibration& calibration)
 
 void printJson(const MeasuredCalibration& calibration, const Machine& machine)
 {
-    for (const MeasuredLadder& measured : calibration.ladders)
+    for (const MeasuredLevels& measured : calibration.techniqueLevels)
         for (size_t k = 0; k < measured.curve.points.size(); ++k) {
             const AccuracyPoint& point = measured.curve.points[k];
             const TimeRatio ratio = timeRatio(measured.curve, k);
@@ -99,7 +100,7 @@ int runCalibrate(const CalibrateArguments& arguments)
     rules.repetitions = arguments.repetitions;
     rules.stop = interruptRequested;
     rules.progress = [&](uint64_t done, uint64_t all) { bar.update(done * 100 / all); };
-    const auto measured = measureLadders(rules);
+    const auto measured = measureLevels(rules);
     if (!measured)
         return failed(measured.status(), exitCodeOf(measured.status()));
     Machine machine = readMachine();
@@ -109,8 +110,8 @@ int runCalibrate(const CalibrateArguments& arguments)
     else
         printText(*measured);
     quality::Calibration calibration{provenance(toText(machine)), {}};
-    for (const MeasuredLadder& ladder : measured->ladders)
-        calibration.ladders.push_back(ladder.ladder);
+    for (const MeasuredLevels& levels : measured->techniqueLevels)
+        calibration.techniqueLevels.push_back(levels.levels);
     const std::string text = calibrationText(calibration);
     if (const auto read = quality::readCalibration(text, "what was measured"); !read)
         return failed(read.status(), kFailed);

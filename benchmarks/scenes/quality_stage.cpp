@@ -1,5 +1,6 @@
 #include "benchmarks/scenes/quality_stage.h"
 
+#include "foundation/result/nearest_name.h"
 #include "fxsdk/cli/scene/api_status.h"
 #include "fxsdk/cli/scene/view_settings.h"
 #include "rendering/gl/gl_read_texture.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <memory_resource>
 
@@ -158,6 +160,35 @@ PictureDifference compare(const std::vector<float>& a, const std::vector<float>&
         sums.light += std::abs(double(b[i]) - double(background[i]));
     }
     return sums;
+}
+
+base::Status readSize(const std::string& text, int& outWidth, int& outHeight)
+{
+    int width = 0, height = 0;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 16 || width > 16'384 ||
+        height < 16 || height > 16'384)
+        return {base::Code::InvalidArgument,
+                "--size: found '" + text + "'; allowed is WIDTHxHEIGHT, each from 16 to 16384, as 320x180"};
+    outWidth = width;
+    outHeight = height;
+    return {};
+}
+
+base::Status readClock(const std::string& text, std::optional<StageClock>& outClock)
+{
+    for (const StageClock clock : {StageClock::Gpu, StageClock::Wall, StageClock::Processor})
+        if (text == clockName(clock)) {
+            outClock = clock;
+            return {};
+        }
+    const std::vector<std::string> known{"auto", "gpu", "wall", "processor"};
+    if (text != "auto")
+        return {base::Code::InvalidArgument, "--clock: found '" + text +
+                                                 "'; allowed are auto, gpu, wall and processor" +
+                                                 base::didYouMean(text, known)};
+    outClock.reset();
+    return {};
 }
 
 } // namespace fx::cli

@@ -14,6 +14,7 @@
 #include "rendering/stage/stage_renderer.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -86,5 +87,11 @@ struct PictureDifference
 };
 PictureDifference compare(const std::vector<float>& a, const std::vector<float>& b,
                           const std::vector<float>& background);
+
+/// "320x180", each 16 to 16384. @return InvalidArgument
+base::Status readSize(const std::string& text, int& outWidth, int& outHeight);
+
+/// "gpu", "wall", "processor", or "auto" for nothing. @return InvalidArgument
+base::Status readClock(const std::string& text, std::optional<StageClock>& outClock);
 
 } // namespace fx::cli

@@ -29,9 +29,9 @@ base::Result<sim::CaseReport> runPlan(const VerifyPlan& plan, bool showProgress)
 {
     const std::unique_ptr<sim::GasCase> gasCase = sim::makeGasCase(*plan.entry, plan.settings);
     const auto tasks = plan.threads == 1 ? base::makeSerialRunner() : base::makeTbbRunner(plan.threads);
-    Progress progress(std::string(plan.entry->name), gasCase->looks().size(), showProgress);
+    Progress progress(std::string(plan.entry->name), gasCase->sampleTimes().size(), showProgress);
     sim::CaseWatch watch;
-    watch.progress = [&progress](uint32_t look, uint32_t) { progress.update(look); };
+    watch.progress = [&progress](uint32_t sample, uint32_t) { progress.update(sample); };
     watch.stop = interruptRequested;
     return plan.doublePrecision ? sim::runCase<double>(*gasCase, *tasks, watch)
                                 : sim::runCase<float>(*gasCase, *tasks, watch);

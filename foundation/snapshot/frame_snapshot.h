@@ -89,7 +89,7 @@ public:
             return groups_[groupCount_++]; // as in the snapshot before: there is none that fits better
         return findGroup(kind, capacity, present);
     }
-    /// The same for a writer that heeds SnapshotGroup::keepsConstants().
+    /// The same for a writer that respects SnapshotGroup::keepsConstants().
     SnapshotGroup& addGroupAgain(KindId kind, size_t capacity, ColumnSet present)
     {
         if (groupCount_ + 2 < groups_.size())

@@ -67,10 +67,10 @@ public:
 
     std::vector<GpuModuleUse> uses;
     std::vector<float> numbers;
-    uint32_t stepWords = 0; ///< besides the head
-    bool kills = false;     ///< particles may die before their time
-    bool sticks = false;    ///< particles may stop for good
-    bool heedsHost = false; ///< it meets the host's geometry, where there is any: then only the CPU can
+    uint32_t stepWords = 0;     ///< besides the head
+    bool kills = false;         ///< particles may die before their time
+    bool sticks = false;        ///< particles may stop for good
+    bool dependsOnHost = false; ///< it meets the host's geometry, where there is any: then only the CPU can
 };
 
 /// The head of a step as the GPU reads it.

@@ -185,7 +185,7 @@ FxResult fxScene_TriggerEvent(FxScene* scene, FxInstanceId instance, const char*
             check.notNull(name, "name");
             if (count > 65536)
                 return fx::api::invalid("count is above 65536");
-            return check.status() ? scene->scene.tell(id, name, count) : check.status();
+            return check.status() ? scene->scene.postEvent(id, name, count) : check.status();
         });
 }
 

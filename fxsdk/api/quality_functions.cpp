@@ -40,7 +40,7 @@ FxQualityReport reportOf(const ViewQuality& quality)
     report.estimatedError = float(controller.error());
     report.saturated = controller.isSaturated() ? 1 : 0;
     report.held = quality.wasHeld() ? 1 : 0;
-    report.techniques = uint32_t(controller.ladders().size());
+    report.techniques = uint32_t(controller.techniqueLevels().size());
     report.switches = controller.switches();
     return report;
 }
@@ -48,17 +48,17 @@ FxQualityReport reportOf(const ViewQuality& quality)
 FxQualityChoice choiceOf(const ViewQuality& quality, uint32_t index)
 {
     const fx::quality::BudgetController& controller = *quality.controller();
-    const fx::quality::Ladder& ladder = controller.ladders()[index];
+    const fx::quality::ScalabilityLevels& levels = controller.techniqueLevels()[index];
     const uint32_t step = quality.choice()[index];
     FxQualityChoice choice{};
     choice.step = step;
-    choice.steps = uint32_t(ladder.steps.size());
-    choice.cost = float(ladder.steps[step].cost);
-    choice.error = float(ladder.steps[step].error);
+    choice.steps = uint32_t(levels.steps.size());
+    choice.cost = float(levels.steps[step].cost);
+    choice.error = float(levels.steps[step].error);
     choice.weight = float(quality.weights()[index]);
-    choice.predictedMilliseconds = float(ladder.steps[step].cost * controller.costs().scale(index));
-    fx::api::copyText(ladder.technique, choice.technique, sizeof choice.technique);
-    fx::api::copyText(toText(ladder.steps[step].knobs), choice.setting, sizeof choice.setting);
+    choice.predictedMilliseconds = float(levels.steps[step].cost * controller.costs().scale(index));
+    fx::api::copyText(levels.technique, choice.technique, sizeof choice.technique);
+    fx::api::copyText(toText(levels.steps[step].knobs), choice.setting, sizeof choice.setting);
     return choice;
 }
 
@@ -99,7 +99,7 @@ FxResult fxView_GetQualityReport(FxView* view, FxQualityReport* ioReport)
 FxResult fxView_GetQualityChoice(FxView* view, uint32_t index, FxQualityChoice* ioChoice)
 {
     return fx::api::insideView("fxView_GetQualityChoice", view, [&]() -> Status {
-        if (!view->quality.isControlled() || index >= view->quality.controller()->ladders().size())
+        if (!view->quality.isControlled() || index >= view->quality.controller()->techniqueLevels().size())
             return fx::api::invalid("the last frame chose for fewer techniques than index");
         return fx::api::writeStruct(choiceOf(view->quality, index), ioChoice, "ioChoice");
     });

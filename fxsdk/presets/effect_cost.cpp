@@ -1,5 +1,7 @@
 #include "fxsdk/presets/effect_cost.h"
 
+#include "foundation/tasks/work_budget.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -63,7 +65,7 @@ std::string remedyOf(const std::string& member)
     return member.empty() ? "make it smaller" : "lower " + member.substr(member.find('/') + 1);
 }
 
-void adviseCost(const PresetValue& root, const sim::EffectDef& effect, const std::vector<SolverCost>& solvers)
+void lintCost(const PresetValue& root, const sim::EffectDef& effect, const std::vector<SolverCost>& solvers)
 {
     const sim::EffectCost& cost = effect.cost;
     const auto worst =
@@ -112,7 +114,7 @@ void estimateCost(const PresetValue& root, sim::EffectDef& effect, Techniques te
     if (!isClosed(effect))
         effect.cost.startWork = startWork * base::toSeconds(effect.prewarm) / kCostStep;
     if (!solvers.empty())
-        adviseCost(root, effect, solvers);
+        lintCost(root, effect, solvers);
 }
 
 } // namespace fx::preset

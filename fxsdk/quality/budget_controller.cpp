@@ -5,7 +5,8 @@
 
 namespace fx::quality {
 
-BudgetController::BudgetController(std::vector<Ladder> ladders) : ladders_(std::move(ladders))
+BudgetController::BudgetController(std::vector<ScalabilityLevels> techniqueLevels)
+    : techniqueLevels_(std::move(techniqueLevels))
 {
     reset();
 }
@@ -13,7 +14,7 @@ BudgetController::BudgetController(std::vector<Ladder> ladders) : ladders_(std::
 void BudgetController::reset()
 {
     costs_.reset();
-    choice_ = highest(ladders_);
+    choice_ = highest(techniqueLevels_);
     memory_ = {};
     calm_ = 0;
     predicted_ = error_ = 0.0;
@@ -23,13 +24,13 @@ void BudgetController::reset()
 
 void BudgetController::observe(const Choice& choice, std::span<const double> milliseconds)
 {
-    for (size_t i = 0; i < std::min(ladders_.size(), milliseconds.size()); ++i)
-        costs_.observe(i, ladders_[i].steps[choice[i]].cost, milliseconds[i]);
+    for (size_t i = 0; i < std::min(techniqueLevels_.size(), milliseconds.size()); ++i)
+        costs_.observe(i, techniqueLevels_[i].steps[choice[i]].cost, milliseconds[i]);
 }
 
 const Choice& BudgetController::choose(const Frame& frame)
 {
-    const ChoiceInputs in{ladders_, &costs_, frame.weights};
+    const ChoiceInputs in{techniqueLevels_, &costs_, frame.weights};
     pass(frame.deltaTime);
     if (frame.hold) {
         calm_ = 0;
@@ -60,7 +61,7 @@ void BudgetController::fall(const ChoiceInputs& in, double target)
 {
     calm_ = 0;
     const Choice wanted = climb(in, {}, choice_, target);
-    for (size_t i = 0; i < ladders_.size(); ++i) {
+    for (size_t i = 0; i < techniqueLevels_.size(); ++i) {
         if (wanted[i] == choice_[i])
             continue;
         Memory& memory = memory_[i];
@@ -76,14 +77,14 @@ void BudgetController::rise(const ChoiceInputs& in, double target)
     if (calm_ < kCalmFrames)
         return;
     Choice most = choice_;
-    for (size_t i = 0; i < ladders_.size(); ++i)
+    for (size_t i = 0; i < techniqueLevels_.size(); ++i)
         if (calm_ >= kCalmFrames * memory_[i].patience && memory_[i].sinceFall >= kRestSeconds &&
-            most[i] + 1u < ladders_[i].steps.size())
+            most[i] + 1u < techniqueLevels_[i].steps.size())
             ++most[i];
     const Choice wanted = climb(in, choice_, most, target);
     if (wanted == choice_)
         return;
-    for (size_t i = 0; i < ladders_.size(); ++i)
+    for (size_t i = 0; i < techniqueLevels_.size(); ++i)
         if (wanted[i] != choice_[i])
             memory_[i].sinceRise = 0.0;
     calm_ = 0;

@@ -8,7 +8,7 @@
 /// Only what is drawn depends on it, never what is simulated.
 #pragma once
 
-#include "fxsdk/quality/ladder_choice.h"
+#include "fxsdk/quality/scalability_choice.h"
 
 #include <cstdint>
 
@@ -24,13 +24,13 @@ public:
     static constexpr double kProbation = 3.0;     ///< [s] a fall this soon after a rise doubles the patience
     static constexpr uint32_t kMostPatience = 16; ///< times kCalmFrames
 
-    /// Starts with the best of each ladder; throws std::bad_alloc. Everything else allocates nothing.
-    /// @param ladders 1 to kMostLadders, each with costs that rise and errors that fall
-    explicit BudgetController(std::vector<Ladder> ladders);
+    /// Starts with the best of each technique; throws std::bad_alloc. Everything else allocates nothing.
+    /// @param techniqueLevels 1 to kMostTechniques, each with costs that rise and errors that fall
+    explicit BudgetController(std::vector<ScalabilityLevels> techniqueLevels);
 
     /// Updates the cost model from a finished frame. Results may come late: they carry the choice of their
     /// frame.
-    /// @param milliseconds one a ladder; negative: not known
+    /// @param milliseconds one per technique; negative: not known
     void observe(const Choice& choice, std::span<const double> milliseconds);
 
     struct Frame
@@ -38,12 +38,12 @@ public:
         double budget = 0;               ///< [ms] > 0
         double deltaTime = 0;            ///< [s] since the last call, >= 0
         bool hold = false;               ///< something is caught up with: nothing changes
-        std::span<const double> weights; ///< [1] >= 0, one a ladder
+        std::span<const double> weights; ///< [1] >= 0, one per technique
     };
     /// Chooses for the next frame.
     const Choice& choose(const Frame& frame);
 
-    std::span<const Ladder> ladders() const { return ladders_; }
+    std::span<const ScalabilityLevels> techniqueLevels() const { return techniqueLevels_; }
     const Choice& choice() const { return choice_; }
     const CostModel& costs() const { return costs_; }
     double predicted() const { return predicted_; } ///< [ms] of the last choice
@@ -53,7 +53,7 @@ public:
     void reset();                                   ///< forgets all, starts at the top
 
 private:
-    struct Memory ///< of one ladder
+    struct Memory ///< of one technique
     {
         double sinceFall = 1e9; ///< [s]
         double sinceRise = 1e9; ///< [s]
@@ -64,10 +64,10 @@ private:
     void rise(const ChoiceInputs& in, double target);
     void take(const Choice& choice);
 
-    std::vector<Ladder> ladders_;
+    std::vector<ScalabilityLevels> techniqueLevels_;
     CostModel costs_;
     Choice choice_{};
-    std::array<Memory, kMostLadders> memory_{};
+    std::array<Memory, kMostTechniques> memory_{};
     uint32_t calm_ = 0; ///< frames since the last change
     double predicted_ = 0;
     double error_ = 0;

@@ -51,58 +51,58 @@ Knobs readKnobs(const Json& setting)
     return knobs;
 }
 
-/// The text in the folder, with the ladders and the settings of all techniques.
+/// The text in the folder, with the scalability levels and the settings of all techniques.
 Json calibrationSchema()
 {
     Json schema = Json::parse(textNamed("calibration.schema.json"));
     Json& techniques = schema["properties"]["techniques"];
-    Json& ladder = techniques["items"]["properties"];
-    Json& settings = ladder["steps"]["items"]["properties"]["setting"]["properties"];
+    Json& levels = techniques["items"]["properties"];
+    Json& settings = levels["steps"]["items"]["properties"]["setting"]["properties"];
     std::string meanings;
     Json names = Json::array();
     for (const render::DrawTechnique* technique : render::drawTechniques()) {
-        if (!technique->ladder)
+        if (!technique->levels)
             continue;
-        const std::string name(technique->ladder->name);
+        const std::string name(technique->levels->name);
         names.push_back(name);
         meanings +=
-            (meanings.empty() ? "" : " ") + name + ": " + std::string(technique->ladder->meaning) + ".";
+            (meanings.empty() ? "" : " ") + name + ": " + std::string(technique->levels->meaning) + ".";
     }
     techniques["maxItems"] = names.size();
-    ladder["name"]["enum"] = std::move(names);
-    ladder["name"]["description"] = meanings;
+    levels["name"]["enum"] = std::move(names);
+    levels["name"]["description"] = meanings;
     forEachKnob(
         [&](const QualityKnob& knob) { settings[std::string(knob.name)] = Json::parse(knob.schema); });
     return schema;
 }
 
-void checkStep(const Ladder& ladder, size_t k, const std::string& pointer, Findings& findings)
+void checkStep(const ScalabilityLevels& levels, size_t k, const std::string& pointer, Findings& findings)
 {
-    const LadderStep& step = ladder.steps[k];
-    if (k > 0 && !(step.cost > ladder.steps[k - 1].cost))
+    const ScalabilityLevel& step = levels.steps[k];
+    if (k > 0 && !(step.cost > levels.steps[k - 1].cost))
         findings.error(pointer + "/cost",
                        "is not above the step's before it; remove the step that costs more "
                        "without being better, or measure with fx calibrate");
-    if (k > 0 && !(step.error < ladder.steps[k - 1].error))
+    if (k > 0 && !(step.error < levels.steps[k - 1].error))
         findings.error(pointer + "/error",
                        "is not below the step's before it; remove this step: it costs more for nothing");
-    if (k + 1 == ladder.steps.size() && step.error != 0.0)
+    if (k + 1 == levels.steps.size() && step.error != 0.0)
         findings.error(pointer + "/error",
                        "is not 0, but the last step is what the others are compared with");
-    if (k + 1 == ladder.steps.size() && step.cost != 1.0)
+    if (k + 1 == levels.steps.size() && step.cost != 1.0)
         findings.error(pointer + "/cost", "is not 1, but the last step is the unit of the costs");
 }
 
-Ladder readLadder(const Json& json, const std::string& pointer, Findings& findings)
+ScalabilityLevels readLevels(const Json& json, const std::string& pointer, Findings& findings)
 {
-    Ladder ladder{json["name"].get<std::string>(), {}};
+    ScalabilityLevels levels{json["name"].get<std::string>(), {}};
     for (const Json& step : json["steps"]) {
-        ladder.steps.push_back(
+        levels.steps.push_back(
             {step["cost"].get<double>(), step["error"].get<double>(), readKnobs(step["setting"])});
     }
-    for (size_t k = 0; k < ladder.steps.size(); ++k)
-        checkStep(ladder, k, pointer + "/steps/" + std::to_string(k), findings);
-    return ladder;
+    for (size_t k = 0; k < levels.steps.size(); ++k)
+        checkStep(levels, k, pointer + "/steps/" + std::to_string(k), findings);
+    return levels;
 }
 
 Calibration readDocument(std::string_view text, Findings& findings)
@@ -119,9 +119,9 @@ Calibration readDocument(std::string_view text, Findings& findings)
     const Json& techniques = (*document)["techniques"];
     for (size_t i = 0; i < techniques.size(); ++i) {
         const std::string pointer = "/techniques/" + std::to_string(i);
-        calibration.ladders.push_back(readLadder(techniques[i], pointer, findings));
+        calibration.techniqueLevels.push_back(readLevels(techniques[i], pointer, findings));
         for (size_t j = 0; j < i; ++j)
-            if (calibration.ladders[j].technique == calibration.ladders[i].technique)
+            if (calibration.techniqueLevels[j].technique == calibration.techniqueLevels[i].technique)
                 findings.error(pointer + "/name", "occurs twice; give each technique once");
     }
     return calibration;
@@ -186,11 +186,11 @@ nlohmann::ordered_json toJson(const Knobs& knobs)
 nlohmann::ordered_json toJson(const Calibration& calibration)
 {
     nlohmann::ordered_json techniques = nlohmann::ordered_json::array();
-    for (const Ladder& ladder : calibration.ladders) {
+    for (const ScalabilityLevels& levels : calibration.techniqueLevels) {
         nlohmann::ordered_json steps = nlohmann::ordered_json::array();
-        for (const LadderStep& step : ladder.steps)
+        for (const ScalabilityLevel& step : levels.steps)
             steps.push_back({{"cost", step.cost}, {"error", step.error}, {"setting", toJson(step.knobs)}});
-        techniques.push_back({{"name", ladder.technique}, {"steps", steps}});
+        techniques.push_back({{"name", levels.technique}, {"steps", steps}});
     }
     return {{"version", 1}, {"origin", calibration.origin}, {"techniques", techniques}};
 }

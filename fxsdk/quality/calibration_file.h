@@ -5,7 +5,7 @@
 #pragma once
 
 #include "foundation/result/status.h"
-#include "fxsdk/quality/quality_ladder.h"
+#include "fxsdk/quality/scalability_levels.h"
 
 #include <nlohmann/json_fwd.hpp>
 

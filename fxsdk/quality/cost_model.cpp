@@ -6,11 +6,11 @@
 
 namespace fx::quality {
 
-void CostModel::observe(size_t ladder, double cost, double milliseconds)
+void CostModel::observe(size_t technique, double cost, double milliseconds)
 {
     if (!base::isFinite(milliseconds) || milliseconds < 0.0)
         return;
-    Estimate& e = estimates_[ladder];
+    Estimate& e = estimates_[technique];
     if (!(cost > 0.0)) {
         e.scale -= kForget * e.scale;
         return;

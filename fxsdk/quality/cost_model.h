@@ -2,26 +2,26 @@
 /// What a technique's relative costs mean in milliseconds of this scene, learned from measured frames.
 #pragma once
 
-#include "fxsdk/quality/quality_ladder.h"
+#include "fxsdk/quality/scalability_levels.h"
 
 #include <array>
 
 namespace fx::quality {
 
-/// The live scale of each ladder: milliseconds = scale * step.cost. Follows the mean slowly. A frame that is
-/// much too slow counts as little more than usual; the third in a row is believed at once. While a technique
-/// is switched off nothing can be seen of it: what was known is slowly taken for less, so that it will be
-/// tried again.
+/// The live scale of each technique: milliseconds = scale * step.cost. Follows the mean slowly. A frame that
+/// is much too slow counts as little more than usual; the third in a row is believed at once. While a
+/// technique is switched off nothing can be seen of it: what was known is slowly taken for less, so that it
+/// will be tried again.
 class CostModel
 {
 public:
     /// @param cost of the step that was measured; 0: switched off
     /// @param milliseconds ignored when negative or not finite
-    void observe(size_t ladder, double cost, double milliseconds);
+    void observe(size_t technique, double cost, double milliseconds);
     void reset() { estimates_ = {}; }
 
-    double scale(size_t ladder) const { return estimates_[ladder].scale; } ///< [ms] 0 before the first
-    bool isKnown(size_t ladder) const { return estimates_[ladder].known; }
+    double scale(size_t technique) const { return estimates_[technique].scale; } ///< [ms] 0 before the first
+    bool isKnown(size_t technique) const { return estimates_[technique].known; }
 
     static constexpr double kJump = 1.3;     ///< times the mean: beyond is a spike, or a jump
     static constexpr double kFollow = 0.1;   ///< share of a new value in the mean
@@ -34,7 +34,7 @@ private:
         std::array<double, 2> before{}; ///< [ms] of the last two frames; 0: not slow
         bool known = false;
     };
-    std::array<Estimate, kMostLadders> estimates_{};
+    std::array<Estimate, kMostTechniques> estimates_{};
 };
 
 } // namespace fx::quality

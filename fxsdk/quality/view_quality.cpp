@@ -14,7 +14,7 @@ namespace {
 using render::TimingClock;
 
 constexpr uint64_t kNotToLearn = uint64_t(1) << 63;
-static_assert(kMostLadders * 4 < 63 && kMostSteps <= 16); // a choice fits into a tag
+static_assert(kMostTechniques * 4 < 63 && kMostSteps <= 16); // a choice fits into a tag
 
 uint64_t toTag(const Choice& choice)
 {
@@ -32,11 +32,12 @@ Choice fromTag(uint64_t tag)
     return choice;
 }
 
-/// The ladder that the time of a group of passes belongs to: the one of its name, otherwise the last.
-size_t ladderOf(std::span<const Ladder> ladders, std::string_view group)
+/// The technique that the time of a group of passes belongs to: the one of its name, otherwise the last.
+size_t techniqueIndexOf(std::span<const ScalabilityLevels> techniqueLevels, std::string_view group)
 {
-    const auto found = std::ranges::find(ladders, group, &Ladder::technique);
-    return found == ladders.end() ? ladders.size() - 1 : size_t(found - ladders.begin());
+    const auto found = std::ranges::find(techniqueLevels, group, &ScalabilityLevels::technique);
+    return found == techniqueLevels.end() ? techniqueLevels.size() - 1
+                                          : size_t(found - techniqueLevels.begin());
 }
 
 } // namespace
@@ -55,9 +56,9 @@ base::Status ViewQuality::setOptions(const BudgetOptions& options)
 
 void ViewQuality::setCalibration(Calibration calibration)
 {
-    std::vector<Ladder>& ladders = calibration.ladders;
-    ladders.push_back({"other", {{1.0, 0.0, {}}}});
-    BudgetController controller(std::move(ladders));
+    std::vector<ScalabilityLevels>& techniqueLevels = calibration.techniqueLevels;
+    techniqueLevels.push_back({"other", {{1.0, 0.0, {}}}});
+    BudgetController controller(std::move(techniqueLevels));
     controller_.emplace(std::move(controller));
     chosen_ = controller_->choice();
     times_.reset();
@@ -89,8 +90,8 @@ void ViewQuality::control(render::ViewRenderer& renderer, double deltaTime)
 {
     weigh(renderer);
     chosen_ = controller_->choose({options_.milliseconds, deltaTime, held_, weights_});
-    for (size_t i = 0; i < controller_->ladders().size(); ++i)
-        apply(controller_->ladders()[i].steps[chosen_[i]].knobs, renderer.settings());
+    for (size_t i = 0; i < controller_->techniqueLevels().size(); ++i)
+        apply(controller_->techniqueLevels()[i].steps[chosen_[i]].knobs, renderer.settings());
 }
 
 void ViewQuality::end(render::ViewRenderer& renderer)
@@ -108,10 +109,11 @@ void ViewQuality::collect(render::ViewRenderer& renderer)
         times_ = times;
         if (times.tag & kNotToLearn)
             continue;
-        std::array<double, kMostLadders> milliseconds{};
+        std::array<double, kMostTechniques> milliseconds{};
         const render::PassGroups& groups = renderer.passGroups();
         for (size_t group = 0; group < groups.count(); ++group)
-            milliseconds[ladderOf(controller_->ladders(), groups.name(group))] += times.milliseconds[group];
+            milliseconds[techniqueIndexOf(controller_->techniqueLevels(), groups.name(group))] +=
+                times.milliseconds[group];
         controller_->observe(fromTag(times.tag), milliseconds);
     }
 }
@@ -119,11 +121,11 @@ void ViewQuality::collect(render::ViewRenderer& renderer)
 void ViewQuality::weigh(const render::ViewRenderer& renderer)
 {
     weights_ = {};
-    const auto& ladders = controller_->ladders();
+    const auto& techniqueLevels = controller_->techniqueLevels();
     for (const render::DrawTechnique* technique : renderer.techniques())
-        for (size_t i = 0; technique->ladder && i < ladders.size(); ++i)
-            if (ladders[i].technique == technique->ladder->name)
-                weights_[i] = technique->ladder->weight(renderer.covered());
+        for (size_t i = 0; technique->levels && i < techniqueLevels.size(); ++i)
+            if (techniqueLevels[i].technique == technique->levels->name)
+                weights_[i] = technique->levels->weight(renderer.covered());
 }
 
 } // namespace fx::quality

@@ -25,7 +25,7 @@ public:
     /// Without a calibration so far takes the built-in one.
     base::Status setOptions(const BudgetOptions& options);
     const BudgetOptions& options() const { return options_; }
-    /// Exchanges the ladders; what was learned is forgotten. Strong guarantee.
+    /// Exchanges the scalability levels; what was learned is forgotten. Strong guarantee.
     void setCalibration(Calibration calibration);
 
     /// For measurements: this setting whatever it costs; frames are timed, the controller learns nothing.
@@ -44,7 +44,7 @@ public:
     {
         return controller_ && !forced_ && clock_ && *clock_ != render::TimingClock::Off;
     }
-    /// Null before a calibration. Its last ladder stands for what no technique can change.
+    /// Null before a calibration. Its last element stands for what no technique can change.
     const BudgetController* controller() const { return controller_ ? &*controller_ : nullptr; }
     const Choice& choice() const { return chosen_; } ///< of the last frame
     bool wasHeld() const { return held_; }
@@ -60,7 +60,7 @@ private:
     std::optional<BudgetController> controller_;
     std::optional<Knobs> forced_;
     std::optional<render::TimingClock> clock_ = render::TimingClock::Off;
-    std::array<double, kMostLadders> weights_{};
+    std::array<double, kMostTechniques> weights_{};
     Choice chosen_{};
     bool held_ = false;
     std::optional<render::GroupTimes> times_;

@@ -149,7 +149,7 @@ void Scene::retireFinished(base::Ticks now)
     active_.removeIf([&](uint32_t index, sim::Slot slot) {
         if (!world_.finished(slot, now))
             return false;
-        world_.retire(slot);
+        world_.recycle(slot);
         finish(index);
         return true;
     });

@@ -10,10 +10,10 @@
 #include "fxsdk/activation/active_list.h"
 #include "fxsdk/activation/budget.h"
 #include "fxsdk/activation/focus.h"
-#include "fxsdk/activation/hidden_tree.h"
-#include "fxsdk/activation/wake_queue.h"
+#include "fxsdk/activation/sphere_hierarchy.h"
+#include "fxsdk/activation/timer_queue.h"
 #include "fxsdk/scene/id_table.h"
-#include "fxsdk/scene/whereabouts.h"
+#include "fxsdk/scene/motion_history.h"
 #include "simulation/world/world.h"
 
 #include <atomic>
@@ -112,8 +112,8 @@ struct InstanceSetup
     sim::InstanceParameters parameters;
     bool destroyWhenFinished = false;
     sim::QualityLevel quality = sim::QualityLevel::Medium;
-    uint32_t rate = sim::kNormalRate;        ///< see sim::RunClock
-    std::optional<sim::RunClock> clock = {}; ///< once the host has changed its time
+    uint32_t rate = sim::kNormalRate;             ///< see sim::InstanceClock
+    std::optional<sim::InstanceClock> clock = {}; ///< once the host has changed its time
 };
 
 /// Exact counts since the scene was created, unless they say "now".
@@ -163,14 +163,14 @@ public:
     uint32_t particles(LocalId id);
     void setPlacement(LocalId id, const base::Placement& placement);
     void setParameters(LocalId id, const sim::InstanceParameters& parameters);
-    /// @param rate see sim::RunClock
+    /// @param rate see sim::InstanceClock
     void setRate(LocalId id, uint32_t rate);
     /// Takes an instance to a local time; the next update() shows it, also one without a step.
     /// @return InvalidArgument before its start and after its end
     base::Status seek(LocalId id, base::Ticks local);
     /// Tells an instance that what its preset calls `name` happened `count` times.
     /// @return NotFound when its preset has no such event, InvalidArgument before its start
-    base::Status tell(LocalId id, std::string_view name, uint32_t count);
+    base::Status postEvent(LocalId id, std::string_view name, uint32_t count);
     void setHints(LocalId id, const ActivationHints& hints);
 
     /// What is known about why an instance costs what it costs.
@@ -266,16 +266,16 @@ private:
         InstanceState state = InstanceState::Finished;
         Reason reason = Reason::None; ///< of being hidden
         sim::CatchUp policy = sim::CatchUp::Replay;
-        activation::HiddenTree::Leaf leaf = activation::HiddenTree::kNone;
+        activation::SphereHierarchy::Leaf leaf = activation::SphereHierarchy::kNone;
         bool hasAlarm = false;
         bool wasResting = false;    ///< before it began to wake
         bool isLate = false;        ///< waking: its past was too much work for the update in which it began
         uint32_t lastParticles = 0; ///< when it was hidden
         ActivationHints hints;
-        double reach = 0;                  ///< [m] world
-        float localReach = 0;              ///< [m] of the effect in a wind of reachWind
-        float reachWind = -1;              ///< [m/s] local; negative before it was measured
-        std::unique_ptr<Whereabouts> past; ///< where what is now does not tell everything
+        double reach = 0;                    ///< [m] world
+        float localReach = 0;                ///< [m] of the effect in a wind of reachWind
+        float reachWind = -1;                ///< [m/s] local; negative before it was measured
+        std::unique_ptr<MotionHistory> past; ///< where what is now does not tell everything
     };
     struct Restored; ///< a state on its way into the scene
 
@@ -317,11 +317,11 @@ private:
     double significanceOf(const Instance& instance) const;
     uint64_t particlesOf(const Instance& instance) const;
     void measure(Instance& instance) const; ///< how far it reaches
-    Circumstances circumstancesOf(const InstanceSetup& setup, const sim::Influence& influence) const;
-    Circumstances pastOf(Instance& instance, bool stays, const sim::Influence& influence) const;
+    BoundsInputs boundsInputsOf(const InstanceSetup& setup, const sim::Influence& influence) const;
+    BoundsInputs pastOf(Instance& instance, bool stays, const sim::Influence& influence) const;
     Reason judge(const Instance& instance, bool isSeen);
     void reconsider(const base::StepPlan& plan);
-    void lookAround();
+    void updateVisibility();
     void lookAtDenied();
     void keepBudget();
     bool sendOut(uint32_t index, Reason reason);
@@ -370,13 +370,13 @@ private:
     base::StepClock clock_;
     sim::World world_;
     IdTable<Instance> instances_;
-    activation::WakeQueue dormant_;
+    activation::TimerQueue dormant_;
     activation::ActiveList active_;
     activation::ActiveList waking_;
-    activation::ActiveList denied_; ///< in sight, beyond the budget
-    activation::ActiveList coarse_; ///< hidden, stepped coarsely
-    activation::HiddenTree tree_;   ///< hidden for where they are
-    activation::WakeQueue alarms_;  ///< of hidden and resting ones
+    activation::ActiveList denied_;    ///< in sight, beyond the budget
+    activation::ActiveList coarse_;    ///< hidden, stepped coarsely
+    activation::SphereHierarchy tree_; ///< hidden because of their position
+    activation::TimerQueue alarms_;    ///< of hidden and resting ones
     activation::FocusSet focus_;
     activation::Budget budget_;
     std::pmr::vector<activation::Candidate> candidates_; ///< scratch
@@ -387,7 +387,7 @@ private:
     uint64_t shownWork_ = 0;            ///< [unit] spent on the publication in hand, or the last one
     base::Ticks published_ = 0;         ///< scene time of the last publication
     std::pmr::vector<LocalId> moved_;   ///< instances with InstanceSetup::cameFrom, and perhaps others
-    bool lookAgain_ = false;            ///< an instance or a camera has moved
+    bool visibilityStale_ = false;      ///< an instance or a camera has moved
     bool memoryFailed_ = false;
     bool sought_ = false; ///< seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;

@@ -26,7 +26,7 @@ void Scene::comeBack(uint32_t index)
     instance.state = InstanceState::Waking;
     instance.reason = Reason::CatchingUp;
     waking_.insert(instance.serial, index, instance.slot);
-    lookAgain_ = true;
+    visibilityStale_ = true;
 }
 
 /// The most significant ones first, as far as the budget of an update goes.
@@ -89,7 +89,7 @@ void Scene::becomePresent(uint32_t index)
     Instance& instance = instances_.at(index);
     ++update_.returned;
     if (world_.finished(instance.slot, clock_.simulated()) && instance.setup.startTick < clock_.simulated()) {
-        world_.retire(instance.slot);
+        world_.recycle(instance.slot);
         finish(index);
         return;
     }
@@ -116,7 +116,7 @@ void Scene::ringAlarms(base::Ticks until)
                 becomePresent(index);
         } else if (isOver) {
             takeBack(index);
-            world_.retire(instance.slot);
+            world_.recycle(instance.slot);
             finish(index);
         } else {
             const base::Ticks next = world_.release(instance.slot, mayForget(instance.policy));
@@ -190,14 +190,14 @@ void Scene::settleOne(uint32_t index, bool alsoInexact)
         return;
     }
     takeBack(index);
-    world_.retire(instance.slot);
+    world_.recycle(instance.slot);
     finish(index);
 }
 
 void Scene::forgetSight()
 {
-    activation::HiddenTree noTree(memory_);
-    activation::WakeQueue noAlarms(memory_);
+    activation::SphereHierarchy noTree(memory_);
+    activation::TimerQueue noAlarms(memory_);
     std::swap(tree_, noTree);
     std::swap(alarms_, noAlarms);
     const auto all = [](uint32_t, sim::Slot) { return true; };
@@ -207,7 +207,7 @@ void Scene::forgetSight()
     hidden_ = resting_ = 0;
     emptyPublications_ = 0;
     sought_ = false;
-    lookAgain_ = true;
+    visibilityStale_ = true;
 }
 
 } // namespace fx::scene

@@ -47,11 +47,11 @@ bool Scene::mayHide(const Instance& instance) const
     return !options_.lockStep || (isExact(instance.policy) && !instance.setup.destroyWhenFinished);
 }
 
-Circumstances Scene::circumstancesOf(const InstanceSetup& setup, const sim::Influence& influence) const
+BoundsInputs Scene::boundsInputsOf(const InstanceSetup& setup, const sim::Influence& influence) const
 {
     const base::Placement& to = setup.placement;
     const base::Placement& from = setup.cameFrom ? *setup.cameFrom : to;
-    Circumstances is;
+    BoundsInputs is;
     is.low = is.high = to.position;
     is.smallest = is.largest = to.scale;
     is.wind = glm::length(setup.parameters.wind);
@@ -72,14 +72,14 @@ Circumstances Scene::circumstancesOf(const InstanceSetup& setup, const sim::Infl
 
 /// What has to be reckoned with besides what is so now: kept where particles stay behind, and from the first
 /// time on that the wind grows weaker.
-Circumstances Scene::pastOf(Instance& instance, bool stays, const sim::Influence& influence) const
+BoundsInputs Scene::pastOf(Instance& instance, bool stays, const sim::Influence& influence) const
 {
-    const Circumstances is = circumstancesOf(instance.setup, influence);
+    const BoundsInputs is = boundsInputsOf(instance.setup, influence);
     const float before = instance.reachWind - glm::length(instance.setup.effect->wind);
     const bool calms = instance.reachWind >= 0.0f && is.localWind < before;
     if (!instance.past && (stays || calms)) {
-        instance.past.reset(new (std::nothrow) Whereabouts);
-        Circumstances was = is;
+        instance.past.reset(new (std::nothrow) MotionHistory);
+        BoundsInputs was = is;
         was.localWind = std::max(was.localWind, before);
         if (!instance.past)
             return was; // stays as far as it was, for ever
@@ -98,8 +98,8 @@ void Scene::measure(Instance& instance) const
     const InstanceSetup& setup = instance.setup;
     const sim::EffectDef& effect = *setup.effect;
     const sim::Influence influence = effect.influence();
-    const bool stays = effect.heedsPlacement() && !(effect.bound > 0);
-    const Circumstances past = pastOf(instance, stays, influence);
+    const bool stays = effect.dependsOnPlacement() && !(effect.bound > 0);
+    const BoundsInputs past = pastOf(instance, stays, influence);
     const float wind = glm::length(effect.wind) + (stays ? past.wind / past.smallest : past.localWind);
     if (wind != instance.reachWind) {
         instance.localReach = effect.reach(glm::length(options_.environment.gravity), wind);
@@ -154,13 +154,13 @@ void Scene::setFocus(std::span<const activation::Frustum> frusta)
     focus_.clear();
     for (const activation::Frustum& frustum : frusta)
         focus_.add(frustum);
-    lookAgain_ = true;
+    visibilityStale_ = true;
 }
 
 void Scene::setBudget(const activation::Budget& budget)
 {
     budget_ = budget;
-    lookAgain_ = true;
+    visibilityStale_ = true;
 }
 
 void Scene::setHints(LocalId id, const ActivationHints& hints)
@@ -168,16 +168,16 @@ void Scene::setHints(LocalId id, const ActivationHints& hints)
     Instance& instance = *instances_.find(id);
     const ActivationHints before = instance.hints;
     instance.hints = hints;
-    lookAgain_ = true;
+    visibilityStale_ = true;
     if (instance.state != InstanceState::Hidden || instance.reason == Reason::Budget)
         return;
     const Reason reason = judge(instance, false); // it would not be tested again otherwise
     if (reason == Reason::None)
         return comeBack(indexOf(id));
-    const bool isInTree = instance.leaf != activation::HiddenTree::kNone;
+    const bool isInTree = instance.leaf != activation::SphereHierarchy::kNone;
     if (isInTree)
         tree_.remove(instance.leaf);
-    instance.leaf = activation::HiddenTree::kNone;
+    instance.leaf = activation::SphereHierarchy::kNone;
     try {
         if (reason != Reason::Occluded)
             instance.leaf = tree_.insert(indexOf(id), ballOf(instance), sightOf(hints));
@@ -192,21 +192,21 @@ void Scene::setPlacement(LocalId id, const base::Placement& placement)
 {
     Instance& instance = *instances_.find(id);
     if (instance.state != InstanceState::Dormant && instance.state != InstanceState::Finished) {
-        if (instance.setup.effect->heedsPlacement() && !instance.setup.cameFrom)
+        if (instance.setup.effect->dependsOnPlacement() && !instance.setup.cameFrom)
             moved_.push_back(id); // may throw, as the next may
         world_.setPlacement(instance.slot, placement);
-        if (instance.setup.effect->heedsPlacement() && !instance.setup.cameFrom)
+        if (instance.setup.effect->dependsOnPlacement() && !instance.setup.cameFrom)
             instance.setup.cameFrom = instance.setup.placement;
     }
     instance.setup.placement = placement;
     measure(instance);
-    lookAgain_ = true;
-    if (instance.leaf != activation::HiddenTree::kNone) {
+    visibilityStale_ = true;
+    if (instance.leaf != activation::SphereHierarchy::kNone) {
         tree_.remove(instance.leaf);
         instance.leaf = tree_.insert(indexOf(id), ballOf(instance), sightOf(instance.hints)); // has room
     }
     const bool isPaused = instance.state == InstanceState::Hidden || instance.state == InstanceState::Resting;
-    if (isPaused && world_.crowded(instance.slot))
+    if (isPaused && world_.hasManyChanges(instance.slot))
         comeBack(indexOf(id));
 }
 
@@ -217,16 +217,16 @@ void Scene::setParameters(LocalId id, const sim::InstanceParameters& parameters)
         world_.setParameters(instance.slot, parameters); // may throw
     instance.setup.parameters = parameters;
     measure(instance);
-    lookAgain_ = true;
+    visibilityStale_ = true;
     if (instance.state == InstanceState::Resting ||
-        (instance.state == InstanceState::Hidden && world_.crowded(instance.slot)))
+        (instance.state == InstanceState::Hidden && world_.hasManyChanges(instance.slot)))
         comeBack(indexOf(id));
 }
 
 void Scene::reconsider(const base::StepPlan& plan)
 {
-    if (lookAgain_)
-        lookAround();
+    if (visibilityStale_)
+        updateVisibility();
     if (budget_.any())
         keepBudget();
     if (waking_.size() == 0)
@@ -238,9 +238,9 @@ void Scene::reconsider(const base::StepPlan& plan)
         stageReturned(plan.firstStep);
 }
 
-void Scene::lookAround()
+void Scene::updateVisibility()
 {
-    lookAgain_ = false;
+    visibilityStale_ = false;
     const auto leaves = [this](uint32_t index, sim::Slot) {
         Instance& instance = instances_.at(index);
         if (instance.past && !instance.past->isSettled())
@@ -369,9 +369,9 @@ void Scene::takeBack(uint32_t index)
     if (instance.hasAlarm)
         alarms_.remove(index);
     instance.hasAlarm = false;
-    if (instance.leaf != activation::HiddenTree::kNone)
+    if (instance.leaf != activation::SphereHierarchy::kNone)
         tree_.remove(instance.leaf);
-    instance.leaf = activation::HiddenTree::kNone;
+    instance.leaf = activation::SphereHierarchy::kNone;
     if (instance.state == InstanceState::Waking)
         waking_.remove(instance.serial);
     if (instance.state == InstanceState::Resting)
@@ -391,7 +391,7 @@ base::Ticks Scene::endOf(const Instance& instance) const
     if (duration <= 0)
         return std::numeric_limits<base::Ticks>::max();
     const InstanceSetup& setup = instance.setup;
-    const sim::RunClock atStart{setup.startTick, setup.effect->prewarm, setup.rate};
+    const sim::InstanceClock atStart{setup.startTick, setup.effect->prewarm, setup.rate};
     return setup.clock.value_or(atStart).toScene(duration);
 }
 

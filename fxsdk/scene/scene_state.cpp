@@ -44,7 +44,7 @@ void saveSetup(sim::StateWriter& writer, const InstanceSetup& setup)
     writer.value(setup.quality);
     writer.value(setup.rate);
     writer.flag(setup.clock.has_value());
-    const sim::RunClock clock = setup.clock.value_or(sim::RunClock{});
+    const sim::InstanceClock clock = setup.clock.value_or(sim::InstanceClock{});
     writer.value(clock.scene);
     writer.value(clock.local);
     writer.value(clock.rate);
@@ -82,7 +82,7 @@ InstanceSetup restoreSetup(sim::StateReader& reader)
         reader.value(sim::QualityLevel::Low, sim::QualityLevel::Reference, "a quality is out of range");
     setup.rate = reader.value<uint32_t>(0, sim::kHighestRate, "a rate is out of range");
     const bool hasClock = reader.flag();
-    sim::RunClock clock;
+    sim::InstanceClock clock;
     clock.scene = reader.value<base::Ticks>(0, kLatestTick, "a clock is out of range");
     clock.local = reader.value<base::Ticks>(0, kLatestTick, "a clock is out of range");
     clock.rate = reader.value<uint32_t>(0, sim::kHighestRate, "a rate is out of range");
@@ -130,7 +130,7 @@ struct Scene::Restored
     SceneCounters counters;
     uint64_t nextSerial = 0;
     IdTable<Instance> instances;
-    activation::WakeQueue dormant;
+    activation::TimerQueue dormant;
     activation::ActiveList active;
     std::pmr::vector<LocalId> moved;
     sim::World world;
@@ -284,7 +284,7 @@ void Scene::restoreInstances(sim::StateReader& reader, const Effects& effects, R
             instance.setup.effect = effects[effect];
             instance.policy = instance.setup.effect->catchUp();
             if (isBlown(*instance.setup.effect))
-                instance.past.reset(new (std::nothrow) Whereabouts);
+                instance.past.reset(new (std::nothrow) MotionHistory);
             measure(instance);
             if (instance.past) { // a state does not tell where it has been, and in which wind
 

@@ -84,12 +84,13 @@ bool Scene::update(double dt)
 /// Whether steps that end by `until` have nothing to do and nothing to show.
 [[gnu::always_inline]] inline bool Scene::isAtRest(base::Ticks until) const
 {
-    const auto isDue = [until](const activation::WakeQueue& queue) {
+    const auto isDue = [until](const activation::TimerQueue& queue) {
         return !queue.empty() && queue.earliest().start <= until;
     };
     const bool isEmpty = active_.size() == 0 && waking_.size() == 0 && denied_.size() == 0 &&
-                         coarse_.size() == 0 && arrived_.empty() && world_.spares() == 0;
-    const bool isAsked = lookAgain_ || sought_ || !moved_.empty() || !seeks_.empty() || world_.hasChanges();
+                         coarse_.size() == 0 && arrived_.empty() && world_.freeSolvers() == 0;
+    const bool isAsked =
+        visibilityStale_ || sought_ || !moved_.empty() || !seeks_.empty() || world_.hasChanges();
     return emptyPublications_ > kMostEmpty && isEmpty && !isAsked && !world_.isStepping() &&
            !isDue(dormant_) && !isDue(alarms_);
 }
@@ -188,8 +189,8 @@ bool Scene::isShort() const
         retireFinished(to);
         restOrNot(to);
     }
-    if (world_.spares() > 0)
-        world_.trimSpares(to - options_.releaseAfter);
+    if (world_.freeSolvers() > 0)
+        world_.trimFreeList(to - options_.releaseAfter);
 }
 
 /// What the host has changed while the step was in hand.

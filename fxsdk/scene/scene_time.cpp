@@ -6,7 +6,7 @@
 
 namespace fx::scene {
 
-base::Status Scene::tell(LocalId id, std::string_view name, uint32_t count)
+base::Status Scene::postEvent(LocalId id, std::string_view name, uint32_t count)
 {
     Instance& instance = *instances_.find(id);
     const std::vector<std::string>& known = instance.setup.effect->hostEvents;
@@ -18,7 +18,7 @@ base::Status Scene::tell(LocalId id, std::string_view name, uint32_t count)
         return {base::Code::InvalidArgument, "the instance has not started yet"};
     if (instance.state == InstanceState::Finished || count == 0)
         return {};
-    world_.tell(instance.slot, {uint32_t(found - known.begin()), count});
+    world_.postEvent(instance.slot, {uint32_t(found - known.begin()), count});
     if (instance.state == InstanceState::Resting)
         comeBack(indexOf(id));
     return {};

@@ -31,8 +31,8 @@ struct Reader
 };
 
 /// Warns when an emitter uses the scene's geometry and the scene has none. The preset is valid.
-void adviseGeometry(Reader& reader, const PresetValue& instance, const std::string& name,
-                    const std::string& text)
+void lintGeometry(Reader& reader, const PresetValue& instance, const std::string& name,
+                  const std::string& text)
 {
     const bool hasGeometry = !reader.scene.mesh.positions.empty() && reader.scene.meshCollides;
     const Json preset = Json::parse(text, nullptr, false);
@@ -70,7 +70,7 @@ std::optional<size_t> findPreset(Reader& reader, const std::string& name, const 
     }
     for (const preset::Diagnostic& warning : loaded->warnings)
         instance.warning("preset", preset::toString(warning));
-    adviseGeometry(reader, instance, name, *text);
+    lintGeometry(reader, instance, name, *text);
     const size_t index = reader.scene.presets.size();
     const bool isFile = !isInLibrary && !reader.resolver.folder().empty();
     reader.scene.presets.push_back({name, std::move(*text),

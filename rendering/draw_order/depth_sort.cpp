@@ -1,7 +1,7 @@
 #include "rendering/draw_order/depth_sort.h"
 
 #include "rendering/draw_order/depth_keys.h"
-#include "rendering/draw_order/rising_run.h"
+#include "rendering/draw_order/incremental_sort.h"
 
 #include <algorithm>
 #include <array>
@@ -15,10 +15,10 @@ namespace {
 
 constexpr uint32_t kMostDigitBits = 13; ///< as many places to write to as the caches near the core follow
 constexpr size_t kMostPasses = 3;
-constexpr size_t kProbe = 2048;       ///< elements after which a hopeless mending is given up
-constexpr size_t kRunPause = 16;      ///< elements after a run before another is looked for
+constexpr size_t kProbe = 2048;       ///< elements after which a scrambled order is sorted anew
+constexpr size_t kScanPause = 16;     ///< elements after a sorted vector before the next is looked for
 constexpr size_t kAhead = 32;         ///< elements whose keys are fetched before they are looked at
-constexpr size_t kMostMovedShare = 6; ///< mending pays while less than one in so many has moved
+constexpr size_t kMostMovedShare = 6; ///< incremental sorting pays while less than one in so many has moved
 constexpr size_t kFew = 16384;        ///< elements that are sorted by small digits,
 constexpr uint32_t kFewDigitBits = 9; ///< because counting large ones would take longer
 
@@ -74,14 +74,14 @@ std::span<const uint32_t> DepthSort::sort(std::span<const float> distances, uint
     lowest_ = span.lowest;
     highest_ = span.highest;
     presentCount_ = count - span.absent;
-    if (order_.empty() || !mendLastOrder(span.changed, span.newcomers))
+    if (order_.empty() || !updateLastOrder(span.changed, span.newcomers))
         sortAll();
     return order_;
 }
 
 /// If few keys have changed, their elements are sorted and merged in; otherwise the elements that are out of
 /// order are.
-bool DepthSort::mendLastOrder(size_t changed, size_t newcomers)
+bool DepthSort::updateLastOrder(size_t changed, size_t newcomers)
 {
     const size_t limit = presentCount_ / kMostMovedShare + 8;
     if (newcomers > limit)
@@ -90,23 +90,24 @@ bool DepthSort::mendLastOrder(size_t changed, size_t newcomers)
     if (changed == 0)
         return true;
     moved_.resize(std::max(moved_.size(), limit + 1));
-    blockEnds_.resize(std::max(blockEnds_.size(), order_.size() / kChainBlock + 1));
-    Chain chain{keys_.data(),     order_.data(), blockEnds_.data(), 0, 0, order_.size(), 0, moved_.data(), 0,
-                limit - newcomers};
+    blockEnds_.resize(std::max(blockEnds_.size(), order_.size() / kSortedBlock + 1));
+    SortedPart sorted{
+        keys_.data(),     order_.data(), blockEnds_.data(), 0, 0, order_.size(), 0, moved_.data(), 0,
+        limit - newcomers};
     size_t moved = 0;
     if (changed <= limit) {
-        keepUnchanged(chain, reinterpret_cast<const uint8_t*>(changed_.data()));
+        keepUnchanged(sorted, reinterpret_cast<const uint8_t*>(changed_.data()));
         moved = take(changed_, 0);
     } else {
-        if (!keepRising(chain))
+        if (!keepSorted(sorted))
             return false;
-        moved = newcomers > 0 ? take(arrived_, chain.asideCount) : chain.asideCount;
+        moved = newcomers > 0 ? take(arrived_, sorted.displacedCount) : sorted.displacedCount;
     }
     sortedElements_ = moved;
     sortMoved(moved);
-    order_.resize(chain.kept + moved);
-    chain.order = order_.data();
-    mergeMoved(chain, moved_.data(), moved);
+    order_.resize(sorted.kept + moved);
+    sorted.order = order_.data();
+    mergeMoved(sorted, moved_.data(), moved);
     return true;
 }
 
@@ -122,50 +123,50 @@ size_t DepthSort::take(std::span<const uint64_t> set, size_t count)
     return count;
 }
 
-/// Walks along the last order and keeps a rising chain, moved together at the front of order_. Who does not
-/// fit is put aside, unless as few of the chain's last stand in the way as were put aside just before: then
-/// those are the ones that have moved.
-/// @return false when too many would be put aside
-bool DepthSort::keepRising(Chain& chain)
+/// Walks along the last order and keeps its ascending part, compacted at the front of order_. An element that
+/// does not fit is displaced, unless as few of the last sorted elements stand in the way as were displaced
+/// just before: then those are the ones that have moved.
+/// @return false when too many would be displaced
+bool DepthSort::keepSorted(SortedPart& sorted)
 {
-    constexpr uint64_t kNobody = uint64_t(kAbsentKey) << 32;
-    uint32_t* const order = chain.order;
-    const auto pairAt = [&](size_t place) { return pairOf(chain.keys[order[place]], order[place]); };
+    constexpr uint64_t kNoPair = uint64_t(kAbsentKey) << 32;
+    uint32_t* const order = sorted.order;
+    const auto pairAt = [&](size_t place) { return pairOf(sorted.keys[order[place]], order[place]); };
     const auto keep = [&](uint64_t pair) {
-        order[chain.kept++] = uint32_t(pair);
-        chain.last = pair;
+        order[sorted.kept++] = uint32_t(pair);
+        sorted.last = pair;
     };
-    size_t misfits = 0; // one after another
-    size_t nextRun = 0; // where a run of many is looked for again
-    for (; chain.at < chain.count; ++chain.at) {
-        if (chain.at >= nextRun && misfits == 0) {
-            keepRisingRun(chain);
-            if (chain.at == chain.count)
+    size_t misfits = 0;  // one after another
+    size_t nextScan = 0; // where sorted vectors are looked for again
+    for (; sorted.at < sorted.count; ++sorted.at) {
+        if (sorted.at >= nextScan && misfits == 0) {
+            extendSortedByVectors(sorted);
+            if (sorted.at == sorted.count)
                 break;
-            nextRun = chain.at + kRunPause;
+            nextScan = sorted.at + kScanPause;
         }
-        __builtin_prefetch(&chain.keys[order[std::min(chain.at + kAhead, chain.count - 1)]]);
-        const uint64_t pair = pairAt(chain.at);
-        if (pair >= chain.last && pair < kNobody) [[likely]] {
+        __builtin_prefetch(&sorted.keys[order[std::min(sorted.at + kAhead, sorted.count - 1)]]);
+        const uint64_t pair = pairAt(sorted.at);
+        if (pair >= sorted.last && pair < kNoPair) [[likely]] {
             keep(pair);
             misfits = 0;
             continue;
         }
-        if (pair >= kNobody)
+        if (pair >= kNoPair)
             continue;
         size_t inTheWay = 1;
-        while (inTheWay <= misfits && inTheWay < chain.kept && pairAt(chain.kept - 1 - inTheWay) > pair)
+        while (inTheWay <= misfits && inTheWay < sorted.kept && pairAt(sorted.kept - 1 - inTheWay) > pair)
             ++inTheWay;
-        const bool chainYields = inTheWay >= chain.kept || pairAt(chain.kept - 1 - inTheWay) <= pair;
-        const size_t aside = chainYields ? inTheWay : 1;
-        if (chain.asideCount + aside > chain.mostAside ||
-            (chain.at < kProbe && chain.asideCount > kProbe / 4))
+        const bool sortedYields = inTheWay >= sorted.kept || pairAt(sorted.kept - 1 - inTheWay) <= pair;
+        const size_t displacing = sortedYields ? inTheWay : 1;
+        if (sorted.displacedCount + displacing > sorted.mostDisplaced ||
+            (sorted.at < kProbe && sorted.displacedCount > kProbe / 4))
             return false;
-        for (size_t k = 1; k <= aside; ++k)
-            chain.aside[chain.asideCount++] = chainYields ? pairAt(chain.kept - k) : pair;
-        misfits = chainYields ? 0 : misfits + 1;
-        if (chainYields) {
-            chain.kept -= inTheWay;
+        for (size_t k = 1; k <= displacing; ++k)
+            sorted.displaced[sorted.displacedCount++] = sortedYields ? pairAt(sorted.kept - k) : pair;
+        misfits = sortedYields ? 0 : misfits + 1;
+        if (sortedYields) {
+            sorted.kept -= inTheWay;
             keep(pair);
         }
     }

@@ -38,8 +38,8 @@ public:
 
 private:
     std::span<const uint32_t> sort(std::span<const float> distances, uint32_t flip);
-    bool mendLastOrder(size_t changed, size_t newcomers);
-    bool keepRising(struct Chain& chain);
+    bool updateLastOrder(size_t changed, size_t newcomers);
+    bool keepSorted(struct SortedPart& sorted);
     size_t take(std::span<const uint64_t> set, size_t count);
     void sortAll();
     void sortMoved(size_t count);
@@ -48,7 +48,7 @@ private:
     std::pmr::vector<uint32_t> order_;
     std::pmr::vector<uint64_t> changed_;   ///< whose keys are others than in the call before, a bit each
     std::pmr::vector<uint64_t> arrived_;   ///< elements that were absent then
-    std::pmr::vector<uint32_t> blockEnds_; ///< of the chain that mending keeps: the key of each block's last
+    std::pmr::vector<uint32_t> blockEnds_; ///< of the sorted part: the key of each block's last
     std::pmr::vector<uint64_t> pairs_;     ///< key * 2^32 + index
     std::pmr::vector<uint64_t> moved_;
     std::pmr::vector<uint64_t> scratch_;

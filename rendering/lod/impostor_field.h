@@ -49,7 +49,7 @@ public:
     {
         float mostPixels;  ///< [pixel] radius up to which effects are pictures; 0: none
         double seconds;    ///< [s] since the last frame
-        uint64_t content;  ///< stamp of what is shown: equal ones show the same
+        uint64_t content;  ///< revision of what is shown: equal ones show the same
         uint64_t lighting; ///< hash of what lights it: pictures of another lighting are not shown
         bool forget;       ///< the camera has jumped
         bool hold = false; ///< pictures and their shares stay as they are

@@ -60,12 +60,12 @@ void FrameBuilder::beginImpostors(const FrameRequest& request, const ViewSetting
                                   const CameraGeometry& camera, uint64_t content)
 {
     if (!(settings.lighting == lighting_ && settings.exposureEv100 == exposureEv100_))
-        ++lightingStamp_;
+        ++lightingRevision_;
     lighting_ = settings.lighting;
     exposureEv100_ = settings.exposureEv100;
     const float most = settings.layerOutputs || camera.orthographic ? 0.0f : settings.lod.impostorPixels;
     impostors_.begin({std::min(most, LodSettings::kMostImpostorPixels), request.deltaTime, content,
-                      lightingStamp_, request.resetHistory || mustForget_, settings.lod.hold},
+                      lightingRevision_, request.resetHistory || mustForget_, settings.lod.hold},
                      camera);
     mustForget_ = false;
 }

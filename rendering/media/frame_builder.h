@@ -3,7 +3,7 @@
 #pragma once
 
 #include "rendering/draw_order/depth_sort.h"
-#include "rendering/draw_order/draw_runs.h"
+#include "rendering/draw_order/draw_batcher.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
 #include "rendering/lights/extinction_grid.h"
@@ -79,7 +79,7 @@ private:
     std::span<const uint32_t> impostorOrder_;
     Lighting lighting_; ///< of the last frame
     float exposureEv100_ = 0.0f;
-    uint64_t lightingStamp_ = 0;
+    uint64_t lightingRevision_ = 0;
     bool mustForget_ = false;
     GatherCounts counts_;
     std::span<const uint32_t> order_;

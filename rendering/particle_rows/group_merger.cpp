@@ -63,7 +63,7 @@ bool isSame(const base::Placement& a, const base::Placement& b)
 GroupMerger::GroupMerger(std::span<const RowTechnique* const> techniques, const base::SnapshotSchema* schema,
                          std::pmr::memory_resource* memory)
     : techniques_(techniques), schema_(schema), members_(memory), sets_(memory), taken_(memory),
-      parts_(memory), partsBegin_(memory), newerStamps_(memory), olderStamps_(memory), layout_(memory),
+      parts_(memory), partsBegin_(memory), newerRevisions_(memory), olderRevisions_(memory), layout_(memory),
       layoutBefore_(memory), anchors_(memory), anchorsBefore_(memory), rows_(memory), newer_(schema, memory),
       older_(schema, memory)
 {}
@@ -155,14 +155,14 @@ void GroupMerger::mergeSets(const base::SnapshotPair& snapshots, bool isOlder)
 }
 
 /// What decides the rows that mergeSets() makes of a member.
-RowStamp GroupMerger::stampOf(const Set& set, uint32_t member, bool isOlder,
-                              const SnapshotRowStamps& rows) const
+RowRevision GroupMerger::revisionOf(const Set& set, uint32_t member, bool isOlder,
+                                    const SnapshotRowRevisions& rows) const
 {
     const Member& m = members_[member];
-    RowStamp part{m.firstRow, m.rows, 0};
+    RowRevision part{m.firstRow, m.rows, 0};
     const MergeSource& from = isOlder ? m.older : m.newer;
     const uint64_t own =
-        from.rows && !rows.parts.empty() ? rows.of(isOlder ? m.olderIndex : m.newerIndex)[0].stamp : 0;
+        from.rows && !rows.parts.empty() ? rows.of(isOlder ? m.olderIndex : m.newerIndex)[0].revision : 0;
     if (own == 0)
         return part;
     const base::Placement& place = from.placement();
@@ -176,16 +176,16 @@ RowStamp GroupMerger::stampOf(const Set& set, uint32_t member, bool isOlder,
          {two(offset.x, offset.y), two(offset.z, place.scale), two(place.rotation.x, place.rotation.y),
           two(place.rotation.z, place.rotation.w)})
         hash = base::hashWord(hash, word);
-    part.stamp = hash | 1;
+    part.revision = hash | 1;
     return part;
 }
 
-void GroupMerger::listStamps(bool isOlder, const SnapshotRowStamps& rows)
+void GroupMerger::listRevisions(bool isOlder, const SnapshotRowRevisions& rows)
 {
-    std::pmr::vector<RowStamp>& out = isOlder ? olderStamps_ : newerStamps_;
+    std::pmr::vector<RowRevision>& out = isOlder ? olderRevisions_ : newerRevisions_;
     out.clear();
     forEachSet([&](const Set& set) {
-        forEachMember(set, [&](uint32_t m) { out.push_back(stampOf(set, m, isOlder, rows)); });
+        forEachMember(set, [&](uint32_t m) { out.push_back(revisionOf(set, m, isOlder, rows)); });
     });
 }
 
@@ -204,13 +204,13 @@ void GroupMerger::listParts()
     });
 }
 
-void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of,
-                        const SnapshotRowStamps& newerRows, const SnapshotRowStamps& olderRows)
+void GroupMerger::build(const base::SnapshotPair& snapshots, const RevisionPair& of,
+                        const SnapshotRowRevisions& newerRows, const SnapshotRowRevisions& olderRows)
 {
     if (of == built_ && sequence_ > 0)
         return;
-    const StampPair before = built_;
-    const uint64_t newerBefore = stamps_.newer;
+    const RevisionPair before = built_;
+    const uint64_t newerBefore = revisions_.newer;
     built_ = {}; // until it is done
     hasOlder_ = snapshots.older != nullptr;
     taken_.clear();
@@ -225,24 +225,24 @@ void GroupMerger::build(const base::SnapshotPair& snapshots, const StampPair& of
                         std::ranges::equal(anchors_, anchorsBefore_, isSame);
     if (isKept) {
         std::swap(newer_, older_);
-        newerStamps_.swap(olderStamps_);
+        newerRevisions_.swap(olderRevisions_);
         forgetStripBounds(); // strips that are merged as older have none
     }
     newer_.begin(snapshots.newer ? snapshots.newer->tick() : 0, ++sequence_);
-    stamps_ = {sequence_, 0};
+    revisions_ = {sequence_, 0};
     if (hasOlder_ && isKept) {
-        stamps_.older = newerBefore;
+        revisions_.older = newerBefore;
     } else {
         older_.begin(snapshots.older ? snapshots.older->tick() : 0, ++sequence_);
-        stamps_.older = hasOlder_ ? sequence_ : 0;
+        revisions_.older = hasOlder_ ? sequence_ : 0;
     }
     if (snapshots.newer) {
         if (hasOlder_ && !isKept) {
             mergeSets(snapshots, true);
-            listStamps(true, olderRows);
+            listRevisions(true, olderRows);
         }
         mergeSets(snapshots, false);
-        listStamps(false, newerRows);
+        listRevisions(false, newerRows);
     }
     listParts();
     built_ = of;

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
-#include "rendering/frame/snapshot_stamps.h"
-#include "rendering/lod/row_thinning.h"
+#include "rendering/frame/snapshot_revisions.h"
+#include "rendering/lod/stochastic_simplification.h"
 #include "rendering/particle_rows/merged_rows.h"
 
 #include <cstdint>
@@ -36,16 +36,16 @@ public:
                 std::pmr::memory_resource* memory);
 
     /// @param of the snapshots: nothing is done again while they stay
-    /// @param newerRows, olderRows  stamps of their groups; without parts: not known
-    void build(const base::SnapshotPair& snapshots, const StampPair& of,
-               const SnapshotRowStamps& newerRows = {}, const SnapshotRowStamps& olderRows = {});
+    /// @param newerRows, olderRows  revisions of their groups; without parts: not known
+    void build(const base::SnapshotPair& snapshots, const RevisionPair& of,
+               const SnapshotRowRevisions& newerRows = {}, const SnapshotRowRevisions& olderRows = {});
     /// What build() has merged; without groups when there was nothing to merge.
     base::SnapshotPair merged() const { return {&newer_, hasOlder_ ? &older_ : nullptr}; }
-    StampPair stamps() const { return stamps_; } ///< of merged()
-    /// Stamps of the rows of merged(), one part a member. They follow from stamps of what was merged by a
-    /// hash of 64 bits.
-    SnapshotRowStamps newerRows() const { return {newerStamps_, partsBegin_, {}}; }
-    SnapshotRowStamps olderRows() const { return {olderStamps_, partsBegin_, {}}; }
+    RevisionPair revisions() const { return revisions_; } ///< of merged()
+    /// Revisions of the rows of merged(), one part a member. They follow from revisions of what was merged by
+    /// a hash of 64 bits.
+    SnapshotRowRevisions newerRows() const { return {newerRevisions_, partsBegin_, {}}; }
+    SnapshotRowRevisions olderRows() const { return {olderRevisions_, partsBegin_, {}}; }
     /// Which rows of a group of merged() came from which group.
     std::span<const RowPart> partsOf(size_t group) const
     {
@@ -87,8 +87,9 @@ private:
     void listLayout();
     void mergeSets(const base::SnapshotPair& snapshots, bool isOlder);
     void forgetStripBounds();
-    RowStamp stampOf(const Set& set, uint32_t member, bool isOlder, const SnapshotRowStamps& rows) const;
-    void listStamps(bool isOlder, const SnapshotRowStamps& rows);
+    RowRevision revisionOf(const Set& set, uint32_t member, bool isOlder,
+                           const SnapshotRowRevisions& rows) const;
+    void listRevisions(bool isOlder, const SnapshotRowRevisions& rows);
     void listParts();
     /// Calls f(set) for each that becomes a group.
     template <class F>
@@ -107,15 +108,15 @@ private:
 
     std::span<const RowTechnique* const> techniques_;
     const base::SnapshotSchema* schema_;
-    StampPair built_; ///< what merged() was made of
-    StampPair stamps_;
+    RevisionPair built_; ///< what merged() was made of
+    RevisionPair revisions_;
     std::pmr::vector<Member> members_;
     std::pmr::vector<Set> sets_;
     std::pmr::vector<uint8_t> taken_;
     std::pmr::vector<RowPart> parts_;
-    std::pmr::vector<size_t> partsBegin_;                  ///< by group of newer_, and the end
-    std::pmr::vector<RowStamp> newerStamps_, olderStamps_; ///< of parts_
-    std::pmr::vector<Layout> layout_, layoutBefore_;       ///< of newer_ and olderStamps_ now and until now
+    std::pmr::vector<size_t> partsBegin_;                           ///< by group of newer_, and the end
+    std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< of parts_
+    std::pmr::vector<Layout> layout_, layoutBefore_; ///< of newer_ and olderRevisions_ now and until now
     std::pmr::vector<base::Placement> anchors_, anchorsBefore_; ///< of first members, likewise
     MergedRows rows_;
     base::FrameSnapshot newer_, older_;

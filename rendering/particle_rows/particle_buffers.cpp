@@ -3,7 +3,7 @@
 #include "foundation/snapshot/gpu_particles.h"
 #include "rendering/frame/snapshot_match.h"
 #include "rendering/gl/gl_device.h"
-#include "rendering/lod/row_thinning.h"
+#include "rendering/lod/stochastic_simplification.h"
 
 #include <algorithm>
 #include <bit>
@@ -46,21 +46,22 @@ base::Status ensure(GlDevice& device, GlMappedBuffer& buffer, uint64_t bytes, co
 /// What tells which rows are drawn, and how.
 size_t orderBytes(const ParticleGroup& group)
 {
-    const size_t words = group.orderForm == OrderForm::RowLooks ? group.looks.size() : group.order.size();
-    return words * (group.orderForm == OrderForm::LooksBeside ? 8 : 4);
+    const size_t words =
+        group.orderForm == OrderForm::RowFactorsOnly ? group.factors.size() : group.order.size();
+    return words * (group.orderForm == OrderForm::FactorsBeside ? 8 : 4);
 }
 
 void writeOrder(const ParticleGroup& group, uint32_t* out)
 {
     switch (group.orderForm) {
-    case OrderForm::LooksBeside:
+    case OrderForm::FactorsBeside:
         for (const uint32_t row : group.order) {
             *out++ = row;
-            *out++ = group.looks[row];
+            *out++ = group.factors[row];
         }
         break;
-    case OrderForm::RowLooks:
-        std::memcpy(out, group.looks.data(), group.looks.size_bytes());
+    case OrderForm::RowFactorsOnly:
+        std::memcpy(out, group.factors.data(), group.factors.size_bytes());
         break;
     default:
         std::memcpy(out, group.order.data(), group.order.size_bytes());
@@ -84,10 +85,10 @@ uint64_t ParticleBuffers::bytes() const
     return sum;
 }
 
-ParticleBuffers::Place* ParticleBuffers::find(uint64_t stamp, bool withPools)
+ParticleBuffers::Place* ParticleBuffers::find(uint64_t revision, bool withPools)
 {
     const auto found = std::ranges::find_if(places_, [&](const Place& place) {
-        return stamp != 0 && place.stamp == stamp && (place.hasPools || !withPools);
+        return revision != 0 && place.revision == revision && (place.hasPools || !withPools);
     });
     return found == places_.end() ? nullptr : &*found;
 }
@@ -108,16 +109,16 @@ void ParticleBuffers::listWanted(const Source& source, const ParticleFrame& fram
 base::Status ParticleBuffers::makeResident(const Source& source, const ParticleFrame& frame, Place*& out)
 {
     listWanted(source, frame);
-    out = find(source.stamp, source.withPools);
+    out = find(source.revision, source.withPools);
     if (out) {
         write(source, *out); // what was not drawn until now
         out->usedFrame = frame_;
         return {};
     }
     const auto isUsedEarlier = [](const Place& a, const Place& b) { return a.usedFrame < b.usedFrame; };
-    out = find(source.stamp, false);
+    out = find(source.revision, false);
     out = out ? out : &*std::ranges::min_element(places_, isUsedEarlier);
-    out->stamp = 0;
+    out->revision = 0;
     out->hasPools = source.withPools;
     out->groupsBefore.swap(out->groups);
     out->rowsBefore.swap(out->rows);
@@ -129,25 +130,25 @@ base::Status ParticleBuffers::makeResident(const Source& source, const ParticleF
     }
     write(source, *out);
     out->groupsBefore.clear();
-    out->stamp = source.stamp;
+    out->revision = source.revision;
     out->usedFrame = frame_;
     return {};
 }
 
 /// Whether neither of the two snapshots is there, nor is expected to be used again.
-bool ParticleBuffers::mixes(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
+bool ParticleBuffers::mixes(const base::SnapshotPair& snapshots, const UploadRevisions& revisions,
                             ParticleFrame& frame)
 {
-    const StampPair mixedBefore = mixed_;
+    const RevisionPair mixedBefore = mixed_;
     mixed_ = {};
     const bool isComputed =
         std::ranges::any_of(frame.batches(), [](const ParticleBatch& batch) { return batch.isComputed; });
     const bool hasOlder = std::ranges::any_of(frame.groups(), [](const auto& group) { return group.older; });
-    if (!snapshots.older || !hasOlder || isComputed || stamps.snapshots == mixedBefore ||
-        find(stamps.snapshots.newer, drawsPools(*snapshots.newer, false, frame.groups())) ||
-        find(stamps.snapshots.older, drawsPools(*snapshots.older, true, frame.groups())))
+    if (!snapshots.older || !hasOlder || isComputed || revisions.snapshots == mixedBefore ||
+        find(revisions.snapshots.newer, drawsPools(*snapshots.newer, false, frame.groups())) ||
+        find(revisions.snapshots.older, drawsPools(*snapshots.older, true, frame.groups())))
         return false;
-    mixed_ = stamps.snapshots;
+    mixed_ = revisions.snapshots;
     return true;
 }
 
@@ -214,7 +215,7 @@ void ParticleBuffers::forgetComputed()
     if (jobs_.empty())
         return;
     for (Place& place : places_)
-        place.stamp = 0;
+        place.revision = 0;
     states_.forget();
 }
 
@@ -272,33 +273,35 @@ base::Status ParticleBuffers::findAssets(ParticleFrame& frame, const base::Asset
 }
 
 /// @param older null afterwards: the rows of the newer are those of the frame's moment
-base::Status ParticleBuffers::makeTwoResident(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
-                                              ParticleFrame& frame, Place*& older, Place*& newer)
+base::Status ParticleBuffers::makeTwoResident(const base::SnapshotPair& snapshots,
+                                              const UploadRevisions& revisions, ParticleFrame& frame,
+                                              Place*& older, Place*& newer)
 {
-    Source source{snapshots.newer, stamps.snapshots.newer, stamps.newerRows,
+    Source source{snapshots.newer, revisions.snapshots.newer, revisions.newerRows,
                   drawsPools(*snapshots.newer, false, frame.groups()), false};
-    if (mixes(snapshots, stamps, frame)) {
+    if (mixes(snapshots, revisions, frame)) {
         const base::Ticks between = snapshots.newer->tick() - snapshots.older->tick();
         source.moment = {frame.batches()[0].block.moment.x, float(base::toSeconds(between))};
         older_.assign(snapshots.newer->groupCount(), kNoGroup);
         for (const ParticleGroup& group : frame.groups())
             if (group.older)
                 older_[group.newerIndex] = group.olderIndex;
-        source.stamp = 0;
+        source.revision = 0;
         source.older = snapshots.older;
-        source.olderRows = stamps.olderRows;
+        source.olderRows = revisions.olderRows;
         return makeResident(source, frame, newer);
     }
     if (snapshots.older)
-        if (base::Status status = makeResident({snapshots.older, stamps.snapshots.older, stamps.olderRows,
-                                                drawsPools(*snapshots.older, true, frame.groups()), true},
-                                               frame, older);
+        if (base::Status status =
+                makeResident({snapshots.older, revisions.snapshots.older, revisions.olderRows,
+                              drawsPools(*snapshots.older, true, frame.groups()), true},
+                             frame, older);
             !status)
             return status;
     return makeResident(source, frame, newer);
 }
 
-base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
+base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const UploadRevisions& revisions,
                                       ParticleFrame& frame, const base::AssetTable* assets)
 {
     uploadedBytes_ = keptBytes_ = sharedBytes_ = 0;
@@ -314,7 +317,7 @@ base::Status ParticleBuffers::prepare(const base::SnapshotPair& snapshots, const
     states_.nextFrame();
     Place* older = nullptr;
     Place* newer = nullptr;
-    if (base::Status status = makeTwoResident(snapshots, stamps, frame, older, newer); !status)
+    if (base::Status status = makeTwoResident(snapshots, revisions, frame, older, newer); !status)
         return status;
     drawn_ = {older ? &older->buffer : nullptr, &newer->buffer};
     if (base::Status status = writeOrders(frame); !status)
@@ -360,7 +363,7 @@ void ParticleBuffers::idle()
     for (Place& place : places_) {
         place.buffer = {};
         place.computed = {};
-        place.stamp = 0;
+        place.revision = 0;
         place.groups.clear();
     }
     for (GlMappedBuffer& order : orders_)

@@ -20,7 +20,7 @@
 
 #include "foundation/assets/asset_table.h"
 #include "foundation/snapshot/snapshot_ring.h"
-#include "rendering/frame/snapshot_stamps.h"
+#include "rendering/frame/snapshot_revisions.h"
 #include "rendering/gl/gl_asset_cache.h"
 #include "rendering/gl/gl_mapped_buffer.h"
 #include "rendering/gpu_particles/gpu_emitters.h"
@@ -37,10 +37,10 @@
 namespace fx::render {
 
 /// What tells whether rows are there already.
-struct UploadStamps
+struct UploadRevisions
 {
-    StampPair snapshots; ///< equal ones share a place
-    SnapshotRowStamps newerRows, olderRows;
+    RevisionPair snapshots; ///< equal ones share a place
+    SnapshotRowRevisions newerRows, olderRows;
 };
 
 class ParticleBuffers
@@ -52,7 +52,7 @@ public:
 
     /// Writes what is not yet there and fills in the batches' buffers, textures and meshes.
     /// @return OutOfMemory, GlFailed, TooLarge (a group is larger than the context's storage buffers)
-    base::Status prepare(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
+    base::Status prepare(const base::SnapshotPair& snapshots, const UploadRevisions& revisions,
                          ParticleFrame& frame, const base::AssetTable* assets);
     /// Instead of prepare(): the frame draws what the last one has drawn.
     void keep(const ParticleFrame& frame);
@@ -93,14 +93,14 @@ private:
     struct Place
     {
         GlMappedBuffer buffer;
-        GlBuffer computed;  ///< rows that the GPU writes
-        uint64_t stamp = 0; ///< of what is there; 0: nothing
+        GlBuffer computed;     ///< rows that the GPU writes
+        uint64_t revision = 0; ///< of what is there; 0: nothing
         uint64_t usedFrame = 0;
         bool hasPools = false; ///< groups of pools are there, too
         std::pmr::vector<GroupPlace> groups;
-        std::pmr::vector<RowStamp> rows;           ///< of all groups
+        std::pmr::vector<RowRevision> rows;        ///< of all groups
         std::pmr::vector<GroupPlace> groupsBefore; ///< what lay there until now
-        std::pmr::vector<RowStamp> rowsBefore;
+        std::pmr::vector<RowRevision> rowsBefore;
 
         explicit Place(std::pmr::memory_resource* memory)
             : groups(memory), rows(memory), groupsBefore(memory), rowsBefore(memory)
@@ -116,21 +116,21 @@ private:
     struct Source
     {
         const base::FrameSnapshot* snapshot;
-        uint64_t stamp; ///< 0: mixed
-        SnapshotRowStamps rows;
+        uint64_t revision; ///< 0: mixed
+        SnapshotRowRevisions rows;
         bool withPools; ///< also groups whose rows are in pools
         bool isOlder;   ///< of the two of the frame
         // Only of what is mixed:
         const base::FrameSnapshot* older = nullptr;
-        SnapshotRowStamps olderRows = {};
+        SnapshotRowRevisions olderRows = {};
         RowMoment moment = {};
     };
-    Place* find(uint64_t stamp, bool withPools);
+    Place* find(uint64_t revision, bool withPools);
     base::Status makeResident(const Source& source, const ParticleFrame& frame, Place*& out);
     void listWanted(const Source& source, const ParticleFrame& frame);
-    base::Status makeTwoResident(const base::SnapshotPair& snapshots, const UploadStamps& stamps,
+    base::Status makeTwoResident(const base::SnapshotPair& snapshots, const UploadRevisions& revisions,
                                  ParticleFrame& frame, Place*& older, Place*& newer);
-    bool mixes(const base::SnapshotPair& snapshots, const UploadStamps& stamps, ParticleFrame& frame);
+    bool mixes(const base::SnapshotPair& snapshots, const UploadRevisions& revisions, ParticleFrame& frame);
     size_t olderOf(size_t group) const;
     /// Whether the rows of a group are those of one before it.
     bool isAlike(const Source& source, size_t group) const;
@@ -145,7 +145,7 @@ private:
     /// @param before what lay there until now, in the same columns; null: something else
     void writeRows(const Source& source, size_t group, const GroupPlace* before, Place& place);
     /// @param stands they are the same in the snapshot before
-    void writePart(const Source& source, size_t group, const RowStamp& part, bool stands, Place& place);
+    void writePart(const Source& source, size_t group, const RowRevision& part, bool stands, Place& place);
     base::Status writeOrders(ParticleFrame& frame);
     base::Status findAssets(ParticleFrame& frame, const base::AssetTable* assets);
 
@@ -164,7 +164,7 @@ private:
     std::pmr::vector<GpuRowsJob> jobs_;
     std::pmr::vector<uint8_t> wanted_; ///< by group of the snapshot that is written now: it is drawn
     std::pmr::vector<size_t> older_;   ///< by group of the newer snapshot; only of what is mixed
-    StampPair mixed_;                  ///< snapshots of which the last frame was mixed
+    RevisionPair mixed_;               ///< snapshots of which the last frame was mixed
     bool refusesGpu_ = false;
     uint64_t frame_ = 0;
     uint32_t idleFrames_ = 0; ///< one after the other

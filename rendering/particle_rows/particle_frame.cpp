@@ -4,7 +4,7 @@
 #include "rendering/frame/exposure.h"
 #include "rendering/frame/snapshot_match.h"
 #include "rendering/frame/view_volume.h"
-#include "rendering/lod/row_thinning.h"
+#include "rendering/lod/stochastic_simplification.h"
 #include "rendering/particle_rows/particle_estimate.h"
 
 #include <glm/common.hpp>
@@ -84,7 +84,7 @@ int asCount(float value)
 struct ParticleFrame::Orderer
 {
     explicit Orderer(std::pmr::memory_resource* memory)
-        : sort(memory), distances(memory), looks(memory), kept(memory)
+        : sort(memory), distances(memory), factors(memory), kept(memory)
     {}
 
     uint64_t instance = 0;
@@ -94,8 +94,8 @@ struct ParticleFrame::Orderer
     base::ParticleOrder mode = base::ParticleOrder::None;
     DepthSort sort;
     std::pmr::vector<float> distances;
-    std::pmr::vector<uint32_t> looks; ///< by row, where it is thinned out
-    std::pmr::vector<uint32_t> kept;  ///< rows, where they have no order
+    std::pmr::vector<uint32_t> factors; ///< by row, where it is thinned out
+    std::pmr::vector<uint32_t> kept;    ///< rows, where they have no order
 };
 
 ParticleFrame::ParticleFrame(std::pmr::memory_resource* memory)
@@ -311,17 +311,17 @@ bool ParticleFrame::thin(const ParticleFrameInputs& in, const base::Placement& p
                                                     : (batch.isSolid ? RowShape::Body : RowShape::Card);
     const float pixels = 0.5f * float(in.request->targets.height) * std::abs(in.camera->clipScale.y);
     const auto parts = in.merger ? in.merger->partsOf(group.newerIndex) : std::span<const RowPart>{};
-    return thinRows({group.newer, parts, place, shape, in.camera, pixels}, *in.lod, orderer.looks,
-                    thinnedRows_);
+    return simplifyRows({group.newer, parts, place, shape, in.camera, pixels}, *in.lod, orderer.factors,
+                        thinnedRows_);
 }
 
 /// The shortest; all keep looks as they are, so that a change of the form changes no picture.
 OrderForm ParticleFrame::formOf(const ParticleGroup& group, base::ParticleOrder mode, uint32_t rows)
 {
-    if (group.looks.empty())
+    if (group.factors.empty())
         return OrderForm::Rows;
-    return mode == base::ParticleOrder::None && group.order.size() >= rows / 2 ? OrderForm::RowLooks
-                                                                               : OrderForm::LooksBeside;
+    return mode == base::ParticleOrder::None && group.order.size() >= rows / 2 ? OrderForm::RowFactorsOnly
+                                                                               : OrderForm::FactorsBeside;
 }
 
 /// Which rows are drawn, and in which order. Computed ones are neither thinned out nor ordered here.
@@ -345,22 +345,22 @@ void ParticleFrame::arrangeRows(const ParticleFrameInputs& in, const base::Place
     } else if (isThinned) {
         orderer.kept.clear();
         for (uint32_t i = 0; i < batch.instances; ++i)
-            if (orderer.looks[i] != 0)
+            if (orderer.factors[i] != 0)
                 orderer.kept.push_back(i);
         group.order = orderer.kept;
     } else {
         return;
     }
     if (isThinned)
-        group.looks = orderer.looks;
+        group.factors = orderer.factors;
     shownRows = uint32_t(group.order.size());
     group.orderForm = formOf(group, mode, batch.instances);
     batch.block.strip.z = float(group.orderForm);
-    if (group.orderForm == OrderForm::RowLooks) { // all are drawn, to see there whether they are
+    if (group.orderForm == OrderForm::RowFactorsOnly) { // all are drawn, to see there whether they are
         group.order = {};
-        group.looks = group.looks.first(shownRows == 0 ? 0 : batch.instances);
+        group.factors = group.factors.first(shownRows == 0 ? 0 : batch.instances);
     }
-    batch.instances = stream.count = group.order.empty() ? uint32_t(group.looks.size()) : shownRows;
+    batch.instances = stream.count = group.order.empty() ? uint32_t(group.factors.size()) : shownRows;
     if (shownRows == 0)
         batch.instances = stream.count = 0;
     if (mode == base::ParticleOrder::Depth) {
@@ -392,7 +392,7 @@ void ParticleFrame::sortRows(const ParticleFrameInputs& in, const base::Placemen
             distances[i] = radius[i] > 0.0f ? age[i] : DepthSort::kAbsent;
     }
     for (size_t i = 0; isThinned && i < rows.count(); ++i)
-        if (orderer.looks[i] == 0)
+        if (orderer.factors[i] == 0)
             distances[i] = DepthSort::kAbsent;
     group.order = mode == base::ParticleOrder::Youngest ? orderer.sort.nearestFirst(orderer.distances)
                                                         : orderer.sort.farthestFirst(orderer.distances);

@@ -5,7 +5,7 @@
 
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/draw_order/depth_sort.h"
-#include "rendering/draw_order/draw_runs.h"
+#include "rendering/draw_order/draw_batcher.h"
 #include "rendering/frame/fragment_counts.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/gpu_particles/gpu_order_pass.h"
@@ -25,10 +25,10 @@ namespace fx::render {
 /// How what is uploaded tells which rows are drawn; the shaders know the numbers.
 enum class OrderForm : uint8_t
 {
-    All,         ///< nothing is: all rows, as they are
-    Rows,        ///< a word each
-    LooksBeside, ///< a row and its look, two words
-    RowLooks,    ///< no rows, but the look of each
+    All,            ///< nothing is: all rows, as they are
+    Rows,           ///< a word each
+    FactorsBeside,  ///< a row and its factors, two words
+    RowFactorsOnly, ///< no rows, but the factors of each
 };
 
 /// A group that is drawn, beside the batch of the same index.
@@ -36,12 +36,12 @@ struct ParticleGroup
 {
     const RowTechnique* technique;
     const base::SnapshotGroup* newer;
-    const base::SnapshotGroup* older; ///< null: none, or of a strip
-    size_t newerIndex, olderIndex;    ///< in their snapshots
-    std::span<const uint32_t> order;  ///< rows as they are drawn; empty: all as they are
-    std::span<const uint32_t> looks;  ///< by row, see thinRows(); empty: nothing is thinned out
-    uint32_t texture, motion, mesh;   ///< ids in the asset table
-    int columns, rows;                ///< frames of the texture
+    const base::SnapshotGroup* older;  ///< null: none, or of a strip
+    size_t newerIndex, olderIndex;     ///< in their snapshots
+    std::span<const uint32_t> order;   ///< rows as they are drawn; empty: all as they are
+    std::span<const uint32_t> factors; ///< by row, see simplifyRows(); empty: nothing is thinned out
+    uint32_t texture, motion, mesh;    ///< ids in the asset table
+    int columns, rows;                 ///< frames of the texture
     OrderForm orderForm = OrderForm::All;
 };
 
@@ -83,7 +83,7 @@ public:
     std::span<ParticleBatch> batches() { return batches_; }
     /// In which order the rows of computed batches are to be drawn.
     std::span<const GpuOrderJob> gpuOrders() const { return gpuOrders_; }
-    /// Batches that do not hide, for DrawRuns.
+    /// Batches that do not hide, for DrawBatcher.
     std::span<const DrawStream> streams() const { return streams_; }
     const DrawnCounts& drawn() const { return drawn_; }
     uint64_t orderedRows() const { return orderedRows_; } ///< in orders

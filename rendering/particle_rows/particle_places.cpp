@@ -18,7 +18,7 @@ uint64_t roundUp(uint64_t value, uint64_t step)
 }
 
 /// Whether a row goes on with the strip of the row before is in its color, by the sign of its opacity.
-void writeRibbonColors(const base::SnapshotGroup& group, const RowStamp& part, std::byte* out)
+void writeRibbonColors(const base::SnapshotGroup& group, const RowRevision& part, std::byte* out)
 {
     constexpr uint64_t kGoesOn = uint64_t(1) << 63;
     const auto colors = group.column64(base::ribbon_column::Color);
@@ -47,7 +47,7 @@ uint64_t rowBytes(std::span<const base::ColumnDesc> columns, const RowPlaces& pl
     return bytes;
 }
 
-std::span<const RowStamp> partsOf(const SnapshotRowStamps& rows, size_t group, const RowStamp& whole)
+std::span<const RowRevision> partsOf(const SnapshotRowRevisions& rows, size_t group, const RowRevision& whole)
 {
     return rows.parts.empty() ? std::span(&whole, 1) : rows.of(group);
 }
@@ -167,22 +167,22 @@ void ParticleBuffers::writeRows(const Source& source, size_t index, const GroupP
         before ? place.rowsBefore.begin() + std::ptrdiff_t(before->rowsBegin) : place.rowsBefore.end();
     const auto heldEnd =
         before ? place.rowsBefore.begin() + std::ptrdiff_t(before->rowsEnd) : place.rowsBefore.end();
-    const RowStamp unknown{0, group.count(), 0};
+    const RowRevision unknown{0, group.count(), 0};
     const size_t olderIndex = source.older && at.isPacked ? olderOf(index) : kNoGroup;
     const auto olderParts = olderIndex == kNoGroup || source.olderRows.parts.empty()
-                                ? std::span<const RowStamp>{}
+                                ? std::span<const RowRevision>{}
                                 : source.olderRows.of(olderIndex);
     auto old = olderParts.begin();
-    for (RowStamp part : partsOf(source.rows, index, unknown)) { // all lie by rising rows
+    for (RowRevision part : partsOf(source.rows, index, unknown)) { // all lie by rising rows
         while (old != olderParts.end() && old->first < part.first)
             ++old;
-        const bool stands = part.stamp != 0 && old != olderParts.end() && *old == part;
+        const bool stands = part.revision != 0 && old != olderParts.end() && *old == part;
         if (olderIndex != kNoGroup && !stands)
-            part.stamp = 0; // it is of this moment only
+            part.revision = 0; // it is of this moment only
         place.rows.push_back(part);
         while (held != heldEnd && held->first < part.first)
             ++held;
-        if (part.stamp != 0 && held != heldEnd && *held == part) {
+        if (part.revision != 0 && held != heldEnd && *held == part) {
             keptBytes_ += part.count * bytesOfRow;
             continue;
         }
@@ -192,7 +192,7 @@ void ParticleBuffers::writeRows(const Source& source, size_t index, const GroupP
     at.rowsEnd = place.rows.size();
 }
 
-void ParticleBuffers::writePart(const Source& source, size_t index, const RowStamp& part, bool stands,
+void ParticleBuffers::writePart(const Source& source, size_t index, const RowRevision& part, bool stands,
                                 Place& place)
 {
     const base::SnapshotGroup& group = source.snapshot->group(index);

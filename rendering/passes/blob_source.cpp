@@ -55,7 +55,7 @@ void BlobSource::read(FrameGraph::Builder& builder) const
     builder.read(blobs);
 }
 
-void BlobSource::draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const
+void BlobSource::draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const
 {
     drawQuads(backend, mediaProgram(form, detail, target.layers, target.isSmall), blobs, run, target);
 }

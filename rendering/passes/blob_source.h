@@ -18,7 +18,7 @@ class BlobSource final : public MediaSource
 {
 public:
     void read(FrameGraph::Builder& builder) const override;
-    void draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const override;
+    void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const override;
 
     ResourceId blobs; ///< buffer of BlobInstance
     BillboardForm form = BillboardForm::Kernel;

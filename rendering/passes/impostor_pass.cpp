@@ -67,7 +67,7 @@ void ImpostorSource::read(FrameGraph::Builder& builder) const
     builder.read(atlas);
 }
 
-void ImpostorSource::draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const
+void ImpostorSource::draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const
 {
     drawQuads(backend, kImpostorProgram, instances, run, target, {1, atlas, Sampling::Linear});
 }

@@ -75,7 +75,7 @@ class ImpostorSource final : public MediaSource
 {
 public:
     void read(FrameGraph::Builder& builder) const override;
-    void draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const override;
+    void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const override;
 
     ResourceId instances; ///< buffer of ImpostorInstance
     ResourceId atlas;

@@ -14,10 +14,10 @@ TextureDesc mediaTargetDesc(bool layers, size_t target, int width, int height)
 
 namespace {
 
-bool isFirstOfSource(std::span<const MediaRun> runs, size_t index)
+bool isFirstOfSource(std::span<const DrawBatch> batches, size_t index)
 {
-    return std::ranges::none_of(runs.first(index),
-                                [&](const MediaRun& run) { return run.source == runs[index].source; });
+    return std::ranges::none_of(
+        batches.first(index), [&](const DrawBatch& batch) { return batch.source == batches[index].source; });
 }
 
 } // namespace
@@ -25,16 +25,16 @@ bool isFirstOfSource(std::span<const MediaRun> runs, size_t index)
 MediaPass::Outputs MediaPass::addTo(FrameGraph& graph, const Inputs& in, const Outputs& under)
 {
     Outputs out = under;
-    if (in.runs.empty())
+    if (in.batches.empty())
         return out; // nothing to draw: the graph does not even see this pass
 
     graph.addPass("media", [&](FrameGraph::Builder& builder) {
         const size_t targetCount = in.layers ? size_t(LayerTargets) : 1;
         const bool isFirst = !(in.layers ? under.layers[0] : under.media).valid();
         std::array<ResourceId, LayerTargets> targets;
-        for (size_t i = 0; i < in.runs.size(); ++i)
-            if (isFirstOfSource(in.runs, i))
-                in.runs[i].source->read(builder);
+        for (size_t i = 0; i < in.batches.size(); ++i)
+            if (isFirstOfSource(in.batches, i))
+                in.batches[i].source->read(builder);
         builder.read(in.distance);
         for (size_t i = 0; i < targetCount; ++i) {
             const ResourceId before = in.layers ? under.layers[i] : under.media;
@@ -51,8 +51,8 @@ MediaPass::Outputs MediaPass::addTo(FrameGraph& graph, const Inputs& in, const O
                 backend.clear(targets[i], {0.0f, 0.0f, 0.0f, 0.0f});
             const MediaTarget target{
                 &in.view, in.distance, {targets.data(), targetCount}, in.layers, in.isSmall};
-            for (const MediaRun& run : in.runs)
-                run.source->draw(backend, run, target);
+            for (const DrawBatch& batch : in.batches)
+                batch.source->draw(backend, batch, target);
         };
     });
     return out;

@@ -9,8 +9,8 @@
 
 namespace fx::render {
 
-/// Draws what does not hide: media, sprites, ribbons, whatever sources have, in the order of `runs`, so that
-/// layers and techniques are composed by depth.
+/// Draws what does not hide: media, sprites, ribbons, whatever sources have, in the order of `batches`, so
+/// that layers and techniques are composed by depth.
 ///
 /// reads   what the sources read
 ///         distance  [m] along the ray to opaque geometry
@@ -22,7 +22,7 @@ class MediaPass
 public:
     struct Inputs
     {
-        std::span<const MediaRun> runs; ///< must stay until the graph has executed, as must their sources
+        std::span<const DrawBatch> batches; ///< must stay until the graph has executed, as must their sources
         ResourceId distance;
         int width, height;
         ViewBlock view;

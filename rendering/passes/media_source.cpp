@@ -2,7 +2,7 @@
 
 namespace fx::render {
 
-void drawQuads(Backend& backend, const ProgramDesc& program, ResourceId instances, const MediaRun& run,
+void drawQuads(Backend& backend, const ProgramDesc& program, ResourceId instances, const DrawBatch& batch,
                const MediaTarget& target, const TextureBinding& picture)
 {
     ViewBlock view = *target.view;

@@ -13,7 +13,7 @@ namespace fx::render {
 class MediaSource;
 
 /// Some of what a source has, drawn in one go.
-struct MediaRun
+struct DrawBatch
 {
     uint32_t batch = 0; ///< the source says what it numbers
     uint32_t first = 0;
@@ -31,16 +31,17 @@ struct MediaTarget
     bool isSmall;                        ///< texels are larger than pixels
 };
 
-/// Draws runs of its own things. It stays as it is from when its pass is added until the graph has executed.
+/// Draws batches of its own things. It stays as it is from when its pass is added until the graph has
+/// executed.
 class MediaSource
 {
 public:
     /// Declares everything that the draws read.
     virtual void read(FrameGraph::Builder& builder) const = 0;
     /// Draws premultiplied "over" what is there.
-    virtual void draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const = 0;
+    virtual void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const = 0;
 
-    /// Whether something of it hides what is behind it; that is not part of runs.
+    /// Whether something of it hides what is behind it; that is not part of batches.
     virtual bool hasSolids() const { return false; }
     /// Draws what hides into the targets of SolidPass, the nearest wins.
     virtual void drawSolids(Backend&, const MediaTarget&, ResourceId /*depth*/) const {}
@@ -49,11 +50,11 @@ protected:
     ~MediaSource() = default;
 };
 
-/// Draws the instances of a run as quads of 6 vertices, premultiplied "over" what is there. The program has
-/// the ViewBlock, with run.first in pass.y, the target's distance at texture unit 0 and `instances` at buffer
-/// binding 0.
+/// Draws the instances of a batch as quads of 6 vertices, premultiplied "over" what is there. The program has
+/// the ViewBlock, with batch.first in pass.y, the target's distance at texture unit 0 and `instances` at
+/// buffer binding 0.
 /// @param picture bound as well when it is valid
-void drawQuads(Backend& backend, const ProgramDesc& program, ResourceId instances, const MediaRun& run,
+void drawQuads(Backend& backend, const ProgramDesc& program, ResourceId instances, const DrawBatch& batch,
                const MediaTarget& target, const TextureBinding& picture = {});
 
 } // namespace fx::render

@@ -89,9 +89,9 @@ void BatchSource::read(FrameGraph::Builder& builder) const
     }
 }
 
-void BatchSource::draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const
+void BatchSource::draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const
 {
-    drawBatch(backend, batches[run.batch], run.first, run.count, target, {});
+    drawBatch(backend, batches[batch.batch], batch.first, batch.count, target, {});
 }
 
 bool BatchSource::hasSolids() const

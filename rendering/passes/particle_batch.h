@@ -82,7 +82,7 @@ class BatchSource final : public MediaSource
 {
 public:
     void read(FrameGraph::Builder& builder) const override;
-    void draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const override;
+    void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const override;
     bool hasSolids() const override;
     void drawSolids(Backend& backend, const MediaTarget& target, ResourceId depth) const override;
 

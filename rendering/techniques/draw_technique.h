@@ -9,9 +9,9 @@
 #include "foundation/result/status.h"
 #include "foundation/snapshot/gpu_particles.h"
 #include "foundation/snapshot/snapshot_ring.h"
-#include "rendering/draw_order/draw_runs.h"
+#include "rendering/draw_order/draw_batcher.h"
 #include "rendering/frame/fragment_counts.h"
-#include "rendering/frame/snapshot_stamps.h"
+#include "rendering/frame/snapshot_revisions.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/frame_graph/frame_graph.h"
@@ -41,8 +41,8 @@ constexpr uint32_t kIdleFrames = 300; ///< without use, until buffers and textur
 struct GatherInputs
 {
     const base::SnapshotPair* snapshots; ///< without the older one where nothing moves between the two
-    StampPair stamps;
-    SnapshotRowStamps newerRows, olderRows;
+    RevisionPair revisions;
+    SnapshotRowRevisions newerRows, olderRows;
     const FrameRequest* request;
     const ViewSettings* settings;
     const CameraGeometry* camera;
@@ -160,7 +160,7 @@ struct DrawTechnique
     base::Status (*check)(const ViewSettings& settings) = nullptr;
     /// Whether it changes the picture when there is nothing to see; null: no.
     bool (*actsAlone)(const ViewSettings& settings) = nullptr;
-    const QualityLadder* ladder = nullptr; ///< what quality may lower of it; null: nothing
+    const ScalabilitySettings* levels = nullptr; ///< what quality may lower of it; null: nothing
 };
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file quality_knob.h
-/// What quality may lower: the settings of a technique, and the scalability levels (ladder) that they make
-/// up.
+/// What quality may lower: the settings of a technique, and the scalability levels (scalability levels) that
+/// they make up.
 #pragma once
 
 #include "rendering/frame/screen_share.h"
@@ -24,7 +24,7 @@ struct QualityKnob
     };
 
     std::string_view name;  ///< in calibrations
-    std::string_view label; ///< in texts for people, before the value; a choice is told by the name alone
+    std::string_view label; ///< for display, before the value; a choice shows the name alone
     Type type;
     std::span<const std::string_view> choices; ///< of a choice, cheapest first; otherwise empty
     std::string_view schema;                   ///< JSON Schema of the value in calibrations
@@ -33,13 +33,13 @@ struct QualityKnob
     void (*lower)(float value, ViewSettings& ioSettings);
 };
 
-/// A ladder of settings that quality is chosen from, measured by calibrations.
-struct QualityLadder
+/// A scalability levels of settings that quality is chosen from, measured by calibrations.
+struct ScalabilitySettings
 {
     std::string_view name;    ///< in calibrations, and of the group of passes whose time it is; empty: none
     std::string_view meaning; ///< in the schema of calibrations
 
-    /// [1] how much an error of the ladder matters on a picture.
+    /// [1] how much an error of the scalability levels matters on a picture.
     double (*weight)(const ScreenShare& covered);
 
     std::span<const QualityKnob> knobs;

@@ -2,12 +2,12 @@
 
 namespace fx::render {
 
-FrameKey frameKey(const StampPair& stamps, const FrameRequest& request, const ViewSettings& settings,
+FrameKey frameKey(const RevisionPair& revisions, const FrameRequest& request, const ViewSettings& settings,
                   const base::AssetTable* assets)
 {
     FrameKey key;
-    key.stamps = stamps;
-    key.interpolation = stamps.isSteady() ? 0.0 : request.interpolation;
+    key.revisions = revisions;
+    key.interpolation = revisions.isSteady() ? 0.0 : request.interpolation;
     key.camera = request.camera;
     key.width = request.targets.width;
     key.height = request.targets.height;

@@ -3,7 +3,7 @@
 /// uploaded for the last frame serves again.
 #pragma once
 
-#include "rendering/frame/snapshot_stamps.h"
+#include "rendering/frame/snapshot_revisions.h"
 #include "rendering/frame/view_types.h"
 
 namespace fx::base {
@@ -14,7 +14,7 @@ namespace fx::render {
 
 struct FrameKey
 {
-    StampPair stamps;
+    RevisionPair revisions;
     double interpolation = 0; ///< 0 where both snapshots hold the same: then no moment differs
     CameraView camera;
     int width = 0, height = 0; ///< [pixel]
@@ -28,7 +28,7 @@ struct FrameKey
     bool operator==(const FrameKey&) const = default;
 };
 
-FrameKey frameKey(const StampPair& stamps, const FrameRequest& request, const ViewSettings& settings,
+FrameKey frameKey(const RevisionPair& revisions, const FrameRequest& request, const ViewSettings& settings,
                   const base::AssetTable* assets);
 
 } // namespace fx::render

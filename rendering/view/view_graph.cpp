@@ -41,7 +41,7 @@ public:
             view->forward.w = settings_.detail ? 1.0f : 0.0f;
             view->sunDirection = {settings_.lighting.sunDirection, view->sunDirection.w};
         }
-        frame_.hasMedia = !in.runs.empty() || !in.solids.empty();
+        frame_.hasMedia = !in.batches.empty() || !in.solids.empty();
     }
 
     ViewGraphOutputs build()
@@ -142,7 +142,7 @@ private:
     MediaPass::Outputs drawLayers(ResourceId distance, const MediaPass::Outputs& under)
     {
         return MediaPass::addTo(graph_,
-                                {in_.runs, distance, grid_.width, grid_.height, frame_.layerView,
+                                {in_.batches, distance, grid_.width, grid_.height, frame_.layerView,
                                  settings_.layerOutputs, frame_.hasSmallLayers},
                                 under);
     }
@@ -152,7 +152,7 @@ private:
     /// over `under`, which has that size.
     MediaPass::Outputs drawSmallLayers(const MediaPass::Outputs& under)
     {
-        if (in_.runs.empty())
+        if (in_.batches.empty())
             return under;
         const bool hasDepth = request_.targets.depth != 0 || under.media.valid() || under.layers[0].valid();
         const auto ends = LayerDistancePass::addTo(

@@ -19,7 +19,7 @@ struct ViewGraphInputs
     /// In the order of their list; they have gathered. Must stay until the graph has executed, as must
     /// the next two.
     std::span<const std::unique_ptr<TechniqueView>> techniques;
-    std::span<const MediaRun> runs;             ///< of what does not hide
+    std::span<const DrawBatch> batches;         ///< of what does not hide
     std::span<const MediaSource* const> solids; ///< of what hides
     int layerDivisor = 1;                       ///< of this frame, >= that of the settings
 };

@@ -10,7 +10,7 @@ namespace fx::render {
 ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
                          DrawTechniques list)
     : device(d), graph(memory), backend(*d, memory), techniques(list), parts(memory), lod(memory),
-      runs(memory), streams(memory), solids(memory), stamps(memory), targetCheck(*d),
+      batcher(memory), streams(memory), solids(memory), revisions(memory), targetCheck(*d),
       timer(*d, render::passGroups(list))
 {
     const TechniqueSetup setup{d, schema, memory, list};
@@ -21,7 +21,7 @@ ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::p
         if (list[i]->create && std::ranges::none_of(list.first(i), isMadeAlready))
             parts.push_back(list[i]->create(setup));
         if (list[i]->rows && !list[i]->rows->isComputed)
-            stamps.stampRowsOf(*list[i]->kind);
+            revisions.stampRowsOf(*list[i]->kind);
     }
 }
 

@@ -28,9 +28,9 @@ struct ViewRenderer::Impl
                             const ViewSettings& settings) const;
     base::Status gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
                         const ViewSettings& settings); ///< everything that is to be drawn
-    base::Status gatherAnew(const base::SnapshotPair& snapshots, const StampPair& stamps,
+    base::Status gatherAnew(const base::SnapshotPair& snapshots, const RevisionPair& revisions,
                             const FrameRequest& request, const ViewSettings& settings);
-    SnapshotRowStamps rowsOf(const base::FrameSnapshot* snapshot) const;
+    SnapshotRowRevisions rowsOf(const base::FrameSnapshot* snapshot) const;
     base::Status draw(const FrameRequest& request, const ViewSettings& settings, int divisor);
     void forget(); ///< what this frame was to write
     void askWhetherParticlesAreComputed();
@@ -45,11 +45,11 @@ struct ViewRenderer::Impl
     DrawTechniques techniques;
     std::pmr::vector<std::unique_ptr<TechniqueView>> parts; ///< of techniques, in their order
     LevelOfDetail lod;
-    DrawRuns runs;
+    DrawBatcher batcher;
     std::pmr::vector<DrawStream> streams;
-    std::span<const MediaRun> mediaRuns;
+    std::span<const DrawBatch> mediaBatches;
     std::pmr::vector<const MediaSource*> solids;
-    SnapshotStamps stamps;
+    SnapshotRevisions revisions;
     std::optional<FrameKey> key; ///< of the lists above and of what is on the GPU; nothing: not to be used
     bool keptLists = false;      ///< they were not made for this frame
     const base::AssetTable* assets = nullptr;

@@ -18,10 +18,11 @@ namespace fx::render {
 namespace {
 
 /// Names what a moment between two snapshots shows.
-uint64_t contentOf(const StampPair& stamps, double interpolation)
+uint64_t contentOf(const RevisionPair& revisions, double interpolation)
 {
-    const uint64_t moment = stamps.isSteady() ? 0 : std::bit_cast<uint64_t>(interpolation);
-    return base::hashWord(base::hashWord(stamps.newer, stamps.isSteady() ? 0 : stamps.older), moment);
+    const uint64_t moment = revisions.isSteady() ? 0 : std::bit_cast<uint64_t>(interpolation);
+    return base::hashWord(base::hashWord(revisions.newer, revisions.isSteady() ? 0 : revisions.older),
+                          moment);
 }
 
 base::Status invalid(std::string message)
@@ -71,7 +72,7 @@ void ViewRenderer::Impl::askWhetherParticlesAreComputed()
 base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, const FrameRequest& request,
                                         const ViewSettings& settings)
 {
-    const StampPair now = stamps.stampsOf(snapshots);
+    const RevisionPair now = revisions.revisionsOf(snapshots);
     const FrameKey wanted = frameKey(now, request, settings, assets);
     keptLists = key == wanted && !request.resetHistory;
     if (keptLists) {
@@ -93,12 +94,12 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     return {};
 }
 
-SnapshotRowStamps ViewRenderer::Impl::rowsOf(const base::FrameSnapshot* snapshot) const
+SnapshotRowRevisions ViewRenderer::Impl::rowsOf(const base::FrameSnapshot* snapshot) const
 {
-    return snapshot ? stamps.rowsOf(*snapshot) : SnapshotRowStamps{};
+    return snapshot ? revisions.rowsOf(*snapshot) : SnapshotRowRevisions{};
 }
 
-base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots, const StampPair& now,
+base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots, const RevisionPair& now,
                                             const FrameRequest& request, const ViewSettings& settings)
 {
     const CameraGeometry camera = cameraGeometry(request.camera);
@@ -118,7 +119,7 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
                               contentOf(now, request.interpolation)};
     streams.clear();
     solids.clear();
-    mediaRuns = {};
+    mediaBatches = {};
     GatheredFrame gathered{&streams};
     for (const auto& part : parts)
         if (base::Status status = part->gather(inputs, gathered); !status)
@@ -127,7 +128,7 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
         if (const MediaSource* source = part->solids())
             solids.push_back(source);
     fragments = gathered.fragments;
-    mediaRuns = runs.build(streams);
+    mediaBatches = batcher.build(streams);
     return {};
 }
 
@@ -195,7 +196,7 @@ base::Status ViewRenderer::check(const FrameRequest& request)
 base::Status ViewRenderer::Impl::draw(const FrameRequest& request, const ViewSettings& settings, int divisor)
 {
     graph.begin();
-    outputs = buildViewGraph(graph, {&request, &settings, parts, mediaRuns, solids, divisor});
+    outputs = buildViewGraph(graph, {&request, &settings, parts, mediaBatches, solids, divisor});
     if (!outputs.anyPass)
         return {};
     graph.compile();

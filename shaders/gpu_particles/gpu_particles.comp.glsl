@@ -56,7 +56,7 @@ void putColor(uint row, uvec2 color)
 }
 
 #include "gpu_particles/gpu_particle_births.glsl"
-#include "gpu_particles/gpu_particle_looks.glsl"
+#include "gpu_particles/gpu_particle_appearance.glsl"
 
 // perLifeOf() of simulation/particles/particle_program.cpp; the division is rounded as the CPU's.
 float perLifeOf(float seconds)

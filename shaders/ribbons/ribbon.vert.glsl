@@ -30,12 +30,12 @@ vec3 acrossAt(int row)
 void main()
 {
     int row = rowOfRank(rows.z + gl_InstanceID);
-    vec2 levelLook = lookOfRank(rows.z + gl_InstanceID);
+    vec2 levelFactors = factorsOfRank(rows.z + gl_InstanceID);
     fragmentPlace = vec3(0.0);
     fragmentTexture = vec2(0.0);
     fragmentColor = vec4(0.0);
     gl_Position = clippedAway();
-    if (!goesOn(row + 1) || levelLook.x == 0.0)
+    if (!goesOn(row + 1) || levelFactors.x == 0.0)
         return;
     bool isSecond = gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5;
     float side = gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4 ? 1.0 : -1.0;
@@ -64,7 +64,7 @@ void main()
         }
     }
     vec3 center = mix(pointAt(from), pointAt(row + 1), later);
-    float halfWidth = mix(newerValue(3, from), newerValue(3, row + 1), later) * placePosition.w * levelLook.x;
+    float halfWidth = mix(newerValue(3, from), newerValue(3, row + 1), later) * placePosition.w * levelFactors.x;
     float shown = max(halfWidth, moment.w * pixelSize(center));
     vec4 color = mix(colorAt(from), colorAt(row + 1), later);
     fragmentPlace = center + acrossAt(at) * (side * shown);
@@ -73,6 +73,6 @@ void main()
     vec3 white = vec3(shine.x);
     if (shine.y > 0.0)
         white += shine.y * scatteredByBall(center);
-    fragmentColor = vec4(color.rgb * white, opacityOf(color.a * halfWidth / max(shown, 1e-30), levelLook));
+    fragmentColor = vec4(color.rgb * white, opacityOf(color.a * halfWidth / max(shown, 1e-30), levelFactors));
     gl_Position = clipOf(fragmentPlace);
 }

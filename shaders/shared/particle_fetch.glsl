@@ -36,17 +36,17 @@ int rowOfRank(int rank)
 }
 
 // What the level of detail makes of it: factors of its size and of its opacity; 0: it is not drawn.
-vec2 lookOfRank(int rank)
+vec2 factorsOfRank(int rank)
 {
     int form = int(strip.z);
     if (form == 2)
         return unpackHalf2x16(drawOrder[2 * rank + 1]);
     return form == 3 ? unpackHalf2x16(drawOrder[rank]) : vec2(1.0);
 }
-float opacityOf(float opacity, vec2 levelLook)
+float opacityOf(float opacity, vec2 levelFactors)
 {
     bool covers = look.w < 0.5; // and cannot do so more than wholly
-    return levelLook.y == 1.0 ? opacity : covers ? min(opacity * levelLook.y, 1.0) : opacity * levelLook.y;
+    return levelFactors.y == 1.0 ? opacity : covers ? min(opacity * levelFactors.y, 1.0) : opacity * levelFactors.y;
 }
 
 vec3 rotated(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }

@@ -15,8 +15,8 @@ flat out float fragmentFrame;
 void main()
 {
     Particle p = fetchParticle(rowOfRank(rows.z + gl_InstanceID));
-    vec2 levelLook = lookOfRank(rows.z + gl_InstanceID);
-    p.radius *= levelLook.x;
+    vec2 levelFactors = factorsOfRank(rows.z + gl_InstanceID);
+    p.radius *= levelFactors.x;
     int at = 8 * int(floatBitsToUint(meshWords[rows.w + gl_VertexID]));
     vec3 position = vec3(meshWords[at], meshWords[at + 1], meshWords[at + 2]);
     vec3 normal = vec3(meshWords[at + 3], meshWords[at + 4], meshWords[at + 5]);
@@ -27,7 +27,7 @@ void main()
     fragmentPlace = p.center + rotated(placeRotation, turned) * p.radius;
     fragmentNormal = rotated(placeRotation, rotated(p.orientation, spin * normal));
     fragmentTexture = vec2(meshWords[at + 6], meshWords[at + 7]);
-    fragmentColor = vec4(p.color.rgb, opacityOf(p.color.a, levelLook));
+    fragmentColor = vec4(p.color.rgb, opacityOf(p.color.a, levelFactors));
     fragmentFrame = p.frame;
-    gl_Position = p.alive && levelLook.x > 0.0 ? clipOf(fragmentPlace) : clippedAway();
+    gl_Position = p.alive && levelFactors.x > 0.0 ? clipOf(fragmentPlace) : clippedAway();
 }

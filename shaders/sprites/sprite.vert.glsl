@@ -56,8 +56,8 @@ void main()
     fragmentColor = vec4(0.0);
     fragmentFrame = p.frame;
     gl_Position = clippedAway();
-    vec2 levelLook = lookOfRank(rows.z + gl_InstanceID);
-    if (!p.alive || levelLook.x == 0.0)
+    vec2 levelFactors = factorsOfRank(rows.z + gl_InstanceID);
+    if (!p.alive || levelFactors.x == 0.0)
         return;
     vec3 horizontal;
     vec3 vertical;
@@ -65,7 +65,7 @@ void main()
     vec2 extent = vec2(p.radius * look.x, p.radius);
     if (isAlong)
         extent.y += 0.5 * look.y * length(p.velocity);
-    extent = grown(extent, levelLook.x * levelLook.x);
+    extent = grown(extent, levelFactors.x * levelFactors.x);
     float least = moment.w * pixelSize(p.center);
     vec2 shown = max(extent, vec2(least)); // what is smaller than a pixel is widened to it and thinned as much
     float thinned = extent.x * extent.y / max(shown.x * shown.y, 1e-30);
@@ -76,6 +76,6 @@ void main()
     vec3 white = vec3(shine.x);
     if (shine.y > 0.0)
         white += shine.y * scatteredByBall(p.center);
-    fragmentColor = vec4(p.color.rgb * white, opacityOf(p.color.a * thinned, levelLook));
+    fragmentColor = vec4(p.color.rgb * white, opacityOf(p.color.a * thinned, levelFactors));
     gl_Position = clipOf(fragmentPlace);
 }

@@ -15,15 +15,15 @@ namespace {
 
 constexpr float kSpareSeconds = 0.25f; ///< more than steps, and what trails keep for frames between them
 
-bool isLookOf(Appearance look, const base::KindDesc& kind)
+bool isAppearanceOf(AppearanceKind appearance, const base::KindDesc& kind)
 {
-    switch (look) {
-    case Appearance::Medium:
+    switch (appearance) {
+    case AppearanceKind::Medium:
         return kind == base::kBlobKind;
-    case Appearance::Sprite:
-    case Appearance::Mesh:
+    case AppearanceKind::Sprite:
+    case AppearanceKind::Mesh:
         return kind == base::kParticleKind;
-    case Appearance::None:
+    case AppearanceKind::None:
         break;
     }
     return false;
@@ -39,7 +39,7 @@ bool EmitterDef::publishes(const base::KindDesc& kind) const
         return light.given;
     if (kind == base::kGpuParticleKind)
         return gpuObstacle(*this).empty();
-    return isLookOf(look.kind, kind);
+    return isAppearanceOf(appearance.kind, kind);
 }
 
 std::shared_ptr<const base::GpuParticleProgram> EmitterDef::gpuProgram() const
@@ -59,7 +59,7 @@ Influence EmitterDef::influence() const
     if (inWorld && inheritVelocity > 0.0f) {
         result.inherits = inheritVelocity;
         result.extent = births ? births->extent() : glm::length(position) + glm::length(size);
-        result.drawnOut = shutter + 0.5f * look.stretch;
+        result.drawnOut = shutter + 0.5f * appearance.stretch;
     }
     return result;
 }

@@ -40,11 +40,11 @@ struct EmitterDef final : SolverDef, EmitterSettings
     uint64_t bytes() const override;
     double workOf(const StepLoad& load) const override;
     bool publishes(const base::KindDesc& kind) const override;
-    bool bendsLight() const override { return look.kind == Appearance::Medium && heat > 0.0f; }
+    bool bendsLight() const override { return appearance.kind == AppearanceKind::Medium && heat > 0.0f; }
     std::shared_ptr<const base::GpuParticleProgram> gpuProgram() const override;
     Influence influence() const override;
     bool collides() const override;
-    bool heedsPlacement() const override { return inWorld; }
+    bool dependsOnPlacement() const override { return inWorld; }
     /// Analytic when the state is a pure function of time: closed motion, no events, no trails, no moves.
     CatchUp catchUp() const override
     {

@@ -66,7 +66,7 @@ bool EmitterSolver::isOpen(const StepContext& context) const
 
 EventScan EmitterSolver::scanOf(const StepContext& context) const
 {
-    return {interest_,           store_,       lookJob(),
+    return {interest_,           store_,       appearanceJob(),
             context.solverIndex, context.tick, context.tick + context.stepTicks};
 }
 

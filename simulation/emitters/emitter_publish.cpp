@@ -1,13 +1,13 @@
 #include "simulation/emitters/emitter_solver.h"
 
-#include "simulation/emitters/pools/emitter_crowd.h"
+#include "simulation/emitters/pools/spawn_batch.h"
 #include "simulation/particles/row_publication.h"
 
 namespace fx::sim {
 
-LookJob EmitterSolver::lookJob() const
+AppearanceJob EmitterSolver::appearanceJob() const
 {
-    LookJob job;
+    AppearanceJob job;
     fill(job);
     return job;
 }
@@ -33,9 +33,9 @@ bool EmitterSolver::publishGroup(const base::GroupInfo& base, base::FrameSnapsho
         return !trails_ || publishTrails(base, snapshot, place, work);
     if (place.group == 2)
         return !def_.light.given || publishLights(base, snapshot, place, work);
-    if (def_.look.kind == Appearance::Medium)
+    if (def_.appearance.kind == AppearanceKind::Medium)
         return publishMedium(base, snapshot, place, work);
-    return def_.look.kind == Appearance::None || publishParticles(base, snapshot, place, work);
+    return def_.appearance.kind == AppearanceKind::None || publishParticles(base, snapshot, place, work);
 }
 
 bool EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
@@ -49,11 +49,11 @@ bool EmitterSolver::publishParticles(const base::GroupInfo& base, base::FrameSna
         gpu_->publish(info, kinds_.gpuParticle, key_, now_, snapshot);
         return true;
     }
-    return publishRows(lookJob(), {kinds_.particle, base}, tasks_, snapshot, place, work);
+    return publishRows(appearanceJob(), {kinds_.particle, base}, tasks_, snapshot, place, work);
 }
 
 bool EmitterSolver::joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
-                                    EmitterCrowd& crowd) const
+                                    SpawnBatch& spawnBatch) const
 {
     if (!publishesWithMany_)
         return false;
@@ -64,7 +64,7 @@ bool EmitterSolver::joinPublication(const base::GroupInfo& base, base::FrameSnap
     if (rows == 0)
         return true;
     store_.fetch();
-    LookJob& job = crowd.add(group);
+    AppearanceJob& job = spawnBatch.add(group);
     fill(job);
     job.secondsBack = snapshot.secondsBack();
     return true;

@@ -3,7 +3,7 @@
 #include "foundation/memory/out_of_memory.h"
 #include "foundation/random/philox.h"
 #include "foundation/tasks/parallel_rows.h"
-#include "simulation/emitters/pools/emitter_crowd.h"
+#include "simulation/emitters/pools/spawn_batch.h"
 #include "simulation/particles/birth_kernel.h"
 #include "simulation/particles/tile_step.h"
 
@@ -82,7 +82,7 @@ uint64_t EmitterSolver::bytesOf(const EmitterDef& def, const ParticleProgram& pr
         bytes += RibbonStore::bytesOf(def.trail, def.maxParticles);
     if (def.light.given)
         bytes += rows * sizeof(Light);
-    if (def.look.kind == Appearance::Medium)
+    if (def.appearance.kind == AppearanceKind::Medium)
         bytes += rows * sizeof(uint32_t);
     return bytes;
 }
@@ -100,7 +100,8 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
       rowsByBirth_(memory), stepWork_(sim::stepWork(program_))
 {
     const bool isSmall = store_.capacity() <= kFewRows && !program_.gpu;
-    const bool isDrawn = def.look.kind == Appearance::Sprite || def.look.kind == Appearance::Mesh;
+    const bool isDrawn =
+        def.appearance.kind == AppearanceKind::Sprite || def.appearance.kind == AppearanceKind::Mesh;
     bornWithMany_ =
         isSmall && program_.ballistic && !def.inWorld && !isLinked() && !(def.trail.lifetime > 0.0f);
     publishesWithMany_ = isSmall && isDrawn && !def.inWorld && kinds.particle != base::kNoKind &&
@@ -113,7 +114,7 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
         space_.emplace();
     if (def.light.given)
         lights_.resize(store_.capacity());
-    if (def.look.kind == Appearance::Medium)
+    if (def.appearance.kind == AppearanceKind::Medium)
         rowsByBirth_.resize(store_.capacity());
     if (program_.gpu && kinds.gpuParticle != base::kNoKind)
         schedule_.setLog(&gpu_.emplace(program_, memory).log());
@@ -137,7 +138,7 @@ EmitterSolver::Conditions EmitterSolver::conditionsOf(const StepContext& context
 }
 
 /// When gravity or wind change, motion goes on from where it has come to.
-void EmitterSolver::heedConditions(const StepContext& context)
+void EmitterSolver::applyConditions(const StepContext& context)
 {
     const Conditions conditions = conditionsOf(context);
     varied_ = varied_ || !(conditions == conditions_);
@@ -149,7 +150,7 @@ void EmitterSolver::heedConditions(const StepContext& context)
     if (gpu_)
         gpu_->setPull(now_, conditions.pull);
     if (!gpu_ || !gpu_->isOn())
-        restartMotion(lookJob(), store_);
+        restartMotion(appearanceJob(), store_);
     store_.placed = true;
     motionBegin_ = now_;
     conditions_ = conditions;
@@ -189,7 +190,7 @@ bool EmitterSolver::goOnHere(const StepContext& context, base::WorkBudget& work)
         open_.part = StepPart::Follow;
         open_.row = 0;
     }
-    if (trails_ && !trails_->follow(lookJob(), {context.tick, now_}, open_.row, work))
+    if (trails_ && !trails_->follow(appearanceJob(), {context.tick, now_}, open_.row, work))
         return false;
     closeStep(context);
     return true;
@@ -207,7 +208,7 @@ void EmitterSolver::openStep(const StepContext& context)
     const bool isWanted = context.gpuParticles && gpu_ && !gpu_->asksTooMuch(context);
     if (gpu_ && gpu_->isOn() && !isWanted)
         leaveGpu();
-    heedConditions(context);
+    applyConditions(context);
     if (gpu_)
         gpu_->noteStep(context);
     open_ = {};
@@ -220,7 +221,7 @@ void EmitterSolver::openStep(const StepContext& context)
 void EmitterSolver::closeStep(const StepContext& context)
 {
     open_.tick = -1;
-    if (!context.crowd || !context.crowd->waitsFor(*this))
+    if (!context.spawnBatch || !context.spawnBatch->waitsFor(*this))
         endStep(*context.counters);
     offerToGpu(open_.droppedBefore, open_.isWanted);
 }
@@ -245,7 +246,7 @@ bool EmitterSolver::stepAlone(const StepContext& context, base::WorkBudget& work
 /// Whether births wait for those of others.
 bool EmitterSolver::joins(const StepContext& context) const
 {
-    return context.crowd && bornWithMany_ && store_.placed == program_.stores[stored::X];
+    return context.spawnBatch && bornWithMany_ && store_.placed == program_.stores[stored::X];
 }
 
 std::span<Birth> EmitterSolver::birthRoom(const StepContext& context) const
@@ -311,13 +312,13 @@ void EmitterSolver::noteRefusals()
 
 void EmitterSolver::storeBatch(const StepContext& context, std::span<const Birth> births)
 {
-    if (joins(context) && births.size() <= EmitterCrowd::kMostAtOnce) {
-        context.crowd->wait(*this, context, births);
+    if (joins(context) && births.size() <= SpawnBatch::kMostAtOnce) {
+        context.spawnBatch->wait(*this, context, births);
         store_.advance(births.size());
         return;
     }
-    if (context.crowd && context.crowd->waitsFor(*this))
-        context.crowd->makeBirths(); // they come first
+    if (context.spawnBatch && context.spawnBatch->waitsFor(*this))
+        context.spawnBatch->makeBirths(); // they come first
     std::atomic<uint32_t> living{0};
     parallelRows(*context.tasks, uint32_t(births.size()), kMinBirths, [&](uint32_t begin, uint32_t end) {
         living += storeBirths(program_, {context.seed, context.solverIndex},
@@ -442,7 +443,7 @@ void EmitterSolver::seekHere(const StepContext& context, base::Ticks tick)
         begin(context);
     }
     schedule_.setSeed(context.seed, context.solverIndex);
-    heedConditions(context);
+    applyConditions(context);
     const uint64_t droppedBefore = dropped_;
     base::Ticks from = now_;
     if (neverDrops(double(context.parameters->intensity))) {

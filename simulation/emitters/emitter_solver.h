@@ -8,7 +8,7 @@
 #include "simulation/emitters/events/event_scan.h"
 #include "simulation/emitters/pools/emitter_pools.h"
 #include "simulation/gpu_programs/gpu_emitter.h"
-#include "simulation/particles/look_kernel.h"
+#include "simulation/particles/appearance_kernel.h"
 #include "simulation/particles/particle_store.h"
 #include "simulation/ribbons/ribbon_store.h"
 #include "simulation/solver/budgeted_solver.h"
@@ -90,7 +90,7 @@ public:
     bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                             PublicationPlace& place, base::WorkBudget& work) const override;
     bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
-                         EmitterCrowd& crowd) const override;
+                         SpawnBatch& spawnBatch) const override;
     bool finished(base::Ticks tick) const override;
     /// Exact but while the GPU computes the particles; then an upper bound.
     uint32_t elementCount() const override;
@@ -191,13 +191,13 @@ private:
     }
     struct Conditions
     {
-        glm::vec3 pull{0.0f}; ///< [m/s2] see LookJob
+        glm::vec3 pull{0.0f}; ///< [m/s2] see AppearanceJob
         float intensity = 1.0f;
         bool emitting = true;
         bool operator==(const Conditions&) const = default;
     };
     Conditions conditionsOf(const StepContext& context) const;
-    void heedConditions(const StepContext& context);
+    void applyConditions(const StepContext& context);
     /// True without particles and without births up to `tick`.
     bool restsThrough(const StepContext& context, base::Ticks tick) const;
     void seekHere(const StepContext& context, base::Ticks tick);
@@ -262,8 +262,8 @@ private:
     void hearHost(const StepContext& context, EventList& out);
     EventScan scanOf(const StepContext& context) const;
     bool neverDrops(double intensity) const;
-    LookJob lookJob() const;
-    void fill(LookJob& job) const
+    AppearanceJob appearanceJob() const;
+    void fill(AppearanceJob& job) const
     {
         job.program = &program_;
         job.store = &store_;
@@ -299,12 +299,12 @@ private:
     const EmitterDef& def_;
     const ParticleProgram& program_;
     base::Ticks now_ = 0;         ///< end of the last step
-    base::Ticks motionBegin_ = 0; ///< see LookJob
+    base::Ticks motionBegin_ = 0; ///< see AppearanceJob
     Conditions conditions_;       ///< of the last step
     uint32_t highWater_ = 0;
     bool varied_ = false; ///< they were others before
     bool started_ = false;
-    bool bornWithMany_;      ///< see EmitterCrowd
+    bool bornWithMany_;      ///< see SpawnBatch
     bool publishesWithMany_; ///< likewise
     bool poolable_;
     uint32_t member_ = 0;         ///< of the pool

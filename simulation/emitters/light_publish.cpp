@@ -19,7 +19,7 @@ bool EmitterSolver::publishTrails(const base::GroupInfo& base, base::FrameSnapsh
         base::SnapshotGroup& group = snapshot.addGroup(kinds_.ribbon, trails_->mostPoints());
         group.editInfo() = base;
         group.editInfo().kind = kinds_.ribbon;
-        writeConstants(def_, def_.trail.look, def_.trail.arcPerTile, group.editConstants());
+        writeConstants(def_, def_.trail.appearance, def_.trail.arcPerTile, group.editConstants());
         group.editConstants()[base::particle_constant::Edge] = def_.trail.edge;
         group.editConstants()[base::particle_constant::TailAge] = def_.trail.lifetime;
     }
@@ -33,14 +33,14 @@ bool EmitterSolver::publishTrails(const base::GroupInfo& base, base::FrameSnapsh
 EmitterSolver::Light EmitterSolver::lightOf(uint32_t row, uint32_t i, const MotionTile& motion) const
 {
     const float life = motion.life[i];
-    const bool medium = def_.look.kind == Appearance::Medium;
-    const auto color = medium ? def_.emissionOverLife.at(life) : def_.look.colorOverLife.at(life);
+    const bool medium = def_.appearance.kind == AppearanceKind::Medium;
+    const auto color = medium ? def_.emissionOverLife.at(life) : def_.appearance.colorOverLife.at(life);
     const float radius = store_.value(stored::Radius, row) * def_.sizeOverLife.at(life)[0];
     const float amount = store_.value(stored::Amount, row) * def_.opacityOverLife.at(life)[0];
     const float area = kPi * radius * radius;
     float strength = medium ? std::min(area, amount) : amount * store_.value(stored::Brightness, row);
     if (!medium)
-        strength *= def_.light.intensity > 0.0f ? def_.light.intensity : def_.look.luminance * area;
+        strength *= def_.light.intensity > 0.0f ? def_.light.intensity : def_.appearance.luminance * area;
     Light light;
     light.row = row;
     for (int a = 0; a < 3; ++a) {
@@ -54,7 +54,7 @@ EmitterSolver::Light EmitterSolver::lightOf(uint32_t row, uint32_t i, const Moti
 /// Fills lights_ with all particles that shine, by row. @return whether all are found
 bool EmitterSolver::findLights(PublicationPlace& place, base::WorkBudget& work) const
 {
-    const LookJob job = lookJob();
+    const AppearanceJob job = appearanceJob();
     MotionTile motion;
     for (; place.row < job.rows.count; place.row += kTileRows) {
         if (work.isSpent())

@@ -159,7 +159,7 @@ bool EmitterSolver::publishMedium(const base::GroupInfo& base, base::FrameSnapsh
 void EmitterSolver::writeMedium(uint32_t solver, uint32_t begin, uint32_t end, BlobWriter& writer) const
 {
     writer.fill(blob::FireShare, def_.fireShare, begin, end);
-    const LookJob job = lookJob();
+    const AppearanceJob job = appearanceJob();
     const MediumTile tile(def_, store_, writer);
     MotionTile motion;
     uint32_t first = 1; // row that the tile in hand begins with; rows begin at multiples, so none is in hand

@@ -58,9 +58,9 @@ void createFragment(const FragmentsDef& def, const EmitterSettings& directions, 
                     base::Ticks start, FragmentStore& store, uint32_t i)
 {
     const BirthPlace drawn = drawPlace(def, directions, s, i);
-    const auto looks = base::randomUnit4(s.seed, s.solverIndex, i, RandomPurpose::Attributes);
+    const auto draws = base::randomUnit4(s.seed, s.solverIndex, i, RandomPurpose::Attributes);
     const auto life = base::randomUnit4(s.seed, s.solverIndex, i, RandomPurpose::Life);
-    const float speed = def.speed.at(looks[1]);
+    const float speed = def.speed.at(draws[1]);
     store.number[i] = i;
     store.trailed[i] = 0;
     store.dies[i] = start + std::max(boundedTicks(def.lifetime.at(life[0])), base::Ticks(1));
@@ -70,8 +70,8 @@ void createFragment(const FragmentsDef& def, const EmitterSettings& directions, 
     store.at(column::VelocityX)[i] = speed * drawn.direction.x;
     store.at(column::VelocityY)[i] = speed * drawn.direction.y;
     store.at(column::VelocityZ)[i] = speed * drawn.direction.z;
-    store.at(column::Size)[i] = fragmentSize(def, looks[0]);
-    store.at(column::Temperature)[i] = def.temperature.at(looks[2]);
+    store.at(column::Size)[i] = fragmentSize(def, draws[0]);
+    store.at(column::Temperature)[i] = def.temperature.at(draws[2]);
     store.at(column::Hottest)[i] = store.at(column::Temperature)[i];
     store.at(column::Due)[i] = def.trail.spacing * life[1];
 }

@@ -110,7 +110,7 @@ void moveSmoke(const TrailStep& s, TrailStore& trail, uint32_t begin, uint32_t e
         moveBlob(s, trail, i, s.step.tick);
 }
 
-SmokeLook smokeLook(const TrailDef& def, float radius, float age, float lifetime)
+SmokeAppearance smokeAppearance(const TrailDef& def, float radius, float age, float lifetime)
 {
     const float part = std::clamp(age / lifetime, 0.0f, 1.0f);
     const float left = 1.0f - part * part;

@@ -84,12 +84,12 @@ void leaveSmoke(const TrailStep& step, const FragmentStore& fragments, uint32_t 
 void moveSmoke(const TrailStep& step, TrailStore& trail, uint32_t begin, uint32_t end);
 
 /// How a blob of radius `radius` at birth looks at an age.
-struct SmokeLook
+struct SmokeAppearance
 {
     float radius;      ///< [m] (3)
     float temperature; ///< [K] (4)
     float share;       ///< [1] (5)
 };
-SmokeLook smokeLook(const TrailDef& def, float radius, float age, float lifetime);
+SmokeAppearance smokeAppearance(const TrailDef& def, float radius, float age, float lifetime);
 
 } // namespace fx::sim

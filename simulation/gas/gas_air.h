@@ -21,12 +21,12 @@ class GasAir
 public:
     GasAir(const GasDef& def, const StepContext& step, const ThermalFlow& thermal);
 
-    /// Turbulence at the full strength of flames, of several places at once: a vector of them takes little
+    /// Turbulence at the full strength of flames, at several positions at once: a vector of them takes little
     /// more time than one.
     class Turbulence
     {
     public:
-        static constexpr uint32_t kMost = 64; ///< places
+        static constexpr uint32_t kMost = 64; ///< positions
 
         /// At the places [first, first + count) of the gas.
         void evaluate(const GasAir& air, const GasView<float>& gas, uint32_t first, uint32_t count);

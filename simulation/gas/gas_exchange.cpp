@@ -33,15 +33,15 @@ FireParcel burn(const GasExchange& exchange, const FireParcel& parcel, double ma
 }
 
 /// (1)
-double entrainmentOf(const GasExchange& exchange, const FireParcel& parcel, float vigor, float openness,
-                     float speed, double density, double seconds)
+double entrainmentOf(const GasExchange& exchange, const FireParcel& parcel, float vigor,
+                     float surfaceExposure, float speed, double density, double seconds)
 {
     const GasThermodynamics& thermo = exchange.thermodynamics;
     const double tau = thermo.densityRatio(parcel);
     const double room = std::min(tau * thermo.airDensity() / density, 1.0);
     const double alight = 1.0 - parcel.burnt;
     const double stirring = 1.0 + (double(exchange.def.entrainment) - 1.0) * alight;
-    const double pace = stirring * double(vigor * (0.7f + 0.6f * openness)) * room * room;
+    const double pace = stirring * double(vigor * (0.7f + 0.6f * surfaceExposure)) * room * room;
     const double rate = pace * entrainmentRate(double(speed), double(exchange.air.thermal().radius), tau);
     return std::min(rate, kMostTakenIn / seconds);
 }
@@ -59,13 +59,13 @@ void exchangeOne(const GasExchange& exchange, const GasView<float>& gas, GasParc
     const uint32_t id = gas.id[i];
     FireParcel& parcel = parcels.fire[id];
     const float exposure = gas.exposure[i];
-    const float openness = std::min(exposure / kOuterLayer, 1.0f); // (0)
+    const float surfaceExposure = std::min(exposure / kOuterLayer, 1.0f); // (0)
     const glm::vec3 position(gas.x[i], gas.y[i], gas.z[i]);
     glm::vec3 velocity(gas.vx[i], gas.vy[i], gas.vz[i]);
     const glm::vec3 air = exchange.air.velocity(position, float(parcel.temperature), turbulence);
     const float speed = glm::length(velocity - air);
 
-    const double entrainment = entrainmentOf(exchange, parcel, parcels.vigor[id], openness, speed,
+    const double entrainment = entrainmentOf(exchange, parcel, parcels.vigor[id], surfaceExposure, speed,
                                              double(gas.density[i]), double(seconds));
     const double before = parcel.mixing;
     parcel = burn(exchange, parcel, double(gas.mass[i]), entrainment, double(exposure), double(seconds));

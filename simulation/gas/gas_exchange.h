@@ -10,7 +10,7 @@
 ///   M       1      mass of the parcel with its air over its own
 ///   tau     1      its density at the air's pressure over that of the air (potential-temperature)
 ///   e       1      exposure: 0 deep inside the gas, 1 on its surface (gas-density)
-///   o       1      openness: 0 deep inside the gas, 1 for the outermost particles
+///   o       1      free-surface exposure: 0 deep inside the gas, 1 for the outermost particles
 ///   a       m      radius of the cloud (hill-vortex)
 ///   q       1/s    entrainment
 ///   k       1/s    drag rate; kd, kb drag [1/s], braking [1]

@@ -33,7 +33,7 @@ void GasSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& snapsh
     writeConstants(def_, writer);
     if (elementCount() > 0) {
         writeMotion(writer);
-        writeLooks(writer);
+        writeAppearance(writer);
     }
     for (size_t k = 0; k < 3; ++k)
         writer.fill(blob::EmissionR + k, 0.0f);
@@ -58,7 +58,7 @@ void GasSolver::writeMotion(BlobWriter& writer) const
     }
 }
 
-void GasSolver::writeLooks(BlobWriter& writer) const
+void GasSolver::writeAppearance(BlobWriter& writer) const
 {
     const GlowRange glow{(1.0f - kFireWidth) * def_.sootTemperature,
                          (1.0f + kFireWidth) * def_.sootTemperature};

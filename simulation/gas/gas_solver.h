@@ -83,7 +83,7 @@ private:
     void settle(const StepContext& context, float seconds, std::span<const glm::vec3> before);
     void retireWhenDissolved();
     void writeMotion(class BlobWriter& writer) const;
-    void writeLooks(class BlobWriter& writer) const;
+    void writeAppearance(class BlobWriter& writer) const;
 
     const GasDef& def_;
     Quality quality_;

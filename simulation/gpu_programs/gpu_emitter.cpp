@@ -29,8 +29,8 @@ void put(std::byte*& io, std::span<const T> values)
 
 GpuEmitter::GpuEmitter(const ParticleProgram& program, std::pmr::memory_resource* memory)
     : program_(program), rows_(program.gpu->rows), window_(longestKept(program)),
-      steps_(program.gpu->features.steps), kills_(program.gpu->kills), heedsHost_(program.gpu->heedsHost),
-      log_(memory), stepLog_(memory), conditions_(memory)
+      steps_(program.gpu->features.steps), kills_(program.gpu->kills),
+      dependsOnHost_(program.gpu->dependsOnHost), log_(memory), stepLog_(memory), conditions_(memory)
 {
     conditions_.reserve(base::kMostGpuConditions);
     conditions_.push_back({0, glm::vec3(0.0f)});
@@ -131,7 +131,7 @@ bool GpuEmitter::isEmpty(const BirthKey& key, base::Ticks now) const
     return log_.empty() || lastDeath(key) < now;
 }
 
-LookJob GpuEmitter::rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const
+AppearanceJob GpuEmitter::rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const
 {
     ReplayInput in{
         key,         log_.front(),
@@ -155,11 +155,11 @@ float GpuEmitter::oldestAge(base::Ticks now) const
     return float(base::toSeconds(std::min(oldest, program_.longestLife)));
 }
 
-StepWeather GpuEmitter::weather(base::Ticks now) const
+ConditionsRange GpuEmitter::conditionsRange(base::Ticks now) const
 {
     const EmitterSettings& def = program_.def;
     const float drag = def.forces.drag > 0.0f ? std::min(def.forces.drag, 1e6f) : 0.0f;
-    StepWeather out;
+    ConditionsRange out;
     out.low = glm::vec3(kFarAway);
     out.high = -out.low;
     out.lowGround = kFarAway;
@@ -182,7 +182,7 @@ StepWeather GpuEmitter::weather(base::Ticks now) const
 base::Bounds GpuEmitter::bounds(base::Ticks now, float secondsBack) const
 {
     if (steps_) {
-        StepWeather met = weather(now);
+        ConditionsRange met = conditionsRange(now);
         met.secondsBack = secondsBack;
         return boundsOfStepped(program_.def, met);
     }
@@ -228,7 +228,7 @@ void GpuEmitter::publish(const base::GroupInfo& base, base::KindId kind, const B
     stepLog_.publish(now, steps);
     put(at, std::span<const base::GpuStepRun>(steps).first(moment.stepRuns));
     group.setProgram(program_.gpu);
-    writeConstants(program_.def, program_.def.look, 1.0f, group.editConstants());
+    writeConstants(program_.def, program_.def.appearance, 1.0f, group.editConstants());
     base::GroupInfo& info = group.editInfo();
     info = base;
     info.kind = kind;

@@ -43,7 +43,7 @@ public:
     bool asksTooMuch(const StepContext& context) const
     {
         constexpr base::Ticks kLongest = std::numeric_limits<uint32_t>::max(); // about 6 s
-        return (heedsHost_ && (context.collider || context.contactHook)) ||
+        return (dependsOnHost_ && (context.collider || context.contactHook)) ||
                (steps_ && context.stepTicks > kLongest);
     }
     /// Whether particles may die before their time.
@@ -61,7 +61,7 @@ public:
     bool isEmpty(const BirthKey& key, base::Ticks now) const;
 
     /// The rows at `now`. @param store is filled; its `placed` is kept
-    LookJob rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const;
+    AppearanceJob rebuild(const BirthKey& key, base::Ticks now, ParticleStore& store) const;
     /// Adds a group of the kind "gpuParticle".
     void publish(const base::GroupInfo& base, base::KindId kind, const BirthKey& key, base::Ticks now,
                  base::FrameSnapshot& snapshot) const;
@@ -69,7 +69,7 @@ public:
 private:
     float oldestAge(base::Ticks now) const; ///< [s] upper bound of the age of living particles
     base::Bounds bounds(base::Ticks now, float secondsBack) const;
-    StepWeather weather(base::Ticks now) const;
+    ConditionsRange conditionsRange(base::Ticks now) const;
     base::Ticks lastDeath(const BirthKey& key) const;
 
     const ParticleProgram& program_;
@@ -77,8 +77,8 @@ private:
     base::Ticks window_; ///< [tick] longer than any life
     bool steps_;         ///< motion has no closed form
     bool kills_;
-    bool heedsHost_;
-    bool meetsGround_ = false; ///< see StepWeather
+    bool dependsOnHost_;
+    bool meetsGround_ = false; ///< see ConditionsRange
     bool meetsOthers_ = false;
     BirthLog log_;
     StepLog stepLog_;

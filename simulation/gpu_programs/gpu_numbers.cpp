@@ -78,7 +78,7 @@ void setCurves(float (&out)[5][base::kGpuCurveSamples], const RampCurves& curves
 {
     constexpr size_t kPieces = base::kGpuCurvePieces;
     static_assert(kMostRamps < kPieces && 3 * kPieces < base::kGpuCurveSamples);
-    for (uint32_t c = 0; c < look_channel::Count; ++c) {
+    for (uint32_t c = 0; c < appearance_channel::Count; ++c) {
         if (curves.isConstant(c)) {
             std::ranges::fill(out[c], curves.byTable ? curves.start[c] : 0.0f);
             std::fill_n(out[c], kPieces, curves.start[c]);
@@ -104,7 +104,7 @@ base::GpuShape gpuShapeOf(const EmitterSettings& def)
 
 base::GpuParticleNumbers gpuNumbersOf(const EmitterSettings& def, const ParticleProgram& program)
 {
-    const EmitterLook& look = def.look;
+    const EmitterAppearance& appearance = def.appearance;
     base::GpuParticleNumbers n{};
     setShape(def.births ? *shapeOf(*def.births) : plainShapeOf(def), n);
     // Speeds are not drawn like the others: a range that falls is a range too.
@@ -114,17 +114,17 @@ base::GpuParticleNumbers gpuNumbersOf(const EmitterSettings& def, const Particle
     setRange(n.lifetime, def.lifetime);
     n.perLife = program.constant[stored::PerLife];
     setRange(n.radius, def.radius);
-    setRange(n.opacity, look.opacity);
-    setRange(n.brightness, look.brightness);
-    setRange(n.angle, look.angle);
-    setRange(n.spin, look.spin);
-    setRange(n.frame, look.firstFrame);
+    setRange(n.opacity, appearance.opacity);
+    setRange(n.brightness, appearance.brightness);
+    setRange(n.angle, appearance.angle);
+    setRange(n.spin, appearance.spin);
+    setRange(n.frame, appearance.firstFrame);
     n.drag = def.forces.drag > 0.0f ? std::min(def.forces.drag, 1e6f) : 0.0f;
     n.perDrag = n.drag > 0.0f ? 1.0f / n.drag : 0.0f;
-    n.frames = float(look.tileColumns * look.tileRows);
-    n.framesPerSecond = look.framesPerSecond;
-    n.perFastest = look.fastest > 0.0f ? 1.0f / look.fastest : 0.0f;
-    setCurves(n.lifeCurves, program.looks);
+    n.frames = float(appearance.tileColumns * appearance.tileRows);
+    n.framesPerSecond = appearance.framesPerSecond;
+    n.perFastest = appearance.fastest > 0.0f ? 1.0f / appearance.fastest : 0.0f;
+    setCurves(n.lifeCurves, program.byLife);
     if (program.bySpeed)
         setCurves(n.speedCurves, *program.bySpeed);
     return n;

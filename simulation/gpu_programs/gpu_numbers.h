@@ -1,5 +1,5 @@
 /// @file gpu_numbers.h
-/// What the GPU has to know of an emitter's births and looks.
+/// What the GPU has to know of an emitter's births and appearance.
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"

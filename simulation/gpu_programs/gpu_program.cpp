@@ -78,9 +78,9 @@ std::string_view obstacleOfSteps(const EmitterSettings& def)
                    "large";
     if (scratchPlaces(ops).back() > kScratchBytes || modules.uses.size() > kMostModules)
         return "it has too many modules";
-    StepWeather weather;
-    weather.strongest = {kSome, kSome, kSome};
-    const base::Bounds bounds = boundsOfStepped(def, weather);
+    ConditionsRange conditions;
+    conditions.strongest = {kSome, kSome, kSome};
+    const base::Bounds bounds = boundsOfStepped(def, conditions);
     return std::isfinite(bounds.max.x) ? "" : "nothing says how far its particles may get";
 }
 
@@ -104,15 +104,15 @@ public:
         numbers = gpuNumbersOf(def_, program_);
         features.shape = gpuShapeOf(def_);
         features.turned = numbers.axis[1] != 1.0f;
-        features.frames = def_.look.frames == FrameClock::OverLife    ? base::GpuFrames::OverLife
-                          : def_.look.frames == FrameClock::PerSecond ? base::GpuFrames::PerSecond
-                                                                      : base::GpuFrames::First;
+        features.frames = def_.appearance.frames == FrameClock::OverLife    ? base::GpuFrames::OverLife
+                          : def_.appearance.frames == FrameClock::PerSecond ? base::GpuFrames::PerSecond
+                                                                            : base::GpuFrames::First;
         features.brief = program_.brief;
         features.lifeVaries = program_.stores[stored::PerLife];
         features.drags = numbers.drag > 0.0f;
         features.bySpeed = program_.bySpeed != nullptr;
         features.wide = def_.births != nullptr;
-        features.lifeTable = program_.looks.byTable;
+        features.lifeTable = program_.byLife.byTable;
         features.speedTable = features.bySpeed && program_.bySpeed->byTable;
         features.columns = program_.published;
         if (!program_.ballistic)
@@ -154,7 +154,7 @@ private:
         moduleNumbers = std::move(modules.numbers);
         features.stepWords = base::kGpuStepHead + modules.stepWords;
         kills = modules.kills;
-        heedsHost = modules.heedsHost;
+        dependsOnHost = modules.dependsOnHost;
         places_ = scratchPlaces(program_.ops);
     }
 
@@ -205,9 +205,9 @@ std::string_view gpuObstacle(const EmitterSettings& def)
         return "its preset does not ask for the GPU";
     if (def.compute == ComputeOn::Auto && def.maxParticles < kManyParticles)
         return "it has too few particles to be worth it";
-    if (def.look.kind == Appearance::Medium)
+    if (def.appearance.kind == AppearanceKind::Medium)
         return "media are lit on the CPU";
-    if (def.look.kind == Appearance::None)
+    if (def.appearance.kind == AppearanceKind::None)
         return "it is not drawn";
     if (def.fed || !def.events.empty())
         return "it takes part in events";

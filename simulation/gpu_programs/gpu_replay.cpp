@@ -62,7 +62,7 @@ void ticksOf(const Published& group, uint64_t first, std::span<base::Ticks> out)
 
 } // namespace
 
-void restartMotion(const LookJob& job, ParticleStore& store)
+void restartMotion(const AppearanceJob& job, ParticleStore& store)
 {
     MotionTile motion;
     for (uint32_t row = 0; row < job.rows.count; row += kTileRows) {
@@ -76,11 +76,11 @@ void restartMotion(const LookJob& job, ParticleStore& store)
     store.placed = true;
 }
 
-LookJob replayBirths(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store)
+AppearanceJob replayBirths(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store)
 {
     store.clear(in.first);
     store.placed = in.placed;
-    LookJob job{&program, &store, {}, in.now, in.conditions[0].begin, in.conditions[0].pull};
+    AppearanceJob job{&program, &store, {}, in.now, in.conditions[0].begin, in.conditions[0].pull};
     std::array<base::Ticks, kBatch> ticks;
     std::array<Birth, kBatch> births;
     size_t condition = 0;
@@ -128,7 +128,7 @@ void replayGroup(const ParticleProgram& program, const base::SnapshotGroup& grou
         moment.now,
         program.stores[stored::X],
         steps};
-    const LookJob job =
+    const AppearanceJob job =
         program.ballistic ? replayBirths(program, input, store) : replaySteps(program, input, store);
     PublicationPlace whole;
     base::WorkBudget unlimited;

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "simulation/gpu_programs/step_log.h"
+#include "simulation/particles/appearance_kernel.h"
 #include "simulation/particles/birth_kernel.h"
-#include "simulation/particles/look_kernel.h"
 
 #include <glm/vec3.hpp>
 
@@ -19,7 +19,7 @@ namespace fx::sim {
 struct MotionCondition
 {
     base::Ticks begin; ///< local time
-    glm::vec3 pull;    ///< [m/s2] see LookJob
+    glm::vec3 pull;    ///< [m/s2] see AppearanceJob
 };
 
 /// One step of particles whose motion has no closed form.
@@ -54,12 +54,12 @@ struct ReplayInput
 };
 
 /// Fills `store` with what lives of the births. @return what there is to be looked at
-LookJob replayBirths(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
+AppearanceJob replayBirths(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
 /// The same step by step.
-LookJob replaySteps(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
+AppearanceJob replaySteps(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
 
 /// From now on, motion begins where it has come to.
-void restartMotion(const LookJob& job, ParticleStore& store);
+void restartMotion(const AppearanceJob& job, ParticleStore& store);
 
 /// As base::GpuParticleProgram::replay.
 void replayGroup(const ParticleProgram& program, const base::SnapshotGroup& group, base::FrameSnapshot& out);

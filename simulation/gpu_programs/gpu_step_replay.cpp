@@ -55,7 +55,7 @@ StepContext contextOf(const ReplayStep& step, const BirthKey& key)
     return context;
 }
 
-LookJob replaySteps(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store)
+AppearanceJob replaySteps(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store)
 {
     store.clear(in.first);
     store.placed = in.placed;
@@ -82,7 +82,7 @@ LookJob replaySteps(const ParticleProgram& program, const ReplayInput& in, Parti
     }
     bearUntil(std::numeric_limits<base::Ticks>::max());
     store.retire(in.now);
-    LookJob job{&program, &store, {}, in.now, in.conditions[0].begin, in.conditions[0].pull};
+    AppearanceJob job{&program, &store, {}, in.now, in.conditions[0].begin, in.conditions[0].pull};
     job.rows = store.window();
     return job;
 }

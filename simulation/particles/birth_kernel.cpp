@@ -35,7 +35,7 @@ public:
         if (free_.none())
             return 0;
         storeMotion();
-        storeLooks();
+        storeAppearance();
         return uint32_t(free_.count());
     }
     bool isFree(uint32_t i) const { return free_[i]; }
@@ -47,7 +47,7 @@ private:
     void findRows();
     void samplePlaces();
     void storeMotion();
-    void storeLooks();
+    void storeAppearance();
     void storeMedium();
     void storeRange(size_t column, const base::Range& range, uint32_t number);
     void put(size_t column, const float* values);
@@ -178,9 +178,9 @@ void BirthBatch<Rows>::storeMedium()
 }
 
 template <class Rows>
-void BirthBatch<Rows>::storeLooks()
+void BirthBatch<Rows>::storeAppearance()
 {
-    const bool medium = def_.look.kind == Appearance::Medium;
+    const bool medium = def_.appearance.kind == AppearanceKind::Medium;
     if (stores(stored::Radius) || stores(stored::Amount) || stores(stored::Excess) ||
         stores(stored::Brightness))
         draw(RandomPurpose::Attributes);
@@ -188,10 +188,10 @@ void BirthBatch<Rows>::storeLooks()
     if (medium)
         storeMedium();
     else
-        storeRange(stored::Amount, def_.look.opacity, 1);
+        storeRange(stored::Amount, def_.appearance.opacity, 1);
     storeRange(stored::Excess,
                {def_.temperature.min - kAirTemperature, def_.temperature.max - kAirTemperature}, 2);
-    storeRange(stored::Brightness, def_.look.brightness, 3);
+    storeRange(stored::Brightness, def_.appearance.brightness, 3);
     if (stores(stored::AxisX)) {
         draw(RandomPurpose::Axis);
         std::copy_n(&tile_.u[0][0], 4 * kTileRows, &tile_.heading[0][0]);
@@ -202,9 +202,9 @@ void BirthBatch<Rows>::storeLooks()
     if (!stores(stored::Angle) && !stores(stored::Spin) && !stores(stored::Frame))
         return;
     draw(RandomPurpose::Spin);
-    storeRange(stored::Angle, def_.look.angle, 0);
-    storeRange(stored::Spin, def_.look.spin, 1);
-    storeRange(stored::Frame, def_.look.firstFrame, 2);
+    storeRange(stored::Angle, def_.appearance.angle, 0);
+    storeRange(stored::Spin, def_.appearance.spin, 1);
+    storeRange(stored::Frame, def_.appearance.firstFrame, 2);
 }
 
 } // namespace

@@ -125,7 +125,7 @@ public:
     bool describe(base::GpuModules& out) const override
     {
         out.add(base::GpuModule::Bounce, {restitution_, friction_});
-        out.heedsHost = true;
+        out.dependsOnHost = true;
         return true;
     }
     void run(const TileContext& context, const void*, Tile& tile) const override

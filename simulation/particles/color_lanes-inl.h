@@ -16,7 +16,7 @@
 /// @deviation none
 /// @valid     other values are clamped to the interval; NaN becomes 0
 /// @accuracy  correctly rounded; equal bits with and without the instruction
-/// @tests     tests/simulation/particles/core/test_look_kernel.cpp
+/// @tests     tests/simulation/particles/core/test_appearance_kernel.cpp
 #if defined(FX_PARTICLE_COLOR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PARTICLE_COLOR_LANES_INL
 #undef FX_PARTICLE_COLOR_LANES_INL

@@ -6,7 +6,7 @@
 #include "foundation/math/curve.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "simulation/motion/ambient_air.h"
-#include "simulation/particles/emitter_look.h"
+#include "simulation/particles/emitter_appearance.h"
 #include "simulation/particles/event_rule.h"
 #include "simulation/particles/ribbon_def.h"
 #include "simulation/particles/tile.h"
@@ -119,10 +119,10 @@ struct EmitterSettings
 
     RibbonDef trail;
     LightDef light;
-    EmitterLook look;          ///< how particles are drawn; the members below are those of a medium
-    float fireShare = 0.0f;    ///< [0, 1] part of the medium accounted to the fire layer
-    float heat = 0.0f;         ///< [1] how strongly the excess temperature bends light (shimmer), 0 none
-    float detailAmount = 0.0f; ///< see blob_constant
+    EmitterAppearance appearance; ///< how particles are drawn; the members below are those of a medium
+    float fireShare = 0.0f;       ///< [0, 1] part of the medium accounted to the fire layer
+    float heat = 0.0f;            ///< [1] how strongly the excess temperature bends light (shimmer), 0 none
+    float detailAmount = 0.0f;    ///< see blob_constant
     float detailScale = 1.5f;
     float anisotropy = 0.0f;
     float shutter = 0.0f; ///< [s]

@@ -15,17 +15,17 @@
 /// @derivation
 ///   A contact happens at the tick b + floor(c n), at most b + n - 1, so that it belongs to the step that saw
 ///   it                                                                                      (1)
-///   Contacts begin, they do not last: one is an event where -v.n >= u. Who bounces meets a plane at
-///   w, e w, e^2 w ... for a first speed w, and does so floor(ln(u / w) / ln e) + 1 times, however time is
-///   cut. Who rests or slides falls by the lift at most, -v.n = sqrt(2 l |a.n|), in every step: a contact of
+///   Contacts begin, they do not last: one is an event where -v.n >= u. A bouncing particle meets a plane at
+///   w, e w, e^2 w ... for a first speed w, floor(ln(u / w) / ln e) + 1 times, however time is cut. A
+///   resting or sliding one falls by the lift at most, -v.n = sqrt(2 l |a.n|), in every step: a contact of
 ///   one that was within 2 l of the surface when the step began and has gained more than half of its -v.n
 ///   since is none, nor are slower ones of that step                                                  (2)
 ///   Events are answered in the order of (tick, cause, emitter, index of the particle, kind, number), which
 ///   no partition of the work and of time changes: what an earlier event of the same tick caused comes
 ///   before what the clock or the host did                                                   (3)
 /// @source    elementary
-/// @deviation who slides along a curved surface of radius R at a speed w meets it at about w^2 t / R in each
-///            step t; one that is pressed against it at less than u raises no events
+/// @deviation a particle that slides along a curved surface of radius R at a speed w meets it at about
+///            w^2 t / R in each step t; one that is pressed against it at less than u raises no events
 /// @valid     0 <= c <= 1, n >= 1; (2) where a step t has few bounces at u: 12 e u / |a| > t
 /// @accuracy  one tick, 1.4 ns
 /// @tests     tests/simulation/particles/modules/test_event_list.cpp,

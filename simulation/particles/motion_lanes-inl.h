@@ -8,7 +8,7 @@
 #endif
 
 #include "simulation/motion/lanes-inl.h"
-#include "simulation/particles/look_kernel.h"
+#include "simulation/particles/appearance_kernel.h"
 
 #include <hwy/cache_control.h>
 
@@ -46,7 +46,7 @@ template <bool kBallistic, bool kBrief>
 class MotionReader
 {
 public:
-    explicit MotionReader(const LookJob& job)
+    explicit MotionReader(const AppearanceJob& job)
         : perLife_(*job.store, stored::PerLife), x_{{*job.store, stored::X},
                                                     {*job.store, stored::Y},
                                                     {*job.store, stored::Z}},
@@ -55,7 +55,7 @@ public:
         turnTo(job);
     }
     /// Goes on with another job of the same program.
-    HWY_INLINE void turnTo(const LookJob& job)
+    HWY_INLINE void turnTo(const AppearanceJob& job)
     {
         const ParticleStore& store = *job.store;
         bornShort_ = store.bornShort.data();
@@ -118,7 +118,7 @@ public:
     }
 
 private:
-    static float dragOf(const LookJob& job)
+    static float dragOf(const AppearanceJob& job)
     {
         const float drag = job.program->def.forces.drag;
         return drag > 0.0f ? std::min(drag, 1e6f) : 0.0f;

@@ -24,35 +24,37 @@ float longestLife(const EmitterSettings& def)
     return longest > 0.0f ? std::min(longest, kLongestLife) : 0.0f;
 }
 
-RampCurves lookCurves(const EmitterSettings& def)
+RampCurves lifeCurves(const EmitterSettings& def)
 {
-    const auto& color = def.look.colorOverLife;
+    const auto& color = def.appearance.colorOverLife;
     return RampCurves(std::array{samplesOf(color, 0), samplesOf(color, 1), samplesOf(color, 2),
                                  samplesOf(def.opacityOverLife, 0), samplesOf(def.sizeOverLife, 0)});
 }
 
-std::unique_ptr<RampCurves> speedCurves(const EmitterLook& look)
+std::unique_ptr<RampCurves> speedCurves(const EmitterAppearance& appearance)
 {
-    if (!(look.fastest > 0.0f))
+    if (!(appearance.fastest > 0.0f))
         return nullptr;
-    const auto& color = look.colorOverSpeed;
-    return std::make_unique<RampCurves>(std::array{samplesOf(color, 0), samplesOf(color, 1),
-                                                   samplesOf(color, 2), samplesOf(look.opacityOverSpeed, 0),
-                                                   samplesOf(look.sizeOverSpeed, 0)});
+    const auto& color = appearance.colorOverSpeed;
+    return std::make_unique<RampCurves>(
+        std::array{samplesOf(color, 0), samplesOf(color, 1), samplesOf(color, 2),
+                   samplesOf(appearance.opacityOverSpeed, 0), samplesOf(appearance.sizeOverSpeed, 0)});
 }
 
-base::ColumnSet publishedColumns(const EmitterLook& look)
+base::ColumnSet publishedColumns(const EmitterAppearance& appearance)
 {
     namespace column = base::particle_column;
     base::ColumnSet set = column::kAlways;
-    const bool turns = look.angle.min != 0 || varies(look.angle) || look.spin.min != 0 || varies(look.spin);
-    if (look.kind == Appearance::Mesh)
+    const bool turns = appearance.angle.min != 0 || varies(appearance.angle) || appearance.spin.min != 0 ||
+                       varies(appearance.spin);
+    if (appearance.kind == AppearanceKind::Mesh)
         set |= column::kOrientation;
     else if (turns)
         set |= column::kAngle;
-    if (look.alignment == base::SpriteAlignment::Velocity || look.stretch > 0.0f)
+    if (appearance.alignment == base::SpriteAlignment::Velocity || appearance.stretch > 0.0f)
         set |= column::kVelocity;
-    if (look.frames != FrameClock::None || look.firstFrame.min != 0 || varies(look.firstFrame))
+    if (appearance.frames != FrameClock::None || appearance.firstFrame.min != 0 ||
+        varies(appearance.firstFrame))
         set |= column::kFrame;
     return set;
 }
@@ -67,22 +69,23 @@ uint64_t nextNumber()
 /// Whether the pass that only has to do what most emitters need does all that this one needs.
 bool isPlain(const ParticleProgram& program)
 {
-    const EmitterLook& look = program.def.look;
+    const EmitterAppearance& appearance = program.def.appearance;
     bool plain = program.published == base::particle_column::kAlways && !program.bySpeed &&
-                 !program.looks.byTable && look.brightness.min == 1.0f && !varies(look.brightness) &&
-                 !program.def.tinted;
-    for (uint32_t c = look_channel::Red; c <= look_channel::Blue; ++c) // more than rounding within the bounds
-        plain = plain && program.looks.lowest(c) > 1e-3f * program.looks.highest(c) &&
-                program.looks.highest(c) < 6e4f;
+                 !program.byLife.byTable && appearance.brightness.min == 1.0f &&
+                 !varies(appearance.brightness) && !program.def.tinted;
+    for (uint32_t c = appearance_channel::Red; c <= appearance_channel::Blue;
+         ++c) // more than rounding within the bounds
+        plain = plain && program.byLife.lowest(c) > 1e-3f * program.byLife.highest(c) &&
+                program.byLife.highest(c) < 6e4f;
     return plain;
 }
 
 /// [s] by so much times its speed a sprite is longer to each side.
-float stretchOf(const EmitterLook& look)
+float stretchOf(const EmitterAppearance& appearance)
 {
     const bool isLonger =
-        look.alignment == base::SpriteAlignment::Velocity && look.kind == Appearance::Sprite;
-    return isLonger ? 0.5f * kRoundedUp * look.stretch : 0.0f;
+        appearance.alignment == base::SpriteAlignment::Velocity && appearance.kind == AppearanceKind::Sprite;
+    return isLonger ? 0.5f * kRoundedUp * appearance.stretch : 0.0f;
 }
 
 /// Decides attribute by attribute whether it is the same for all.
@@ -93,14 +96,14 @@ void chooseColumns(ParticleProgram& program)
         program.stores[column] = varies(range);
         program.constant[column] = range.min;
     };
-    const bool medium = def.look.kind == Appearance::Medium;
+    const bool medium = def.appearance.kind == AppearanceKind::Medium;
     const bool fixed =
         def.shape == EmitterShape::Point && !def.births && !def.fed && !def.inWorld && program.ballistic;
     for (size_t a = 0; a < 3; ++a) {
         program.stores[stored::X + a] = !fixed;
         program.constant[stored::X + a] = def.position[int(a)];
         program.stores[stored::VelocityX + a] = true;
-        program.stores[stored::AxisX + a] = def.look.kind == Appearance::Mesh;
+        program.stores[stored::AxisX + a] = def.appearance.kind == AppearanceKind::Mesh;
         program.stores[stored::TintRed + a] = def.tinted;
         program.constant[stored::TintRed + a] = 1.0f;
     }
@@ -108,12 +111,12 @@ void chooseColumns(ParticleProgram& program)
     program.constant[stored::PerLife] = perLifeOf(def.lifetime.min);
     program.stores[stored::PerLife] = program.stores[stored::PerLife] || program.mortal;
     choose(stored::Radius, def.radius);
-    choose(stored::Amount, medium ? base::Range{0, 1} : def.look.opacity);
+    choose(stored::Amount, medium ? base::Range{0, 1} : def.appearance.opacity);
     choose(stored::Excess, medium || def.forces.buoyancy != 0.0f ? base::Range{0, 1} : base::Range{});
-    choose(stored::Angle, def.look.angle);
-    choose(stored::Spin, def.look.spin);
-    choose(stored::Frame, def.look.firstFrame);
-    choose(stored::Brightness, def.look.brightness);
+    choose(stored::Angle, def.appearance.angle);
+    choose(stored::Spin, def.appearance.spin);
+    choose(stored::Frame, def.appearance.firstFrame);
+    choose(stored::Brightness, def.appearance.brightness);
 }
 
 } // namespace
@@ -133,11 +136,12 @@ double stepWork(const ParticleProgram& program)
     return work + (def.forces.curlStrength > 0.0f ? kOctave * double(def.forces.curlOctaves) : 0.0);
 }
 
-double shownWork(Appearance kind)
+double shownWork(AppearanceKind kind)
 {
-    if (kind == Appearance::None)
+    if (kind == AppearanceKind::None)
         return 0.0;
-    return kind == Appearance::Medium ? emitter_work::kListed + emitter_work::kMedium : emitter_work::kDrawn;
+    return kind == AppearanceKind::Medium ? emitter_work::kListed + emitter_work::kMedium
+                                          : emitter_work::kDrawn;
 }
 
 size_t bytesMoved(const ParticleProgram& program)
@@ -153,19 +157,21 @@ size_t bytesMoved(const ParticleProgram& program)
     return bytes;
 }
 
-float cornerOf(const EmitterLook& look)
+float cornerOf(const EmitterAppearance& appearance)
 {
     constexpr float kRounding = 1.00002f; // of the arithmetic that draws
-    return kRounding *
-           (look.kind == Appearance::Mesh ? look.meshReach : std::sqrt(1.0f + look.aspect * look.aspect));
+    return kRounding * (appearance.kind == AppearanceKind::Mesh
+                            ? appearance.meshReach
+                            : std::sqrt(1.0f + appearance.aspect * appearance.aspect));
 }
 
 ParticleProgram::ParticleProgram(const EmitterSettings& definition)
     : def(definition), number(nextNumber()), ballistic(definition.isBallistic()),
       brief(sim::longestLife(definition) <= kBrief), mortal(!definition.modules.empty()),
       longestLife(base::toTicks(double(sim::longestLife(definition)))),
-      published(publishedColumns(definition.look)), looks(lookCurves(definition)),
-      bySpeed(speedCurves(definition.look)), corner(cornerOf(definition.look)), plain(isPlain(*this))
+      published(publishedColumns(definition.appearance)), byLife(lifeCurves(definition)),
+      bySpeed(speedCurves(definition.appearance)), corner(cornerOf(definition.appearance)),
+      plain(isPlain(*this))
 {
     if (!ballistic) {
         addBuiltinOps(definition, ops);
@@ -177,7 +183,7 @@ ParticleProgram::ParticleProgram(const EmitterSettings& definition)
         keepsFlags = keepsFlags || op->keepsFlags();
     chooseColumns(*this);
     const bool turns = (published & base::particle_column::kAngle) != 0;
-    (turns ? across : along) = stretchOf(def.look) / (turns ? corner : 1.0f);
+    (turns ? across : along) = stretchOf(def.appearance) / (turns ? corner : 1.0f);
 }
 
 } // namespace fx::sim

@@ -46,8 +46,8 @@ enum : size_t
 
 constexpr float kNoLife = 1e30f; ///< [1/s] PerLife of what dies at once
 
-/// Channels of ParticleProgram::looks.
-namespace look_channel {
+/// Channels of ParticleProgram::byLife.
+namespace appearance_channel {
 enum : uint32_t
 {
     Red,
@@ -78,14 +78,14 @@ struct ParticleProgram
     bool keepsFlags = false;
 
     base::ColumnSet published = 0;       ///< columns of the kind "particle"
-    RampCurves looks;                    ///< over life
+    RampCurves byLife;                   ///< over life
     std::unique_ptr<RampCurves> bySpeed; ///< over speed, null when not used
     // [s] by so much times their speed sprites are longer to each side, for bounds:
     float along = 0;  ///< those that lie along their velocity
     float across = 0; ///< those that are turned; over `corner`, which multiplies radii
     float
         corner; ///< [1] how far the farthest corner of what is drawn is from its center, over the half height
-    bool plain; ///< no optional columns, looks over life alone, colors need no bounds to be binary16
+    bool plain; ///< no optional columns, appearance over life alone, colors need no bounds to be binary16
 
     /// Null where only the CPU can compute it; SharedProgram makes it.
     std::shared_ptr<const base::GpuParticleProgram> gpu;
@@ -111,7 +111,7 @@ constexpr double kLight = 3.0;  ///< of each particle that sheds light, once a s
 /// [unit] of base::WorkBudget that one particle counts in a sub-step.
 double stepWork(const ParticleProgram& program);
 /// The same once a step, for showing it.
-double shownWork(Appearance kind);
+double shownWork(AppearanceKind kind);
 
 /// [byte] that a step and a publication read and write of each row, births left out.
 size_t bytesMoved(const ParticleProgram& program);
@@ -120,6 +120,6 @@ size_t bytesMoved(const ParticleProgram& program);
 float perLifeOf(float seconds);
 
 /// [1] How far the farthest corner of what is drawn is from its center, over the half height.
-float cornerOf(const EmitterLook& look);
+float cornerOf(const EmitterAppearance& appearance);
 
 } // namespace fx::sim

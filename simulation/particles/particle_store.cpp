@@ -83,7 +83,7 @@ ParticleStore::ParticleStore(const ParticleProgram& program, std::pmr::memory_re
     for (size_t c = 0; c < stored::Count; ++c)
         if (program.stores[c])
             columns.place(values[c], c == stored::PerLife ? kNoLife : 0.0f);
-    columns.place(index, kNobody);
+    columns.place(index, kNoParticle);
     columns.place(born, base::Ticks(0));
     if (program.keepsFlags)
         columns.place(flags, 0u);
@@ -104,7 +104,7 @@ float ParticleStore::ageOf(uint32_t row, base::Ticks now) const
 
 bool ParticleStore::isAlive(uint32_t row, base::Ticks now) const
 {
-    if (index[row] == kNobody || (brief_ && uint64_t(now - born[row]) > 0xFFFFFFFFu))
+    if (index[row] == kNoParticle || (brief_ && uint64_t(now - born[row]) > 0xFFFFFFFFu))
         return false;
     return ageOf(row, now) * value(stored::PerLife, row) < 1.0f;
 }
@@ -134,7 +134,7 @@ base::Ticks ParticleStore::allLiveUntil() const
 {
     base::Ticks until = std::numeric_limits<base::Ticks>::max();
     for (uint32_t row = 0; row < capacity_; ++row) {
-        if (index[row] == kNobody)
+        if (index[row] == kNoParticle)
             return 0;
         const double life = double(base::kTicksPerSecond) / double(value(stored::PerLife, row));
         until = std::min(until, born[row] + base::Ticks(0.999 * life)); // with more than rounding
@@ -154,7 +154,7 @@ uint32_t ParticleStore::countAlive(base::Ticks now) const
 
 void ParticleStore::clear(uint64_t next)
 {
-    std::fill_n(index.data(), capacity_, kNobody);
+    std::fill_n(index.data(), capacity_, kNoParticle);
     if (values[stored::PerLife].data())
         std::fill_n(values[stored::PerLife].data(), capacity_, kNoLife);
     front_ = next_ = next;
@@ -182,7 +182,7 @@ void ParticleStore::copyRow(const ParticleStore& from, uint32_t fromRow, uint32_
 
 void ParticleStore::endRow(uint32_t row, base::Ticks now)
 {
-    index[row] = kNobody;
+    index[row] = kNoParticle;
     born[row] = now - kLongAgo;
     if (brief_)
         bornShort[row] = uint32_t(now) - kBeyondBrief;
@@ -238,7 +238,7 @@ void ParticleStore::restoreRow(StateReader& reader, base::Ticks now)
     const uint64_t particle = reader.value<uint64_t>();
     reader.require(particle >= front_ && particle < next_, "a particle is not of this emitter");
     const uint32_t row = rowOf(particle);
-    reader.require(index[row] == kNobody, "two particles live in one place");
+    reader.require(index[row] == kNoParticle, "two particles live in one place");
     index[row] = particle;
     born[row] = reader.value<base::Ticks>(0, now, "a particle is not born yet");
     if (brief_)

@@ -20,7 +20,7 @@ namespace fx::sim {
 
 struct Birth;
 
-constexpr uint64_t kNobody = ~uint64_t(0); ///< birth index of a row that no particle has used
+constexpr uint64_t kNoParticle = ~uint64_t(0); ///< birth index of a row that no particle has used
 
 /// Rows that may hold living particles: those below `count` outside of [gapBegin, gapEnd).
 struct RowWindow

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "foundation/math/curve.h"
-#include "simulation/particles/emitter_look.h"
+#include "simulation/particles/emitter_appearance.h"
 
 #include <cstdint>
 
@@ -12,14 +12,14 @@ namespace fx::sim {
 /// A ribbon along the way of each particle.
 struct RibbonDef
 {
-    float lifetime = 0;      ///< [s] over which the way is seen; 0: there is no trail
-    float width = 0.1f;      ///< [m] > 0
-    float minDistance = 0;   ///< [m] between points
-    uint32_t maxPoints = 32; ///< 2..256
-    float arcPerTile = 1.0f; ///< [m] see base::particle_constant
-    float edge = 0.0f;       ///< [1] see base::particle_constant
-    float softEnds = 0.0f;   ///< [m] over which both ends fade
-    EmitterLook look;        ///< blend, order, luminance, lit, softness and texture of the ribbon
+    float lifetime = 0;           ///< [s] over which the way is seen; 0: there is no trail
+    float width = 0.1f;           ///< [m] > 0
+    float minDistance = 0;        ///< [m] between points
+    uint32_t maxPoints = 32;      ///< 2..256
+    float arcPerTile = 1.0f;      ///< [m] see base::particle_constant
+    float edge = 0.0f;            ///< [1] see base::particle_constant
+    float softEnds = 0.0f;        ///< [m] over which both ends fade
+    EmitterAppearance appearance; ///< blend, order, luminance, lit, softness and texture of the ribbon
     base::ScalarCurve widthAlong{std::array{1.0f}};            ///< t in [0, 1]: age of the point / lifetime
     base::ColorCurve colorAlong{std::array{1.0f, 1.0f, 1.0f}}; ///< linear Rec. 709
     base::ScalarCurve opacityAlong{std::array{1.0f}};

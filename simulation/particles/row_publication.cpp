@@ -18,10 +18,10 @@ constexpr size_t kBeyondCache = 8 << 20; // [byte] of a group that is not kept i
 
 } // namespace
 
-LookColumns columnsOf(base::SnapshotGroup& group)
+AppearanceColumns columnsOf(base::SnapshotGroup& group)
 {
     const auto floats = [&group](size_t c) { return group.has(c) ? group.editColumn(c).data() : nullptr; };
-    LookColumns out{};
+    AppearanceColumns out{};
     out.x = floats(column::PositionX);
     out.y = floats(column::PositionY);
     out.z = floats(column::PositionZ);
@@ -41,18 +41,18 @@ LookColumns columnsOf(base::SnapshotGroup& group)
 namespace {
 
 /// Rows [begin, end) of the window, spread over threads where there are many.
-LookBounds writeAll(const LookJob& job, const LookColumns& out, uint32_t begin, uint32_t end,
-                    base::TaskRunner* tasks)
+AppearanceBounds writeAll(const AppearanceJob& job, const AppearanceColumns& out, uint32_t begin,
+                          uint32_t end, base::TaskRunner* tasks)
 {
     const uint32_t chunks = (end - begin + kChunk - 1) / kChunk;
     const uint32_t few = rowsOfATask(*job.program, kChunk) / kChunk;
     if (!tasks || chunks <= few) // no lock, which would wait for everything that has been written
-        return writeLooks(job, out, begin, end);
-    LookBounds bounds;
+        return writeAppearance(job, out, begin, end);
+    AppearanceBounds bounds;
     std::mutex mutex; // guards bounds, which do not depend on the order of what is added
     parallelRows(*tasks, chunks, few, [&](uint32_t first, uint32_t last) {
-        const LookBounds found =
-            writeLooks(job, out, begin + first * kChunk, std::min(begin + last * kChunk, end));
+        const AppearanceBounds found =
+            writeAppearance(job, out, begin + first * kChunk, std::min(begin + last * kChunk, end));
         const std::lock_guard lock(mutex);
         bounds.add(found);
     });
@@ -61,33 +61,33 @@ LookBounds writeAll(const LookJob& job, const LookColumns& out, uint32_t begin, 
 
 } // namespace
 
-void writeConstants(const EmitterSettings& def, const EmitterLook& look, float arcPerTile,
+void writeConstants(const EmitterSettings& def, const EmitterAppearance& appearance, float arcPerTile,
                     std::span<float> constants)
 {
     namespace constant = base::particle_constant;
     const auto shape =
-        look.kind == Appearance::Mesh ? base::ParticleShape::Mesh : base::ParticleShape::Sprite;
+        appearance.kind == AppearanceKind::Mesh ? base::ParticleShape::Mesh : base::ParticleShape::Sprite;
     constants[constant::Shape] = float(uint32_t(shape));
     constants[constant::Layer] = float(uint32_t(def.layer));
-    constants[constant::Blend] = float(uint32_t(look.blend));
-    constants[constant::Order] = float(uint32_t(look.order));
-    constants[constant::OrderBias] = look.orderBias;
-    constants[constant::Alignment] = float(uint32_t(look.alignment));
-    constants[constant::AxisX] = look.axis.x;
-    constants[constant::AxisY] = look.axis.y;
-    constants[constant::AxisZ] = look.axis.z;
-    constants[constant::Aspect] = look.aspect;
-    constants[constant::Stretch] = look.stretch;
-    constants[constant::Luminance] = look.luminance;
-    constants[constant::Lit] = look.lit;
-    constants[constant::Softness] = look.softness;
-    constants[constant::Texture] = float(look.texture);
-    constants[constant::TileColumns] = float(look.tileColumns);
-    constants[constant::TileRows] = float(look.tileRows);
-    constants[constant::FrameBlend] = look.frameBlend ? 1.0f : 0.0f;
-    constants[constant::Motion] = float(look.motion);
-    constants[constant::MotionScale] = look.motionScale;
-    constants[constant::Mesh] = float(look.mesh);
+    constants[constant::Blend] = float(uint32_t(appearance.blend));
+    constants[constant::Order] = float(uint32_t(appearance.order));
+    constants[constant::OrderBias] = appearance.orderBias;
+    constants[constant::Alignment] = float(uint32_t(appearance.alignment));
+    constants[constant::AxisX] = appearance.axis.x;
+    constants[constant::AxisY] = appearance.axis.y;
+    constants[constant::AxisZ] = appearance.axis.z;
+    constants[constant::Aspect] = appearance.aspect;
+    constants[constant::Stretch] = appearance.stretch;
+    constants[constant::Luminance] = appearance.luminance;
+    constants[constant::Lit] = appearance.lit;
+    constants[constant::Softness] = appearance.softness;
+    constants[constant::Texture] = float(appearance.texture);
+    constants[constant::TileColumns] = float(appearance.tileColumns);
+    constants[constant::TileRows] = float(appearance.tileRows);
+    constants[constant::FrameBlend] = appearance.frameBlend ? 1.0f : 0.0f;
+    constants[constant::Motion] = float(appearance.motion);
+    constants[constant::MotionScale] = appearance.motionScale;
+    constants[constant::Mesh] = float(appearance.mesh);
     constants[constant::ArcPerTile] = arcPerTile;
     constants[constant::TailAge] = 0.0f;
 }
@@ -103,23 +103,23 @@ base::SnapshotGroup& addRows(const ParticleProgram& program, uint32_t capacity, 
     info.placement = place.base.placement;
     info.isCosmetic = place.base.isCosmetic || program.def.compute != ComputeOn::Cpu;
     if (!group.keepsConstants(program.number))
-        writeConstants(program.def, program.def.look, 1.0f, group.editConstants());
+        writeConstants(program.def, program.def.appearance, 1.0f, group.editConstants());
     return group;
 }
 
-bool publishRows(const LookJob& job, const GroupPlace& group, base::TaskRunner* tasks,
+bool publishRows(const AppearanceJob& job, const GroupPlace& group, base::TaskRunner* tasks,
                  base::FrameSnapshot& snapshot, PublicationPlace& place, base::WorkBudget& work)
 {
     if (place.part == 0)
         addRows(*job.program, job.store->capacity(), job.rows.count, group, snapshot);
     place.part = 1;
     base::SnapshotGroup& to = snapshot.editGroup(snapshot.addedCount() - 1);
-    LookJob timed = job;
+    AppearanceJob timed = job;
     timed.secondsBack = snapshot.secondsBack();
     const uint32_t chunks = (job.rows.count - place.row + kChunk - 1) / kChunk;
     const uint32_t end =
         std::min(place.row + kChunk * work.affords(emitter_work::kDrawn * kChunk, chunks), job.rows.count);
-    LookBounds bounds{place.bounds.min, place.bounds.max, place.radius};
+    AppearanceBounds bounds{place.bounds.min, place.bounds.max, place.radius};
     bounds.add(writeAll(timed, columnsOf(to), place.row, end, tasks));
     work.spend(uint64_t(emitter_work::kDrawn * double(end - place.row)));
     place.row = end;

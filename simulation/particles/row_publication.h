@@ -2,8 +2,8 @@
 /// Rows of particles as groups of the kind "particle".
 #pragma once
 
+#include "simulation/particles/appearance_kernel.h"
 #include "simulation/particles/emitter_settings.h"
-#include "simulation/particles/look_kernel.h"
 #include "simulation/solver/budgeted_solver.h"
 
 #include <span>
@@ -11,11 +11,11 @@
 namespace fx::sim {
 
 /// @param arcPerTile [m] of a ribbon; 1 elsewhere
-void writeConstants(const EmitterSettings& def, const EmitterLook& look, float arcPerTile,
+void writeConstants(const EmitterSettings& def, const EmitterAppearance& appearance, float arcPerTile,
                     std::span<float> constants);
 
 /// The columns of a group of the kind "particle", null where it lacks one.
-LookColumns columnsOf(base::SnapshotGroup& group);
+AppearanceColumns columnsOf(base::SnapshotGroup& group);
 
 /// Whose group is published, and of which kind.
 struct GroupPlace
@@ -30,7 +30,7 @@ base::SnapshotGroup& addRows(const ParticleProgram& program, uint32_t capacity, 
 
 /// Publishes rows as a group of the kind of particles, as BudgetedSolver::proceedPublication().
 /// @param tasks null: on the calling thread
-bool publishRows(const LookJob& job, const GroupPlace& group, base::TaskRunner* tasks,
+bool publishRows(const AppearanceJob& job, const GroupPlace& group, base::TaskRunner* tasks,
                  base::FrameSnapshot& snapshot, PublicationPlace& place, base::WorkBudget& work);
 
 } // namespace fx::sim

@@ -56,7 +56,8 @@ void TileStep::load(const ParticleStore& store, uint32_t row, Tile& tile) const
         tile.indexLow[i] = uint32_t(index);
         tile.indexHigh[i] = uint32_t(index >> 32);
         const uint32_t kept = store.flags.data() ? store.flags[row + i] : 0;
-        const bool living = i < tile.count && inWindow(rows, row + i) && index != kNobody && index >= first_;
+        const bool living =
+            i < tile.count && inWindow(rows, row + i) && index != kNoParticle && index >= first_;
         tile.flags[i] = living ? kept : uint32_t(tile_flag::Empty);
     }
     const float* const perLife = store.values[stored::PerLife].data();

@@ -13,9 +13,9 @@ constexpr double kSecondsPerTick = 1.0 / double(base::kTicksPerSecond);
 constexpr base::Ticks kPast = base::kTicksPerSecond / 30; ///< for which points are kept after they have gone
 
 /// Where the particle in `row` is at `tick`.
-glm::vec3 placeOf(const LookJob& job, uint32_t row, base::Ticks tick, glm::vec3* outVelocity = nullptr)
+glm::vec3 placeOf(const AppearanceJob& job, uint32_t row, base::Ticks tick, glm::vec3* outVelocity = nullptr)
 {
-    LookJob at = job;
+    AppearanceJob at = job;
     at.now = tick;
     MotionTile motion;
     const uint32_t first = row / kTilePadding * kTilePadding;
@@ -48,7 +48,7 @@ void RibbonStore::clear()
     count_ = 0;
 }
 
-bool RibbonStore::follow(const LookJob& job, const Span& step, uint32_t& ioRow, base::WorkBudget& work)
+bool RibbonStore::follow(const AppearanceJob& job, const Span& step, uint32_t& ioRow, base::WorkBudget& work)
 {
     const ParticleStore& store = *job.store;
     const uint32_t used = uint32_t(std::min<uint64_t>(store.next(), rows_));
@@ -59,7 +59,7 @@ bool RibbonStore::follow(const LookJob& job, const Span& step, uint32_t& ioRow, 
             return false;
         Trail& trail = trails_[ioRow];
         const uint64_t index = store.index[ioRow];
-        if (index != kNobody && index != trail.index && store.born[ioRow] >= step.begin &&
+        if (index != kNoParticle && index != trail.index && store.born[ioRow] >= step.begin &&
             store.born[ioRow] <= step.end)
             begin(job, ioRow);
         if (trail.count == 0)
@@ -74,7 +74,7 @@ bool RibbonStore::follow(const LookJob& job, const Span& step, uint32_t& ioRow, 
 }
 
 /// The first point lies where the particle is born; when its motion is integrated it has moved since.
-void RibbonStore::begin(const LookJob& job, uint32_t row)
+void RibbonStore::begin(const AppearanceJob& job, uint32_t row)
 {
     Trail& trail = trails_[row];
     trail = Trail{};
@@ -101,7 +101,7 @@ void RibbonStore::keep(uint32_t row, const Point& point)
     ++trail.count;
 }
 
-void RibbonStore::followRow(const LookJob& job, uint32_t row, const Span& step)
+void RibbonStore::followRow(const AppearanceJob& job, uint32_t row, const Span& step)
 {
     const base::Ticks end = step.end;
     Trail& trail = trails_[row];

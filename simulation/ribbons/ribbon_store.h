@@ -35,7 +35,7 @@
 #pragma once
 
 #include "foundation/memory/column.h"
-#include "simulation/particles/look_kernel.h"
+#include "simulation/particles/appearance_kernel.h"
 #include "simulation/particles/ribbon_def.h"
 #include "simulation/solver/budgeted_solver.h"
 
@@ -64,7 +64,7 @@ public:
     };
     /// Takes the points of a step, after which the particles are as `job` says, as far as the work goes.
     /// @param ioRow of the particle that is next, 0 at first @return whether all have been followed
-    bool follow(const LookJob& job, const Span& step, uint32_t& ioRow, base::WorkBudget& work);
+    bool follow(const AppearanceJob& job, const Span& step, uint32_t& ioRow, base::WorkBudget& work);
     bool empty() const { return count_ == 0; }
     /// Most rows that publish() writes.
     size_t mostPoints() const { return size_t(rows_) * (def_.maxPoints + 1); }
@@ -88,9 +88,9 @@ private:
     };
     struct Trail
     {
-        uint64_t index = kNobody; ///< of the particle
-        Point head;               ///< where it is, or died
-        uint32_t first = 0;       ///< oldest point in the ring
+        uint64_t index = kNoParticle; ///< of the particle
+        Point head;                   ///< where it is, or died
+        uint32_t first = 0;           ///< oldest point in the ring
         uint32_t count = 0;
         uint64_t next = 0; ///< k of the next point
         bool ended = false;
@@ -100,8 +100,8 @@ private:
     {
         return points_[size_t(row) * def_.maxPoints + (trails_[row].first + k) % def_.maxPoints];
     }
-    void begin(const LookJob& job, uint32_t row);
-    void followRow(const LookJob& job, uint32_t row, const Span& step);
+    void begin(const AppearanceJob& job, uint32_t row);
+    void followRow(const AppearanceJob& job, uint32_t row, const Span& step);
     void checkRow(StateReader& reader, const ParticleStore& store, uint32_t row, base::Ticks now) const;
     void keep(uint32_t row, const Point& point);
     void forget(uint32_t row, base::Ticks now);

@@ -47,10 +47,10 @@ struct EffectDef
     }
 
     /// True when what happens depends on where the host has put the instance, even without geometry.
-    bool heedsPlacement() const
+    bool dependsOnPlacement() const
     {
         return std::any_of(solvers.begin(), solvers.end(),
-                           [](const auto& def) { return def->heedsPlacement(); });
+                           [](const auto& def) { return def->dependsOnPlacement(); });
     }
 
     /// True when one of its solvers publishes groups of `kind`.

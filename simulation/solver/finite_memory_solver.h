@@ -12,14 +12,14 @@ class FiniteMemorySolver
 {
 public:
     /// [tick] of local time after which nothing is left of what lives now, as long as the host's parameters
-    /// stay as they are; the largest number where that cannot be told.
+    /// stay as they are; the largest number where that is unknown.
     virtual base::Ticks influenceHorizon(const InstanceParameters& parameters) const = 0;
 
     /// Solver::save() without what lives. The state that Solver::restore() makes of it is right once
     /// influenceHorizon() has passed.
     virtual void saveBriefly(StateWriter& writer) const = 0;
 
-    /// Goes forwards to local time `tick` without those who are born meanwhile: right once influenceHorizon()
+    /// Goes forwards to local time `tick` without the births meanwhile: right once influenceHorizon()
     /// has passed after it. Only where that is known; the context's own tick and stepTicks are ignored.
     virtual void passOver(const StepContext& context, base::Ticks tick) = 0;
 

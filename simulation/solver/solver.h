@@ -95,7 +95,7 @@ struct HostContact
                 float outNormal[3]) = nullptr;
 };
 
-class EmitterCrowd;
+class SpawnBatch;
 class EventBoard;
 
 /// An event of the host.
@@ -123,11 +123,11 @@ struct StepContext
     const ContactHook* contactHook = nullptr; ///< null for none
     EventBoard* board = nullptr;              ///< events between solvers in this step; null for none
     std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
-    EmitterCrowd* crowd = nullptr; ///< may defer births until the end of the step; null: make them at once
+    SpawnBatch* spawnBatch = nullptr; ///< may defer births until the end of the step; null: make them at once
     base::Placement placement{}; ///< target of the instance's motion; default unless the effect depends on it
     float moveShare = 1.0f;      ///< [1] of the rest of the way there that it goes in this step, 0..1
     glm::vec3 worldGravity{0.0f}; ///< [m/s2] world
-    glm::vec3 worldWind{0.0f};    ///< [m/s] world, the host's share of `wind`; 0 unless placement is heeded
+    glm::vec3 worldWind{0.0f};    ///< [m/s] world, the host's share of `wind`; 0 unless placement matters
     glm::vec3 effectWind{0.0f};   ///< [m/s] local, the preset's share of `wind`
     bool gpuParticles = false;    ///< emitters that may be computed on the GPU are not needed as rows
 
@@ -248,7 +248,7 @@ public:
     /// True when its solvers depend on StepContext::collider.
     virtual bool collides() const { return false; }
     /// True when its solvers depend on StepContext::placement.
-    virtual bool heedsPlacement() const { return false; }
+    virtual bool dependsOnPlacement() const { return false; }
     /// What becomes of it out of sight, unless the preset says.
     virtual CatchUp catchUp() const { return CatchUp::Replay; }
     /// [m] distance from the instance's origin that no element passes within `seconds` after the start, with

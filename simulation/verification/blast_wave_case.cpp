@@ -29,7 +29,7 @@ constexpr double kCharge = 1;        ///< [kg] of TNT
 constexpr double kRoom = 3.6;        ///< [m] from the center to each wall
 constexpr double kBallDensity = 100; ///< [kg/m3]
 constexpr double kTime = 5.5e-3;
-constexpr uint32_t kLooks = 220;
+constexpr uint32_t kSamples = 220;
 constexpr int kCells = 1200;
 constexpr std::array<double, 3> kDistances = {1.5, 2.0, 2.5}; ///< [m]
 
@@ -72,7 +72,7 @@ BlastWaveCase::BlastWaveCase(const CaseSettings& settings)
     def_.domain.axes.fill(AxisKind::Reflecting);
     def_.domain.low = glm::dvec3(0);
     def_.domain.high = glm::dvec3(kRoom);
-    finish(kLooks);
+    finish(kSamples);
 }
 
 /// Mean over a shell as thick as particles are apart.
@@ -143,7 +143,7 @@ CaseMeasures BlastWaveCase::measure(std::span<const CaseParticle> particles) con
 {
     RadialFlow reference = makeReference();
     Histories heard;
-    for (const double time : looks()) {
+    for (const double time : sampleTimes()) {
         reference.advanceTo(time);
         for (size_t k = 0; k < kDistances.size(); ++k)
             heard[k].push_back({time, reference.at(kDistances[k]).pressure - kAirPressure});

@@ -13,11 +13,11 @@ CaseBase::CaseBase(const CaseSettings& settings, double gamma, double time)
     def_.domain = {};
 }
 
-void CaseBase::finish(uint32_t lookCount)
+void CaseBase::finish(uint32_t sampleCount)
 {
     def_.capacity = uint32_t(particles_.size());
-    for (uint32_t k = 1; k <= lookCount; ++k)
-        looks_.push_back(k == lookCount ? time_ : time_ * k / lookCount);
+    for (uint32_t k = 1; k <= sampleCount; ++k)
+        sampleTimes_.push_back(k == sampleCount ? time_ : time_ * k / sampleCount);
 }
 
 ProfilePoint CaseBase::seen(const CaseParticle& particle) const

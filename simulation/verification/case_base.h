@@ -13,7 +13,7 @@ class CaseBase : public GasCase
 public:
     const GasDynamicsDef& dynamics() const final { return def_; }
     const std::vector<GasParticle>& particles() const final { return particles_; }
-    const std::vector<double>& looks() const final { return looks_; }
+    const std::vector<double>& sampleTimes() const final { return sampleTimes_; }
     /// Distance from the origin and speed away from it.
     ProfilePoint seen(const CaseParticle& particle) const override;
 
@@ -22,8 +22,8 @@ protected:
     CaseBase(const CaseSettings& settings, double gamma, double time);
 
     /// Fills def_ with what the particles and settings say; the last thing a constructor does.
-    /// @param lookCount equal parts of the time
-    void finish(uint32_t lookCount);
+    /// @param sampleCount equal parts of the time
+    void finish(uint32_t sampleCount);
 
     double gamma_;
     double time_;  ///< [s] end
@@ -32,7 +32,7 @@ protected:
     std::vector<GasParticle> particles_;
 
 private:
-    std::vector<double> looks_;
+    std::vector<double> sampleTimes_;
 };
 
 } // namespace fx::sim

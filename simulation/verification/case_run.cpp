@@ -102,18 +102,18 @@ template <class T>
 base::Status step(GasCase& gasCase, GasDynamics<T>& gas, base::TaskRunner& tasks, const CaseWatch& watch,
                   CaseReport& out)
 {
-    const std::vector<double>& looks = gasCase.looks();
+    const std::vector<double>& samples = gasCase.sampleTimes();
     double time = 0;
-    for (size_t k = 0; k < looks.size(); ++k) {
+    for (size_t k = 0; k < samples.size(); ++k) {
         if (watch.progress)
-            watch.progress(uint32_t(k), uint32_t(looks.size()));
+            watch.progress(uint32_t(k), uint32_t(samples.size()));
         const Stopwatch stopwatch;
-        const base::Result<AdvanceReport> work = gas.advance(looks[k] - time, tasks);
+        const base::Result<AdvanceReport> work = gas.advance(samples[k] - time, tasks);
         out.steppingSeconds += stopwatch.seconds();
         if (!work)
             return work.status();
         addWork(out.work, *work);
-        time = looks[k];
+        time = samples[k];
         gasCase.look(time, particlesOf(gas));
     }
     return {};

@@ -28,7 +28,7 @@ struct CaseReport
 struct CaseWatch
 {
     /// Before each look: its number and how many there are.
-    std::function<void(uint32_t look, uint32_t looks)> progress;
+    std::function<void(uint32_t sample, uint32_t samples)> progress;
     /// Asked often; true ends the run as soon as possible, with Code::Interrupted.
     std::function<bool()> stop;
 };

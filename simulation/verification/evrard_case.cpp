@@ -21,7 +21,7 @@ namespace {
 constexpr double kEnergy = 0.05; ///< [J/kg]
 constexpr double kFall = 2;      ///< [1/s] speed over distance
 constexpr double kTime = 0.6;
-constexpr uint32_t kLooks = 60;
+constexpr uint32_t kSamples = 60;
 constexpr int kCells = 1000;
 
 double densityAt(double r)
@@ -58,7 +58,7 @@ EvrardCase::EvrardCase(const CaseSettings& settings) : CaseBase(settings, 5.0 / 
     });
     for (GasParticle& particle : particles_)
         particle.mass = 1.0 / double(particles_.size());
-    finish(kLooks);
+    finish(kSamples);
 }
 
 void EvrardCase::look(double time, std::span<const CaseParticle> particles)
@@ -89,7 +89,7 @@ CaseMeasures EvrardCase::measure(std::span<const CaseParticle> particles) const
     RadialFlow reference = makeReference();
     double hottest = 0;
     double bounce = 0;
-    for (const double time : looks()) {
+    for (const double time : sampleTimes()) {
         reference.advanceTo(time);
         if (reference.thermalEnergy() > hottest) {
             hottest = reference.thermalEnergy();

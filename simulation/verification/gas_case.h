@@ -93,7 +93,7 @@ public:
     virtual const GasDynamicsDef& dynamics() const = 0;
     virtual const std::vector<GasParticle>& particles() const = 0;
     /// [s] ascending; the last is the end.
-    virtual const std::vector<double>& looks() const = 0;
+    virtual const std::vector<double>& sampleTimes() const = 0;
     /// Is called at each of looks().
     virtual void look(double /*time*/, std::span<const CaseParticle> /*particles*/) {}
     virtual ProfilePoint seen(const CaseParticle& particle) const = 0;

@@ -25,7 +25,7 @@ constexpr double kWaves = 2; ///< in the length of the box
 constexpr double kSeed = 0.1;
 constexpr double kSeedWidth = 0.05 / std::numbers::sqrt2;
 constexpr double kTime = 0.3;
-constexpr uint32_t kLooks = 60;
+constexpr uint32_t kSamples = 60;
 /// [s] between which growth is measured: after the sound of the start has passed, and before smaller waves,
 /// which the particles' own disorder seeds and which grow faster, have made the sharp boundary a broad one.
 constexpr double kFrom = 0.1;
@@ -83,7 +83,7 @@ KelvinHelmholtzCase::KelvinHelmholtzCase(const CaseSettings& settings)
     def_.domain.axes.fill(AxisKind::Periodic);
     def_.domain.low = glm::dvec3(0);
     def_.domain.high = glm::dvec3(1, 1, thick * spacing);
-    finish(kLooks);
+    finish(kSamples);
 }
 
 /// The share of the wave in the velocity across the boundaries, weighted as the wave itself falls off.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPressure = 1e-6; ///< [Pa]
 constexpr double kTime = 0.6;
-constexpr uint32_t kLooks = 10;
+constexpr uint32_t kSamples = 10;
 
 class NohCase final : public CaseBase
 {
@@ -43,7 +43,7 @@ NohCase::NohCase(const CaseSettings& settings)
         if (r < 1)
             particles_.push_back({position, -position / r, mass, energy});
     });
-    finish(kLooks);
+    finish(kSamples);
 }
 
 CaseMeasures NohCase::measure(std::span<const CaseParticle> particles) const

@@ -20,7 +20,7 @@ constexpr double kPressure = 1e-6;       ///< [Pa] before the blast
 constexpr double kCoreSpacings2 = 2.751; ///< squared distance of the 24, 11/4, rounded up
 constexpr uint32_t kCore = 32;
 constexpr double kTime = 0.05;
-constexpr uint32_t kLooks = 10;
+constexpr uint32_t kSamples = 10;
 
 class SedovCase final : public CaseBase
 {
@@ -49,7 +49,7 @@ SedovCase::SedovCase(const CaseSettings& settings)
     def_.domain.axes.fill(AxisKind::Periodic);
     def_.domain.low = glm::dvec3(-0.5);
     def_.domain.high = glm::dvec3(0.5);
-    finish(kLooks);
+    finish(kSamples);
 }
 
 CaseMeasures SedovCase::measure(std::span<const CaseParticle> particles) const

@@ -21,7 +21,7 @@ namespace {
 const FlowState kDense{1, 0, 1};
 const FlowState kThin{0.125, 0, 0.1};
 constexpr double kTime = 0.2;
-constexpr uint32_t kLooks = 8;
+constexpr uint32_t kSamples = 8;
 
 class SodCase final : public CaseBase
 {
@@ -49,7 +49,7 @@ SodCase::SodCase(const CaseSettings& settings) : CaseBase(settings, 5.0 / 3.0, k
     def_.domain.axes.fill(AxisKind::Periodic);
     def_.domain.low = glm::dvec3(-0.5, 0, 0);
     def_.domain.high = glm::dvec3(1.5, across * spacing_, across * spacing_);
-    finish(kLooks);
+    finish(kSamples);
 }
 
 void SodCase::addGas(const FlowState& state, double from, double spacing, uint32_t side, uint32_t boxes)

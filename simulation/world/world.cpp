@@ -24,34 +24,34 @@ glm::vec3 toLocal(const base::Placement& placement, const glm::vec3& world)
 World::World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory,
              const Environment& environment, bool share)
     : environment_(environment), schema_(schema), tasks_(tasks), memory_(memory), share_(share),
-      scratch_(memory), crowd_(memory), pools_(memory), runs_(schema, memory, share)
+      scratch_(memory), spawnBatch_(memory), pools_(memory), simulations_(schema, memory, share)
 {}
 
 Slot World::add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden)
 {
-    const RunIndex run = runs_.enter(effect, conditionsOf(*effect, start), hidden);
+    const SimulationIndex simulation = simulations_.acquire(effect, conditionsOf(*effect, start), hidden);
     try {
-        const Slot slot = takeSlot(start, run);
+        const Slot slot = takeSlot(start, simulation);
         if (hidden)
             hide(slot);
         return slot;
     } catch (...) {
-        runs_.leave(run);
+        simulations_.leave(simulation);
         throw;
     }
 }
 
-Slot World::takeSlot(const InstanceStart& start, RunIndex run)
+Slot World::takeSlot(const InstanceStart& start, SimulationIndex simulation)
 {
     if (!free_.empty()) {
         const Slot slot = free_.back();
         free_.pop_back();
-        instances_[slot] = {run, false, 0, start};
+        instances_[slot] = {simulation, false, 0, start};
         return slot;
     }
     free_.reserve(instances_.size() + 1); // remove() must not fail
     leaving_.reserve(instances_.size() + 1);
-    instances_.push_back({run, false, 0, start});
+    instances_.push_back({simulation, false, 0, start});
     return Slot(instances_.size() - 1);
 }
 
@@ -60,8 +60,8 @@ void World::remove(Slot slot)
     if (isStepping())
         return leaving_.push_back(slot); // has room
     if (instances_[slot].hidden)
-        --runs_.at(instances_[slot].run).hidden;
-    runs_.leave(instances_[slot].run);
+        --simulations_.at(instances_[slot].simulation).hidden;
+    simulations_.leave(instances_[slot].simulation);
     instances_[slot] = Instance{};
     free_.push_back(slot);
 }
@@ -85,23 +85,25 @@ void World::change(Slot slot, const InstanceStart& start)
     if (isStepping())
         return changeAfterStep(slot, start);
     Instance& instance = instances_[slot];
-    const RunIndex before = instance.run;
-    const RunConditions wanted = conditionsOf(*runs_.at(before).effect, start);
-    if (runs_.at(before).pooled && runs_.at(before).conditions.equals(wanted)) {
+    const SimulationIndex before = instance.simulation;
+    const SimulationConditions wanted = conditionsOf(*simulations_.at(before).effect, start);
+    if (simulations_.at(before).pooled && simulations_.at(before).conditions.equals(wanted)) {
         instance.start = start; // it only stands elsewhere
         ++moves_;
         return;
     }
     endRest(before, now_);
-    if (runs_.at(before).users > 1 || !isLagging(runs_.at(before))) // otherwise it hears of it later
-        closeRun(before);
-    const uint32_t hiddenBefore = runs_.at(before).hidden;
-    instance.run = isLagging(runs_.at(before)) ? changeLater(before, wanted) : runs_.change(before, wanted);
+    if (simulations_.at(before).users > 1 ||
+        !isLagging(simulations_.at(before))) // otherwise it hears of it later
+        closeSimulation(before);
+    const uint32_t hiddenBefore = simulations_.at(before).hidden;
+    instance.simulation = isLagging(simulations_.at(before)) ? changeLater(before, wanted)
+                                                             : simulations_.change(before, wanted);
     instance.start = start;
-    if (instance.run == before || !instance.hidden)
+    if (instance.simulation == before || !instance.hidden)
         return;
-    runs_.at(before).hidden = runs_.at(before).users == 0 ? 0 : hiddenBefore - 1;
-    ++runs_.at(instance.run).hidden;
+    simulations_.at(before).hidden = simulations_.at(before).users == 0 ? 0 : hiddenBefore - 1;
+    ++simulations_.at(instance.simulation).hidden;
 }
 
 void World::changeAfterStep(Slot slot, const InstanceStart& start)
@@ -127,10 +129,10 @@ void World::makeChanges()
     } forgetting{waiting_, made};
     for (; made < waiting_.size(); ++made) {
         const Waiting& next = waiting_[made];
-        if (instances_[next.slot].run == kNoRun)
+        if (instances_[next.slot].simulation == kNoSimulation)
             continue; // it has ended with the step
         if (next.event) {
-            tell(next.slot, *next.event);
+            postEvent(next.slot, *next.event);
             continue;
         }
         change(next.slot, wantedOf(next.slot));
@@ -143,11 +145,11 @@ void World::makeChanges()
 
 /// What an instance is stepped with. It is scaled with everything its preset says, gravity included, so that
 /// it keeps its look; the host's wind is that of the world outside, so it shrinks as the instance grows.
-RunConditions World::conditionsOf(const EffectDef& effect, const InstanceStart& start) const
+SimulationConditions World::conditionsOf(const EffectDef& effect, const InstanceStart& start) const
 {
-    RunConditions conditions;
+    SimulationConditions conditions;
     conditions.seed = start.seed;
-    conditions.clock = start.clock.value_or(RunClock{start.startTick, effect.prewarm, start.rate});
+    conditions.clock = start.clock.value_or(InstanceClock{start.startTick, effect.prewarm, start.rate});
     conditions.quality = qualityOf(start.quality);
     conditions.gravity = toLocal(start.placement, environment_.gravity);
     conditions.wind = effect.wind + toLocal(start.placement, start.parameters.wind) /
@@ -155,7 +157,7 @@ RunConditions World::conditionsOf(const EffectDef& effect, const InstanceStart& 
     const bool hasGround = environment_.hasGround && effect.hasGround;
     conditions.groundHeight = hasGround ? 0.0f : -std::numeric_limits<float>::infinity();
     conditions.parameters = {start.parameters.intensity, glm::vec3(0.0f), start.parameters.emitting};
-    if (effect.heedsPlacement()) {
+    if (effect.dependsOnPlacement()) {
         conditions.placement = start.placement;
         conditions.worldWind = start.parameters.wind;
     }
@@ -169,30 +171,31 @@ RunConditions World::conditionsOf(const EffectDef& effect, const InstanceStart& 
 
 bool World::finished(Slot slot, base::Ticks sceneTick) const
 {
-    return isFinished(runs_.at(instances_[slot].run), sceneTick);
+    return isFinished(simulations_.at(instances_[slot].simulation), sceneTick);
 }
 
-bool World::isFinished(const Run& run, base::Ticks sceneTick) const
+bool World::isFinished(const SharedSimulation& simulation, base::Ticks sceneTick) const
 {
-    const base::Ticks local = run.conditions.clock.toLocal(sceneTick);
-    if (local < 0 || sceneTick < run.conditions.clock.scene)
+    const base::Ticks local = simulation.conditions.clock.toLocal(sceneTick);
+    if (local < 0 || sceneTick < simulation.conditions.clock.scene)
         return false;
-    if (run.effect->duration > 0 && local >= run.effect->duration)
+    if (simulation.effect->duration > 0 && local >= simulation.effect->duration)
         return true;
     const auto isEmpty = [](const std::unique_ptr<Solver>& solver) { return !solver->hasElements(); };
-    if (run.released)
+    if (simulation.released)
         return false; // unknown before it is simulated
-    if (!run.conditions.parameters.emitting && std::all_of(run.solvers.begin(), run.solvers.end(), isEmpty))
+    if (!simulation.conditions.parameters.emitting &&
+        std::all_of(simulation.solvers.begin(), simulation.solvers.end(), isEmpty))
         return true;
-    return std::all_of(run.solvers.begin(), run.solvers.end(),
+    return std::all_of(simulation.solvers.begin(), simulation.solvers.end(),
                        [local](const std::unique_ptr<Solver>& solver) { return solver->finished(local); });
 }
 
 uint32_t World::elementCount(Slot slot) const
 {
     uint32_t count = 0;
-    if (const RunIndex run = instances_[slot].run; run != kNoRun)
-        for (const std::unique_ptr<Solver>& solver : runs_.at(run).solvers)
+    if (const SimulationIndex simulation = instances_[slot].simulation; simulation != kNoSimulation)
+        for (const std::unique_ptr<Solver>& solver : simulations_.at(simulation).solvers)
             count += solver->elementCount();
     return count;
 }
@@ -200,13 +203,14 @@ uint32_t World::elementCount(Slot slot) const
 bool World::hasElements(Slot slot) const
 {
     const auto has = [](const std::unique_ptr<Solver>& solver) { return solver->hasElements(); };
-    const RunIndex run = instances_[slot].run;
-    return run != kNoRun && std::any_of(runs_.at(run).solvers.begin(), runs_.at(run).solvers.end(), has);
+    const SimulationIndex simulation = instances_[slot].simulation;
+    return simulation != kNoSimulation && std::any_of(simulations_.at(simulation).solvers.begin(),
+                                                      simulations_.at(simulation).solvers.end(), has);
 }
 
 const EffectDef& World::effect(Slot slot) const
 {
-    return *runs_.at(instances_[slot].run).effect;
+    return *simulations_.at(instances_[slot].simulation).effect;
 }
 
 /// Prefetches data of the following elements of a list.
@@ -214,16 +218,17 @@ void World::fetchAhead(std::span<const Slot> active, size_t place) const
 {
     constexpr size_t kLine = 64;
     constexpr size_t kRunLead = 12;   // places between
-    constexpr size_t kSolverLead = 6; // of which the run is known by then
+    constexpr size_t kSolverLead = 6; // of which the simulation is known by then
     if (place + kRunLead < active.size()) {
         const Instance& instance = instances_[active[place + kRunLead]];
-        const auto* run = reinterpret_cast<const char*>(&runs_.at(instance.run));
-        __builtin_prefetch(run);
-        __builtin_prefetch(run + kLine);
+        const auto* simulation = reinterpret_cast<const char*>(&simulations_.at(instance.simulation));
+        __builtin_prefetch(simulation);
+        __builtin_prefetch(simulation + kLine);
         __builtin_prefetch(reinterpret_cast<const char*>(&instance) + kLine);
     }
     if (place + kSolverLead < active.size())
-        if (const Solver* const solver = runs_.at(instances_[active[place + kSolverLead]].run).only) {
+        if (const Solver* const solver =
+                simulations_.at(instances_[active[place + kSolverLead]].simulation).only) {
             const auto* state = reinterpret_cast<const char*>(solver);
             for (size_t line = 0; line < 3; ++line)
                 __builtin_prefetch(state + line * kLine);
@@ -231,98 +236,99 @@ void World::fetchAhead(std::span<const Slot> active, size_t place) const
 }
 
 /// A step in which nothing happens but that time passes.
-void World::passQuietly(Run& run, StepCounters& counters)
+void World::passQuietly(SharedSimulation& simulation, StepCounters& counters)
 {
-    const base::Ticks local = now_ + run.quietOffset;
-    if (run.only)
-        run.only->seekable()->passTo(local, counters);
+    const base::Ticks local = now_ + simulation.quietOffset;
+    if (simulation.only)
+        simulation.only->seekable()->passTo(local, counters);
     else
-        for (const std::unique_ptr<Solver>& solver : run.solvers)
+        for (const std::unique_ptr<Solver>& solver : simulation.solvers)
             solver->seekable()->passTo(local, counters);
-    run.simulated = now_;
+    simulation.simulated = now_;
 }
 
-/// Scene time up to which steps of the run, which has been stepped, need not be taken; 0 when they must.
-base::Ticks World::quietOf(Run& run) const
+/// Scene time up to which steps of the simulation, which has been stepped, need not be taken; 0 when they
+/// must.
+base::Ticks World::quietOf(SharedSimulation& simulation) const
 {
-    const RunClock& clock = run.conditions.clock;
-    if (clock.rate != kNormalRate || run.effect->subSteps > 1 || !run.told.empty())
+    const InstanceClock& clock = simulation.conditions.clock;
+    if (clock.rate != kNormalRate || simulation.effect->subSteps > 1 || !simulation.pendingEvents.empty())
         return 0;
-    run.quietOffset = clock.local - clock.scene;
-    const base::Ticks local = run.simulated + run.quietOffset;
+    simulation.quietOffset = clock.local - clock.scene;
+    const base::Ticks local = simulation.simulated + simulation.quietOffset;
     base::Ticks until = INT64_MAX / 4;
-    for (const std::unique_ptr<Solver>& solver : run.solvers) {
+    for (const std::unique_ptr<Solver>& solver : simulation.solvers) {
         const SeekableSolver* const seekable = solver->seekable();
         until = seekable ? std::min(until, seekable->quietUntil(local)) : local;
         if (until <= local)
             return 0;
     }
-    return until - run.quietOffset;
+    return until - simulation.quietOffset;
 }
 
-/// A run of which only some users are stepped is divided into those and the others.
-void World::divideRuns(std::span<const Slot> active)
+/// A simulation of which only some users are stepped is divided into those and the others.
+void World::divideSimulations(std::span<const Slot> active)
 {
-    if (runs_.count() == instances_.size() - free_.size())
+    if (simulations_.count() == instances_.size() - free_.size())
         return; // none is shared
     for (const Slot slot : active) {
-        Run& run = runs_.at(instances_[slot].run);
-        run.visits = run.visitedIn == stepNumber_ ? run.visits + 1 : 1;
-        run.visitedIn = stepNumber_;
+        SharedSimulation& simulation = simulations_.at(instances_[slot].simulation);
+        simulation.visits = simulation.visitedIn == stepNumber_ ? simulation.visits + 1 : 1;
+        simulation.visitedIn = stepNumber_;
     }
     for (const Slot slot : active) {
-        const RunIndex index = instances_[slot].run;
-        if (const Run& run = runs_.at(index);
-            run.dividedIn != stepNumber_ && run.visits + run.hidden == run.users)
+        const SimulationIndex index = instances_[slot].simulation;
+        if (const SharedSimulation& simulation = simulations_.at(index);
+            simulation.dividedIn != stepNumber_ && simulation.visits + simulation.hidden == simulation.users)
             continue;
-        RunIndex division;
-        if (runs_.at(index).dividedIn != stepNumber_) {
-            division = runs_.copy(index);
-            runs_.at(index).dividedIn = stepNumber_;
-            runs_.at(index).division = division;
-            runs_.at(division).visitedIn = stepNumber_;
-            runs_.at(division).visits = 1;
+        SimulationIndex division;
+        if (simulations_.at(index).dividedIn != stepNumber_) {
+            division = simulations_.copy(index);
+            simulations_.at(index).dividedIn = stepNumber_;
+            simulations_.at(index).division = division;
+            simulations_.at(division).visitedIn = stepNumber_;
+            simulations_.at(division).visits = 1;
         } else {
-            division = runs_.at(index).division;
-            ++runs_.at(division).users;
-            ++runs_.at(division).visits;
+            division = simulations_.at(index).division;
+            ++simulations_.at(division).users;
+            ++simulations_.at(division).visits;
         }
-        instances_[slot].run = division;
-        runs_.leave(index);
+        instances_[slot].simulation = division;
+        simulations_.leave(index);
     }
 }
 
 /// Jumps to scene time `to`. False, and nothing has changed, when a solver cannot.
-bool World::seek(RunIndex index, base::Ticks to, StepCounters& counters)
+bool World::seek(SimulationIndex index, base::Ticks to, StepCounters& counters)
 {
-    const Run& run = runs_.at(index);
-    const base::Ticks from = run.conditions.clock.toLocal(run.simulated);
-    const base::Ticks local = run.conditions.clock.toLocal(to);
+    const SharedSimulation& simulation = simulations_.at(index);
+    const base::Ticks from = simulation.conditions.clock.toLocal(simulation.simulated);
+    const base::Ticks local = simulation.conditions.clock.toLocal(to);
     if (local > from && !jump(index, from, local, counters))
         return false;
-    runs_.at(index).simulated = std::max(to, runs_.at(index).simulated);
+    simulations_.at(index).simulated = std::max(to, simulations_.at(index).simulated);
     return true;
 }
 
 /// The same in local time, also backwards.
-bool World::jump(RunIndex index, base::Ticks from, base::Ticks to, StepCounters& counters)
+bool World::jump(SimulationIndex index, base::Ticks from, base::Ticks to, StepCounters& counters)
 {
-    const Run& run = runs_.at(index);
+    const SharedSimulation& simulation = simulations_.at(index);
     bool canSeek = true;
-    withContext(index, counters, [&](StepContext& context, const Run&) {
+    withContext(index, counters, [&](StepContext& context, const SharedSimulation&) {
         context.tick = from;
         context.stepTicks = std::max<base::Ticks>(to - from, 1);
-        for (uint32_t i = 0; i < run.solvers.size() && canSeek; ++i) {
+        for (uint32_t i = 0; i < simulation.solvers.size() && canSeek; ++i) {
             context.solverIndex = i;
-            const SeekableSolver* const seekable = run.solvers[i]->seekable();
+            const SeekableSolver* const seekable = simulation.solvers[i]->seekable();
             canSeek = seekable && seekable->canSeek(context, to);
         }
         if (!canSeek)
             return;
-        runs_.touch(index);
-        for (uint32_t i = 0; i < run.solvers.size(); ++i) {
+        simulations_.touch(index);
+        for (uint32_t i = 0; i < simulation.solvers.size(); ++i) {
             context.solverIndex = i;
-            run.solvers[i]->seekable()->seek(context, to);
+            simulation.solvers[i]->seekable()->seek(context, to);
             scratch_.reset();
         }
     });
@@ -332,27 +338,29 @@ bool World::jump(RunIndex index, base::Ticks from, base::Ticks to, StepCounters&
 void World::passOver(Slot slot, base::Ticks stepTicks)
 {
     const base::FloatingPointScope floatingPoint;
-    const RunIndex index = instances_[slot].run;
-    if (!isLagging(runs_.at(index)) || runs_.at(index).arriving || runs_.at(index).inStep)
+    const SimulationIndex index = instances_[slot].simulation;
+    if (!isLagging(simulations_.at(index)) || simulations_.at(index).arriving ||
+        simulations_.at(index).inStep)
         return;
-    runs_.materialize(index);
-    const base::Ticks memory = runs_.at(index).memory();
-    if (memory == Run::kNever)
+    simulations_.materialize(index);
+    const base::Ticks horizon = simulations_.at(index).influenceHorizon();
+    if (horizon == SharedSimulation::kNever)
         return;
-    const RunClock clock = runs_.at(index).conditions.clock;
-    const base::Ticks local = clock.toLocal(now_) - memory;
+    const InstanceClock clock = simulations_.at(index).conditions.clock;
+    const base::Ticks local = clock.toLocal(now_) - horizon;
     const base::Ticks from = local > 0 ? clock.toScene(local) / stepTicks * stepTicks : 0;
-    if (from <= runs_.at(index).simulated || isFinished(runs_.at(index), runs_.at(index).simulated))
+    if (from <= simulations_.at(index).simulated ||
+        isFinished(simulations_.at(index), simulations_.at(index).simulated))
         return;
     StepCounters uncounted; // nothing is stepped
-    runs_.touch(index);
-    withContext(index, uncounted, [&](StepContext& context, const Run& run) {
-        for (uint32_t i = 0; i < run.solvers.size(); ++i) {
+    simulations_.touch(index);
+    withContext(index, uncounted, [&](StepContext& context, const SharedSimulation& simulation) {
+        for (uint32_t i = 0; i < simulation.solvers.size(); ++i) {
             context.solverIndex = i;
-            run.solvers[i]->finiteMemory()->passOver(context, clock.toLocal(from));
+            simulation.solvers[i]->finiteMemory()->passOver(context, clock.toLocal(from));
         }
     });
-    runs_.at(index).simulated = from;
+    simulations_.at(index).simulated = from;
 }
 
 } // namespace fx::sim

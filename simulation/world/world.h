@@ -15,10 +15,10 @@
 #include "foundation/math/geometry.h"
 #include "foundation/memory/arena.h"
 #include "simulation/emitters/events/event_board.h"
-#include "simulation/emitters/pools/emitter_crowd.h"
 #include "simulation/emitters/pools/emitter_pools.h"
+#include "simulation/emitters/pools/spawn_batch.h"
 #include "simulation/solver/effect_def.h"
-#include "simulation/world/run_pool.h"
+#include "simulation/world/simulation_pool.h"
 
 #include <algorithm>
 #include <atomic>
@@ -40,8 +40,8 @@ struct InstanceStart
     base::Placement placement;
     InstanceParameters parameters;
     QualityLevel quality = QualityLevel::Medium; ///< for life
-    uint32_t rate = kNormalRate;                 ///< see RunClock, from the start on
-    std::optional<RunClock> clock{};             ///< when the host has changed its time; else from the above
+    uint32_t rate = kNormalRate;                 ///< see InstanceClock, from the start on
+    std::optional<InstanceClock> clock{};        ///< when the host has changed its time; else from the above
 };
 
 /// What all instances of a world share.
@@ -66,8 +66,8 @@ public:
     /// @param hidden begin out of sight: solvers are created when it becomes visible
     Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden = false);
     void remove(Slot slot);
-    /// The same at the end of an instance's life: its solvers wait for the next instance of their kind.
-    void retire(Slot slot);
+    /// The same at the end of an instance's life: its solvers go to the free list.
+    void recycle(Slot slot);
 
     // ---- out of sight; hidden slots are not given to step() and publish() ----
     void hide(Slot slot);
@@ -77,11 +77,11 @@ public:
     bool lags(Slot slot) const;
     base::Ticks simulated(Slot slot) const
     {
-        const Run& run = runs_.at(instances_[slot].run);
-        return run.pooled ? pools_.now() : run.simulated;
+        const SharedSimulation& simulation = simulations_.at(instances_[slot].simulation);
+        return simulation.pooled ? pools_.now() : simulation.simulated;
     }
     /// True when it has so many pending changes that it should be caught up.
-    bool crowded(Slot slot) const;
+    bool hasManyChanges(Slot slot) const;
     /// Takes a hidden instance towards the present, as if it had never been out of sight unless `policy` says
     /// otherwise; the past that it begins with, prewarm, first. Strong guarantee for each step.
     /// @param ioBudget [1] particle steps that may be taken; each step costs one more than its particles. The
@@ -102,19 +102,19 @@ public:
     /// @return whether it is through; otherwise it has to be hidden, and catchUp() goes on
     bool arrive(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work)
     {
-        return arrive(instances_[slot].run, now_, stepTicks, work, counters);
+        return arrive(instances_[slot].simulation, now_, stepTicks, work, counters);
     }
     /// Ends the step that catchUp() has begun and not ended.
-    void closeStep(Slot slot) { closeRun(instances_[slot].run); }
+    void closeStep(Slot slot) { closeSimulation(instances_[slot].simulation); }
     /// True while the past that an instance begins with, or is taken to by seekTo(), is not simulated yet.
-    bool isArriving(Slot slot) const { return runs_.at(instances_[slot].run).arriving; }
+    bool isArriving(Slot slot) const { return simulations_.at(instances_[slot].simulation).arriving; }
     /// [tick] of local time that is missing of it.
     base::Ticks missing(Slot slot) const
     {
-        const Run& run = runs_.at(instances_[slot].run);
-        return run.arriving ? run.target - run.reached : 0;
+        const SharedSimulation& simulation = simulations_.at(instances_[slot].simulation);
+        return simulation.arriving ? simulation.target - simulation.reached : 0;
     }
-    /// Puts the solvers of a paused simulation aside and keeps its state as bytes.
+    /// Moves the solvers of a paused simulation to the free list and keeps its state as bytes.
     /// @param mayForget it will be caught up without a trace: particles that will be dead by then need not be
     ///             kept
     /// @return scene time at which another call would free more; the largest number for never
@@ -123,10 +123,10 @@ public:
     /// present from which catchUp() gives the same bits as from where it was.
     void passOver(Slot slot, base::Ticks stepTicks);
     /// Gives a hidden instance its solvers back.
-    void materialize(Slot slot) { runs_.materialize(instances_[slot].run); }
-    /// Frees solvers that were put aside before `tick`.
-    void trimSpares(base::Ticks tick) { runs_.trimSpares(tick); }
-    size_t spares() const { return runs_.spares(); } ///< solvers put aside, in sets of an instance's
+    void materialize(Slot slot) { simulations_.materialize(instances_[slot].simulation); }
+    /// Frees solvers that have been in the free list since before `tick`.
+    void trimFreeList(base::Ticks tick) { simulations_.trimFreeList(tick); }
+    size_t freeSolvers() const { return simulations_.freeSolvers(); } ///< sets of solvers in the free list
     /// Scene time, at least the present, up to which steps change nothing that is seen of the instance: they
     /// are not taken.
     base::Ticks restsUntil(Slot slot) const;
@@ -176,18 +176,18 @@ public:
         return seekTo(slot, to, stepTicks, counters, unlimited);
     }
     base::Ticks localTime(Slot slot) const { return clockOf(slot).toLocal(now_); }
-    /// See RunClock; the present one, told or not.
-    RunClock clockOf(Slot slot) const;
+    /// See InstanceClock; the present one, also while it is pending.
+    InstanceClock clockOf(Slot slot) const;
     /// Tells an instance that something happened; it hears of it when its state reaches the present, with the
     /// next step. Strong guarantee; may need memory.
-    void tell(Slot slot, const HostEvent& event);
+    void postEvent(Slot slot, const HostEvent& event);
     /// True at the end of the effect's duration, when all solvers have finished, and when an instance that no
     /// longer emits is empty.
     bool finished(Slot slot, base::Ticks sceneTick) const;
     uint32_t elementCount(Slot slot) const;
     bool hasElements(Slot slot) const; ///< whether that is not 0
     const EffectDef& effect(Slot slot) const;
-    uint32_t simulations() const { return runs_.count(); } ///< at most one an instance
+    uint32_t simulations() const { return simulations_.count(); } ///< at most one an instance
 
     /// Steps each slot of `active` from scene time `tick` to `tick + stepTicks`, in the order of the list. A
     /// slot whose start lies inside the step begins at its own start tick; one that starts later is left
@@ -247,7 +247,7 @@ public:
 private:
     struct Instance
     {
-        RunIndex run = kNoRun;
+        SimulationIndex simulation = kNoSimulation;
         bool hidden = false;
         uint32_t wanted = 0; ///< place in wanted_, from 1 on, of what `start` becomes; 0: unchanged
         InstanceStart start;
@@ -267,13 +267,13 @@ private:
         bool isPlanned = false;
         base::Ticks tick = 0;
         base::Ticks stepTicks = 0;
-        size_t place = 0; ///< in the list, of the run in hand
+        size_t place = 0; ///< in the list, of the simulation in hand
         std::span<const Slot> active;
         std::span<const Slot> list;           ///< those of them that are in no pool
         std::vector<Slot> ownActive, ownList; ///< their memory, between two calls
         StepCounters counters;
-        std::optional<EventBoard> board;    ///< of the sub-step in hand
-        std::span<const HostEvent> heard{}; ///< likewise
+        std::optional<EventBoard> board;         ///< of the sub-step in hand
+        std::span<const HostEvent> hostEvents{}; ///< likewise
     };
     /// A publication of which some is still to be written.
     struct PublicationInHand
@@ -287,13 +287,13 @@ private:
         PublicationPlace part; ///< of that solver
         base::FrameSnapshot* snapshot = nullptr;
     };
-    /// A step of one run.
-    struct RunStep
+    /// A step of one simulation.
+    struct SimulationStep
     {
         base::Ticks tick; ///< scene time
         base::Ticks stepTicks;
-        EmitterCrowd* crowd = nullptr;              ///< null unless it is closed before the run is read
-        std::optional<EventBoard>* board = nullptr; ///< null: the run has its own, see linkedPartOf()
+        SpawnBatch* spawnBatch = nullptr; ///< null unless it is closed before the simulation is read
+        std::optional<EventBoard>* board = nullptr; ///< null: the simulation has its own, see linkedPartOf()
     };
     struct LocalSpan
     {
@@ -313,8 +313,8 @@ private:
             return revision == now && std::ranges::equal(active, list);
         }
     };
-    bool canPool(const Run& run) const;
-    void leavePool(RunIndex index);
+    bool canPool(const SharedSimulation& simulation) const;
+    void leavePool(SimulationIndex index);
     void endPools();
     void stepPools(std::span<const Slot> active, bool isPlanned, StepCounters& counters);
     void joinPools();
@@ -334,48 +334,52 @@ private:
     }
     bool publishSlot(Slot slot, base::WorkBudget& work);
 
-    RunConditions conditionsOf(const EffectDef& effect, const InstanceStart& start) const;
-    Slot takeSlot(const InstanceStart& start, RunIndex run);
-    /// The run of an instance becomes one that has the conditions of `start`.
+    SimulationConditions conditionsOf(const EffectDef& effect, const InstanceStart& start) const;
+    Slot takeSlot(const InstanceStart& start, SimulationIndex simulation);
+    /// The simulation of an instance becomes one that has the conditions of `start`.
     void change(Slot slot, const InstanceStart& start);
-    RunIndex changeLater(RunIndex index, const RunConditions& wanted);
-    bool isLagging(const Run& run) const { return run.isPaused() && run.simulated < now_; }
-    base::Ticks restOf(const Run& run) const;
-    void endRest(RunIndex index, base::Ticks tick);
-    bool isFinished(const Run& run, base::Ticks sceneTick) const;
-    bool seek(RunIndex index, base::Ticks to, StepCounters& counters);
+    SimulationIndex changeLater(SimulationIndex index, const SimulationConditions& wanted);
+    bool isLagging(const SharedSimulation& simulation) const
+    {
+        return simulation.isPaused() && simulation.simulated < now_;
+    }
+    base::Ticks restOf(const SharedSimulation& simulation) const;
+    void endRest(SimulationIndex index, base::Ticks tick);
+    bool isFinished(const SharedSimulation& simulation, base::Ticks sceneTick) const;
+    bool seek(SimulationIndex index, base::Ticks to, StepCounters& counters);
     template <class F>
-    void withContext(RunIndex index, StepCounters& counters, F&& body);
+    void withContext(SimulationIndex index, StepCounters& counters, F&& body);
     void divideByPlacement();
-    void divideRuns(std::span<const Slot> active);
-    bool stepSolvers(Run& run, StepContext& context, std::optional<EventBoard>& ioBoard,
+    void divideSimulations(std::span<const Slot> active);
+    bool stepSolvers(SharedSimulation& simulation, StepContext& context, std::optional<EventBoard>& ioBoard,
                      base::WorkBudget& work);
-    bool stepPart(RunIndex index, StepContext& context, const LocalSpan& time,
+    bool stepPart(SimulationIndex index, StepContext& context, const LocalSpan& time,
                   std::optional<EventBoard>& ioBoard, base::WorkBudget& work);
-    LinkedPart* linkedPartOf(Run& run);
-    bool arrive(RunIndex index, base::Ticks tick, base::Ticks stepTicks, base::WorkBudget& work,
+    LinkedPart* linkedPartOf(SharedSimulation& simulation);
+    bool arrive(SimulationIndex index, base::Ticks tick, base::Ticks stepTicks, base::WorkBudget& work,
                 StepCounters& counters);
-    void setOut(RunIndex index, const LocalSpan& way, base::Ticks stepTicks, StepCounters& counters);
-    bool replay(RunIndex index, base::WorkBudget& work, StepCounters& counters);
-    bool replayPart(RunIndex index, base::WorkBudget& work, StepCounters& counters);
-    void closeRun(RunIndex index);
-    bool jump(RunIndex index, base::Ticks from, base::Ticks to, StepCounters& counters);
-    bool playTo(RunIndex index, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
+    void setOut(SimulationIndex index, const LocalSpan& way, base::Ticks stepTicks, StepCounters& counters);
+    bool replay(SimulationIndex index, base::WorkBudget& work, StepCounters& counters);
+    bool replayPart(SimulationIndex index, base::WorkBudget& work, StepCounters& counters);
+    void closeSimulation(SimulationIndex index);
+    bool jump(SimulationIndex index, base::Ticks from, base::Ticks to, StepCounters& counters);
+    bool playTo(SimulationIndex index, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
                 base::WorkBudget& work);
-    static void restoreSolvers(Run& run, const StateBuffer& state);
+    static void restoreSolvers(SharedSimulation& simulation, const StateBuffer& state);
     void isolate(Slot slot);
-    std::span<const HostEvent> hear(RunIndex index, base::Ticks tick, base::Arena& scratch);
-    void restoreTold(Run& run, StateReader& reader);
-    bool stepRun(RunIndex index, const RunStep& step, base::WorkBudget& work, StepCounters& counters);
+    std::span<const HostEvent> takeEvents(SimulationIndex index, base::Ticks tick, base::Arena& scratch);
+    void restorePending(SharedSimulation& simulation, StateReader& reader);
+    bool stepSimulation(SimulationIndex index, const SimulationStep& step, base::WorkBudget& work,
+                        StepCounters& counters);
     void fetchAhead(std::span<const Slot> active, size_t place) const;
-    void passQuietly(Run& run, StepCounters& counters);
-    base::Ticks quietOf(Run& run) const;
-    RunIndex restoreRun(const Entry& first, StateReader& reader);
-    RunIndex joinRun(RunIndex index, const Entry& entry, StateReader& reader);
+    void passQuietly(SharedSimulation& simulation, StepCounters& counters);
+    base::Ticks quietOf(SharedSimulation& simulation) const;
+    SimulationIndex restoreSimulation(const Entry& first, StateReader& reader);
+    SimulationIndex joinSimulation(SimulationIndex index, const Entry& entry, StateReader& reader);
 
-    void reserveTelling();
-    void tellAll();
-    static void standStill(const Run& run);
+    void reserveUpdates();
+    void updateConditions();
+    static void standStill(const SharedSimulation& simulation);
 
     Environment environment_;
     HostContact contact_;
@@ -385,23 +389,23 @@ private:
     std::pmr::memory_resource* memory_;
     bool share_;
     base::Arena scratch_;
-    EmitterCrowd crowd_; ///< of the step or the publication in hand; empty otherwise
-    EmitterPools pools_; ///< before the runs, whose solvers are in them
-    RunPool runs_;
+    SpawnBatch spawnBatch_; ///< of the step or the publication in hand; empty otherwise
+    EmitterPools pools_;    ///< before the simulations, whose solvers are in them
+    SimulationPool simulations_;
     std::vector<Instance> instances_;
     std::vector<Slot> free_;
     Plan stepPlan_;
     StepInHand hand_;
     PublicationInHand publication_;
-    StepCounters closed_;               ///< work of steps that had to be ended, not counted yet
-    std::vector<Waiting> waiting_;      ///< in the order of the calls
-    std::vector<InstanceStart> wanted_; ///< from the end of the step in hand on
-    std::vector<Slot> leaving_;         ///< likewise, removed
-    std::vector<RunIndex> joining_;     ///< runs that a step has taken to where a pool could go on
-    std::vector<RunIndex> left_;        ///< runs that left their pool in a step
+    StepCounters closed_;                  ///< work of steps that had to be ended, not counted yet
+    std::vector<Waiting> waiting_;         ///< in the order of the calls
+    std::vector<InstanceStart> wanted_;    ///< from the end of the step in hand on
+    std::vector<Slot> leaving_;            ///< likewise, removed
+    std::vector<SimulationIndex> joining_; ///< simulations that a step has taken to where a pool could go on
+    std::vector<SimulationIndex> left_;    ///< simulations that left their pool in a step
     Plan publishPlan_;
     uint64_t placed_ = 0; ///< of publishPlan_: see moves_
-    uint64_t moves_ = 1;  ///< goes up when an instance whose run is in a pool has been moved
+    uint64_t moves_ = 1;  ///< goes up when an instance whose simulation is in a pool has been moved
     std::vector<std::shared_ptr<base::GroupRoster>> rosterRoom_; ///< snapshots hold some of them
     std::shared_ptr<base::GroupRoster> roster_;                  ///< of the last publication
     std::vector<uint32_t> ends_;                                 ///< see FrameSnapshot::setRoster()

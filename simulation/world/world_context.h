@@ -9,33 +9,34 @@
 
 namespace fx::sim {
 
-/// Calls body(context, run) with everything but the time filled in.
+/// Calls body(context, simulation) with everything but the time filled in.
 template <class F>
-void World::withContext(RunIndex index, StepCounters& counters, F&& body)
+void World::withContext(SimulationIndex index, StepCounters& counters, F&& body)
 {
-    Run& run = runs_.at(index);
+    SharedSimulation& simulation = simulations_.at(index);
     StepContext context{};
-    context.seed = run.conditions.seed;
-    context.gravity = run.conditions.gravity;
-    context.wind = run.conditions.wind;
-    context.groundHeight = run.conditions.groundHeight;
+    context.seed = simulation.conditions.seed;
+    context.gravity = simulation.conditions.gravity;
+    context.wind = simulation.conditions.wind;
+    context.groundHeight = simulation.conditions.groundHeight;
     std::optional<Collider> collider;
-    PlacedContact contact(contact_, run.conditions.placement, contactFaults_);
-    if (run.conditions.hasContact && contact_.meet) // a paused run may be at a time when there was none
+    PlacedContact contact(contact_, simulation.conditions.placement, contactFaults_);
+    if (simulation.conditions.hasContact &&
+        contact_.meet) // a paused simulation may be at a time when there was none
         context.contactHook = &contact.hook();
-    if (run.conditions.field)
-        collider.emplace(*run.conditions.field, run.conditions.placement);
+    if (simulation.conditions.field)
+        collider.emplace(*simulation.conditions.field, simulation.conditions.placement);
     context.collider = collider ? &*collider : nullptr;
-    context.parameters = &run.conditions.parameters;
-    context.placement = run.conditions.placement;
+    context.parameters = &simulation.conditions.parameters;
+    context.placement = simulation.conditions.placement;
     context.worldGravity = environment_.gravity;
-    context.worldWind = run.conditions.worldWind;
-    context.effectWind = run.effect->wind;
+    context.worldWind = simulation.conditions.worldWind;
+    context.effectWind = simulation.effect->wind;
     context.tasks = tasks_;
     context.scratch = &scratch_;
     context.counters = &counters;
     context.gpuParticles = gpuParticles_;
-    body(context, run);
+    body(context, simulation);
 }
 
 } // namespace fx::sim

@@ -11,22 +11,23 @@ namespace fx::sim {
 /// sub-step, causes before effects.
 /// @param ioBoard their events, which stay with the scratch memory while the sub-step waits
 /// @return whether all are through
-bool World::stepSolvers(Run& run, StepContext& context, std::optional<EventBoard>& ioBoard,
-                        base::WorkBudget& work)
+bool World::stepSolvers(SharedSimulation& simulation, StepContext& context,
+                        std::optional<EventBoard>& ioBoard, base::WorkBudget& work)
 {
-    const std::span<const uint32_t> order = run.effect->order;
+    const std::span<const uint32_t> order = simulation.effect->order;
     const bool isLinked = !order.empty();
     if (isLinked && !ioBoard)
-        ioBoard.emplace(*context.scratch, ++boards_, run.solvers.size(),
-                        [&run](size_t solver) { return run.effect->solvers[solver]->capacity(); });
+        ioBoard.emplace(*context.scratch, ++boards_, simulation.solvers.size(), [&simulation](size_t solver) {
+            return simulation.effect->solvers[solver]->capacity();
+        });
     context.board = ioBoard ? &*ioBoard : nullptr;
-    while (run.stepped < run.solvers.size()) {
-        if (run.stepped > 0 && work.isSpent())
+    while (simulation.stepped < simulation.solvers.size()) {
+        if (simulation.stepped > 0 && work.isSpent())
             return false;
-        context.solverIndex = isLinked ? order[run.stepped] : run.stepped;
-        if (!stepWithin(*run.solvers[context.solverIndex], context, work))
+        context.solverIndex = isLinked ? order[simulation.stepped] : simulation.stepped;
+        if (!stepWithin(*simulation.solvers[context.solverIndex], context, work))
             return false;
-        ++run.stepped; // whatever fails from here on
+        ++simulation.stepped; // whatever fails from here on
         if (!isLinked)
             context.scratch->reset();
     }
@@ -36,52 +37,55 @@ bool World::stepSolvers(Run& run, StepContext& context, std::optional<EventBoard
     return true;
 }
 
-/// Where solvers of a run that is not stepped with the others tell each other of events; null where they do
-/// not.
-LinkedPart* World::linkedPartOf(Run& run)
+/// Where solvers of a simulation that is not stepped with the others tell each other of events; null where
+/// they do not.
+LinkedPart* World::linkedPartOf(SharedSimulation& simulation)
 {
-    if (!run.effect->order.empty() && !run.linked)
-        run.linked = std::make_unique<LinkedPart>(memory_);
-    return run.linked.get();
+    if (!simulation.effect->order.empty() && !simulation.linked)
+        simulation.linked = std::make_unique<LinkedPart>(memory_);
+    return simulation.linked.get();
 }
 
-void World::tell(Slot slot, const HostEvent& event)
+void World::postEvent(Slot slot, const HostEvent& event)
 {
     if (isStepping())
         return waiting_.push_back({slot, event});
     isolate(slot);
-    const RunIndex index = instances_[slot].run;
-    runs_.at(index).told.push_back({now_, event});
-    runs_.touch(index); // no instance may join it any more
+    const SimulationIndex index = instances_[slot].simulation;
+    simulations_.at(index).pendingEvents.push_back({now_, event});
+    simulations_.touch(index); // no instance may join it any more
 }
 
-/// Takes the pending events of the run up to scene time `tick`.
-std::span<const HostEvent> World::hear(RunIndex index, base::Ticks tick, base::Arena& scratch)
+/// Takes the pending events of the simulation up to scene time `tick`.
+std::span<const HostEvent> World::takeEvents(SimulationIndex index, base::Ticks tick, base::Arena& scratch)
 {
-    Run& run = runs_.at(index);
-    if (run.told.empty())
+    SharedSimulation& simulation = simulations_.at(index);
+    if (simulation.pendingEvents.empty())
         return {};
-    const base::Ticks until = std::max(tick, run.conditions.clock.scene);
-    const auto end = std::find_if(run.told.begin(), run.told.end(),
-                                  [until](const Run::Told& told) { return told.tick > until; });
-    const std::span<HostEvent> heard = scratch.allocate<HostEvent>(size_t(end - run.told.begin()));
-    std::transform(run.told.begin(), end, heard.begin(), [](const Run::Told& told) { return told.event; });
-    run.told.erase(run.told.begin(), end);
-    return heard;
+    const base::Ticks until = std::max(tick, simulation.conditions.clock.scene);
+    const auto end =
+        std::find_if(simulation.pendingEvents.begin(), simulation.pendingEvents.end(),
+                     [until](const SharedSimulation::PendingEvent& pending) { return pending.tick > until; });
+    const std::span<HostEvent> hostEvents =
+        scratch.allocate<HostEvent>(size_t(end - simulation.pendingEvents.begin()));
+    std::transform(simulation.pendingEvents.begin(), end, hostEvents.begin(),
+                   [](const SharedSimulation::PendingEvent& pending) { return pending.event; });
+    simulation.pendingEvents.erase(simulation.pendingEvents.begin(), end);
+    return hostEvents;
 }
 
-void World::restoreTold(Run& run, StateReader& reader)
+void World::restorePending(SharedSimulation& simulation, StateReader& reader)
 {
-    const size_t known = run.effect->hostEvents.size();
+    const size_t known = simulation.effect->hostEvents.size();
     if (known == 0)
         return;
     const uint32_t count = reader.value<uint32_t>(0, 1u << 20, "too many events wait");
     for (uint32_t i = 0; i < count && reader.ok(); ++i) {
-        Run::Told told{};
-        told.tick = reader.value<base::Ticks>();
-        told.event.event = reader.value<uint32_t>(0, uint32_t(known - 1), "an event is unknown");
-        told.event.count = reader.value<uint32_t>();
-        run.told.push_back(told);
+        SharedSimulation::PendingEvent pending{};
+        pending.tick = reader.value<base::Ticks>();
+        pending.event.event = reader.value<uint32_t>(0, uint32_t(known - 1), "an event is unknown");
+        pending.event.count = reader.value<uint32_t>();
+        simulation.pendingEvents.push_back(pending);
     }
 }
 

@@ -1,4 +1,4 @@
-// Geometry of the host, and how it reaches runs.
+// Geometry of the host, and how it reaches simulations.
 #include "simulation/world/world.h"
 
 #include <algorithm>
@@ -6,29 +6,31 @@
 
 namespace fx::sim {
 
-/// Instances that meet geometry at different places no longer share a run. What each is does not change.
+/// Instances that meet geometry at different places no longer share a simulation. What each is does not
+/// change.
 void World::divideByPlacement()
 {
-    std::vector<const base::Placement*> places(runs_.size(), nullptr); // of the first user of each run
+    std::vector<const base::Placement*> places(simulations_.size(),
+                                               nullptr); // of the first user of each simulation
     for (Instance& instance : instances_) {
-        if (instance.run == kNoRun || !runs_.at(instance.run).effect->collides())
+        if (instance.simulation == kNoSimulation || !simulations_.at(instance.simulation).effect->collides())
             continue;
         const base::Placement& here = instance.start.placement;
-        const base::Placement*& first = places[instance.run];
+        const base::Placement*& first = places[instance.simulation];
         if (!first)
             first = &here;
         if (first->position == here.position && first->rotation == here.rotation &&
             first->scale == here.scale)
             continue;
-        const RunIndex shared = instance.run;
-        instance.run = runs_.copy(shared);
+        const SimulationIndex shared = instance.simulation;
+        instance.simulation = simulations_.copy(shared);
         if (instance.hidden) {
-            --runs_.at(shared).hidden;
-            ++runs_.at(instance.run).hidden;
+            --simulations_.at(shared).hidden;
+            ++simulations_.at(instance.simulation).hidden;
         }
-        runs_.leave(shared);
-        places.resize(runs_.size(), nullptr);
-        places[instance.run] = &here;
+        simulations_.leave(shared);
+        places.resize(simulations_.size(), nullptr);
+        places[instance.simulation] = &here;
     }
 }
 
@@ -37,12 +39,13 @@ void World::setField(std::shared_ptr<const DistanceField> field)
     endRests();
     if (field)
         divideByPlacement();
-    reserveTelling();
-    for (const Instance& instance : instances_) // paused runs still have to meet the old one
-        if (instance.run != kNoRun && isLagging(runs_.at(instance.run)) && !runs_.at(instance.run).field)
-            runs_.at(instance.run).field = environment_.field;
-    std::swap(environment_.field, field); // the old one lives on until no run names it
-    tellAll();
+    reserveUpdates();
+    for (const Instance& instance : instances_) // paused simulations still have to meet the old one
+        if (instance.simulation != kNoSimulation && isLagging(simulations_.at(instance.simulation)) &&
+            !simulations_.at(instance.simulation).field)
+            simulations_.at(instance.simulation).field = environment_.field;
+    std::swap(environment_.field, field); // the old one lives on until no simulation names it
+    updateConditions();
 }
 
 void World::setContact(const HostContact& contact)
@@ -50,35 +53,36 @@ void World::setContact(const HostContact& contact)
     endRests();
     if (contact.meet)
         divideByPlacement();
-    reserveTelling();
+    reserveUpdates();
     contact_ = contact;
-    tellAll();
+    updateConditions();
 }
 
-/// Room for tellAll(), which must not fail half way.
-void World::reserveTelling()
+/// Room for updateConditions(), which must not fail half way.
+void World::reserveUpdates()
 {
     for (const Instance& instance : instances_) {
-        if (instance.run == kNoRun || !isLagging(runs_.at(instance.run)))
+        if (instance.simulation == kNoSimulation || !isLagging(simulations_.at(instance.simulation)))
             continue;
-        std::vector<Run::Change>& changes = runs_.at(instance.run).changes;
-        const size_t most = changes.size() + runs_.at(instance.run).users;
+        std::vector<SharedSimulation::Change>& changes = simulations_.at(instance.simulation).changes;
+        const size_t most = changes.size() + simulations_.at(instance.simulation).users;
         if (changes.capacity() < most)
             changes.reserve(std::max(most, 2 * changes.size()));
     }
 }
 
-/// Applies the present conditions to all runs. Never fails after reserveTelling().
-void World::tellAll()
+/// Applies the present conditions to all simulations. Never fails after reserveUpdates().
+void World::updateConditions()
 {
     for (const Instance& instance : instances_) {
-        if (instance.run == kNoRun)
+        if (instance.simulation == kNoSimulation)
             continue;
-        const RunConditions wanted = conditionsOf(*runs_.at(instance.run).effect, instance.start);
-        if (isLagging(runs_.at(instance.run)))
-            runs_.at(instance.run).changes.push_back({now_, wanted, environment_.field});
+        const SimulationConditions wanted =
+            conditionsOf(*simulations_.at(instance.simulation).effect, instance.start);
+        if (isLagging(simulations_.at(instance.simulation)))
+            simulations_.at(instance.simulation).changes.push_back({now_, wanted, environment_.field});
         else
-            runs_.reset(instance.run, wanted);
+            simulations_.reset(instance.simulation, wanted);
     }
 }
 

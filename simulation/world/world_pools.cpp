@@ -18,25 +18,26 @@ uint64_t nextShape()
 
 } // namespace
 
-/// Whether the run, which has just been stepped, is one that a pool may compute: nothing is going to happen
-/// but what its emitter does by itself.
-bool World::canPool(const Run& run) const
+/// Whether the simulation, which has just been stepped, is one that a pool may compute: nothing is going to
+/// happen but what its emitter does by itself.
+bool World::canPool(const SharedSimulation& simulation) const
 {
-    return mayPool_ && run.only && run.users == 1 && run.hidden == 0 && run.effect->subSteps <= 1 &&
-           run.told.empty() && run.changes.empty() && run.conditions.clock.rate == kNormalRate;
+    return mayPool_ && simulation.only && simulation.users == 1 && simulation.hidden == 0 &&
+           simulation.effect->subSteps <= 1 && simulation.pendingEvents.empty() &&
+           simulation.changes.empty() && simulation.conditions.clock.rate == kNormalRate;
 }
 
 /// Its solver goes on by itself.
-void World::leavePool(RunIndex index)
+void World::leavePool(SimulationIndex index)
 {
-    Run& run = runs_.at(index);
-    if (!run.pooled)
+    SharedSimulation& simulation = simulations_.at(index);
+    if (!simulation.pooled)
         return;
-    run.only->pooledEmitter()->leavePool();
-    run.pooled = false;
-    run.simulated = pools_.now();
-    run.restUntil = 0;
-    run.quietUntil = 0;
+    simulation.only->pooledEmitter()->leavePool();
+    simulation.pooled = false;
+    simulation.simulated = pools_.now();
+    simulation.restUntil = 0;
+    simulation.quietUntil = 0;
 }
 
 void World::endPools()
@@ -50,13 +51,13 @@ void World::stepPools(std::span<const Slot> active, bool isPlanned, StepCounters
     const uint64_t before = pools_.revision();
     if (!isPlanned)
         pools_.forEach([this](PooledEmitter&, uint32_t user) {
-            if (runs_.at(user).steppedIn != stepNumber_)
+            if (simulations_.at(user).steppedIn != stepNumber_)
                 leavePool(user); // time stands still for it
         });
     left_.clear();
     left_.reserve(pools_.members()); // before any member leaves
     pools_.step(now_, counters, left_);
-    for (const RunIndex index : left_)
+    for (const SimulationIndex index : left_)
         leavePool(index);
     joinPools();
     if (isPlanned && pools_.revision() == before)
@@ -66,24 +67,24 @@ void World::stepPools(std::span<const Slot> active, bool isPlanned, StepCounters
 
 void World::joinPools()
 {
-    for (const RunIndex index : joining_) {
-        Run& run = runs_.at(index);
-        const RunClock& clock = run.conditions.clock;
+    for (const SimulationIndex index : joining_) {
+        SharedSimulation& simulation = simulations_.at(index);
+        const InstanceClock& clock = simulation.conditions.clock;
         const PoolRequest request{index, stepNumber_, now_, clock.local - clock.scene};
-        PooledEmitter* const emitter = run.only->pooledEmitter();
-        if (emitter && run.simulated == now_ && run.restUntil == 0)
-            run.pooled = emitter->joinPool(pools_, request);
+        PooledEmitter* const emitter = simulation.only->pooledEmitter();
+        if (emitter && simulation.simulated == now_ && simulation.restUntil == 0)
+            simulation.pooled = emitter->joinPool(pools_, request);
     }
     joining_.clear();
 }
 
 void World::planStep(std::span<const Slot> active)
 {
-    stepPlan_.revision = 0; // of no pools: the memory may run out on the way
+    stepPlan_.revision = 0; // of no pools: the memory may be exhausted on the way
     stepPlan_.active.assign(active.begin(), active.end());
     stepPlan_.others.clear();
     for (const Slot slot : active)
-        if (!runs_.at(instances_[slot].run).pooled)
+        if (!simulations_.at(instances_[slot].simulation).pooled)
             stepPlan_.others.push_back(slot);
     stepPlan_.revision = pools_.revision();
 }
@@ -115,12 +116,12 @@ void World::makeRoster(std::span<const Slot> active)
     publishPlan_.others.clear();
     for (const Slot slot : active) {
         const Instance& instance = instances_[slot];
-        const Run& run = runs_.at(instance.run);
-        if (!run.pooled) {
+        const SharedSimulation& simulation = simulations_.at(instance.simulation);
+        if (!simulation.pooled) {
             publishPlan_.others.push_back(slot);
             continue;
         }
-        const PooledEmitter& emitter = *run.only->pooledEmitter();
+        const PooledEmitter& emitter = *simulation.only->pooledEmitter();
         base::GroupRoster::Entry entry;
         entry.instance = instance.start.instance;
         entry.placement = instance.start.placement;

@@ -41,9 +41,9 @@ bool World::proceedPublication(base::WorkBudget& work)
         bool goesOn = false;
         ~Ending() { hand.isOpen = goesOn; }
     } ending{hand};
-    crowd_.beginPublication(*hand.snapshot, tasks_);
+    spawnBatch_.beginPublication(*hand.snapshot, tasks_);
     const bool areWritten = publishSlots(work);
-    work.spend(crowd_.endPublication());
+    work.spend(spawnBatch_.endPublication());
     if (!areWritten) {
         if (!hand.hasPools && hand.list.data() != hand.own.data()) { // the list may be gone by the next call
             hand.own.assign(hand.list.begin(), hand.list.end());
@@ -78,17 +78,17 @@ bool World::publishSlot(Slot slot, base::WorkBudget& work)
 {
     PublicationInHand& hand = publication_;
     const Instance& instance = instances_[slot];
-    const Run& run = runs_.at(instance.run);
+    const SharedSimulation& simulation = simulations_.at(instance.simulation);
     base::GroupInfo info;
     info.instance = instance.start.instance;
     info.placement = instance.start.placement;
-    for (; hand.solver < run.solvers.size(); ++hand.solver) {
+    for (; hand.solver < simulation.solvers.size(); ++hand.solver) {
         if (work.isSpent())
             return false;
         info.solver = hand.solver;
-        Solver& solver = run.only ? *run.only : *run.solvers[hand.solver];
+        Solver& solver = simulation.only ? *simulation.only : *simulation.solvers[hand.solver];
         const PooledEmitter* const emitter = solver.pooledEmitter();
-        if (emitter && emitter->joinPublication(info, *hand.snapshot, crowd_))
+        if (emitter && emitter->joinPublication(info, *hand.snapshot, spawnBatch_))
             continue;
         if (!publishWithin(solver, info, *hand.snapshot, hand.part, work))
             return false;

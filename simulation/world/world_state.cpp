@@ -8,15 +8,15 @@ namespace fx::sim {
 
 namespace {
 
-void saveTold(const Run& run, StateWriter& writer)
+void saveTold(const SharedSimulation& simulation, StateWriter& writer)
 {
-    if (run.effect->hostEvents.empty())
+    if (simulation.effect->hostEvents.empty())
         return;
-    writer.value(uint32_t(run.told.size()));
-    for (const Run::Told& told : run.told) {
-        writer.value(told.tick);
-        writer.value(told.event.event);
-        writer.value(told.event.count);
+    writer.value(uint32_t(simulation.pendingEvents.size()));
+    for (const SharedSimulation::PendingEvent& pending : simulation.pendingEvents) {
+        writer.value(pending.tick);
+        writer.value(pending.event.event);
+        writer.value(pending.event.count);
     }
 }
 
@@ -24,15 +24,15 @@ void saveTold(const Run& run, StateWriter& writer)
 
 uint64_t World::hash(std::span<const Slot> slots) const
 {
-    std::vector<uint64_t> hashes(runs_.size());
-    std::vector<bool> known(runs_.size());
+    std::vector<uint64_t> hashes(simulations_.size());
+    std::vector<bool> known(simulations_.size());
     StateHasher all;
     for (const Slot slot : slots) {
-        const RunIndex index = instances_[slot].run;
+        const SimulationIndex index = instances_[slot].simulation;
         if (!known[index]) {
             StateHasher hasher;
-            runs_.at(index).save(hasher);
-            saveTold(runs_.at(index), hasher);
+            simulations_.at(index).save(hasher);
+            saveTold(simulations_.at(index), hasher);
             hashes[index] = hasher.hash();
             known[index] = true;
         }
@@ -43,19 +43,19 @@ uint64_t World::hash(std::span<const Slot> slots) const
 
 void World::save(std::span<const Slot> slots, StateWriter& writer) const
 {
-    std::vector<uint32_t> firstUse(runs_.size(), ~0u); // by run: place of its first user
+    std::vector<uint32_t> firstUse(simulations_.size(), ~0u); // by simulation: place of its first user
     for (uint32_t place = 0; place < slots.size(); ++place) {
-        const RunIndex index = instances_[slots[place]].run;
-        const Run& run = runs_.at(index);
+        const SimulationIndex index = instances_[slots[place]].simulation;
+        const SharedSimulation& simulation = simulations_.at(index);
         const bool isFirst = firstUse[index] == ~0u;
         if (isFirst)
             firstUse[index] = place;
         writer.value(firstUse[index]);
         if (!isFirst)
             continue;
-        writer.flag(run.fresh);
-        run.save(writer);
-        saveTold(run, writer);
+        writer.flag(simulation.fresh);
+        simulation.save(writer);
+        saveTold(simulation, writer);
     }
 }
 
@@ -67,50 +67,50 @@ void World::restore(std::span<const Entry> entries, StateReader& reader, std::sp
         const uint32_t first = reader.value<uint32_t>(0, place, "an instance of the state has no simulation");
         if (!reader.ok())
             return;
-        const RunIndex run = first == place
-                                 ? restoreRun(entries[place], reader)
-                                 : joinRun(instances_[outSlots[first]].run, entries[place], reader);
-        if (run != kNoRun)
-            outSlots[place] = takeSlot(entries[place].start, run);
+        const SimulationIndex simulation =
+            first == place ? restoreSimulation(entries[place], reader)
+                           : joinSimulation(instances_[outSlots[first]].simulation, entries[place], reader);
+        if (simulation != kNoSimulation)
+            outSlots[place] = takeSlot(entries[place].start, simulation);
     }
 }
 
-RunIndex World::restoreRun(const Entry& first, StateReader& reader)
+SimulationIndex World::restoreSimulation(const Entry& first, StateReader& reader)
 {
     const bool fresh = reader.flag();
     if (!reader.ok())
-        return kNoRun;
-    const RunIndex index = runs_.create(first.effect, conditionsOf(*first.effect, first.start));
-    Run& run = runs_.at(index);
-    run.users = 1;
-    run.fresh = fresh;
-    run.restore(reader);
-    restoreTold(run, reader);
-    runs_.welcome(index);
+        return kNoSimulation;
+    const SimulationIndex index = simulations_.create(first.effect, conditionsOf(*first.effect, first.start));
+    SharedSimulation& simulation = simulations_.at(index);
+    simulation.users = 1;
+    simulation.fresh = fresh;
+    simulation.restore(reader);
+    restorePending(simulation, reader);
+    simulations_.publish(index);
     return index;
 }
 
-/// @return kNoRun after a failure
-RunIndex World::joinRun(RunIndex index, const Entry& entry, StateReader& reader)
+/// @return kNoSimulation after a failure
+SimulationIndex World::joinSimulation(SimulationIndex index, const Entry& entry, StateReader& reader)
 {
-    const Run& run = runs_.at(index);
-    const RunConditions conditions = conditionsOf(*entry.effect, entry.start);
+    const SharedSimulation& simulation = simulations_.at(index);
+    const SimulationConditions conditions = conditionsOf(*entry.effect, entry.start);
     // They may have shared one as long as nothing was in their way that only is at one of the places.
-    RunConditions elsewhere = conditions;
-    if (conditions.hasContact && !entry.effect->heedsPlacement())
-        elsewhere.placement = run.conditions.placement;
-    reader.require(run.effect == entry.effect && run.conditions.equals(elsewhere),
+    SimulationConditions elsewhere = conditions;
+    if (conditions.hasContact && !entry.effect->dependsOnPlacement())
+        elsewhere.placement = simulation.conditions.placement;
+    reader.require(simulation.effect == entry.effect && simulation.conditions.equals(elsewhere),
                    "instances of the state share a simulation although they differ");
     if (!reader.ok())
-        return kNoRun;
-    if (!run.conditions.equals(conditions)) {
-        const RunIndex own = runs_.copy(index);
-        runs_.at(own).conditions = conditions;
+        return kNoSimulation;
+    if (!simulation.conditions.equals(conditions)) {
+        const SimulationIndex own = simulations_.copy(index);
+        simulations_.at(own).conditions = conditions;
         return own;
     }
     if (!share_)
-        return runs_.copy(index);
-    ++runs_.at(index).users;
+        return simulations_.copy(index);
+    ++simulations_.at(index).users;
     return index;
 }
 
@@ -123,7 +123,7 @@ void World::swap(World& other) noexcept
     leaving_.clear();
     endPools();
     other.endPools();
-    runs_.swap(other.runs_);
+    simulations_.swap(other.simulations_);
     std::swap(instances_, other.instances_);
     std::swap(free_, other.free_);
     std::swap(stepNumber_, other.stepNumber_);

@@ -1,5 +1,5 @@
-// Steps of a world, which a budget of work may divide: between runs, between sub-steps, between the solvers
-// of a run, and inside of those that can be divided.
+// Steps of a world, which a budget of work may divide: between simulations, between sub-steps, between the
+// solvers of a simulation, and inside of those that can be divided.
 #include "foundation/simd/floating_point_scope.h"
 #include "simulation/world/world_context.h"
 
@@ -9,7 +9,7 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint64_t kTogetherWork = 4; // particles of pools and crowds that count one unit
+constexpr uint64_t kTogetherWork = 4; // particles of pools and spawn batches that count one unit
 
 base::Ticks partsOf(const EffectDef& effect)
 {
@@ -37,9 +37,9 @@ void World::beginStep(std::span<const Slot> active, base::Ticks tick, base::Tick
         return;
     const base::FloatingPointScope floatingPoint;
     ++stepNumber_;
-    crowd_.forget();
+    spawnBatch_.forget();
     joining_.clear();
-    divideRuns(active);
+    divideSimulations(active);
     if (!mayPool_ || pools_.now() != tick || stepTicks > kLongestPoolStep)
         endPools();
     hand_.isPlanned = stepPlan_.holds(active, pools_.revision());
@@ -75,7 +75,7 @@ bool World::proceed(base::WorkBudget& work, StepCounters& counters)
             return false;
         }
     const StepCounters before = hand_.counters;
-    crowd_.close();
+    spawnBatch_.close();
     stepPools(hand_.active, hand_.isPlanned, hand_.counters);
     const StepCounters together = hand_.counters.since(before);
     work.spend(together.particleSteps / kTogetherWork + together.born - together.dropped);
@@ -106,83 +106,86 @@ void World::dropStep()
     hand_.isOpen = false;
     hand_.board.reset();
     if (hand_.place < hand_.list.size()) {
-        Run& run = runs_.at(instances_[hand_.list[hand_.place]].run);
-        run.inStep = run.inPart = false;
+        SharedSimulation& simulation = simulations_.at(instances_[hand_.list[hand_.place]].simulation);
+        simulation.inStep = simulation.inPart = false;
     }
     hand_.active = hand_.list = {};
 }
 
 bool World::stepSlot(base::WorkBudget& work)
 {
-    const RunIndex index = instances_[hand_.list[hand_.place]].run;
-    Run& run = runs_.at(index);
-    if (!run.inStep && !run.arriving) {
+    const SimulationIndex index = instances_[hand_.list[hand_.place]].simulation;
+    SharedSimulation& simulation = simulations_.at(index);
+    if (!simulation.inStep && !simulation.arriving) {
         fetchAhead(hand_.list, hand_.place);
-        if (run.steppedIn == stepNumber_)
+        if (simulation.steppedIn == stepNumber_)
             return true;
-        if (run.restUntil >= now_) {
+        if (simulation.restUntil >= now_) {
             ++resting_;
             return true;
         }
-        run.steppedIn = stepNumber_;
-        if (run.pooled)
+        simulation.steppedIn = stepNumber_;
+        if (simulation.pooled)
             return true; // later, with all others
-        if (run.quietUntil >= now_ && run.simulated == hand_.tick) {
-            passQuietly(run, hand_.counters);
+        if (simulation.quietUntil >= now_ && simulation.simulated == hand_.tick) {
+            passQuietly(simulation, hand_.counters);
             return true;
         }
         endRest(index, hand_.tick);
     }
-    if (!stepRun(index, {hand_.tick, hand_.stepTicks, &crowd_, &hand_.board}, work, hand_.counters))
+    if (!stepSimulation(index, {hand_.tick, hand_.stepTicks, &spawnBatch_, &hand_.board}, work,
+                        hand_.counters))
         return false;
     if (!mayRest_)
         return true;
-    const base::Ticks rest = restOf(run);
-    run.restUntil = rest > now_ ? rest : 0;
-    run.quietUntil = quietOf(run);
-    if (canPool(run))
+    const base::Ticks rest = restOf(simulation);
+    simulation.restUntil = rest > now_ ? rest : 0;
+    simulation.quietUntil = quietOf(simulation);
+    if (canPool(simulation))
         joining_.push_back(index);
     return true;
 }
 
-/// Goes on with the run's step in hand, or begins one.
+/// Goes on with the simulation's step in hand, or begins one.
 /// @return whether it is complete
-bool World::stepRun(RunIndex index, const RunStep& step, base::WorkBudget& work, StepCounters& counters)
+bool World::stepSimulation(SimulationIndex index, const SimulationStep& step, base::WorkBudget& work,
+                           StepCounters& counters)
 {
-    if (!runs_.at(index).inStep) {
+    if (!simulations_.at(index).inStep) {
         if (!arrive(index, step.tick, step.stepTicks, work, counters))
             return false;
-        Run& run = runs_.at(index);
-        run.inStep = true;
-        run.part = 0;
-        run.stepTick = step.tick;
-        run.stepLength = step.stepTicks;
+        SharedSimulation& simulation = simulations_.at(index);
+        simulation.inStep = true;
+        simulation.part = 0;
+        simulation.stepTick = step.tick;
+        simulation.stepLength = step.stepTicks;
     }
     bool isComplete = true;
-    withContext(index, counters, [&](StepContext& context, Run& run) {
-        const RunClock& clock = run.conditions.clock;
+    withContext(index, counters, [&](StepContext& context, SharedSimulation& simulation) {
+        const InstanceClock& clock = simulation.conditions.clock;
         const base::Ticks turns = (clock.rate + kNormalRate - 1) / kNormalRate;
-        const base::Ticks parts = partsOf(*run.effect) * std::max<base::Ticks>(turns, 1);
-        context.crowd = parts == 1 ? step.crowd : nullptr;
-        LinkedPart* const own = step.board ? nullptr : linkedPartOf(run);
+        const base::Ticks parts = partsOf(*simulation.effect) * std::max<base::Ticks>(turns, 1);
+        context.spawnBatch = parts == 1 ? step.spawnBatch : nullptr;
+        LinkedPart* const own = step.board ? nullptr : linkedPartOf(simulation);
         std::optional<EventBoard> none; // of solvers without events
         std::optional<EventBoard>& board = own ? own->board : step.board ? *step.board : none;
-        std::span<const HostEvent>& heard = own ? own->heard : hand_.heard;
+        std::span<const HostEvent>& hostEvents = own ? own->hostEvents : hand_.hostEvents;
         if (own)
             context.scratch = &own->scratch;
-        for (; run.part < parts; ++run.part) {
-            const base::Ticks from = std::max(step.tick + step.stepTicks * run.part / parts, clock.scene);
-            const base::Ticks to = step.tick + step.stepTicks * (run.part + 1) / parts;
+        for (; simulation.part < parts; ++simulation.part) {
+            const base::Ticks from =
+                std::max(step.tick + step.stepTicks * simulation.part / parts, clock.scene);
+            const base::Ticks to = step.tick + step.stepTicks * (simulation.part + 1) / parts;
             if (to <= from)
                 continue;
-            if (!run.inPart) {
-                if (run.part > 0 && work.isSpent()) {
+            if (!simulation.inPart) {
+                if (simulation.part > 0 && work.isSpent()) {
                     isComplete = false;
                     return;
                 }
-                heard = hear(index, step.tick, *context.scratch);
+                hostEvents = takeEvents(index, step.tick, *context.scratch);
             }
-            context.hostEvents = heard;
+            context.hostEvents = hostEvents;
             context.moveShare = float(double(to - from) / double(step.tick + step.stepTicks - from));
             isComplete = stepPart(index, context, {clock.toLocal(from), clock.toLocal(to)}, board, work);
             if (!isComplete)
@@ -191,114 +194,114 @@ bool World::stepRun(RunIndex index, const RunStep& step, base::WorkBudget& work,
     });
     if (!isComplete)
         return false;
-    Run& run = runs_.at(index);
-    run.inStep = false;
-    standStill(run);
-    run.simulated = std::max(step.tick + step.stepTicks, run.conditions.clock.scene);
+    SharedSimulation& simulation = simulations_.at(index);
+    simulation.inStep = false;
+    standStill(simulation);
+    simulation.simulated = std::max(step.tick + step.stepTicks, simulation.conditions.clock.scene);
     return true;
 }
 
 /// Where the instance has been taken while its time stands, it did not pass through.
-void World::standStill(const Run& run)
+void World::standStill(const SharedSimulation& simulation)
 {
-    if (run.conditions.clock.rate != 0)
+    if (simulation.conditions.clock.rate != 0)
         return;
-    for (const std::unique_ptr<Solver>& solver : run.solvers)
+    for (const std::unique_ptr<Solver>& solver : simulation.solvers)
         if (SeekableSolver* const seekable = solver->seekable())
-            seekable->standAt(run.conditions.placement);
+            seekable->standAt(simulation.conditions.placement);
 }
 
 /// One sub-step of all solvers, or the rest of the one in hand.
 /// @param ioBoard see stepSolvers()
-bool World::stepPart(RunIndex index, StepContext& context, const LocalSpan& time,
+bool World::stepPart(SimulationIndex index, StepContext& context, const LocalSpan& time,
                      std::optional<EventBoard>& ioBoard, base::WorkBudget& work)
 {
     context.tick = std::max<base::Ticks>(time.begin, 0);
     context.stepTicks = time.end - context.tick;
     if (context.stepTicks <= 0)
         return true;
-    Run& run = runs_.at(index);
-    if (!run.inPart) {
-        runs_.touch(index);
-        run.inPart = true;
-        run.stepped = 0;
+    SharedSimulation& simulation = simulations_.at(index);
+    if (!simulation.inPart) {
+        simulations_.touch(index);
+        simulation.inPart = true;
+        simulation.stepped = 0;
     }
-    if (!stepSolvers(run, context, ioBoard, work))
+    if (!stepSolvers(simulation, context, ioBoard, work))
         return false;
-    run.inPart = false;
+    simulation.inPart = false;
     return true;
 }
 
-/// Takes a run that begins with a past, prewarm, through it.
+/// Takes a simulation that begins with a past, prewarm, through it.
 /// @param tick scene time at which its first step begins @return whether it is there
-bool World::arrive(RunIndex index, base::Ticks tick, base::Ticks stepTicks, base::WorkBudget& work,
+bool World::arrive(SimulationIndex index, base::Ticks tick, base::Ticks stepTicks, base::WorkBudget& work,
                    StepCounters& counters)
 {
-    const Run& run = runs_.at(index);
-    const RunClock& clock = run.conditions.clock;
-    if (!run.arriving && run.fresh && clock.local > 0)
+    const SharedSimulation& simulation = simulations_.at(index);
+    const InstanceClock& clock = simulation.conditions.clock;
+    if (!simulation.arriving && simulation.fresh && clock.local > 0)
         setOut(index, {0, clock.toLocal(std::max(tick, clock.scene))}, stepTicks, counters);
-    return !run.arriving || replay(index, work, counters);
+    return !simulation.arriving || replay(index, work, counters);
 }
 
 /// The state is at the begin of `way` and is to be at its end: it jumps there, or replay() takes it.
-void World::setOut(RunIndex index, const LocalSpan& way, base::Ticks stepTicks, StepCounters& counters)
+void World::setOut(SimulationIndex index, const LocalSpan& way, base::Ticks stepTicks, StepCounters& counters)
 {
     if (way.begin >= way.end || jump(index, way.begin, way.end, counters))
         return;
-    runs_.touch(index); // no instance may join it meanwhile
-    Run& run = runs_.at(index);
-    run.arriving = true;
-    run.reached = way.begin;
-    run.target = way.end;
-    run.stepLength = stepTicks;
+    simulations_.touch(index); // no instance may join it meanwhile
+    SharedSimulation& simulation = simulations_.at(index);
+    simulation.arriving = true;
+    simulation.reached = way.begin;
+    simulation.target = way.end;
+    simulation.stepLength = stepTicks;
 }
 
 /// Steps on the schedule of an instance that is played from 0, as far as the work goes.
-bool World::replay(RunIndex index, base::WorkBudget& work, StepCounters& counters)
+bool World::replay(SimulationIndex index, base::WorkBudget& work, StepCounters& counters)
 {
     const base::FloatingPointScope floatingPoint;
-    Run& run = runs_.at(index);
-    while (run.reached < run.target) {
-        if ((work.isSpent() && !run.inPart) || !replayPart(index, work, counters))
+    SharedSimulation& simulation = simulations_.at(index);
+    while (simulation.reached < simulation.target) {
+        if ((work.isSpent() && !simulation.inPart) || !replayPart(index, work, counters))
             return false;
     }
-    run.arriving = false;
-    run.linked.reset();
+    simulation.arriving = false;
+    simulation.linked.reset();
     return true;
 }
 
 /// One sub-step of that schedule, or the rest of the one in hand.
-bool World::replayPart(RunIndex index, base::WorkBudget& work, StepCounters& counters)
+bool World::replayPart(SimulationIndex index, base::WorkBudget& work, StepCounters& counters)
 {
     bool isComplete = true;
-    withContext(index, counters, [&](StepContext& context, Run& run) {
-        const base::Ticks parts = partsOf(*run.effect);
-        const base::Ticks begin = run.reached / run.stepLength * run.stepLength;
+    withContext(index, counters, [&](StepContext& context, SharedSimulation& simulation) {
+        const base::Ticks parts = partsOf(*simulation.effect);
+        const base::Ticks begin = simulation.reached / simulation.stepLength * simulation.stepLength;
         base::Ticks part = 1;
-        while (begin + run.stepLength * part / parts <= run.reached)
+        while (begin + simulation.stepLength * part / parts <= simulation.reached)
             ++part;
-        const base::Ticks end = std::min(begin + run.stepLength * part / parts, run.target);
-        LinkedPart* const own = linkedPartOf(run);
+        const base::Ticks end = std::min(begin + simulation.stepLength * part / parts, simulation.target);
+        LinkedPart* const own = linkedPartOf(simulation);
         std::optional<EventBoard> none; // of solvers without events
         if (own)
             context.scratch = &own->scratch;
-        isComplete = stepPart(index, context, {run.reached, end}, own ? own->board : none, work);
+        isComplete = stepPart(index, context, {simulation.reached, end}, own ? own->board : none, work);
         if (isComplete)
-            run.reached = end;
+            simulation.reached = end;
     });
     return isComplete;
 }
 
-/// Ends what is in hand of a run that is not stepped with the others, so that its state can be copied.
-void World::closeRun(RunIndex index)
+/// Ends what is in hand of a simulation that is not stepped with the others, so that its state can be copied.
+void World::closeSimulation(SimulationIndex index)
 {
-    const Run& run = runs_.at(index);
+    const SharedSimulation& simulation = simulations_.at(index);
     base::WorkBudget unlimited;
-    if (run.arriving && run.inPart)
+    if (simulation.arriving && simulation.inPart)
         replayPart(index, unlimited, closed_);
-    else if (run.inStep)
-        stepRun(index, {run.stepTick, run.stepLength}, unlimited, closed_);
+    else if (simulation.inStep)
+        stepSimulation(index, {simulation.stepTick, simulation.stepLength}, unlimited, closed_);
 }
 
 } // namespace fx::sim

@@ -1,5 +1,5 @@
 #include "fxsdk/activation/active_list.h"
-#include "fxsdk/activation/wake_queue.h"
+#include "fxsdk/activation/timer_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 #include <vector>
 
 using fx::activation::ActiveList;
-using fx::activation::Sleeper;
-using fx::activation::WakeQueue;
+using fx::activation::Timer;
+using fx::activation::TimerQueue;
 
 namespace {
 
 /// Keys in the order in which they leave the queue.
-std::vector<uint32_t> drain(WakeQueue& queue)
+std::vector<uint32_t> drain(TimerQueue& queue)
 {
     std::vector<uint32_t> keys;
     while (!queue.empty()) {
@@ -25,9 +25,9 @@ std::vector<uint32_t> drain(WakeQueue& queue)
 
 } // namespace
 
-TEST(WakeQueue, theEarliestStartComesFirstAndEqualStartsInOrderOfCreation)
+TEST(TimerQueue, theEarliestStartComesFirstAndEqualStartsInOrderOfCreation)
 {
-    WakeQueue queue(std::pmr::get_default_resource());
+    TimerQueue queue(std::pmr::get_default_resource());
     queue.add({30, 0, 4});
     queue.add({10, 1, 2});
     queue.add({20, 2, 9});
@@ -35,38 +35,38 @@ TEST(WakeQueue, theEarliestStartComesFirstAndEqualStartsInOrderOfCreation)
     EXPECT_EQ(drain(queue), (std::vector<uint32_t>{2, 0, 9, 4}));
 }
 
-TEST(WakeQueue, afterRemovalsFromAnywhereTheOthersStillComeInOrder)
+TEST(TimerQueue, afterRemovalsFromAnywhereTheOthersStillComeInOrder)
 {
     for (uint32_t removed = 0; removed < 40; ++removed) {
-        WakeQueue queue(std::pmr::get_default_resource());
-        std::vector<Sleeper> wanted;
+        TimerQueue queue(std::pmr::get_default_resource());
+        std::vector<Timer> wanted;
         for (uint32_t key = 0; key < 40; ++key) {
-            const Sleeper sleeper{int64_t((key * 37 + 11) % 23), key, key};
-            queue.add(sleeper);
+            const Timer timer{int64_t((key * 37 + 11) % 23), key, key};
+            queue.add(timer);
             if (key != removed && key % 7 != 3)
-                wanted.push_back(sleeper);
+                wanted.push_back(timer);
         }
         for (uint32_t key = 0; key < 40; ++key)
             if (key == removed || key % 7 == 3)
                 queue.remove(key);
         std::stable_sort(wanted.begin(), wanted.end(),
-                         [](const Sleeper& a, const Sleeper& b) { return a.start < b.start; });
+                         [](const Timer& a, const Timer& b) { return a.start < b.start; });
         std::vector<uint32_t> keys;
-        for (const Sleeper& sleeper : wanted)
-            keys.push_back(sleeper.key);
+        for (const Timer& timer : wanted)
+            keys.push_back(timer.key);
         EXPECT_EQ(drain(queue), keys);
     }
 }
 
-TEST(WakeQueue, fiveHundredSleepersStayInOrderWhicheverHalfLeaves)
+TEST(TimerQueue, fiveHundredTimersStayInOrderWhicheverHalfLeaves)
 {
     uint64_t random = 1;
     const auto next = [&random] {
         return (random = random * 6364136223846793005u + 1442695040888963407u) >> 33;
     };
     for (int round = 0; round < 50; ++round) {
-        WakeQueue queue(std::pmr::get_default_resource());
-        std::vector<Sleeper> waiting;
+        TimerQueue queue(std::pmr::get_default_resource());
+        std::vector<Timer> waiting;
         for (uint32_t key = 0; key < 500; ++key) {
             waiting.push_back({int64_t(next() % 1000), key, key});
             queue.add(waiting.back());
@@ -77,7 +77,7 @@ TEST(WakeQueue, fiveHundredSleepersStayInOrderWhicheverHalfLeaves)
             waiting.erase(waiting.begin() + std::ptrdiff_t(leaves));
         }
         std::stable_sort(waiting.begin(), waiting.end(),
-                         [](const Sleeper& a, const Sleeper& b) { return a.start < b.start; });
+                         [](const Timer& a, const Timer& b) { return a.start < b.start; });
         const std::vector<uint32_t> keys = drain(queue);
         ASSERT_EQ(keys.size(), waiting.size());
         for (size_t i = 0; i < keys.size(); ++i)

@@ -237,7 +237,7 @@ TEST(EmitterSight, anEmitterThatHearsTheHostDoesNotRest)
     const auto id = stage.add(effect, kAhead);
     stage.play(60);
     ASSERT_EQ(stage.state(id), InstanceState::Active);
-    ASSERT_TRUE(stage.scene().tell(id, "now", 3).ok());
+    ASSERT_TRUE(stage.scene().postEvent(id, "now", 3).ok());
     stage.play(1);
     EXPECT_EQ(stage.scene().particles(id), 3u);
 }

@@ -154,7 +154,7 @@ TEST_F(InstanceTimeApi, aSceneThatStandsStillShowsTheTimeThatWasSought)
     EXPECT_EQ(next.groupsBefore, 1u);
 }
 
-TEST_F(InstanceTimeApi, theHashHeedsASeekAtOnce)
+TEST_F(InstanceTimeApi, theHashFollowsASeekAtOnce)
 {
     const FxInstanceId id = addFountain();
     play(30);

@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t kBlobBytes = 80;     ///< of a particle of a medium
 constexpr uint64_t kMostRowBytes = 32;  ///< of a sprite or a point of a ribbon, with its place in an order
 constexpr uint64_t kMostMeshBytes = 44; ///< of a mesh that turns and flies
-constexpr uint32_t kMostTurns = 16;
+constexpr uint32_t kMostBatches = 16;
 constexpr uint32_t kOthers = 8; ///< draws of what hides, and of passes that draw more than once
 
 class LibraryUpload : public fx::test::ViewApiTest
@@ -96,7 +96,7 @@ TEST_F(LibraryUpload, isAtMostThirtyTwoBytesARowAndFewTurns)
                     EXPECT_LE(s.uploadedBytes, mostBytes() + media)
                         << name << " at " << rate << " frame " << i;
                 }
-                EXPECT_LE(s.drawCalls, s.passes + kMostTurns + kOthers) << name << " at " << rate;
+                EXPECT_LE(s.drawCalls, s.passes + kMostBatches + kOthers) << name << " at " << rate;
                 most = std::max(most, s.uploadedBytes - std::min(s.uploadedBytes, media));
             }
             end();

@@ -142,7 +142,7 @@ TEST(FrameSnapshot, keepsColumnsOf64BitsAndLeavesOutThoseThatAreNotWanted)
         EXPECT_EQ(reinterpret_cast<uintptr_t>(group.column(c).data()) % 64, 0u);
 }
 
-TEST(FrameSnapshot, itsHashHeedsColumnsOf64Bits)
+TEST(FrameSnapshot, itsHashCoversColumnsOf64Bits)
 {
     fx::base::HostMemory memory;
     fx::base::SnapshotSchema schema;

@@ -86,7 +86,7 @@ TEST_F(GpuObstacles, keepOnlyWhatOthersDependOnFromTheGpu)
         const auto effect = load(libraryText(name, "gpu"));
         for (const auto& solver : effect->solvers) {
             const auto* emitter = dynamic_cast<const sim::EmitterDef*>(solver.get());
-            if (!emitter || emitter->look.kind == sim::Appearance::Medium)
+            if (!emitter || emitter->appearance.kind == sim::AppearanceKind::Medium)
                 continue;
             ++drawn;
             const bool isLinked = emitter->fed || !emitter->events.empty() || emitter->light.given ||

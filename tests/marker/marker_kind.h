@@ -1,5 +1,6 @@
 /// @file marker_kind.h
-/// Snapshot data of markers, at which the two halves of the technique meet: where each is, and how all look.
+/// Snapshot data of markers, shared by both halves of the technique: the position of each, and their common
+/// appearance.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"

@@ -34,7 +34,7 @@ class MarkerSource final : public MediaSource
 public:
     void read(FrameGraph::Builder& builder) const override { builder.read(markers); }
 
-    void draw(Backend& backend, const MediaRun& run, const MediaTarget& target) const override
+    void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const override
     {
         drawQuads(backend, kProgram, markers, run, target);
     }

@@ -24,9 +24,9 @@ protected:
                                                appearance + "}]}");
         return preset::loadPresetFile(path, nullptr, {&table_, missing});
     }
-    static const sim::EmitterLook& lookOf(const base::Result<preset::LoadedPreset>& loaded)
+    static const sim::EmitterAppearance& appearanceOf(const base::Result<preset::LoadedPreset>& loaded)
     {
-        return dynamic_cast<const sim::EmitterDef&>(*loaded->effect->solvers.at(0)).look;
+        return dynamic_cast<const sim::EmitterDef&>(*loaded->effect->solvers.at(0)).appearance;
     }
     void expectError(const std::string& appearance, const char* pointer, const char* what)
     {
@@ -51,7 +51,7 @@ TEST_F(AppearanceAssets, areInTheTableUnderTheIdsThatTheLookHolds)
     const auto loaded = load(R"({"kind":"mesh","texture":"a.png","motion":"a.png","mesh":"m.obj",
                                  "tileColumns":2})");
     ASSERT_TRUE(loaded.ok()) << loaded.status().message();
-    const sim::EmitterLook& look = lookOf(loaded);
+    const sim::EmitterAppearance& look = appearanceOf(loaded);
     ASSERT_TRUE(table_.image(look.texture));
     EXPECT_EQ(table_.image(look.texture)->width, 2);
     EXPECT_TRUE(table_.image(look.texture)->isSrgb);
@@ -85,7 +85,7 @@ TEST_F(AppearanceAssets, thatAreMissingAreShownAsSuchWhenThatIsAskedFor)
                              asset::MissingAsset::ShowsPlaceholder);
     ASSERT_TRUE(loaded.ok()) << loaded.status().message();
     EXPECT_EQ(loaded->warnings.size(), 2u);
-    const sim::EmitterLook& look = lookOf(loaded);
+    const sim::EmitterAppearance& look = appearanceOf(loaded);
     ASSERT_TRUE(table_.image(look.texture));
     EXPECT_EQ(table_.image(look.texture)->rgba[0], 255) << "magenta";
     EXPECT_TRUE(table_.mesh(look.mesh));
@@ -109,6 +109,6 @@ TEST_F(AppearanceAssets, ofTheLibraryAreThereWithoutAFolder)
         "appearance":{"kind":"mesh","mesh":"library:debris-chunk.obj"}}]})";
     const auto loaded = preset::loadPresetText(text, "t", nullptr, nullptr, {&table_, {}});
     ASSERT_TRUE(loaded.ok()) << loaded.status().message();
-    ASSERT_TRUE(table_.mesh(lookOf(loaded).mesh));
-    EXPECT_NEAR(lookOf(loaded).meshReach, 1.0f, 1e-4f);
+    ASSERT_TRUE(table_.mesh(appearanceOf(loaded).mesh));
+    EXPECT_NEAR(appearanceOf(loaded).meshReach, 1.0f, 1e-4f);
 }

@@ -101,8 +101,8 @@ TEST(EmitterEventsPreset, trailsLightsAndPrewarmAreRead)
     EXPECT_EQ(emitter.trail.width, 0.2f);
     EXPECT_EQ(emitter.trail.minDistance, 0.01f);
     EXPECT_EQ(emitter.trail.maxPoints, 20u);
-    EXPECT_EQ(emitter.trail.look.blend, base::ParticleBlend::Additive);
-    EXPECT_EQ(emitter.trail.look.luminance, 5.0f);
+    EXPECT_EQ(emitter.trail.appearance.blend, base::ParticleBlend::Additive);
+    EXPECT_EQ(emitter.trail.appearance.luminance, 5.0f);
     EXPECT_TRUE(emitter.light.given);
     EXPECT_EQ(emitter.light.maxLights, 4u);
     EXPECT_TRUE(emitter.light.merged);

@@ -19,7 +19,7 @@ void addForces(Fields& fields, const fx::sim::EmitterForces& forces)
     add(fields, forces.wind);
 }
 
-void addLook(Fields& fields, const fx::sim::EmitterLook& look)
+void addLook(Fields& fields, const fx::sim::EmitterAppearance& look)
 {
     fields.insert(fields.end(),
                   {double(look.kind), double(look.blend), double(look.order), look.orderBias,
@@ -61,7 +61,7 @@ Fields fieldsOf(const fx::sim::SolverDef& solver)
         fields.insert(fields.end(), {burst.time, double(burst.count), double(burst.cycles), burst.interval,
                                      burst.probability});
     add(fields, e.emission.rateOverTime);
-    addLook(fields, e.look);
+    addLook(fields, e.appearance);
     addBirths(fields, e.births.get());
     addModules(fields, e.modules);
     return fields;

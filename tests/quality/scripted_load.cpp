@@ -41,11 +41,11 @@ double gauss(uint64_t seed, int frame, uint32_t what)
 /// Time of each technique: 10 % of noise, and 2 % of frames in which everything takes 1.6 times as long.
 Times timesOf(const Script& script, int frame, const Choice& choice, bool noisy)
 {
-    static const std::vector<Ladder> kLadders = sixLadders();
+    static const std::vector<ScalabilityLevels> kTechniqueLevels = sixTechniques();
     const double spike = noisy && unit(script.seed, frame, 100) < 0.02 ? 1.6 : 1.0;
     Times times = loadAt(frame);
     for (uint32_t i = 0; i < kTechniques; ++i) {
-        times[i] *= 2.2 * kLadders[i].steps[choice[i]].cost;
+        times[i] *= 2.2 * kTechniqueLevels[i].steps[choice[i]].cost;
         if (noisy)
             times[i] *= spike * std::clamp(1.0 + 0.1 * gauss(script.seed, frame, i), 0.7, 1.5);
     }
@@ -69,7 +69,7 @@ public:
         outcome_.switches += frame > 0 && choice != history_.back() ? 1 : 0;
         history_.push_back(choice);
         for (size_t i = 0; i < kTechniques; ++i)
-            outcome_.meanError += sixLadders_[i].steps[choice[i]].error / kFrames;
+            outcome_.meanError += sixTechniques_[i].steps[choice[i]].error / kFrames;
         if (sum(timesOf(script_, frame, choice, false)) > kBudget) {
             for (const int change : loadChanges())
                 if (frame >= change && frame < change + 100)
@@ -111,7 +111,7 @@ private:
     }
 
     const Script& script_;
-    std::vector<Ladder> sixLadders_ = sixLadders();
+    std::vector<ScalabilityLevels> sixTechniques_ = sixTechniques();
     std::vector<Choice> history_;
     Outcome outcome_;
 };
@@ -125,15 +125,15 @@ Choice everything(uint8_t step)
 
 } // namespace
 
-std::vector<Ladder> sixLadders()
+std::vector<ScalabilityLevels> sixTechniques()
 {
     const double milliseconds[] = {0.0, 0.25, 0.45, 0.8, 1.3, 2.2};
     const double errors[] = {1.0, 0.3, 0.12, 0.04, 0.012, 0.0};
-    std::vector<Ladder> ladders(kTechniques, Ladder{"scripted", {}});
-    for (Ladder& ladder : ladders)
+    std::vector<ScalabilityLevels> techniqueLevels(kTechniques, ScalabilityLevels{"scripted", {}});
+    for (ScalabilityLevels& levels : techniqueLevels)
         for (size_t k = 0; k < std::size(errors); ++k)
-            ladder.steps.push_back({milliseconds[k] / 2.2, errors[k], {}});
-    return ladders;
+            levels.steps.push_back({milliseconds[k] / 2.2, errors[k], {}});
+    return techniqueLevels;
 }
 
 std::vector<int> loadChanges()
@@ -150,7 +150,7 @@ Outcome playController(const Script& script)
         bool teaches;
     };
     constexpr std::array<double, kTechniques> kWeights = {1, 1, 1, 1, 1, 1};
-    BudgetController controller(sixLadders());
+    BudgetController controller(sixTechniques());
     std::deque<Pending> late;
     Judge judge(script);
     for (int frame = 0; frame < kFrames; ++frame) {

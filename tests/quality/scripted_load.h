@@ -18,7 +18,7 @@ constexpr double kFrameTime = 1.0 / 60; ///< [s]
 constexpr int kFrames = 6000;
 
 /// Six techniques alike, each with six settings of 0 to 2.2 ms at normal load.
-std::vector<Ladder> sixLadders();
+std::vector<ScalabilityLevels> sixTechniques();
 /// Frames in which the load differs from the frame before.
 std::vector<int> loadChanges();
 

@@ -27,7 +27,7 @@ std::vector<double> timesOf(const BudgetController& controller, double load)
 {
     std::vector<double> times;
     for (size_t i = 0; i < kTechniques; ++i)
-        times.push_back(load * controller.ladders()[i].steps[controller.choice()[i]].cost);
+        times.push_back(load * controller.techniqueLevels()[i].steps[controller.choice()[i]].cost);
     return times;
 }
 
@@ -91,7 +91,7 @@ TEST(NaiveProportional, isOverTheBudgetAndFlickersSoThatTheGatesCanFail)
 
 TEST(BudgetController, startsAtTheBestAndFallsAsFarAsNeededAtOnce)
 {
-    BudgetController controller(sixLadders());
+    BudgetController controller(sixTechniques());
     EXPECT_EQ(stepSum(controller.choice()), 5 * int(kTechniques));
     play(controller, 1, 10.0); // the best would take 60 ms
     EXPECT_LE(controller.predicted(), BudgetController::kTarget * kBudget);
@@ -101,7 +101,7 @@ TEST(BudgetController, startsAtTheBestAndFallsAsFarAsNeededAtOnce)
 
 TEST(BudgetController, risesByOneStepAfterCalmFramesAndNotBefore)
 {
-    BudgetController controller(sixLadders());
+    BudgetController controller(sixTechniques());
     play(controller, 1, 10.0);
     const Choice low = controller.choice();
     play(controller, 200, 10.0);
@@ -119,7 +119,7 @@ TEST(BudgetController, risesByOneStepAfterCalmFramesAndNotBefore)
 TEST(BudgetController, doesNotRiseWithinASecondOfAFallHoweverShortTheFrames)
 {
     constexpr double kShort = 1e-3; // [s]
-    BudgetController controller(sixLadders());
+    BudgetController controller(sixTechniques());
     controller.observe(controller.choice(), timesOf(controller, 10.0));
     const Choice low = controller.choose({kBudget, kShort, false, kWeights});
     for (int frame = 1; frame < 1300; ++frame) {
@@ -132,13 +132,13 @@ TEST(BudgetController, doesNotRiseWithinASecondOfAFallHoweverShortTheFrames)
     EXPECT_GT(stepSum(controller.choice()), stepSum(low));
 }
 
-/// The shipped ladders under loads of 1, 2.5 and 8, each for some seconds.
-TEST(BudgetController, keepsABudgetWithTheShippedLaddersAndUsesLevelsOfDetailAndGlare)
+/// The shipped scalability levels under loads of 1, 2.5 and 8, each for some seconds.
+TEST(BudgetController, keepsABudgetWithTheShippedLevelsAndUsesLevelsOfDetailAndGlare)
 {
     const auto calibration = builtInCalibration();
     ASSERT_TRUE(calibration.ok());
-    BudgetController controller(calibration->ladders);
-    const size_t count = controller.ladders().size();
+    BudgetController controller(calibration->techniqueLevels);
+    const size_t count = controller.techniqueLevels().size();
     const std::vector<double> weights(count, 1.0);
     constexpr double kTopTime = 0.7 * kBudget; // of everything, at load 1
     int over = 0, frames = 0;
@@ -148,7 +148,7 @@ TEST(BudgetController, keepsABudgetWithTheShippedLaddersAndUsesLevelsOfDetailAnd
             std::vector<double> times;
             render::ViewSettings settings;
             for (size_t i = 0; i < count; ++i) {
-                const LadderStep& step = controller.ladders()[i].steps[controller.choice()[i]];
+                const ScalabilityLevel& step = controller.techniqueLevels()[i].steps[controller.choice()[i]];
                 times.push_back(load * kTopTime / double(count) * step.cost);
                 apply(step.knobs, settings);
             }
@@ -168,7 +168,7 @@ TEST(BudgetController, keepsABudgetWithTheShippedLaddersAndUsesLevelsOfDetailAnd
 
 TEST(BudgetController, changesNothingWhileSomethingIsCaughtUpWith)
 {
-    BudgetController controller(sixLadders());
+    BudgetController controller(sixTechniques());
     play(controller, 10, 0.1);
     const Choice before = controller.choice();
     play(controller, 5, 50.0, true);
@@ -185,7 +185,7 @@ TEST(BudgetController, changesNothingWhileSomethingIsCaughtUpWith)
 
 TEST(BudgetController, twoSlowFramesDoNotChangeQualityButThreeDo)
 {
-    BudgetController controller(sixLadders());
+    BudgetController controller(sixTechniques());
     play(controller, 400, 0.5);
     const Choice before = controller.choice();
     play(controller, 2, 5.0);
@@ -197,8 +197,8 @@ TEST(BudgetController, twoSlowFramesDoNotChangeQualityButThreeDo)
 
 TEST(BudgetController, saysWhenEvenTheLowestIsTooSlow)
 {
-    std::vector<Ladder> ladders = {{"a", {{0.5, 1.0, {}}, {1.0, 0.0, {}}}}};
-    BudgetController controller(ladders);
+    std::vector<ScalabilityLevels> techniqueLevels = {{"a", {{0.5, 1.0, {}}, {1.0, 0.0, {}}}}};
+    BudgetController controller(techniqueLevels);
     const std::vector<double> slow = {100.0};
     controller.observe(controller.choice(), slow);
     controller.choose({kBudget, kFrameTime, false, kWeights});
@@ -209,7 +209,7 @@ TEST(BudgetController, saysWhenEvenTheLowestIsTooSlow)
 
 TEST(BudgetController, errorIsTakenAwayWhereItIsSeenMost)
 {
-    BudgetController controller(sixLadders());
+    BudgetController controller(sixTechniques());
     constexpr std::array<double, kTechniques> kFirstFills = {1.0, 0.01, 0.01, 0.01, 0.01, 0.01};
     controller.observe(controller.choice(), timesOf(controller, 5.0));
     controller.choose({kBudget, kFrameTime, false, kFirstFills});
@@ -217,11 +217,11 @@ TEST(BudgetController, errorIsTakenAwayWhereItIsSeenMost)
         EXPECT_GT(controller.choice()[0], controller.choice()[i]);
 }
 
-TEST(BudgetController, aLadderThatPromisesTooMuchIsTriedEverMoreRarely)
+TEST(BudgetController, aTechniqueThatPromisesTooMuchIsTriedEverMoreRarely)
 {
-    // the upper step costs four times what the ladder says: it never fits, which only trying shows
-    std::vector<Ladder> ladders = {{"a", {{0.5, 1.0, {}}, {1.0, 0.0, {}}}}};
-    BudgetController controller(ladders);
+    // the upper step costs four times what the levels say: it never fits, which only trying shows
+    std::vector<ScalabilityLevels> techniqueLevels = {{"a", {{0.5, 1.0, {}}, {1.0, 0.0, {}}}}};
+    BudgetController controller(techniqueLevels);
     std::vector<int> rises;
     uint8_t before = controller.choice()[0];
     for (int frame = 0; frame < 6000; ++frame) {

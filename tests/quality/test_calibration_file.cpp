@@ -33,16 +33,16 @@ void expectRefused(const std::string& text, Code code, const std::vector<std::st
 
 } // namespace
 
-TEST(BuiltInCalibration, isReadAndItsLaddersRise)
+TEST(BuiltInCalibration, isReadAndItsLevelsAscend)
 {
     const auto calibration = builtInCalibration();
     ASSERT_TRUE(calibration.ok()) << calibration.status().message();
-    ASSERT_EQ(calibration->ladders.size(), 3u);
-    for (const Ladder& ladder : calibration->ladders) {
-        EXPECT_GE(ladder.steps.size(), 2u) << ladder.technique;
-        for (size_t k = 1; k < ladder.steps.size(); ++k) {
-            EXPECT_GT(ladder.steps[k].cost, ladder.steps[k - 1].cost);
-            EXPECT_LT(ladder.steps[k].error, ladder.steps[k - 1].error);
+    ASSERT_EQ(calibration->techniqueLevels.size(), 3u);
+    for (const ScalabilityLevels& levels : calibration->techniqueLevels) {
+        EXPECT_GE(levels.steps.size(), 2u) << levels.technique;
+        for (size_t k = 1; k < levels.steps.size(); ++k) {
+            EXPECT_GT(levels.steps[k].cost, levels.steps[k - 1].cost);
+            EXPECT_LT(levels.steps[k].error, levels.steps[k - 1].error);
         }
     }
     EXPECT_FALSE(calibration->origin.empty());
@@ -52,17 +52,17 @@ TEST(BuiltInCalibration, knowsLevelsOfDetailAndGlare)
 {
     const auto calibration = builtInCalibration();
     ASSERT_TRUE(calibration.ok()) << calibration.status().message();
-    const auto ladderOf = [&](const std::string& name) {
-        for (const Ladder& ladder : calibration->ladders)
-            if (ladder.technique == name)
-                return ladder;
-        return Ladder{};
+    const auto scalabilityLevelsOf = [&](const std::string& name) {
+        for (const ScalabilityLevels& levels : calibration->techniqueLevels)
+            if (levels.technique == name)
+                return levels;
+        return ScalabilityLevels{};
     };
     int withLevels = 0;
-    for (const LadderStep& step : ladderOf("media").steps)
+    for (const ScalabilityLevel& step : scalabilityLevelsOf("media").steps)
         withLevels += step.knobs.lodBias.value_or(0.0f) > 0.0f ? 1 : 0;
     EXPECT_GE(withLevels, 1);
-    const Ladder dazzle = ladderOf("dazzle");
+    const ScalabilityLevels dazzle = scalabilityLevelsOf("dazzle");
     ASSERT_EQ(dazzle.steps.size(), 2u);
     EXPECT_EQ(dazzle.steps[0].knobs.dazzle, false);
     EXPECT_EQ(dazzle.steps[1].knobs.dazzle, true);
@@ -100,7 +100,7 @@ TEST(CalibrationFile, refusesWhatItIsNotAndNamesThePlace)
                   {"/particles"});
 }
 
-TEST(CalibrationFile, refusesLaddersThatDoNotRise)
+TEST(CalibrationFile, refusesLevelsThatDoNotAscend)
 {
     const std::string same = R"({"cost": 0.2, "error": 0.1, "setting": {}})";
     expectRefused(fileWith(kLow + ",\n" + same + ",\n" + kTop), Code::Schema,

@@ -1,8 +1,9 @@
 #include "benchmarks/accuracy/accuracy_curve.h"
-#include "benchmarks/accuracy/accuracy_errors.h"
 #include "benchmarks/accuracy/accuracy_measure.h"
+#include "benchmarks/accuracy/accuracy_technique.h"
 #include "benchmarks/measure/callgrind.h"
 #include "benchmarks/report/label_places.h"
+#include "benchmarks/report/provenance.h"
 
 #include <gtest/gtest.h>
 

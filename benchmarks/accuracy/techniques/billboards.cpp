@@ -2,7 +2,6 @@
 /// Blobs drawn one after the other, as the GPU draws them, against the integral through all of them. The same
 /// formula texts as the shaders', on the processor, so that no OpenGL is needed.
 
-#include "benchmarks/accuracy/accuracy_errors.h"
 #include "benchmarks/accuracy/accuracy_technique.h"
 #include "benchmarks/accuracy/techniques/ray_settings.h"
 #include "benchmarks/scenes/cards.h"

@@ -1,7 +1,6 @@
 /// @file dazzle.cpp
 /// The dazzle by exact integers, by floating-point sums and by the paper's levels, against real arithmetic.
 
-#include "benchmarks/accuracy/accuracy_errors.h"
 #include "benchmarks/accuracy/accuracy_technique.h"
 #include "foundation/random/philox.h"
 #include "rendering/reference/dazzle/dazzle_levels.h"

@@ -1,7 +1,6 @@
 /// @file furnace.cpp
 /// Blobs that all emit 1: whatever their depth and overlap, the light has to be 1 - exp(-tau).
 
-#include "benchmarks/accuracy/accuracy_errors.h"
 #include "benchmarks/accuracy/accuracy_technique.h"
 #include "benchmarks/accuracy/techniques/ray_settings.h"
 #include "foundation/random/philox.h"

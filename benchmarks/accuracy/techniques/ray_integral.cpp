@@ -1,7 +1,6 @@
 /// @file ray_integral.cpp
 /// The error of the ray integral against its time: every scheme on the same rays.
 
-#include "benchmarks/accuracy/accuracy_errors.h"
 #include "benchmarks/accuracy/accuracy_technique.h"
 #include "benchmarks/accuracy/techniques/ray_settings.h"
 #include "rendering/reference/integral/accuracy_cases.h"

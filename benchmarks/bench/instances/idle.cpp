@@ -23,7 +23,7 @@ struct BenchIdleOptions
     uint32_t hidden = 0;   ///< instances behind the camera
     bool gl = false;       ///< a view draws each frame as well
     bool turn = false;     ///< the camera moves each frame
-    bool visitAll = false; ///< asks every instance for its state in each frame: the control of the gates
+    bool visitAll = false; ///< reads the state of every instance in each frame: the control of the limits
     bool check = false;    ///< compares the costs of few and many against the gates
     bool json = false;
     bool countWork = false; ///< runs the frames that callgrind counts, and prints nothing

@@ -34,8 +34,8 @@ base::ScalarCurve growth()
 
 void makeLean(sim::EmitterDef& def)
 {
-    def.look.kind = sim::Appearance::Sprite;
-    def.look.colorOverLife = fireColors();
+    def.appearance.kind = sim::AppearanceKind::Sprite;
+    def.appearance.colorOverLife = fireColors();
     def.opacityOverLife = fade();
     def.sizeOverLife = growth();
     def.lifetime = {2.0f, 2.0f};
@@ -53,11 +53,11 @@ void makeTypical(sim::EmitterDef& def)
     def.lifetime = {1.0f, 3.0f};
     def.radius = {0.03f, 0.08f};
     def.forces.wind = {1.0f, 0.0f, 0.5f};
-    def.look.angle = {0.0f, 6.28f};
-    def.look.spin = {-3.0f, 3.0f};
-    def.look.tileColumns = 4;
-    def.look.tileRows = 4;
-    def.look.frames = sim::FrameClock::OverLife;
+    def.appearance.angle = {0.0f, 6.28f};
+    def.appearance.spin = {-3.0f, 3.0f};
+    def.appearance.tileColumns = 4;
+    def.appearance.tileRows = 4;
+    def.appearance.frames = sim::FrameClock::OverLife;
 }
 
 void makeHeavy(sim::EmitterDef& def)
@@ -68,8 +68,8 @@ void makeHeavy(sim::EmitterDef& def)
     def.forces.curlRate = 0.3f;
     def.forces.bounce = 0.4f;
     def.forces.friction = 0.2f;
-    def.look.fastest = 6.0f;
-    def.look.sizeOverSpeed = growth();
+    def.appearance.fastest = 6.0f;
+    def.appearance.sizeOverSpeed = growth();
 }
 
 } // namespace

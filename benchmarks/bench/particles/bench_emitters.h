@@ -12,7 +12,8 @@ namespace fx::cli {
 
 /// An effect of one emitter that holds `count` particles after a few seconds and replaces each that dies.
 /// lean: gravity, drag, color, opacity and size over life. typical: born in a cone from a disc, lives and
-/// sizes drawn from ranges, wind, rotation, flip-book frames. heavy: turbulence, ground, looks over speed.
+/// sizes drawn from ranges, wind, rotation, flip-book frames. heavy: turbulence, ground, appearance over
+/// speed.
 /// @param gpu    they ask for the GPU
 /// @param depth  and collide with what a depth texture shows
 std::shared_ptr<const sim::EffectDef> benchEffect(std::string_view variant, uint32_t count, bool gpu = false,

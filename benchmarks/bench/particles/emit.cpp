@@ -18,7 +18,7 @@ constexpr float kStepsPerSecond = 60.0f;
 std::shared_ptr<const sim::EffectDef> emitter(std::string_view variant, uint64_t count)
 {
     auto def = std::make_unique<sim::EmitterDef>();
-    def->look.kind = sim::Appearance::Sprite;
+    def->appearance.kind = sim::AppearanceKind::Sprite;
     def->maxParticles = uint32_t(2 * count + 16);
     def->lifetime = {1.0f / kStepsPerSecond, 1.0f / kStepsPerSecond};
     def->emission.rate = float(count) * kStepsPerSecond;

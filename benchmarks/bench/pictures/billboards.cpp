@@ -3,7 +3,7 @@
 // object a case and form: relative errors of the channels that are brighter than a thousandth of the
 // brightest, and the least time of a frame (not of those in wrong order: a view sorts, so that each blob is
 // drawn in a frame of its own there).
-#include "benchmarks/accuracy/accuracy_errors.h"
+#include "benchmarks/accuracy/accuracy_technique.h"
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
 #include "benchmarks/scenes/cards.h"

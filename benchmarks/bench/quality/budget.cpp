@@ -1,7 +1,6 @@
 // fx bench budget: real frames whose load jumps, under a budget, with the controller and without.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/quality/budget_check.h"
-#include "benchmarks/scenes/quality_options.h"
 #include "benchmarks/scenes/quality_stage.h"
 #include "fxsdk/assets/read_file.h"
 #include "fxsdk/cli/scene/default_stage.h"
@@ -10,7 +9,7 @@
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/cli/support/progress.h"
 #include "fxsdk/quality/calibration_file.h"
-#include "fxsdk/quality/quality_ladder.h"
+#include "fxsdk/quality/scalability_levels.h"
 
 #include <CLI/CLI.hpp>
 
@@ -57,7 +56,8 @@ class BudgetBench
 {
 public:
     BudgetBench(const BenchBudgetArguments& arguments, quality::Calibration calibration)
-        : arguments_(arguments), ladders_(calibration.ladders), calibration_(std::move(calibration))
+        : arguments_(arguments), techniqueLevels_(calibration.techniqueLevels),
+          calibration_(std::move(calibration))
     {}
 
     base::Status run(int width, int height, std::optional<StageClock> clock);
@@ -75,7 +75,7 @@ private:
     void compareTo(Contestant& contestant);
 
     const BenchBudgetArguments& arguments_;
-    std::vector<quality::Ladder> ladders_;
+    std::vector<quality::ScalabilityLevels> techniqueLevels_;
     quality::Calibration calibration_;
     scene_file::SceneFile file_;
     std::unique_ptr<QualityStage> stage_;
@@ -132,7 +132,7 @@ base::Status BudgetBench::findBudget()
     budget_ = arguments_.budget > 0.0 ? arguments_.budget : 1.5 * times[kWarmUp / 2];
     if (!(budget_ > 0.0))
         return {base::Code::GlFailed, "frames could not be timed; try --clock wall"};
-    naive_.choice = fixed_.choice = controller_.choice = quality::highest(ladders_);
+    naive_.choice = fixed_.choice = controller_.choice = quality::highest(techniqueLevels_);
     return stage_->setBudget(budget_, clock_);
 }
 
@@ -189,13 +189,14 @@ void BudgetBench::decide(Contestant& contestant)
     }
     quality::Knobs knobs;
     const double last = contestant.milliseconds.empty() ? budget_ : contestant.milliseconds.back();
-    for (size_t i = 0; i < ladders_.size(); ++i) {
+    for (size_t i = 0; i < techniqueLevels_.size(); ++i) {
         uint8_t& step = contestant.choice[i];
         if (&contestant == &naive_ && last > budget_ && step > 0)
             --step;
-        else if (&contestant == &naive_ && budget_ > 1.15 * last && step + 1u < ladders_[i].steps.size())
+        else if (&contestant == &naive_ && budget_ > 1.15 * last &&
+                 step + 1u < techniqueLevels_[i].steps.size())
             ++step;
-        knobs = merged(knobs, ladders_[i].steps[step].knobs);
+        knobs = merged(knobs, techniqueLevels_[i].steps[step].knobs);
     }
     quality.force(knobs);
 }
@@ -209,8 +210,8 @@ void BudgetBench::count(Contestant& contestant)
     contestant.runOver = over ? contestant.runOver + 1 : 0;
     contestant.longestOver = std::max(contestant.longestOver, contestant.runOver);
     const auto weights = stage_->view().quality.weights();
-    for (size_t i = 0; i < ladders_.size(); ++i)
-        contestant.estimatedError += weights[i] * ladders_[i].steps[contestant.choice[i]].error;
+    for (size_t i = 0; i < techniqueLevels_.size(); ++i)
+        contestant.estimatedError += weights[i] * techniqueLevels_[i].steps[contestant.choice[i]].error;
 }
 
 void BudgetBench::compareTo(Contestant& contestant)

@@ -1,6 +1,7 @@
 /// @file explain_command.cpp
 /// fx explain: what a moment of a scene costs, and which effect called for it.
 
+#include "foundation/tasks/work_budget.h"
 #include "fxsdk/cli/commands.h"
 #include "fxsdk/cli/render/frame_renderer.h"
 #include "fxsdk/cli/scene/api_status.h"
@@ -8,6 +9,7 @@
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/techniques.h"
+#include "simulation/emitters/emitter_def.h"
 #include "simulation/gpu_programs/gpu_program.h"
 
 #include <CLI/CLI.hpp>

@@ -62,7 +62,7 @@ Loads loadsOf(const std::vector<const sim::EmitterDef*>& emitters, const std::ve
 /// [unit] of a particle, once a step.
 double shownWork(const sim::EmitterDef& emitter)
 {
-    double work = sim::shownWork(emitter.look.kind);
+    double work = sim::shownWork(emitter.appearance.kind);
     if (emitter.trail.lifetime > 0.0f)
         work += sim::emitter_work::kPoint * double(emitter.trail.maxPoints);
     return work + (emitter.light.given ? sim::emitter_work::kLight : 0.0);
@@ -82,10 +82,10 @@ void estimate(const sim::EmitterDef& emitter, const sim::StepLoad& load, double 
         out.workMember = "events";
     if (out.workMember == "events")
         out.workRemedy = "lower the counts of events, or maxParticles";
-    const bool isMedium = emitter.look.kind == sim::Appearance::Medium;
-    const uint64_t shown = emitter.look.kind == sim::Appearance::None ? 0
-                           : isMedium                                 ? kBlobSnapshotBytes
-                                                                      : kParticleSnapshotBytes;
+    const bool isMedium = emitter.appearance.kind == sim::AppearanceKind::Medium;
+    const uint64_t shown = emitter.appearance.kind == sim::AppearanceKind::None ? 0
+                           : isMedium                                           ? kBlobSnapshotBytes
+                                                                                : kParticleSnapshotBytes;
     out.bytes = emitter.bytes() + emitter.maxParticles * shown;
     out.memoryMember = "maxParticles";
 }

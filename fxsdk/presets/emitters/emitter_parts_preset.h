@@ -20,7 +20,7 @@ void readEmitterEmission(const PresetValue& emission, sim::Emission& out);
 /// obstacles.
 void readEmitterForces(const PresetValue& element, sim::EmitterDef& emitter);
 /// appearance
-void readEmitterLook(const PresetValue& appearance, sim::EmitterLook& out);
+void readEmitterAppearance(const PresetValue& appearance, sim::EmitterAppearance& out);
 /// trail
 void readEmitterTrail(const PresetValue& trail, sim::RibbonDef& out);
 /// light

@@ -110,7 +110,7 @@ void buildEmitter(const PresetValue& element, sim::EffectDef& effect)
     readMedium(element, *emitter);
     readEmitterForces(element, *emitter);
     readCurves(element, *emitter);
-    readEmitterLook(element.child("appearance"), emitter->look);
+    readEmitterAppearance(element.child("appearance"), emitter->appearance);
     readEmitterTrail(element.child("trail"), emitter->trail);
     readEmitterLight(element, emitter->light);
     readEmitterEmission(element.child("emission"), emitter->emission);

@@ -17,7 +17,7 @@ void buildEmitter(const PresetValue& element, sim::EffectDef& effect);
 void linkEmitters(const PresetValue& root, sim::EffectDef& effect);
 
 /// Warns of members without effect and of capacities that are too small.
-void adviseEmitters(const PresetValue& root, const sim::EffectDef& effect);
+void lintEmitters(const PresetValue& root, const sim::EffectDef& effect);
 
 /// Counts births, those that events cause included.
 void estimateEmitters(const PresetValue& root, const sim::EffectDef& effect, std::span<SolverCost> ioCosts);
@@ -28,7 +28,7 @@ inline constexpr Technique kEmitterTechnique{
     .schema = emitterSchema,
     .build = buildEmitter,
     .link = linkEmitters,
-    .lint = adviseEmitters,
+    .lint = lintEmitters,
     .estimate = estimateEmitters,
     .kind = &base::kBlobKind,
 };

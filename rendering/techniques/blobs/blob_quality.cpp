@@ -63,6 +63,6 @@ double weight(const ScreenShare& covered)
 
 } // namespace
 
-constexpr QualityLadder kBlobLadder{"media", "all blobs of fire, smoke and dust", weight, kKnobs};
+constexpr ScalabilitySettings kBlobScalability{"media", "all blobs of fire, smoke and dust", weight, kKnobs};
 
 } // namespace fx::render

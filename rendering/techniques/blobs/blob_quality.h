@@ -6,6 +6,6 @@
 
 namespace fx::render {
 
-extern const QualityLadder kBlobLadder;
+extern const ScalabilitySettings kBlobScalability;
 
 } // namespace fx::render

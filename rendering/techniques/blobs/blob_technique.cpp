@@ -46,7 +46,7 @@ constexpr DrawTechnique kBlobTechnique{
     .programs = programs,
     .timedPasses = kTimed,
     .lights = &kBlobLights,
-    .ladder = &kBlobLadder,
+    .levels = &kBlobScalability,
 };
 
 } // namespace fx::render

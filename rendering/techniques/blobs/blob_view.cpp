@@ -152,10 +152,10 @@ void BlobView::takePictures(FrameGraph& graph, const PassFrame& frame)
     });
     takenBlobs_.form = frame.settings->form;
     takenBlobs_.detail = frame.settings->detail && builder_.anyDetail();
-    takenRun_ = {0, 0, uint32_t(builder_.takenBlobs().size()), &takenBlobs_};
+    takenBatch_ = {0, 0, uint32_t(builder_.takenBlobs().size()), &takenBlobs_};
     const ResourceId nothing = SceneDistancePass::addTo(graph, {{}, kSide, kSide, view}).distance;
     const auto drawn =
-        MediaPass::addTo(graph, {{&takenRun_, 1}, nothing, kSide, kSide, view, false, false}, {});
+        MediaPass::addTo(graph, {{&takenBatch_, 1}, nothing, kSide, kSide, view, false, false}, {});
     impostors_.atlas =
         ImpostorKeepPass::addTo(graph, {drawn.media, impostors_.atlas, tiles, uint32_t(kept.size())}).atlas;
     graph.keep(impostors_.atlas); // later frames show it

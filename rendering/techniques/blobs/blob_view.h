@@ -43,7 +43,7 @@ private:
     FrameBuilder builder_;
     BlobSource blobs_;
     BlobSource takenBlobs_; ///< of pictures that are taken
-    MediaRun takenRun_;
+    DrawBatch takenBatch_;
     ImpostorSource impostors_;
     GlBuffer blobBuffer_; ///< lasts, so that what is in it is still there in the next frame
     GlBuffer impostorBuffer_;

@@ -114,7 +114,7 @@ constexpr QualityKnob kKnobs[] = {
      lowerDazzle},
 };
 
-constexpr QualityLadder kLadder{"dazzle", "glare", weight, kKnobs};
+constexpr ScalabilitySettings kScalability{"dazzle", "glare", weight, kKnobs};
 
 } // namespace
 
@@ -125,7 +125,7 @@ constexpr DrawTechnique kDazzleTechnique{
     .timedPasses = kTimed,
     .check = check,
     .actsAlone = actsAlone,
-    .ladder = &kLadder,
+    .levels = &kScalability,
 };
 
 } // namespace fx::render

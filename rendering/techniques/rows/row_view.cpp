@@ -37,27 +37,27 @@ base::Status RowView::gather(const GatherInputs& in, GatheredFrame& io)
     isKept_ = false;
     batches_.clear();
     source_.batches = {};
-    merger_.build(*in.snapshots, in.stamps, in.newerRows, in.olderRows);
+    merger_.build(*in.snapshots, in.revisions, in.newerRows, in.olderRows);
     const base::SnapshotPair merged = merger_.merged();
     ParticleFrameInputs inputs{in.snapshots, in.request, in.settings, in.camera, in.lights};
     inputs.techniques = techniques_;
     inputs.lod = in.lod;
     inputs.left = merger_.taken();
-    if (base::Status status = add(single_, inputs, {in.stamps, in.newerRows, in.olderRows}, in.assets, io);
+    if (base::Status status = add(single_, inputs, {in.revisions, in.newerRows, in.olderRows}, in.assets, io);
         !status)
         return status;
     inputs.snapshots = &merged;
     inputs.left = {};
     inputs.merger = &merger_;
-    if (base::Status status =
-            add(joined_, inputs, {merger_.stamps(), merger_.newerRows(), merger_.olderRows()}, in.assets, io);
+    if (base::Status status = add(
+            joined_, inputs, {merger_.revisions(), merger_.newerRows(), merger_.olderRows()}, in.assets, io);
         !status)
         return status;
     source_.batches = batches_;
     return {};
 }
 
-base::Status RowView::add(Rows& rows, const ParticleFrameInputs& inputs, const UploadStamps& of,
+base::Status RowView::add(Rows& rows, const ParticleFrameInputs& inputs, const UploadRevisions& of,
                           const base::AssetTable* assets, GatheredFrame& io)
 {
     rows.frame.build(inputs);

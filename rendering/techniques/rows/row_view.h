@@ -35,7 +35,7 @@ private:
         ParticleFrame frame;
         ParticleBuffers buffers;
     };
-    base::Status add(Rows& rows, const ParticleFrameInputs& inputs, const UploadStamps& of,
+    base::Status add(Rows& rows, const ParticleFrameInputs& inputs, const UploadRevisions& of,
                      const base::AssetTable* assets, GatheredFrame& io);
 
     std::pmr::vector<const RowTechnique*> techniques_;

@@ -86,7 +86,7 @@ constexpr QualityKnob kKnobs[] = {
      lowerShimmer},
 };
 
-constexpr QualityLadder kLadder{"shimmer", "hot air", weight, kKnobs};
+constexpr ScalabilitySettings kScalability{"shimmer", "hot air", weight, kKnobs};
 
 } // namespace
 
@@ -95,7 +95,7 @@ constexpr DrawTechnique kShimmerTechnique{
     .create = create,
     .programs = programs,
     .timedPasses = kTimed,
-    .ladder = &kLadder,
+    .levels = &kScalability,
 };
 
 } // namespace fx::render

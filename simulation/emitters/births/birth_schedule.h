@@ -24,8 +24,8 @@
 ///   Where the rate runs straight from ra to rb over L ticks, with D = 2^48 F,
 ///       q = 2^48 ra + m k at tick k of it,   m = 2^48 (rb - ra) / L rounded towards 0           (5)
 ///   Progress is a sum of integers, and S(k + n) = S(k) + S(n) of the piece that begins at k: any partition
-///   of time into steps gives the same births. At a constant rate there are no births within floor(-R / q)
-///   ticks of a moment: windows that end by then are put together and their progress is added later. (6)
+///   of time into steps gives the same births. At a constant rate no birth comes within floor(-R / q) ticks
+///   of a moment: windows that end by then are put together and their progress is added later.           (6)
 /// @source    elementary
 /// @deviation none
 /// @valid     r <= 1e9 /s (larger is taken as that; NaN and negative as 0); a rate that changes over more

@@ -14,7 +14,7 @@ constexpr uint32_t kFewestOfTile = 16;
 
 bool livesThere(const RowWindow& rows, const ParticleStore& store, uint32_t row)
 {
-    return row < rows.count && (row < rows.gapBegin || row >= rows.gapEnd) && store.index[row] != kNobody;
+    return row < rows.count && (row < rows.gapBegin || row >= rows.gapEnd) && store.index[row] != kNoParticle;
 }
 
 ParticleEvent eventOf(base::Ticks tick, uint64_t index, uint32_t emitter, EventKind kind)
@@ -32,8 +32,8 @@ ParticleEvent eventOf(base::Ticks tick, uint64_t index, uint32_t emitter, EventK
 glm::vec3 colorAt(const EmitterSettings& def, const ParticleStore& store, uint32_t row, base::Ticks tick)
 {
     const float life = std::clamp(store.ageOf(row, tick) * store.value(stored::PerLife, row), 0.0f, 1.0f);
-    const bool medium = def.look.kind == Appearance::Medium;
-    const auto color = (medium ? def.albedoOverLife : def.look.colorOverLife).at(life);
+    const bool medium = def.appearance.kind == AppearanceKind::Medium;
+    const auto color = (medium ? def.albedoOverLife : def.appearance.colorOverLife).at(life);
     glm::vec3 tinted;
     for (size_t a = 0; a < 3; ++a)
         tinted[int(a)] = color[a] * store.value(stored::TintRed + a, row);
@@ -85,7 +85,7 @@ EventRoom::EventRoom(base::Arena& scratch, uint32_t rows, uint32_t mostOfOne)
 /// Fills in place and velocity at `tick`, by (4).
 void EventScan::addAt(uint32_t row, base::Ticks tick, ParticleEvent event, EventList& out) const
 {
-    LookJob at = job;
+    AppearanceJob at = job;
     at.now = tick;
     MotionTile motion;
     const uint32_t first = row / kTilePadding * kTilePadding;

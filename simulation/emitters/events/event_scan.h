@@ -27,9 +27,9 @@
 #pragma once
 
 #include "foundation/memory/arena.h"
+#include "simulation/particles/appearance_kernel.h"
 #include "simulation/particles/emitter_settings.h"
 #include "simulation/particles/event_rule.h"
-#include "simulation/particles/look_kernel.h"
 #include "simulation/particles/tile_step.h"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ struct EventScan
 {
     const EventInterest& interest;
     const ParticleStore& store;
-    LookJob job;
+    AppearanceJob job;
     uint32_t emitter;
     base::Ticks begin; ///< of the step
     base::Ticks end;

@@ -134,7 +134,7 @@ uint32_t EmitterPool::admit(const PoolEntry& entry, base::Ticks now)
     } else {
         free_.pop_back();
     }
-    std::fill_n(serial_.begin() + std::ptrdiff_t(placeOf(m, 0)), each_, kNobody);
+    std::fill_n(serial_.begin() + std::ptrdiff_t(placeOf(m, 0)), each_, kNoParticle);
     Member& member = members_[m];
     member = Member{};
     member.emitter = entry.emitter;
@@ -246,7 +246,7 @@ void EmitterPool::giveBirths(uint32_t m, base::Ticks to, StepCounters& counters)
         member.nextRow = place + 1 == each_ ? 0 : place + 1;
         ++counters.born;
         const uint64_t before = serial_[placeOf(m, place)];
-        if (before >= store_.next() && before != kNobody)
+        if (before >= store_.next() && before != kNoParticle)
             makeBirths(); // it is born in this step, too
         uint32_t row = 0;
         if (lives(before, member.births.tick, row) || !findRoom()) {

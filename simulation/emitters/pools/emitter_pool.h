@@ -38,7 +38,7 @@ struct PoolEntry
 class EmitterPool
 {
 public:
-    /// @param pull [m/s2] of all members, see LookJob
+    /// @param pull [m/s2] of all members, see AppearanceJob
     /// @param revision goes up with each member that comes or goes
     EmitterPool(std::shared_ptr<const ParticleProgram> program, const glm::vec3& pull, uint64_t& revision,
                 std::pmr::memory_resource* memory);
@@ -129,7 +129,7 @@ private:
     ParticleStore store_;           ///< a ring of all births; its indices are serial numbers
     std::vector<uint32_t> owner_;   ///< by row: member and row of its own store, see base::PooledRows
     std::vector<uint64_t> index_;   ///< by row: birth index in the member
-    std::vector<uint64_t> serial_;  ///< by place: the particle last born there, kNobody
+    std::vector<uint64_t> serial_;  ///< by place: the particle last born there, kNoParticle
     std::vector<base::Ticks> wake_; ///< by member: a step that ends there or later is not like standing still
     std::vector<uint32_t> counts_;  ///< by member: count of its group
     std::vector<Member> members_;

@@ -2,7 +2,7 @@
 #include "foundation/snapshot/particle_kind.h"
 #include "foundation/tasks/parallel_rows.h"
 #include "simulation/emitters/pools/emitter_pool.h"
-#include "simulation/particles/look_kernel.h"
+#include "simulation/particles/appearance_kernel.h"
 #include "simulation/particles/row_publication.h"
 #include "simulation/particles/rows_of_a_task.h"
 
@@ -21,7 +21,7 @@ uint32_t wholeLines(uint32_t rows)
 }
 
 /// The rows from `begin` to `end`, and those that share a vector with them.
-void writeRange(const LookJob& job, const LookColumns& out, base::PooledRows::Range range,
+void writeRange(const AppearanceJob& job, const AppearanceColumns& out, base::PooledRows::Range range,
                 base::TaskRunner& tasks)
 {
     const uint32_t begin = range.begin / kTilePadding * kTilePadding;
@@ -31,11 +31,12 @@ void writeRange(const LookJob& job, const LookColumns& out, base::PooledRows::Ra
     const uint32_t chunks = (end - begin + kChunk - 1) / kChunk;
     const uint32_t few = rowsOfATask(*job.program, kChunk) / kChunk;
     if (chunks <= few) {
-        static_cast<void>(writeLooks(job, out, begin, end));
+        static_cast<void>(writeAppearance(job, out, begin, end));
         return;
     }
     parallelRows(tasks, chunks, few, [&](uint32_t first, uint32_t last) {
-        static_cast<void>(writeLooks(job, out, begin + first * kChunk, std::min(begin + last * kChunk, end)));
+        static_cast<void>(
+            writeAppearance(job, out, begin + first * kChunk, std::min(begin + last * kChunk, end)));
     });
 }
 
@@ -45,7 +46,7 @@ void EmitterPool::publish(base::KindId kind, base::TaskRunner& tasks, base::Fram
 {
     base::PooledRows& out = snapshot.addPool(kind, store_.capacity(), program_->published, each_);
     if (!out.rows.keepsConstants(program_->number))
-        writeConstants(program_->def, program_->def.look, 1.0f, out.rows.editConstants());
+        writeConstants(program_->def, program_->def.appearance, 1.0f, out.rows.editConstants());
     out.radiusColumn = base::particle_column::Radius;
     out.number = program_->number;
     out.corner = program_->corner;
@@ -57,13 +58,13 @@ void EmitterPool::publish(base::KindId kind, base::TaskRunner& tasks, base::Fram
     out.secondsBack = kRoundedUp * snapshot.secondsBack();
     out.counts.assign(counts_.begin(), counts_.end());
     nameOwners(out);
-    LookJob job{program_.get(), &store_, store_.window(), now_, now_ - kEver, pull_};
+    AppearanceJob job{program_.get(), &store_, store_.window(), now_, now_ - kEver, pull_};
     const RowWindow& rows = job.rows;
     if (rows.gapBegin < rows.gapEnd)
         out.used = {base::PooledRows::Range{0, rows.gapBegin}, {rows.gapEnd, rows.count}};
     else
         out.used = {base::PooledRows::Range{0, rows.count}, {0, 0}};
-    const LookColumns columns = columnsOf(out.rows);
+    const AppearanceColumns columns = columnsOf(out.rows);
     for (const base::PooledRows::Range& range : out.used)
         writeRange(job, columns, range, tasks);
 }

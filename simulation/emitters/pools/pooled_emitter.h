@@ -1,5 +1,5 @@
 /// @file pooled_emitter.h
-/// What pools and crowds of small emitters use of each emitter.
+/// What pools and spawn batches of small emitters use of each emitter.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -9,7 +9,7 @@
 
 namespace fx::sim {
 
-class EmitterCrowd;
+class SpawnBatch;
 class EmitterPool;
 class EmitterPools;
 class ParticleStore;
@@ -17,7 +17,7 @@ struct ParticleProgram;
 struct PoolRequest;
 struct StepCounters;
 
-/// An emitter whose particles a pool may compute, and whose births and publication a crowd may. See
+/// An emitter whose particles a pool may compute, and whose births and publication a spawnBatch may. See
 /// Solver::pooledEmitter().
 class PooledEmitter
 {
@@ -30,10 +30,10 @@ public:
     virtual void leavePool() = 0;
     virtual const EmitterPool* pool() const = 0; ///< that computes it now, null for none
     virtual uint32_t member() const = 0;         ///< its number in that pool
-    /// Solver::publish(), but what is in the columns may be left to `crowd`. @return false, and nothing has
-    /// happened, when it wants nothing of it
+    /// Solver::publish(), but the columns may be filled later by `spawnBatch`. @return false, and nothing
+    /// has happened, when that is not supported
     virtual bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
-                                 EmitterCrowd& crowd) const = 0;
+                                 SpawnBatch& spawnBatch) const = 0;
 
     virtual ParticleStore& store() = 0;
     virtual const ParticleProgram& program() const = 0;

@@ -76,7 +76,8 @@ public:
         for (const CollisionDef& def : defs.first(std::min(defs.size(), kMostObstacles))) {
             entries_.push_back({makeObstacle(def), def.response, std::clamp(def.restitution, 0.0f, 1.0f),
                                 std::clamp(def.friction, 0.0f, 1.0f)});
-            heedsScene_ = heedsScene_ || def.kind == ObstacleKind::Scene || def.kind == ObstacleKind::Hook;
+            dependsOnScene_ =
+                dependsOnScene_ || def.kind == ObstacleKind::Scene || def.kind == ObstacleKind::Hook;
             const bool isMet = def.kind != ObstacleKind::Depth; // on the CPU
             holds_ = holds_ || (isMet && def.response == ContactResponse::Stick);
         }
@@ -84,7 +85,7 @@ public:
 
     TileBound bound() const override { return {0.0f}; } // no contact makes anything faster
     TilePhase phase() const override { return TilePhase::Contact; }
-    bool collides() const override { return heedsScene_; }
+    bool collides() const override { return dependsOnScene_; }
     bool keepsFlags() const override { return holds_; }
     bool describe(base::GpuModules& out) const override
     {
@@ -148,7 +149,7 @@ private:
     }
 
     std::vector<ObstacleEntry> entries_;
-    bool heedsScene_ = false;
+    bool dependsOnScene_ = false;
     bool holds_ = false;
 };
 

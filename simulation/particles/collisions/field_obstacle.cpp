@@ -40,7 +40,7 @@ public:
     /// What the host gives: while there is nothing, there is nothing to do.
     bool describe(base::GpuModules& out) const override
     {
-        out.heedsHost = true;
+        out.dependsOnHost = true;
         return !own_;
     }
 
@@ -77,7 +77,7 @@ public:
     }
     bool describe(base::GpuModules& out) const override
     {
-        out.heedsHost = true;
+        out.dependsOnHost = true;
         return true;
     }
 };

@@ -56,10 +56,10 @@ float largestOf(const base::ScalarCurve& curve)
 /// [m] What is drawn of a particle lies so near to its center, whose speed is at most `speed`.
 float reachOfOne(const EmitterSettings& def, float speed)
 {
-    const float bySpeed = def.look.fastest > 0.0f ? largestOf(def.look.sizeOverSpeed) : 1.0f;
+    const float bySpeed = def.appearance.fastest > 0.0f ? largestOf(def.appearance.sizeOverSpeed) : 1.0f;
     const float size = std::max(largestOf(def.sizeOverLife) * bySpeed, 1e-4f);
-    return std::max(def.radius.min, def.radius.max) * size * cornerOf(def.look) +
-           0.5f * def.look.stretch * speed;
+    return std::max(def.radius.min, def.radius.max) * size * cornerOf(def.appearance) +
+           0.5f * def.appearance.stretch * speed;
 }
 
 } // namespace
@@ -93,7 +93,7 @@ base::Bounds boundsOfAll(const EmitterSettings& def, const glm::vec3& low, const
     const float pull = glm::length(glm::max(glm::abs(low), glm::abs(high)));
     const float speed = std::max(std::abs(slow), std::abs(fast)) + gain * pull;
     float more = reachOfOne(def, speed) + kRounding * glm::length(box.max - box.min);
-    if (def.look.alignment == base::SpriteAlignment::Velocity || def.look.stretch > 0.0f) {
+    if (def.appearance.alignment == base::SpriteAlignment::Velocity || def.appearance.stretch > 0.0f) {
         // Particles born since the snapshot before are drawn on the tangent of their path.
         const float back = std::min(seconds, secondsBack);
         more += 0.5f * (pull + drag * speed) * back * back;

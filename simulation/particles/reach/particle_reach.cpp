@@ -75,19 +75,20 @@ float share(float factor, float of)
 /// [m] from a particle's place to the farthest of what is drawn of it.
 float drawnOf(const EmitterSettings& def, float fastest)
 {
-    const EmitterLook& look = def.look;
+    const EmitterAppearance& appearance = def.appearance;
     float drawn = peakOf(def.sizeOverLife) * def.radius.max;
-    if (look.kind == Appearance::Medium)
+    if (appearance.kind == AppearanceKind::Medium)
         drawn += share(def.shutter, fastest);
-    if (look.fastest > 0.0f)
-        drawn *= std::max(peakOf(look.sizeOverSpeed), 1e-4f);
-    if (look.kind == Appearance::Mesh)
-        drawn *= look.meshReach;
-    if (look.kind == Appearance::Sprite)
-        drawn =
-            std::sqrt(1.0f + look.aspect * look.aspect) * drawn +
-            (look.alignment == base::SpriteAlignment::Velocity ? share(0.5f * look.stretch, fastest) : 0.0f);
-    if (look.kind == Appearance::None)
+    if (appearance.fastest > 0.0f)
+        drawn *= std::max(peakOf(appearance.sizeOverSpeed), 1e-4f);
+    if (appearance.kind == AppearanceKind::Mesh)
+        drawn *= appearance.meshReach;
+    if (appearance.kind == AppearanceKind::Sprite)
+        drawn = std::sqrt(1.0f + appearance.aspect * appearance.aspect) * drawn +
+                (appearance.alignment == base::SpriteAlignment::Velocity
+                     ? share(0.5f * appearance.stretch, fastest)
+                     : 0.0f);
+    if (appearance.kind == AppearanceKind::None)
         drawn = 0.0f;
     if (def.trail.lifetime > 0.0f)
         drawn = std::max(drawn, 0.5f * def.trail.width * peakOf(def.trail.widthAlong));
@@ -119,7 +120,7 @@ base::Bounds ballOf(const EmitterSettings& def, const FlightBound& bound, const 
                     float secondsBack)
 {
     float reach = reachOf(def, conditions, {}, {});
-    if (def.look.alignment == base::SpriteAlignment::Velocity || def.look.stretch > 0.0f) {
+    if (def.appearance.alignment == base::SpriteAlignment::Velocity || def.appearance.stretch > 0.0f) {
         // Particles born since the snapshot before are drawn on the tangent of their path.
         const float back = std::min(float(bound.seconds), secondsBack), fastest = fastestOf(bound);
         const float grown = float(bound.acceleration + bound.drag * (double(fastest) + bound.air));
@@ -137,24 +138,24 @@ base::Bounds ballOf(const EmitterSettings& def, const FlightBound& bound, const 
 /// ballistic particle whose pull is the largest that there may be: what the ground takes away makes it
 /// smaller. Upwards that is so when all pulls are downwards and equal, as a bounce then rises to no more than
 /// it fell from.
-base::Bounds boundsOfStepped(const EmitterSettings& def, const StepWeather& weather)
+base::Bounds boundsOfStepped(const EmitterSettings& def, const ConditionsRange& conditions)
 {
-    const FlightBound bound = flightOf(def, weather.strongest, {});
-    const base::Bounds ball = ballOf(def, bound, weather.strongest, weather.secondsBack);
-    if (weather.meetsOthers || followsAir(def) || !std::isfinite(ball.max.x))
+    const FlightBound bound = flightOf(def, conditions.strongest, {});
+    const base::Bounds ball = ballOf(def, bound, conditions.strongest, conditions.secondsBack);
+    if (conditions.meetsOthers || followsAir(def) || !std::isfinite(ball.max.x))
         return ball;
-    const double steady = double(weather.strongest.gravity) * double(std::abs(def.forces.gravity));
-    const double air = bound.air - double(weather.strongest.wind) - double(glm::length(def.forces.wind));
+    const double steady = double(conditions.strongest.gravity) * double(std::abs(def.forces.gravity));
+    const double air = bound.air - double(conditions.strongest.wind) - double(glm::length(def.forces.wind));
     const auto any = float((bound.acceleration - steady + bound.drag * air) * (1.0 + 1e-6)); // anywhere to
-    const glm::vec3 low = weather.low - any, high = weather.high + any;
-    base::Bounds box = boundsOfAll(def, low, high, float(bound.seconds), weather.secondsBack);
-    if (weather.meetsGround && weather.highGround > -1e30f) {
+    const glm::vec3 low = conditions.low - any, high = conditions.high + any;
+    base::Bounds box = boundsOfAll(def, low, high, float(bound.seconds), conditions.secondsBack);
+    if (conditions.meetsGround && conditions.highGround > -1e30f) {
         const bool isSteady = high.y < 0.0f && low.y >= 1.0001f * high.y;
         const float drawn = drawnOf(def, fastestOf(bound));
-        box.max.y = isSteady ? std::max(box.max.y, weather.highGround + drawn) : ball.max.y;
+        box.max.y = isSteady ? std::max(box.max.y, conditions.highGround + drawn) : ball.max.y;
         const float shapes = def.births ? def.births->extent() : glm::length(def.size);
-        const float lowest = std::min(weather.lowGround, def.position.y - shapes) - drawn;
-        if (!(def.look.stretch > 0.0f) && def.look.alignment != base::SpriteAlignment::Velocity)
+        const float lowest = std::min(conditions.lowGround, def.position.y - shapes) - drawn;
+        if (!(def.appearance.stretch > 0.0f) && def.appearance.alignment != base::SpriteAlignment::Velocity)
             box.min.y = std::max(box.min.y, lowest);
     }
     box.min = glm::max(box.min, ball.min);

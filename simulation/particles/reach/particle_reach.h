@@ -3,8 +3,8 @@
 #pragma once
 
 #include "foundation/math/geometry.h"
+#include "simulation/particles/appearance_kernel.h"
 #include "simulation/particles/emitter_settings.h"
-#include "simulation/particles/look_kernel.h"
 #include "simulation/solver/solver.h"
 
 #include <glm/vec3.hpp>
@@ -19,15 +19,15 @@ float reachOf(const EmitterSettings& def, const ReachConditions& conditions, con
 
 /// What is drawn within lives of at most `seconds` stays in this box, whatever is drawn at random.
 /// @param low, high   [m/s2] between these are the pulls, component by component
-/// @param secondsBack [s] to the snapshot before, on the way from which those who were born since are drawn
+/// @param secondsBack [s] to the snapshot before, particles born since are drawn on their path from it
 base::Bounds boundsOfAll(const EmitterSettings& def, const glm::vec3& low, const glm::vec3& high,
                          float seconds, float secondsBack);
 
-/// What has acted on particles since the oldest of them was born, besides modules.
-struct StepWeather
+/// Ranges of what has acted on particles since the oldest of them was born, besides modules.
+struct ConditionsRange
 {
     ReachConditions strongest; ///< and how long that is
-    glm::vec3 low{0.0f};       ///< [m/s2] between these were the pulls of gravity and wind, see LookJob
+    glm::vec3 low{0.0f};       ///< [m/s2] between these were the pulls of gravity and wind, see AppearanceJob
     glm::vec3 high{0.0f};
     float lowGround = 0.0f; ///< [m] between these was the ground plane, -infinity for none
     float highGround = 0.0f;
@@ -36,7 +36,7 @@ struct StepWeather
     bool meetsOthers = false;         ///< they may go anywhere from there
 };
 
-/// As boundsOfAll() where modules move particles; infinite when nobody knows.
-base::Bounds boundsOfStepped(const EmitterSettings& def, const StepWeather& weather);
+/// As boundsOfAll() where modules move particles; infinite when unknown.
+base::Bounds boundsOfStepped(const EmitterSettings& def, const ConditionsRange& conditions);
 
 } // namespace fx::sim

@@ -43,7 +43,7 @@ DynamicsState<T>::DynamicsState(const GasDynamicsDef& definition, std::pmr::memo
     : def(definition),
       densityRules(densityRulesOf<T>(definition)), forceRules{definition.kernel, definition.viscosity.beta,
                                                               definition.viscosity.conductivity},
-      gas(memory, def.capacity), place(memory, def.capacity), delayed(memory), tree(memory, def.capacity),
+      gas(memory, def.capacity), slot(memory, def.capacity), delayed(memory), tree(memory, def.capacity),
       lists(memory, def.capacity, listEntries(def.neighbors)), sortedX(memory, def.capacity),
       sortedY(memory, def.capacity), sortedZ(memory, def.capacity), sortedSupport(memory, def.capacity),
       nowX(memory, def.capacity), nowY(memory, def.capacity), nowZ(memory, def.capacity),

@@ -55,11 +55,11 @@ struct DynamicsState
 {
     DynamicsState(const GasDynamicsDef& definition, std::pmr::memory_resource* memory);
 
-    uint32_t placeOf(uint32_t particle) const { return place[particle]; }
-    std::span<const uint32_t> activePlaces() const { return active.first(activeCount); }
-    PairPlaces<T> pairsOf(std::span<const uint32_t> places) const
+    uint32_t placeOf(uint32_t particle) const { return slot[particle]; }
+    std::span<const uint32_t> activeSlots() const { return active.first(activeCount); }
+    PairSlots<T> pairsOf(std::span<const uint32_t> slots) const
     {
-        return {lists, records.data(), def.domain, places};
+        return {lists, records.data(), def.domain, slots};
     }
     double seconds(double ticks) const { return ticks * tick; }
 
@@ -71,11 +71,11 @@ struct DynamicsState
 
     uint32_t count = 0;
     GasColumns<T> gas;
-    base::Column<uint32_t> place; ///< of each id
-    bool fresh = false;           ///< particles without a density are among them
-    bool stale = false;           ///< accelerations do not belong to the state: something came from outside
-    bool shaken = false;          ///< by heat or new particles: the first steps are to be short
-    bool heatedNow = false;       ///< heat has arrived at this tick
+    base::Column<uint32_t> slot; ///< of each id
+    bool fresh = false;          ///< particles without a density are among them
+    bool stale = false;          ///< accelerations do not belong to the state: something came from outside
+    bool shaken = false;         ///< by heat or new particles: the first steps are to be short
+    bool heatedNow = false;      ///< heat has arrived at this tick
     std::pmr::vector<DelayedHeat> delayed; ///< by time
 
     ParticleTree<T> tree;
@@ -83,7 +83,7 @@ struct DynamicsState
     bool mustRecoverTree = false; ///< restored: the tree is to be made from sortedX..sortedSupport
     NeighborLists<T> lists;
     ListState listState;
-    bool listsServeActive = false;                            ///< every active place has a list
+    bool listsServeActive = false;                            ///< every active slot has a list
     base::Column<T> sortedX, sortedY, sortedZ, sortedSupport; ///< as the tree was sorted by, to sort it again
     base::Column<T> nowX, nowY, nowZ;                         ///< [m] positions now, for the tree
     base::Column<T> listX, listY, listZ, listSupport; ///< where `listState` was built, while it is valid
@@ -94,9 +94,9 @@ struct DynamicsState
 
     uint64_t now = 0;              ///< [tick] of the frame
     double tick = 0;               ///< [s]
-    base::Column<uint32_t> active; ///< places whose step ends now, ascending
+    base::Column<uint32_t> active; ///< slots whose step ends now, ascending
     uint32_t activeCount = 0;
-    base::Column<uint32_t> blockCounts; ///< active places of each block of kBlock places
+    base::Column<uint32_t> blockCounts; ///< active slots of each block of kBlock slots
     base::Column<uint64_t> blockEnds;   ///< [tick] first end after `now` of a step in each block
     base::Column<T> blockSpeeds;        ///< [1/s2] largest (|v| / H)^2 in each block
     base::Column<uint64_t> blockNow;    ///< [tick] for which nowX..nowZ of each block hold
@@ -105,7 +105,7 @@ struct DynamicsState
     double fastest = 0;                 ///< [1/s] largest |v| / H
 
     base::Column<uint8_t> wantsReach;
-    base::Column<uint32_t> wanting; ///< active places that want more reach, ascending
+    base::Column<uint32_t> wanting; ///< active slots that want more reach, ascending
     base::Column<uint32_t> neighbors;
     base::Column<uint32_t> pairs;
     base::Column<T> heating;
@@ -147,13 +147,13 @@ T pushOf(const DynamicsState<T>& s, T correction, T pressure, T density)
 /// [m] Largest support that periodic sides and pairs of walls allow.
 double largestInDomain(const GasDynamicsDef& def);
 
-constexpr uint32_t kBlock = 1024; ///< places of a block in sums and searches over all particles
+constexpr uint32_t kBlock = 1024; ///< slots of a block in sums and searches over all particles
 
-/// Lets the next prediction look at the block of `place` again. Thread-safe.
+/// Lets the next prediction look at the block of `slot` again. Thread-safe.
 template <class T>
-void markChanged(DynamicsState<T>& s, uint32_t place)
+void markChanged(DynamicsState<T>& s, uint32_t slot)
 {
-    std::atomic_ref<uint8_t>(s.blockChanged[place / kBlock]).store(1, std::memory_order_relaxed);
+    std::atomic_ref<uint8_t>(s.blockChanged[slot / kBlock]).store(1, std::memory_order_relaxed);
 }
 
 inline uint32_t blockCount(uint32_t count)

@@ -11,8 +11,8 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint32_t kPairBatch = 64;  ///< places of a task in loops over neighbors
-constexpr uint32_t kRowBatch = 1024; ///< places of a task in loops over particles
+constexpr uint32_t kPairBatch = 64;  ///< slots of a task in loops over neighbors
+constexpr uint32_t kRowBatch = 1024; ///< slots of a task in loops over particles
 
 /// A guess of the support now, from the expansion at the beginning of the step.
 template <class T>
@@ -43,22 +43,22 @@ void measureGrowth(DynamicsState<T>& s, base::TaskRunner& tasks)
     s.listState.growth = (1.0 + s.listState.growth) * std::bit_cast<double>(largest.load()) - 1.0;
 }
 
-/// Looks farther around the active places whose supports have met the end of their lists. Lists of all active
-/// places are made anew: theirs have become too short, and so have those of their neighbors.
+/// Looks farther around the active slots whose supports have met the end of their lists. Lists of all active
+/// slots are made anew: theirs have become too short, and so have those of their neighbors.
 template <class T>
 void sumWanting(DynamicsState<T>& s, base::TaskRunner& tasks)
 {
     constexpr double kWideReach = 0.25; ///< with what the guess allows, supports grow by a third in a step
     uint32_t count = 0;
-    for (const uint32_t i : s.activePlaces())
+    for (const uint32_t i : s.activeSlots())
         if (s.wantsReach[i] != 0)
             s.wanting[count++] = i;
     const std::span<const uint32_t> wanting = s.wanting.first(count);
     searchNeighbors(s, wanting, kWideReach, tasks);
     fillSeen(s, wanting, tasks);
     sumDensities(s, wanting, kWideReach, tasks);
-    searchNeighbors(s, s.activePlaces(), marginOfLists(s), tasks);
-    fillSeen(s, s.activePlaces(), tasks);
+    searchNeighbors(s, s.activeSlots(), marginOfLists(s), tasks);
+    fillSeen(s, s.activeSlots(), tasks);
 }
 
 /// A density that is a number, whatever the sum has given.
@@ -154,16 +154,15 @@ void updateRates(DynamicsState<T>& s, uint32_t i)
 } // namespace
 
 template <class T>
-bool sumDensities(DynamicsState<T>& s, std::span<const uint32_t> places, double reach,
-                  base::TaskRunner& tasks)
+bool sumDensities(DynamicsState<T>& s, std::span<const uint32_t> slots, double reach, base::TaskRunner& tasks)
 {
     GasColumns<T>& gas = s.gas;
     const DensityResults<T> results{gas.support.data(),    gas.density.data(),  gas.correction.data(),
                                     gas.divergence.data(), gas.curl.data(),     s.wantsReach.data(),
                                     s.neighbors.data(),    gas.exposure.data(), gas.expansion.data()};
     std::atomic<uint32_t> wanting{0};
-    parallelRows(tasks, uint32_t(places.size()), kPairBatch, [&](uint32_t begin, uint32_t end) {
-        const std::span<const uint32_t> part = places.subspan(begin, end - begin);
+    parallelRows(tasks, uint32_t(slots.size()), kPairBatch, [&](uint32_t begin, uint32_t end) {
+        const std::span<const uint32_t> part = slots.subspan(begin, end - begin);
         sumDensity<T>({s.densityRules, s.pairsOf(part), T(reach), results});
         uint32_t more = 0;
         for (const uint32_t i : part)
@@ -180,10 +179,10 @@ void evaluateDensity(DynamicsState<T>& s, base::TaskRunner& tasks)
     if (reach <= 0) {
         guessSupports(s, tasks);
         reach = marginOfLists(s);
-        searchNeighbors(s, s.activePlaces(), reach, tasks);
+        searchNeighbors(s, s.activeSlots(), reach, tasks);
     }
-    fillSeen(s, s.activePlaces(), tasks);
-    if (sumDensities(s, s.activePlaces(), reach, tasks) && s.def.exact)
+    fillSeen(s, s.activeSlots(), tasks);
+    if (sumDensities(s, s.activeSlots(), reach, tasks) && s.def.exact)
         sumWanting(s, tasks);
     else
         measureGrowth(s, tasks);
@@ -207,7 +206,7 @@ void evaluateForces(DynamicsState<T>& s, base::TaskRunner& tasks)
                                   s.pairs.data()};
     std::atomic<uint64_t> pairs{0};
     parallelRows(tasks, s.activeCount, kPairBatch, [&](uint32_t begin, uint32_t end) {
-        const std::span<const uint32_t> part = s.activePlaces().subspan(begin, end - begin);
+        const std::span<const uint32_t> part = s.activeSlots().subspan(begin, end - begin);
         sumForces<T>({s.forceRules, s.pairsOf(part), results});
         uint64_t sum = 0;
         for (const uint32_t i : part) {

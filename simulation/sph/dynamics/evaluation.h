@@ -6,25 +6,25 @@
 
 namespace fx::sim {
 
-/// Supports, densities and velocity gradients of the active places. Lists of all active places exist
+/// Supports, densities and velocity gradients of the active slots. Lists of all active slots exist
 /// afterwards and cover their supports.
 template <class T>
 void evaluateDensity(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Densities of `places` from the lists that exist. True when a support has to grow beyond them.
+/// Densities of `slots` from the lists that exist. True when a support has to grow beyond them.
 template <class T>
-bool sumDensities(DynamicsState<T>& state, std::span<const uint32_t> places, double reach,
+bool sumDensities(DynamicsState<T>& state, std::span<const uint32_t> slots, double reach,
                   base::TaskRunner& tasks);
 
-/// Pressure, switch and limiter of the active places from their new densities, into columns and records.
+/// Pressure, switch and limiter of the active slots from their new densities, into columns and records.
 template <class T>
 void evaluateState(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Accelerations, heating and longest steps of the active places.
+/// Accelerations, heating and longest steps of the active slots.
 template <class T>
 void evaluateForces(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// In first_density.cpp: supports, densities and entropies of particles that have none; sorts everybody.
+/// In first_density.cpp: supports, densities and entropies of particles that have none; sorts all particles.
 /// Bounds of supports that the definition leaves open follow from the median: 1e-4 and 200 times it.
 template <class T>
 void findFirstDensities(DynamicsState<T>& state, base::TaskRunner& tasks);

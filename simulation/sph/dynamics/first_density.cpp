@@ -12,17 +12,17 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint32_t kWindow = 8; ///< places along the curve that show how dense the particles are
+constexpr uint32_t kWindow = 8; ///< slots along the curve that show how dense the particles are
 constexpr double kReach = 0.25;
 
 /// True for a particle that has been added and not yet seen its neighbors.
 template <class T>
-bool isNew(const DynamicsState<T>& state, uint32_t place)
+bool isNew(const DynamicsState<T>& state, uint32_t slot)
 {
-    return state.gas.viscosity[place] < 0;
+    return state.gas.viscosity[slot] < 0;
 }
 
-/// Longest side of the box around the places [first, last].
+/// Longest side of the box around the slots [first, last].
 template <class T>
 T extent(const DynamicsState<T>& s, uint32_t first, uint32_t last)
 {
@@ -34,7 +34,7 @@ T extent(const DynamicsState<T>& s, uint32_t first, uint32_t last)
     return longest;
 }
 
-/// Support from the places before and after along the curve; a jump of the curve spoils only one side.
+/// Support from the slots before and after along the curve; a jump of the curve spoils only one side.
 template <class T>
 void guessFirstSupports(DynamicsState<T>& s, base::TaskRunner& tasks)
 {
@@ -71,7 +71,7 @@ void boundSupports(DynamicsState<T>& s)
             std::min(std::max(s.gas.support[i], T(rules.smallestSupport)), T(rules.largestSupport));
 }
 
-/// Keeps those of the active places that satisfy `condition`.
+/// Keeps those of the active slots that satisfy `condition`.
 template <class T, class F>
 void keepActive(DynamicsState<T>& s, F&& condition)
 {
@@ -95,8 +95,8 @@ void findFirstDensities(DynamicsState<T>& s, base::TaskRunner& tasks)
     keepActive(s, [&s](uint32_t i) { return isNew(s, i); });
     // A lone particle grows by a quarter each time until it reaches the bound.
     for (int round = 0; round < 100 && s.activeCount > 0; ++round) {
-        searchNeighbors(s, s.activePlaces(), kReach, tasks);
-        sumDensities(s, s.activePlaces(), kReach, tasks);
+        searchNeighbors(s, s.activeSlots(), kReach, tasks);
+        sumDensities(s, s.activeSlots(), kReach, tasks);
         keepActive(s, [&s](uint32_t i) { return s.wantsReach[i] != 0; });
     }
     for (uint32_t i = 0; i < s.count; ++i)

@@ -55,7 +55,7 @@ void evaluateActive(DynamicsState<T>& s, base::TaskRunner& tasks)
 template <class T>
 void heatNow(DynamicsState<T>& s, base::TaskRunner& tasks)
 {
-    for (const uint32_t i : s.activePlaces())
+    for (const uint32_t i : s.activeSlots())
         s.gas.begin[i] = s.now;
     giveDelayedHeat(s);
     evaluateState(s, tasks);

@@ -13,8 +13,8 @@ void permuteColumn(base::Column<E>& column, base::Column<E>& spare, std::span<co
                    base::TaskRunner& tasks)
 {
     parallelRows(tasks, uint32_t(order.size()), 4096, [&](uint32_t begin, uint32_t end) {
-        for (uint32_t place = begin; place < end; ++place)
-            spare[place] = column[order[place]];
+        for (uint32_t slot = begin; slot < end; ++slot)
+            spare[slot] = column[order[slot]];
     });
     std::swap(column, spare);
 }

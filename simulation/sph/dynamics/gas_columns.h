@@ -12,7 +12,7 @@
 
 namespace fx::sim {
 
-/// All arrays are indexed by place. While a frame runs, every particle is in the middle of a step of its own:
+/// All arrays are indexed by slot. While a frame runs, every particle is in the middle of a step of its own:
 /// velocity and entropy hold for the middle of the step, position for the tick `drifted`, all else for
 /// `begin`. Between frames everything holds for the same moment and the ticks are 0.
 template <class T>
@@ -20,7 +20,7 @@ struct GasColumns
 {
     GasColumns(std::pmr::memory_resource* memory, uint32_t capacity);
 
-    /// Moves what belongs to index order[place] to `place`, for every column.
+    /// Moves what belongs to index order[slot] to `slot`, for every column.
     void permute(std::span<const uint32_t> order, base::TaskRunner& tasks);
 
     /// Calls f(column) for every column that lasts from frame to frame.

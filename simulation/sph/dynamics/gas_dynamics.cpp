@@ -99,7 +99,7 @@ void GasDynamics<T>::inject(uint32_t id, double joules)
 {
     const base::FloatingPointScope floatingPoint;
     DynamicsState<T>& s = *state_;
-    const uint32_t i = s.place[id];
+    const uint32_t i = s.slot[id];
     if (s.gas.viscosity[i] < 0) { // no density yet, its energy waits
         const T energy = T(double(s.gas.energy[i]) + joules / double(s.gas.mass[i]));
         if (base::isFinite(energy) && energy >= 0)
@@ -125,7 +125,7 @@ void GasDynamics<T>::setEnergy(uint32_t id, double energy)
 {
     const base::FloatingPointScope floatingPoint;
     DynamicsState<T>& s = *state_;
-    const uint32_t i = s.place[id];
+    const uint32_t i = s.slot[id];
     if (s.gas.viscosity[i] < 0) {
         s.gas.energy[i] = T(energy);
         return;
@@ -202,14 +202,14 @@ GasView<const T> GasDynamics<T>::view() const
 template <class T>
 uint32_t GasDynamics<T>::placeOf(uint32_t id) const
 {
-    return state_->place[id];
+    return state_->slot[id];
 }
 
 template <class T>
 GasParticle GasDynamics<T>::particle(uint32_t id) const
 {
     const GasColumns<T>& gas = state_->gas;
-    const uint32_t i = state_->place[id];
+    const uint32_t i = state_->slot[id];
     const double energy =
         gas.viscosity[i] < 0
             ? double(gas.energy[i])
@@ -220,25 +220,25 @@ GasParticle GasDynamics<T>::particle(uint32_t id) const
 template <class T>
 double GasDynamics<T>::densityOf(uint32_t id) const
 {
-    return double(state_->gas.density[state_->place[id]]);
+    return double(state_->gas.density[state_->slot[id]]);
 }
 
 template <class T>
 double GasDynamics<T>::pressureOf(uint32_t id) const
 {
-    return double(state_->gas.pressure[state_->place[id]]);
+    return double(state_->gas.pressure[state_->slot[id]]);
 }
 
 template <class T>
 double GasDynamics<T>::supportOf(uint32_t id) const
 {
-    return double(state_->gas.support[state_->place[id]]);
+    return double(state_->gas.support[state_->slot[id]]);
 }
 
 template <class T>
 double GasDynamics<T>::stepOf(uint32_t id) const
 {
-    return double(state_->gas.wantedStep[state_->place[id]]);
+    return double(state_->gas.wantedStep[state_->slot[id]]);
 }
 
 template <class T>

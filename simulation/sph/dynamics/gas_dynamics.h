@@ -113,7 +113,7 @@ struct AdvanceReport
 };
 
 /// What outer physics (drag, buoyancy, combustion) sees and may change between two calls of advance. Arrays
-/// are indexed by place, an order that changes with every advance; id[place] is the index with which the
+/// are indexed by slot, an order that changes with every advance; id[slot] is the index with which the
 /// particle was added. After writing, call edited().
 template <class T>
 struct GasView
@@ -150,7 +150,7 @@ public:
     /// [0, 1e18] J/kg, positions and speeds beyond 1e9. Ids are given in order from 0.
     base::Status add(std::span<const GasParticle> particles);
     /// Solves supports and densities and converts energies to entropies; evaluates what edited(), inject()
-    /// and setEnergy() have made stale. Called by advance if not before. Nothing to do otherwise.
+    /// and setEnergy() have made stale. Called by advance if not before. Does nothing otherwise.
     void initialize(base::TaskRunner& tasks);
 
     /// Steps by `seconds`: 0 changes nothing; NaN, infinite and negative values are refused (the state

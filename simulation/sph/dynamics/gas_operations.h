@@ -13,8 +13,8 @@ namespace fx::sim {
 
 // Frames from their beginning to their end: frame.cpp.
 
-/// Gives new particles supports, densities and entropies, then evaluates everybody if anything has changed
-/// from outside. Nothing to do otherwise.
+/// Gives new particles supports, densities and entropies, then evaluates all particles if anything has
+/// changed from outside. Does nothing otherwise.
 template <class T>
 void prepare(DynamicsState<T>& state, base::TaskRunner& tasks);
 
@@ -42,7 +42,7 @@ void appendParticle(DynamicsState<T>& state, const GasParticle& particle);
 
 // The whole state as bytes: state_bytes.cpp.
 
-/// Appends the state between two frames to `out`: a header, then column after column in the order of places.
+/// Appends the state between two frames to `out`: a header, then column after column in the order of slots.
 template <class T>
 void saveState(const DynamicsState<T>& state, std::vector<std::byte>& out);
 
@@ -53,7 +53,7 @@ base::Status restoreState(DynamicsState<T>& state, std::span<const std::byte> by
 
 // Sums over all particles: totals.cpp.
 
-/// Mass, momentum and energies of a state between frames, in the order of places.
+/// Mass, momentum and energies of a state between frames, in the order of slots.
 template <class T>
 GasTotals sumTotals(const DynamicsState<T>& state);
 

@@ -63,7 +63,7 @@ template <class T>
 void wakeHeated(DynamicsState<T>& s)
 {
     forEachDue(s, [&s](DelayedHeat& heat) {
-        const uint32_t i = s.place[heat.id];
+        const uint32_t i = s.slot[heat.id];
         if (s.gas.end[i] != s.now)
             endStepNow(s, i, 0);
         s.heatedNow = true;
@@ -74,7 +74,7 @@ template <class T>
 void giveDelayedHeat(DynamicsState<T>& s)
 {
     forEachDue(s, [&s](DelayedHeat& heat) {
-        heatParticle(s, s.place[heat.id], heat.joules);
+        heatParticle(s, s.slot[heat.id], heat.joules);
         heat.isGiven = 1;
     });
 }

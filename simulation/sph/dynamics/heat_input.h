@@ -6,10 +6,10 @@
 
 namespace fx::sim {
 
-/// Gives the particle at `place` heat: exact for any amount at constant density, whatever its step. Its
+/// Gives the particle at `slot` heat: exact for any amount at constant density, whatever its step. Its
 /// viscosity jumps to the largest.
 template <class T>
-void heatParticle(DynamicsState<T>& state, uint32_t place, double joules);
+void heatParticle(DynamicsState<T>& state, uint32_t slot, double joules);
 
 /// [tick] when the next delayed heat arrives; the end of the frame if none does.
 template <class T>

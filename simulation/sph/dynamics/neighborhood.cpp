@@ -44,7 +44,7 @@ void sortParticles(DynamicsState<T>& s, base::TaskRunner& tasks)
             s.sortedY[i] = s.nowY[from];
             s.sortedZ[i] = s.nowZ[from];
             s.sortedSupport[i] = s.gas.support[from];
-            s.place[s.gas.id[from]] = i;
+            s.slot[s.gas.id[from]] = i;
         }
     });
     s.gas.permute(order, tasks);

@@ -14,7 +14,7 @@ bool treeIsGood(const DynamicsState<T>& s)
     return s.treeIsSorted && s.tree.loosened() <= kMostLoosened;
 }
 
-/// Sorts particles by their positions now, moving all columns. Records and active places must be made anew.
+/// Sorts particles by their positions now, moving all columns. Records and active slots must be made anew.
 template <class T>
 void sortParticles(DynamicsState<T>& state, base::TaskRunner& tasks);
 

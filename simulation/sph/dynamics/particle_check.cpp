@@ -102,7 +102,7 @@ void appendParticle(DynamicsState<T>& s, const GasParticle& particle)
     gas.viscosity[i] = T(-1); // no past
     gas.begin[i] = gas.end[i] = gas.drifted[i] = 0;
     gas.level[i] = 0;
-    s.place[i] = i;
+    s.slot[i] = i;
     s.sortedX[i] = gas.x[i];
     s.sortedY[i] = gas.y[i];
     s.sortedZ[i] = gas.z[i];

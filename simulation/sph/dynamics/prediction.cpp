@@ -89,7 +89,7 @@ void fillOnce(DynamicsState<T>& s, uint32_t i)
         fillRecord(s, i);
 }
 
-/// What a block of places tells about itself.
+/// What a block of slots tells about itself.
 template <class T>
 struct BlockSummary
 {

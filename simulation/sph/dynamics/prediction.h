@@ -6,10 +6,10 @@
 
 namespace fx::sim {
 
-/// Fills records, positions for the tree, the list of active places (those whose step ends now) and the next
+/// Fills records, positions for the tree, the list of active slots (those whose step ends now) and the next
 /// end of the others. Particles that have left the domain are brought back.
 ///
-/// Blocks of places where no step ends, and no particle has moved by more than a hundred thousandth of its
+/// Blocks of slots where no step ends, and no particle has moved by more than a hundred thousandth of its
 /// support (double: a million millionth), are passed over. Positions move with the velocity of the middle of
 /// the step, velocity and entropy grow by their rates, pressure and energy by the change of density that the
 /// expansion gives and by heat: all linear in time. The speed of sound of an ideal gas follows its energy.

@@ -3,7 +3,7 @@
 #include "foundation/math/elementary.h"
 #include "foundation/tasks/parallel_rows.h"
 #include "simulation/sph/dynamics/neighborhood.h"
-#include "simulation/sph/pair_loops/crowding_loop.h"
+#include "simulation/sph/pair_loops/concentration_loop.h"
 
 #include <glm/geometric.hpp>
 
@@ -16,7 +16,7 @@ namespace fx::sim {
 namespace {
 
 constexpr double kRange = 1.15;      ///< [1] of the concentration, in spacings
-constexpr uint32_t kPairBatch = 128; ///< places of a task in loops over neighbors
+constexpr uint32_t kPairBatch = 128; ///< slots of a task in loops over neighbors
 constexpr uint32_t kRowBatch = 1024;
 
 /// Lists of all particles where they are, which the last evaluation usually leaves behind.
@@ -78,11 +78,11 @@ void shiftParticles(DynamicsState<T>& s, double strength, double longest, base::
     const double perSupport = 1.0 / base::cubeRoot(3.0 * s.def.neighbors / (4.0 * std::numbers::pi));
     const T most = T(longest * perSupport);
     // Columns that the next evaluation fills before it reads them.
-    const CrowdingResults<T> sums{s.nowX.data(),    s.nowY.data(),        s.nowZ.data(),
-                                  s.heating.data(), s.signalSpeed.data(), s.fastestNeighbor.data()};
+    const ConcentrationResults<T> sums{s.nowX.data(),    s.nowY.data(),        s.nowZ.data(),
+                                       s.heating.data(), s.signalSpeed.data(), s.fastestNeighbor.data()};
     parallelRows(tasks, s.count, kPairBatch, [&](uint32_t begin, uint32_t end) {
-        const std::span<const uint32_t> places = s.active.first(s.count).subspan(begin, end - begin);
-        sumCrowding<T>({std::min(kRange * perSupport, 1.0), s.pairsOf(places), sums});
+        const std::span<const uint32_t> slots = s.active.first(s.count).subspan(begin, end - begin);
+        sumConcentration<T>({std::min(kRange * perSupport, 1.0), s.pairsOf(slots), sums});
         for (uint32_t i = begin; i < end; ++i) {
             const Vector shift = displacementOf(T(strength) * Vector(sums.x[i], sums.y[i], sums.z[i]),
                                                 Vector(sums.outwardX[i], sums.outwardY[i], sums.outwardZ[i]),

@@ -5,7 +5,7 @@
 /// A small displacement to where there is room.
 ///
 /// symbol    unit   meaning
-///   G, E     m      gradient of the concentration, direction out of the gas: particle-crowding
+///   G, E     m      gradient of the concentration, direction out of the gas: particle-concentration
 ///   C        1      strength
 ///   e        1      exposure: gas-density
 ///   s        m      spacing of a particle, (m / rho)^(1/3)
@@ -18,7 +18,7 @@
 ///   x <- x min(1, L s / |x|)                                                                    (3)
 ///   Velocity, mass and entropy stay with the particle, so momentum, mass and kinetic energy do not change.
 /// @source    [LIN12] for (1) and (3); (2) is ours
-/// @deviation quantities are not interpolated to the new place: over a displacement x they are wrong by x
+/// @deviation quantities are not interpolated to the new position: over a displacement x they are wrong by x
 /// times
 ///            their gradient. With C = 1/2, L = 1/20, shifting changes the library's explosion of 10,000
 ///            particles after one second by 2 % in height, 5 % in radius, 7 % in temperature

@@ -165,13 +165,13 @@ bool isPlausible(DynamicsState<T>& s)
         for (uint32_t i = 0; i < s.count; ++i)
             ok = ok && base::isFinite((*column)[i]);
     for (uint32_t i = 0; i < s.count; ++i)
-        s.place[i] = s.count;
+        s.slot[i] = s.count;
     for (uint32_t i = 0; ok && i < s.count; ++i) {
         const uint32_t id = s.gas.id[i];
-        ok = id < s.count && s.place[id] == s.count && s.gas.mass[i] > 0 && s.gas.entropy[i] >= 0 &&
+        ok = id < s.count && s.slot[id] == s.count && s.gas.mass[i] > 0 && s.gas.entropy[i] >= 0 &&
              s.gas.support[i] >= 0;
         if (ok)
-            s.place[id] = i;
+            s.slot[id] = i;
     }
     for (const DelayedHeat& heat : s.delayed)
         ok = ok && heat.id < s.count && base::isFinite(heat.seconds) && base::isFinite(heat.joules);
@@ -219,7 +219,7 @@ base::Status restoreState(DynamicsState<T>& s, std::span<const std::byte> bytes)
         return refuse("gas state: impossible values");
     }
     for (uint32_t i = 0; i < s.count; ++i) {
-        s.place[s.gas.id[i]] = i;
+        s.slot[s.gas.id[i]] = i;
         s.gas.begin[i] = s.gas.end[i] = s.gas.drifted[i] = 0;
         s.gas.level[i] = 0;
     }

@@ -21,7 +21,7 @@ uint32_t allowedDifference(const GasDynamicsDef& def)
     return def.neighborStepRatio < 1e9 ? stepLevel(def.neighborStepRatio) : kNoLimit;
 }
 
-/// Longest level of all, of which the active places can only limit longer ones.
+/// Longest level of all, of which the active slots can only limit longer ones.
 template <class T>
 uint32_t longestLevel(const DynamicsState<T>& s, base::TaskRunner& tasks)
 {
@@ -33,7 +33,7 @@ uint32_t longestLevel(const DynamicsState<T>& s, base::TaskRunner& tasks)
     return longest.load();
 }
 
-/// Offers every neighbor of the active places the longest level that they allow, into levelLimit.
+/// Offers every neighbor of the active slots the longest level that they allow, into levelLimit.
 template <class T>
 void offerLimits(DynamicsState<T>& s, uint32_t difference, base::TaskRunner& tasks)
 {

@@ -41,14 +41,14 @@ void openStep(DynamicsState<T>& s, uint32_t i, uint64_t length)
 
 /// Lets the position hold for now: the drift so far was done with the old velocity.
 template <class T>
-void moveToNow(DynamicsState<T>& s, uint32_t place)
+void moveToNow(DynamicsState<T>& s, uint32_t slot)
 {
     GasColumns<T>& gas = s.gas;
-    const T dt = T(double(s.now - gas.drifted[place]) * s.tick);
-    gas.x[place] += dt * gas.vx[place];
-    gas.y[place] += dt * gas.vy[place];
-    gas.z[place] += dt * gas.vz[place];
-    gas.drifted[place] = s.now;
+    const T dt = T(double(s.now - gas.drifted[slot]) * s.tick);
+    gas.x[slot] += dt * gas.vx[slot];
+    gas.y[slot] += dt * gas.vy[slot];
+    gas.z[slot] += dt * gas.vz[slot];
+    gas.drifted[slot] = s.now;
 }
 
 /// Length of the next step of all, where all have the same: what is left of the frame in equal parts.
@@ -111,32 +111,32 @@ void openSteps(DynamicsState<T>& s, base::TaskRunner& tasks)
 }
 
 template <class T>
-void shortenStep(DynamicsState<T>& s, uint32_t place, uint64_t end)
+void shortenStep(DynamicsState<T>& s, uint32_t slot, uint64_t end)
 {
     GasColumns<T>& gas = s.gas;
-    moveToNow(s, place);
-    kick(s, place, T(0.5 * (double(end) - double(gas.end[place])) * s.tick)); // (3)
-    gas.end[place] = end;
-    markChanged(s, place);
+    moveToNow(s, slot);
+    kick(s, slot, T(0.5 * (double(end) - double(gas.end[slot])) * s.tick)); // (3)
+    gas.end[slot] = end;
+    markChanged(s, slot);
 }
 
 template <class T>
-void endStepNow(DynamicsState<T>& s, uint32_t place, uint64_t lately)
+void endStepNow(DynamicsState<T>& s, uint32_t slot, uint64_t lately)
 {
     GasColumns<T>& gas = s.gas;
-    const uint64_t begin = s.now - std::min(lately, s.now - gas.begin[place]);
-    moveToNow(s, place);
-    if (s.blockNow[place / kBlock] != s.now) { // its block has hardly moved and was passed over
-        s.nowX[place] = gas.x[place];
-        s.nowY[place] = gas.y[place];
-        s.nowZ[place] = gas.z[place];
+    const uint64_t begin = s.now - std::min(lately, s.now - gas.begin[slot]);
+    moveToNow(s, slot);
+    if (s.blockNow[slot / kBlock] != s.now) { // its block has hardly moved and was passed over
+        s.nowX[slot] = gas.x[slot];
+        s.nowY[slot] = gas.y[slot];
+        s.nowZ[slot] = gas.z[slot];
     }
     const double ticks =
-        ticksSinceMiddle(s.now, gas.begin[place], gas.end[place]) - 0.5 * double(s.now - begin);
-    kick(s, place, T(ticks * s.tick));
-    gas.begin[place] = begin;
-    gas.end[place] = s.now;
-    markChanged(s, place);
+        ticksSinceMiddle(s.now, gas.begin[slot], gas.end[slot]) - 0.5 * double(s.now - begin);
+    kick(s, slot, T(ticks * s.tick));
+    gas.begin[slot] = begin;
+    gas.end[slot] = s.now;
+    markChanged(s, slot);
 }
 
 template <class T>

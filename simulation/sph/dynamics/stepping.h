@@ -36,21 +36,21 @@
 
 namespace fx::sim {
 
-/// (1) for the active places, with their new rates. Positions hold for now afterwards.
+/// (1) for the active slots, with their new rates. Positions hold for now afterwards.
 template <class T>
 void closeSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// (2), (4): next steps for the active places, inside a frame.
+/// (2), (4): next steps for the active slots, inside a frame.
 template <class T>
 void openSteps(DynamicsState<T>& state, base::TaskRunner& tasks);
 
 /// (3) for one particle; `end` lies after now or is now. The rates at its end will hold for half the step.
 template <class T>
-void shortenStep(DynamicsState<T>& state, uint32_t place, uint64_t end);
+void shortenStep(DynamicsState<T>& state, uint32_t slot, uint64_t end);
 
 /// (5) for one particle, whose step ends now. The rates of now will hold for half of the last `lately` ticks.
 template <class T>
-void endStepNow(DynamicsState<T>& state, uint32_t place, uint64_t lately);
+void endStepNow(DynamicsState<T>& state, uint32_t slot, uint64_t lately);
 
 /// Begins a frame of `seconds`: all particles begin a step.
 template <class T>
@@ -62,12 +62,12 @@ double shortestStep(DynamicsState<T>& state, base::TaskRunner& tasks);
 
 // (4), in step_limiter.cpp: keeps the steps of neighbors within a factor of each other.
 
-/// Levels of the next steps of the active places: what they want, what their neighbors allow, what the clock
+/// Levels of the next steps of the active slots: what they want, what their neighbors allow, what the clock
 /// allows.
 template <class T>
 void chooseLevels(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Ends the steps of neighbors of the active places that are too long, now. They become the active places, to
+/// Ends the steps of neighbors of the active slots that are too long, now. They become the active slots, to
 /// be evaluated at once. @return how many
 template <class T>
 uint32_t wakeNeighbors(DynamicsState<T>& state, base::TaskRunner& tasks);

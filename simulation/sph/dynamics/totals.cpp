@@ -49,7 +49,7 @@ uint64_t hashState(const DynamicsState<T>& s)
 {
     uint64_t hash = base::hashWord(s.count, std::bit_cast<uint64_t>(s.pressureScale));
     for (uint32_t id = 0; id < s.count; ++id)
-        hash = hashParticle(s.gas, s.place[id], hash);
+        hash = hashParticle(s.gas, s.slot[id], hash);
     for (const DelayedHeat& heat : s.delayed) {
         hash = base::hashWord(hash, std::bit_cast<uint64_t>(heat.seconds));
         hash = base::hashWord(hash, std::bit_cast<uint64_t>(heat.joules));

@@ -108,7 +108,7 @@ struct Candidates
     }
 };
 
-/// Keeps, of runs of places, the particles that a query touches in one image. For TreeWalk.
+/// Keeps, of runs of slots, the particles that a query touches in one image. For TreeWalk.
 template <bool kPlain, class T>
 class Gatherer
 {
@@ -137,18 +137,18 @@ public:
         const hn::Rebind<uint32_t, decltype(d)> d32;
         const uint32_t lanes = uint32_t(hn::Lanes(d));
         uint32_t count = out_.count;
-        for (uint32_t place = begin_; place < end_; place += lanes) {
+        for (uint32_t slot = begin_; slot < end_; slot += lanes) {
             if (Candidates<T>::isFull(count))
                 return false;
-            const auto x = shown(d, 0, place);
-            const auto y = shown(d, 1, place);
-            const auto z = shown(d, 2, place);
-            const auto reach = hn::Mul(hn::LoadU(d, setup_.tree.support + place), hn::Set(d, setup_.scale));
+            const auto x = shown(d, 0, slot);
+            const auto y = shown(d, 1, slot);
+            const auto z = shown(d, 2, slot);
+            const auto reach = hn::Mul(hn::LoadU(d, setup_.tree.support + slot), hn::Set(d, setup_.scale));
             const auto reach2 = hn::Mul(reach, reach);
             const auto gap2 = sumOfSquares(gap(d, 0, x), gap(d, 1, y), gap(d, 2, z));
-            const auto near = hn::And(hn::Lt(gap2, hn::Max(reach2, hn::Set(d, query_.reach2))),
-                                      hn::FirstN(d, end_ - place));
-            count = out_.append(count, d, near, x, y, z, reach2, hn::Iota(d32, place | image_.bits));
+            const auto near =
+                hn::And(hn::Lt(gap2, hn::Max(reach2, hn::Set(d, query_.reach2))), hn::FirstN(d, end_ - slot));
+            count = out_.append(count, d, near, x, y, z, reach2, hn::Iota(d32, slot | image_.bits));
         }
         out_.count = count;
         return true;
@@ -156,9 +156,9 @@ public:
 
 private:
     template <class D>
-    HWY_INLINE hn::Vec<D> shown(D d, uint32_t axis, uint32_t place) const
+    HWY_INLINE hn::Vec<D> shown(D d, uint32_t axis, uint32_t slot) const
     {
-        const auto x = hn::LoadU(d, setup_.tree.position[axis] + place);
+        const auto x = hn::LoadU(d, setup_.tree.position[axis] + slot);
         if constexpr (kPlain)
             return x;
         return shownAt(image_, axis, d, x);

@@ -11,23 +11,23 @@
 
 namespace fx::sim {
 
-/// An entry of a list is a place (lower 29 bits) and, for the mirror image of that particle in a reflecting
+/// An entry of a list is a slot (lower 29 bits) and, for the mirror image of that particle in a reflecting
 /// wall, one bit for each mirrored axis. The wall is the one nearer to the particle that owns the list.
 constexpr uint32_t kPlaceMask = (1u << 29) - 1;
 constexpr uint32_t kMirrorX = 1u << 29; ///< kMirrorX << a for axis a
 
-/// Lists are padded with the owner's own place to a multiple of this: the number of virtual lanes of every
+/// Lists are padded with the owner's own slot to a multiple of this: the number of virtual lanes of every
 /// sum over neighbors, whatever the processor's width.
 constexpr uint32_t kLanes = 16;
 
-/// Lists of entries, by place. Which lists find no room depends on the order of threads; their contents do
+/// Lists of entries, by slot. Which lists find no room depends on the order of threads; their contents do
 /// not, because a list can always be searched again.
 class ListPool
 {
 public:
     static constexpr uint32_t kUnlisted = ~0u;
 
-    /// @param capacity places
+    /// @param capacity slots
     ListPool(std::pmr::memory_resource* memory, uint32_t capacity, size_t entries)
         : entries_(memory, entries / kLanes * kLanes), start_(memory, capacity), count_(memory, capacity)
     {}
@@ -39,8 +39,8 @@ public:
         total_ = 0;
     }
     /// First entry of a list in units of kLanes, or kUnlisted.
-    uint32_t start(uint32_t place) const { return start_[place]; }
-    uint32_t count(uint32_t place) const { return count_[place]; }
+    uint32_t start(uint32_t slot) const { return start_[slot]; }
+    uint32_t count(uint32_t slot) const { return count_[slot]; }
     const uint32_t* entries(uint32_t start) const { return entries_.data() + size_t(start) * kLanes; }
     uint32_t unlisted() const { return unlisted_.load(std::memory_order_relaxed); }
     uint64_t total() const { return total_.load(std::memory_order_relaxed); }
@@ -78,20 +78,20 @@ public:
         return pool_.entries_.data() + next_;
     }
     bool exhausted() const { return exhausted_; }
-    /// Ends the list of `place`, which has `count` entries at room(); pads it.
-    void finish(uint32_t place, uint32_t count)
+    /// Ends the list of `slot`, which has `count` entries at room(); pads it.
+    void finish(uint32_t slot, uint32_t count)
     {
         uint32_t* const list = pool_.entries_.data() + next_;
         const uint32_t length = (count + kLanes - 1) / kLanes * kLanes;
-        std::fill_n(list + count, kLanes, place); // more than needed, but of a length that is known
-        pool_.start_[place] = uint32_t(next_ / kLanes);
-        pool_.count_[place] = count;
+        std::fill_n(list + count, kLanes, slot); // more than needed, but of a length that is known
+        pool_.start_[slot] = uint32_t(next_ / kLanes);
+        pool_.count_[slot] = count;
         next_ += length;
         total_ += count;
     }
-    void leaveUnlisted(uint32_t place)
+    void leaveUnlisted(uint32_t slot)
     {
-        pool_.start_[place] = ListPool::kUnlisted;
+        pool_.start_[slot] = ListPool::kUnlisted;
         ++unlisted_;
     }
 

@@ -21,22 +21,22 @@ struct Owner
 };
 
 template <class T>
-Owner<T> ownerSeen(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t place)
+Owner<T> ownerSeen(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t slot)
 {
     const TreeView<T>& tree = setup.tree;
-    const T reach = tree.support[place] * setup.scale;
-    return {{tree.position[0][place] - image.wall[0], tree.position[1][place] - image.wall[1],
-             tree.position[2][place] - image.wall[2]},
+    const T reach = tree.support[slot] * setup.scale;
+    return {{tree.position[0][slot] - image.wall[0], tree.position[1][slot] - image.wall[1],
+             tree.position[2][slot] - image.wall[2]},
             reach * reach};
 }
 
 /// Whether the walls of an image are those nearer to the owner.
 template <class T>
-bool isSeenBy(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t place)
+bool isSeenBy(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t slot)
 {
     for (uint32_t a = 0; a < 3; ++a)
         if ((image.bits >> a & kMirrorX) != 0 &&
-            setup.pairs.nearerWall(a, setup.tree.position[a][place]) != image.wall[a])
+            setup.pairs.nearerWall(a, setup.tree.position[a][slot]) != image.wall[a])
             return false;
     return true;
 }
@@ -98,10 +98,10 @@ public:
 private:
     static constexpr uint32_t kGroup = kTreeFanOut; ///< leaves that are searched for together
 
-    uint32_t leafOf(uint32_t place) const
+    uint32_t leafOf(uint32_t slot) const
     {
         const uint32_t* const begin = tree_.leafBegin;
-        return uint32_t(std::upper_bound(begin, begin + tree_.levelCount[0], place) - begin) - 1;
+        return uint32_t(std::upper_bound(begin, begin + tree_.levelCount[0], slot) - begin) - 1;
     }
     static std::span<const uint32_t> firstBelow(std::span<const uint32_t> owners, uint32_t end)
     {
@@ -117,13 +117,13 @@ private:
         T reach = 0;
         box.low.fill(std::numeric_limits<T>::infinity()); // so that NaN is passed over
         box.high.fill(-std::numeric_limits<T>::infinity());
-        for (const uint32_t place : owners) {
+        for (const uint32_t slot : owners) {
             for (uint32_t a = 0; a < 3; ++a) {
-                const T x = tree_.position[a][place];
+                const T x = tree_.position[a][slot];
                 box.low[a] = std::min(box.low[a], x);
                 box.high[a] = std::max(box.high[a], x);
             }
-            reach = std::max(reach, tree_.support[place]);
+            reach = std::max(reach, tree_.support[slot]);
         }
         reach *= setup_.scale;
         box.reach2 = reach * reach;
@@ -140,8 +140,8 @@ private:
                 owners = owners.subspan(leaf.size());
             }
         } else if (writer_.exhausted() || owners.size() == 1) {
-            for (const uint32_t place : owners)
-                writer_.leaveUnlisted(place);
+            for (const uint32_t slot : owners)
+                writer_.leaveUnlisted(slot);
         } else {
             listGroup(owners.first(owners.size() / 2));
             listGroup(owners.subspan(owners.size() / 2));
@@ -160,25 +160,25 @@ private:
             candidates = &leafs_;
         }
         uint32_t own = 0;
-        for (const uint32_t place : owners) {
+        for (const uint32_t slot : owners) {
             uint32_t next = own;
-            while (next < candidates->count && candidates->entry[next] != place)
+            while (next < candidates->count && candidates->entry[next] != slot)
                 ++next;
             if (next == candidates->count) { // at NaN: near no particle, not even itself
-                writer_.leaveUnlisted(place);
+                writer_.leaveUnlisted(slot);
                 continue;
             }
             own = next;
-            listOwner(place, own, *candidates);
+            listOwner(slot, own, *candidates);
         }
     }
 
     /// @param own where the owner itself is among the candidates
-    void listOwner(uint32_t place, uint32_t own, Candidates<T>& candidates)
+    void listOwner(uint32_t slot, uint32_t own, Candidates<T>& candidates)
     {
         uint32_t* const out = writer_.room(candidates.count + Candidates<T>::kPadding);
         if (!out) {
-            writer_.leaveUnlisted(place);
+            writer_.leaveUnlisted(slot);
             return;
         }
         const T x = candidates.at[0][own];
@@ -188,14 +188,14 @@ private:
             const SeenImage<T>& image = setup_.images[k];
             const uint32_t begin = candidates.segment[k];
             const uint32_t end = candidates.segment[k + 1];
-            if (begin == end || (k > 0 && !isSeenBy(setup_, image, place)))
+            if (begin == end || (k > 0 && !isSeenBy(setup_, image, slot)))
                 continue;
-            const Owner<T> owner = ownerSeen(setup_, image, place);
+            const Owner<T> owner = ownerSeen(setup_, image, slot);
             found += setup_.wraps ? keepNear<true>(setup_, owner, candidates, begin, end, out + found)
                                   : keepNear<false>(setup_, owner, candidates, begin, end, out + found);
         }
         candidates.at[0][own] = x;
-        writer_.finish(place, found);
+        writer_.finish(slot, found);
     }
 
     const SearchSetup<T>& setup_;

@@ -35,7 +35,7 @@ void countDigits(const uint64_t* words, uint32_t count, uint32_t shift, uint64_t
         ++histogram[words[i] >> shift & mask];
 }
 
-/// Moves words to the places that `next` has for their digits, one after another.
+/// Moves words to the slots that `next` has for their digits, one after another.
 void moveByDigits(const uint64_t* words, uint32_t count, uint32_t shift, uint64_t mask, uint32_t* next,
                   uint64_t* to)
 {
@@ -200,7 +200,7 @@ void MortonSort<T>::sortRange(Range range, uint32_t depth, std::span<uint32_t> h
         sortCell(range, depth);
         return;
     }
-    const uint32_t enough = uint32_t(std::bit_width(range.count())) + 3; // most places are told apart then
+    const uint32_t enough = uint32_t(std::bit_width(range.count())) + 3; // most slots are told apart then
     const uint32_t wanted = std::min(highBit, enough);
     const uint32_t passes = std::min((wanted + kDigitBits - 1) / kDigitBits, kMostPasses);
     const uint32_t digitBits = std::min((wanted + passes - 1) / passes, kDigitBits);
@@ -333,7 +333,7 @@ void MortonSort<T>::sortCell(Range range, uint32_t depth)
         extent = std::max(extent, double(most) - low[a]);
     }
     const double perCell = double(1u << kMortonAxisBits) / extent;
-    if (!std::isfinite(perCell)) // all at one place
+    if (!std::isfinite(perCell)) // all at one position
         return;
     const uint64_t key = keys_[range.begin];
     for (uint32_t i = range.begin; i < range.end; ++i)
@@ -350,13 +350,13 @@ void MortonSort<T>::insert(uint32_t begin, uint32_t end)
     for (uint32_t i = begin + 1; i < end; ++i) {
         const uint64_t key = keys_[i];
         const uint32_t index = order_[i];
-        uint32_t place = i;
-        for (; place > begin && keys_[place - 1] > key; --place) {
-            keys_[place] = keys_[place - 1];
-            order_[place] = order_[place - 1];
+        uint32_t slot = i;
+        for (; slot > begin && keys_[slot - 1] > key; --slot) {
+            keys_[slot] = keys_[slot - 1];
+            order_[slot] = order_[slot - 1];
         }
-        keys_[place] = key;
-        order_[place] = index;
+        keys_[slot] = key;
+        order_[slot] = index;
     }
 }
 

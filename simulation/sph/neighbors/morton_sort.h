@@ -57,11 +57,11 @@ private:
     std::array<const T*, 3> axes_{}; ///< while sorting
     base::Column<uint64_t> keys_;
     base::Column<uint32_t> order_;
-    base::Column<uint64_t> words_; ///< some bits of a key above the place that it comes from
+    base::Column<uint64_t> words_; ///< some bits of a key above the slot that it comes from
     base::Column<uint64_t> spareWords_;
     base::Column<uint32_t> spareOrder_;
     base::Column<uint32_t> histogram_;           ///< one row a block
-    base::Column<uint32_t> firstRun_;            ///< first place of the runs of each block
+    base::Column<uint32_t> firstRun_;            ///< first slot of the runs of each block
     base::Column<std::array<double, 6>> bounds_; ///< [m] low and high of blocks of particles
 };
 

@@ -20,7 +20,7 @@ public:
     ///        their list is asked for: slower, never wrong
     NeighborLists(std::pmr::memory_resource* memory, uint32_t capacity, uint32_t entriesPerParticle);
 
-    /// Lists, for every place of `owners` (ascending), all others j, mirror images included, with
+    /// Lists, for every slot of `owners` (ascending), all others j, mirror images included, with
     /// |x_i - x_j| < (1 + margin) max(support_i, support_j) at the time of the last refit. The particle
     /// itself is not in its list, its own mirror images are. The order of a list depends on the tree alone.
     /// Periodic axes and those between two walls must be at least twice as long as the longest such reach.
@@ -29,20 +29,20 @@ public:
     void build(const ParticleTree<T>& tree, const Domain& domain, std::span<const uint32_t> owners, T margin,
                base::TaskRunner& tasks);
 
-    /// Calls f(const uint32_t* entries, uint32_t count, bool last) for the list of `place`, one of the
+    /// Calls f(const uint32_t* entries, uint32_t count, bool last) for the list of `slot`, one of the
     /// owners, in pieces. `entries` can be read up to the next multiple of kLanes; every piece but the last
     /// has a count that is such a multiple. Nearly all lists come in one piece. Thread-safe.
     template <class F>
-    void forEachPiece(uint32_t place, F&& f) const
+    void forEachPiece(uint32_t slot, F&& f) const
     {
-        const uint32_t start = pool_.start(place);
+        const uint32_t start = pool_.start(slot);
         if (start != ListPool::kUnlisted) {
-            f(pool_.entries(start), pool_.count(place), true);
+            f(pool_.entries(start), pool_.count(slot), true);
             return;
         }
         using Function = std::remove_reference_t<F>;
         searchOwner(
-            setup_, place,
+            setup_, slot,
             [](void* argument, const uint32_t* entries, uint32_t count, bool last) {
                 (*static_cast<Function*>(argument))(entries, count, last);
             },

@@ -46,13 +46,13 @@ struct SearchSetup
 template <class T>
 SearchSetup<T> searchSetup(const TreeView<T>& tree, const Domain& domain, T margin);
 
-/// Lists for places in ascending order.
+/// Lists for slots in ascending order.
 template <class T>
 void listOwners(const SearchSetup<T>& setup, std::span<const uint32_t> owners, ListWriter& writer);
 
 using ListPiece = void (*)(void* argument, const uint32_t* entries, uint32_t count, bool last);
 
-/// The list of one place in pieces, without memory for it.
+/// The list of one slot in pieces, without memory for it.
 template <class T>
 void searchOwner(const SearchSetup<T>& setup, uint32_t owner, ListPiece piece, void* argument);
 

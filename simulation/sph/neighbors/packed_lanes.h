@@ -13,11 +13,11 @@ constexpr PackedLanes packedLanes()
 {
     PackedLanes table{};
     for (uint32_t bits = 0; bits < 256; ++bits) {
-        uint32_t place = 0;
+        uint32_t slot = 0;
         for (const uint32_t kept : {1u, 0u})
             for (uint32_t lane = 0; lane < 8; ++lane)
                 if ((bits >> lane & 1) == kept)
-                    table[bits][place++] = lane;
+                    table[bits][slot++] = lane;
     }
     return table;
 }

@@ -11,7 +11,7 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint32_t kChunk = 4096; ///< places; leaves are cut in chunks so that it can be done in parallel
+constexpr uint32_t kChunk = 4096; ///< slots; leaves are cut in chunks so that it can be done in parallel
 constexpr size_t kBoxPadding = 64;
 
 size_t boxCapacity(size_t capacity)
@@ -55,7 +55,7 @@ void ParticleTree<T>::sort(const PointColumns<T>& points, const Domain& domain, 
     layOutLevels();
 }
 
-/// Every chunk of places is cut alone, and the leaves of all chunks moved together then.
+/// Every chunk of slots is cut alone, and the leaves of all chunks moved together then.
 template <class T>
 void ParticleTree<T>::cutLeaves(base::TaskRunner& tasks)
 {
@@ -76,7 +76,7 @@ void ParticleTree<T>::cutLeaves(base::TaskRunner& tasks)
     levelCount_[0] = leaves;
 }
 
-/// Cuts places [begin, end) into the largest cells of the curve's tree that hold at most kLeafMost of them,
+/// Cuts slots [begin, end) into the largest cells of the curve's tree that hold at most kLeafMost of them,
 /// and what no cell can separate into runs of that length. @return the number of leaves
 template <class T>
 uint32_t ParticleTree<T>::cutChunk(uint32_t begin, uint32_t end, uint32_t* leaves) const
@@ -85,7 +85,7 @@ uint32_t ParticleTree<T>::cutChunk(uint32_t begin, uint32_t end, uint32_t* leave
     uint32_t count = 0;
     for (uint32_t first = begin; first < end;) {
         leaves[count++] = first;
-        // The cell that begins here is as large as the keys before and kLeafMost places on allow.
+        // The cell that begins here is as large as the keys before and kLeafMost slots on allow.
         uint32_t size = first > begin ? differingBits(keys[first - 1], keys[first]) : kMortonBits + 1;
         const uint32_t most = std::min(first + kLeafMost, end);
         if (most < end)
@@ -132,20 +132,20 @@ void ParticleTree<T>::fitLeaf(uint32_t leaf, const PointColumns<T>& sorted)
     for (uint32_t a = 0; a < 3; ++a) {
         T low = std::numeric_limits<T>::infinity(); // so that NaN is passed over
         T high = -low;
-        for (uint32_t place = begin; place < end; ++place) {
-            const T x = axes[a][place];
+        for (uint32_t slot = begin; slot < end; ++slot) {
+            const T x = axes[a][slot];
             low = std::min(low, x);
             high = std::max(high, x);
-            position_[a][place] = x;
+            position_[a][slot] = x;
         }
         low_[a][leaf] = low;
         high_[a][leaf] = high;
     }
     T reach = 0;
-    for (uint32_t place = begin; place < end; ++place) {
-        const T support = sorted.support[place];
+    for (uint32_t slot = begin; slot < end; ++slot) {
+        const T support = sorted.support[slot];
         reach = std::max(reach, support);
-        support_[place] = support;
+        support_[slot] = support;
     }
     reach_[leaf] = reach;
 }

@@ -29,7 +29,7 @@ constexpr uint32_t kTreeFanOut = 8;      ///< children of a node
 constexpr uint32_t kTreeMostLevels = 11; ///< 8^10 leaves and a root
 constexpr uint32_t kLeafMost = 16;       ///< particles of a leaf
 
-/// Read access for searches. Level 0 are the leaves: leaf k holds the places leafBegin[k] .. leafBegin[k + 1]
+/// Read access for searches. Level 0 are the leaves: leaf k holds the slots leafBegin[k] .. leafBegin[k + 1]
 /// - 1. Box k of level l + 1 covers the boxes 8 k .. 8 k + 7 of level l; the last level has one box. Boxes
 /// are numbered through all levels from levelFirst[l]; between them are empty ones that nothing touches, so
 /// that eight children can always be read.
@@ -58,8 +58,8 @@ class ParticleTree
 public:
     ParticleTree(std::pmr::memory_resource* memory, uint32_t capacity);
 
-    /// Decides the order of the particles and the cells of the tree. order()[place] is the index of the
-    /// particle of `points` that belongs at `place`; the caller moves its columns accordingly and then calls
+    /// Decides the order of the particles and the cells of the tree. order()[slot] is the index of the
+    /// particle of `points` that belongs at `slot`; the caller moves its columns accordingly and then calls
     /// refit. Ties are broken by index, so that equal input gives equal order for any number of workers.
     /// Particles at NaN are allowed: they have no neighbors.
     void sort(const PointColumns<T>& points, const Domain& domain, base::TaskRunner& tasks);
@@ -92,7 +92,7 @@ private:
     std::array<uint32_t, kTreeMostLevels> levelCount_{};
     MortonSort<T> sort_;
     base::Column<uint32_t> leafBegin_;
-    base::Column<uint32_t> chunkLeaves_; ///< leaves of each chunk of places
+    base::Column<uint32_t> chunkLeaves_; ///< leaves of each chunk of slots
     std::array<base::Column<T>, 3> low_;
     std::array<base::Column<T>, 3> high_;
     base::Column<T> reach_;

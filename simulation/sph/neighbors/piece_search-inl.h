@@ -49,13 +49,13 @@ private:
     uint32_t entries_[kPiece + 2 * kRoom];
 };
 
-/// Tests runs of places for one owner and one image. For TreeWalk.
+/// Tests runs of slots for one owner and one image. For TreeWalk.
 template <bool kPlain, class T>
 class PieceSink
 {
 public:
-    PieceSink(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t place, PieceBuffer& out)
-        : setup_(setup), image_(image), place_(place), owner_(ownerSeen(setup, image, place)), out_(out)
+    PieceSink(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t slot, PieceBuffer& out)
+        : setup_(setup), image_(image), slot_(slot), owner_(ownerSeen(setup, image, slot)), out_(out)
     {}
 
     bool operator()(uint32_t begin, uint32_t end)
@@ -63,16 +63,16 @@ public:
         const hn::ScalableTag<T> d;
         const hn::Rebind<uint32_t, decltype(d)> d32;
         const uint32_t lanes = uint32_t(hn::Lanes(d));
-        for (uint32_t place = begin; place < end; place += lanes) {
-            const auto reach = hn::Mul(hn::LoadU(d, setup_.tree.support + place), hn::Set(d, setup_.scale));
-            auto near = isNear<!kPlain>(setup_, owner_, d, shown(d, 0, place), shown(d, 1, place),
-                                        shown(d, 2, place), hn::Mul(reach, reach));
-            near = hn::And(near, hn::FirstN(d, end - place));
-            if (image_.bits == 0 && place_ - place < lanes) // no particle is its own neighbor
-                near = hn::And(near, hn::Not(hn::And(hn::FirstN(d, place_ - place + 1),
-                                                     hn::Not(hn::FirstN(d, place_ - place)))));
+        for (uint32_t slot = begin; slot < end; slot += lanes) {
+            const auto reach = hn::Mul(hn::LoadU(d, setup_.tree.support + slot), hn::Set(d, setup_.scale));
+            auto near = isNear<!kPlain>(setup_, owner_, d, shown(d, 0, slot), shown(d, 1, slot),
+                                        shown(d, 2, slot), hn::Mul(reach, reach));
+            near = hn::And(near, hn::FirstN(d, end - slot));
+            if (image_.bits == 0 && slot_ - slot < lanes) // no particle is its own neighbor
+                near = hn::And(near, hn::Not(hn::And(hn::FirstN(d, slot_ - slot + 1),
+                                                     hn::Not(hn::FirstN(d, slot_ - slot)))));
             const Packing packing(d, near);
-            packing.storeEntries(hn::Iota(d32, place | image_.bits), out_.end());
+            packing.storeEntries(hn::Iota(d32, slot | image_.bits), out_.end());
             out_.add(packing.kept());
         }
         return true;
@@ -80,41 +80,41 @@ public:
 
 private:
     template <class D>
-    hn::Vec<D> shown(D d, uint32_t axis, uint32_t place) const
+    hn::Vec<D> shown(D d, uint32_t axis, uint32_t slot) const
     {
-        return shownAt(image_, axis, d, hn::LoadU(d, setup_.tree.position[axis] + place));
+        return shownAt(image_, axis, d, hn::LoadU(d, setup_.tree.position[axis] + slot));
     }
 
     const SearchSetup<T>& setup_;
     const SeenImage<T>& image_;
-    uint32_t place_;
+    uint32_t slot_;
     Owner<T> owner_;
     PieceBuffer& out_;
 };
 
 template <bool kPlain, class T>
-void searchImage(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t place, PieceBuffer& out)
+void searchImage(const SearchSetup<T>& setup, const SeenImage<T>& image, uint32_t slot, PieceBuffer& out)
 {
     const TreeView<T>& tree = setup.tree;
-    const std::array<T, 3> at{tree.position[0][place], tree.position[1][place], tree.position[2][place]};
-    const T reach = tree.support[place] * setup.scale;
+    const std::array<T, 3> at{tree.position[0][slot], tree.position[1][slot], tree.position[2][slot]};
+    const T reach = tree.support[slot] * setup.scale;
     const Query<T> seen = seenFrom(Query<T>{at, at, reach * reach}, image);
-    PieceSink<kPlain, T> sink(setup, image, place, out);
+    PieceSink<kPlain, T> sink(setup, image, slot, out);
     TreeWalk<kPlain, T, PieceSink<kPlain, T>>(setup, image, seen, sink).run();
 }
 
 template <class T>
-void searchPieces(const SearchSetup<T>& setup, uint32_t place, ListPiece piece, void* argument)
+void searchPieces(const SearchSetup<T>& setup, uint32_t slot, ListPiece piece, void* argument)
 {
-    PieceBuffer out(place, piece, argument);
+    PieceBuffer out(slot, piece, argument);
     for (uint32_t k = 0; k < setup.imageCount; ++k) {
         const SeenImage<T>& image = setup.images[k];
-        if (!isSeenBy(setup, image, place))
+        if (!isSeenBy(setup, image, slot))
             continue;
         if (k == 0 && !setup.wraps)
-            searchImage<true>(setup, image, place, out);
+            searchImage<true>(setup, image, slot, out);
         else
-            searchImage<false>(setup, image, place, out);
+            searchImage<false>(setup, image, slot, out);
     }
     out.finish();
 }

@@ -92,7 +92,7 @@ HWY_INLINE V sumOfSquares(V x, V y, V z)
 }
 
 /// One walk through the tree, for one query and one image. kPlain: neither mirrored nor wrapped.
-/// Sink: bool operator()(uint32_t begin, uint32_t end), takes runs of places in ascending order and ends the
+/// Sink: bool operator()(uint32_t begin, uint32_t end), takes runs of slots in ascending order and ends the
 /// walk by returning false.
 template <bool kPlain, class T, class Sink>
 class TreeWalk

@@ -21,7 +21,7 @@ template <class T>
 struct DensityJob
 {
     const DensityRules& rules;
-    const PairPlaces<T>& of;
+    const PairSlots<T>& of;
     ImageRules<T> images;
     T reach;
     T self; ///< [1] (1 - e) w(0)
@@ -34,8 +34,8 @@ template <class T>
 class Neighborhood
 {
 public:
-    Neighborhood(const DensityJob<T>& job, uint32_t place, NeighborBlock<T>& block)
-        : job_(job), owner_(job.of.records[place], place, job.images), block_(block)
+    Neighborhood(const DensityJob<T>& job, uint32_t slot, NeighborBlock<T>& block)
+        : job_(job), owner_(job.of.records[slot], slot, job.images), block_(block)
     {}
 
     /// Calls f() for every block, while the block holds it.
@@ -47,7 +47,7 @@ public:
             return;
         }
         blocks_ = 0;
-        job_.of.lists.forEachPiece(owner_.place, [&](const uint32_t* entries, uint32_t count, bool) HWY_ATTR {
+        job_.of.lists.forEachPiece(owner_.slot, [&](const uint32_t* entries, uint32_t count, bool) HWY_ATTR {
             for (uint32_t begin = 0; begin < count; begin += NeighborBlock<T>::kCapacity) {
                 const uint32_t size = std::min(count - begin, NeighborBlock<T>::kCapacity);
                 block_.load(owner_, job_.of.records, entries + begin, size);
@@ -65,14 +65,14 @@ private:
 };
 
 template <class T>
-SupportSearch<T> beginSearch(const DensityJob<T>& job, uint32_t place)
+SupportSearch<T> beginSearch(const DensityJob<T>& job, uint32_t slot)
 {
-    const T guess = job.results.support[place];
+    const T guess = job.results.support[slot];
     const T smallest = static_cast<T>(job.rules.smallestSupport);
     const T largest = static_cast<T>(job.rules.largestSupport);
     const T bottom = std::min(std::max(smallest, guess * T(1.0 / 1024)), largest);
     const T top = std::max(std::min(largest, guess * (T(1) + job.reach)), bottom);
-    const T want = job.want * job.of.records[place].mass; // (2)
+    const T want = job.want * job.of.records[slot].mass; // (2)
     return SupportSearch<T>(want, bottom, top, guess, static_cast<T>(job.rules.tolerance));
 }
 
@@ -95,36 +95,36 @@ T expansionOf(const T* sum, T correction, T inertia)
 }
 
 template <class T>
-void publish(const DensityJob<T>& job, uint32_t place, const SupportSearch<T>& search, const T* sum,
+void publish(const DensityJob<T>& job, uint32_t slot, const SupportSearch<T>& search, const T* sum,
              double norm)
 {
     const T support = search.support();
-    const T mass = job.self * job.of.records[place].mass + sum[kSumMass];
+    const T mass = job.self * job.of.records[slot].mass + sum[kSumMass];
     const T growth = T(0) - sum[kSumGrowth];
     const bool atLargest = search.isAtTop() && support >= static_cast<T>(job.rules.largestSupport);
     const bool atSmallest = search.isAtBottom() && support <= static_cast<T>(job.rules.smallestSupport);
     const bool isFree = !atLargest && !atSmallest && growth > T(0);
     const FlowGradient<T> flow = flowGradient(sum + kSumMoments, sum + kSumFlows);
     const DensityResults<T>& out = job.results;
-    out.support[place] = support;
-    out.density[place] = static_cast<T>(norm) * mass / (support * support * support);       // (1)
-    out.correction[place] = isFree ? std::clamp(T(3) * mass / growth, T(0.2), T(5)) : T(1); // (4)
-    out.divergence[place] = flow.divergence;
-    out.curl[place] = flow.curl;
+    out.support[slot] = support;
+    out.density[slot] = static_cast<T>(norm) * mass / (support * support * support);       // (1)
+    out.correction[slot] = isFree ? std::clamp(T(3) * mass / growth, T(0.2), T(5)) : T(1); // (4)
+    out.divergence[slot] = flow.divergence;
+    out.curl[slot] = flow.curl;
     if (out.exposure != nullptr)
-        out.exposure[place] = exposureOf(sum, support);
+        out.exposure[slot] = exposureOf(sum, support);
     if (out.expansion != nullptr)
-        out.expansion[place] = expansionOf(sum, out.correction[place], support * support * mass); // (8)
-    out.wantsReach[place] = search.isAtTop() && !atLargest;
+        out.expansion[slot] = expansionOf(sum, out.correction[slot], support * support * mass); // (8)
+    out.wantsReach[slot] = search.isAtTop() && !atLargest;
 }
 
 template <class T, class Shape>
-void sumOne(const DensityJob<T>& job, uint32_t place, NeighborBlock<T>& block)
+void sumOne(const DensityJob<T>& job, uint32_t slot, NeighborBlock<T>& block)
 {
     LaneSums<T, kDensitySums> sums;
-    Neighborhood<T> neighborhood(job, place, block);
-    SupportSearch<T> search = beginSearch(job, place);
-    const T self = job.self * job.of.records[place].mass;
+    Neighborhood<T> neighborhood(job, slot, block);
+    SupportSearch<T> search = beginSearch(job, slot);
+    const T self = job.self * job.of.records[slot].mass;
     while (!search.isDone()) {
         const T perSupport = T(1) / search.support();
         sums.clear();
@@ -139,8 +139,8 @@ void sumOne(const DensityJob<T>& job, uint32_t place, NeighborBlock<T>& block)
     neighborhood.forEachBlock([&]() HWY_ATTR { inside += block.template addAll<Shape>(perSupport, sums); });
     T total[kDensitySums];
     combineRows<kDensitySums>(sums, kSumMass, total, Adding());
-    publish(job, place, search, total, Shape::kNorm);
-    job.results.neighbors[place] = inside;
+    publish(job, slot, search, total, Shape::kNorm);
+    job.results.neighbors[slot] = inside;
 }
 
 template <class T>
@@ -159,8 +159,8 @@ void sumAll(const DensityCall<T>& call)
                                 static_cast<T>((1.0 - bias) * Shape::kCenter),
                                 static_cast<T>(want),
                                 call.results};
-        for (const uint32_t place : call.of.places)
-            sumOne<T, Shape>(job, place, block);
+        for (const uint32_t slot : call.of.slots)
+            sumOne<T, Shape>(job, slot, block);
     });
 }
 

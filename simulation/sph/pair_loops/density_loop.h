@@ -48,7 +48,7 @@
 /// @tests     tests/simulation/pair_loops/test_density_loop.cpp
 #pragma once
 
-#include "simulation/sph/pair_loops/pair_places.h"
+#include "simulation/sph/pair_loops/pair_slots.h"
 #include "simulation/sph/pair_loops/sph_kernel.h"
 
 namespace fx::sim {
@@ -63,7 +63,7 @@ struct DensityRules
     bool subtractSelfBias = true; ///< e of (1); off for e = 0
 };
 
-/// Where results go: arrays indexed by place.
+/// Where results go: arrays indexed by slot.
 template <class T>
 struct DensityResults
 {
@@ -82,12 +82,12 @@ template <class T>
 struct DensityCall
 {
     const DensityRules& rules;
-    PairPlaces<T> of;
+    PairSlots<T> of;
     T reach; ///< [1] the lists are complete up to (1 + reach) times the guess of H
     const DensityResults<T>& results;
 };
 
-/// Density, support and velocity gradients of all places. Reads x, y, z, velocity and mass of the records.
+/// Density, support and velocity gradients of all slots. Reads x, y, z, velocity and mass of the records.
 /// H grows at most to (1 + reach) times its guess, as far as the lists are complete; it may shrink as far as
 /// it has to, and stays within the bounds of the rules. A lone particle takes the largest support (within
 /// reach), coincident ones the smallest. At most 20 evaluations of (1).

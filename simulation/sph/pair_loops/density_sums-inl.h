@@ -105,9 +105,9 @@ public:
         size_ = (count + kLanes - 1) / kLanes * kLanes;
         for (uint32_t k = 0; k < size_; k += Pack<T>::kWidth) {
             const Entries<T> lanes(entries + k);
-            const Quad<T> place = loadQuad(records, entries + k, 0);
+            const Quad<T> slot = loadQuad(records, entries + k, 0);
             const Quad<T> motion = loadQuad(records, entries + k, 1);
-            const Pack<T> x[3] = {place.a, place.b, place.c};
+            const Pack<T> x[3] = {slot.a, slot.b, slot.c};
             const Pack<T> v[3] = {motion.a, motion.b, motion.c};
             const Relative<T> relative(owner, lanes, x, v);
             const Pack<T>* d = relative.d;
@@ -116,7 +116,7 @@ public:
                 d[a].store(d_[a] + k);
                 relative.u[a].store(u_[a] + k);
             }
-            choose<T>(lanes.equal(owner.place), Pack<T>(kFar), r).store(r_ + k); // padding is out of reach
+            choose<T>(lanes.equal(owner.slot), Pack<T>(kFar), r).store(r_ + k); // padding is out of reach
             motion.d.store(mass_ + k);
         }
     }

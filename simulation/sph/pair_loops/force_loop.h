@@ -49,12 +49,12 @@ struct ForceRules
     SphKernel kernel = SphKernel::WendlandC2; ///< unstable beyond kernelFacts(kernel).largestNeighbors
     double beta = 3;                          ///< [1] of the signal speed
     double conductivity = 1;                  ///< [1] 0 for none
-    /// By place: the identity of a particle, for the direction in which coincident ones part. Null: its
-    /// place.
+    /// By slot: the identity of a particle, for the direction in which coincident ones part. Null: its
+    /// slot.
     const uint32_t* ids = nullptr;
 };
 
-/// Where results go: arrays indexed by place.
+/// Where results go: arrays indexed by slot.
 template <class T>
 struct ForceResults
 {
@@ -72,11 +72,11 @@ template <class T>
 struct ForceCall
 {
     const ForceRules& rules;
-    PairPlaces<T> of;
+    PairSlots<T> of;
     const ForceResults<T>& results;
 };
 
-/// Accelerations of all places: pressure with corrections for varying support, viscosity with signal speed
+/// Accelerations of all slots: pressure with corrections for varying support, viscosity with signal speed
 /// and limiter, conduction. Bit-equal for every instruction set; runs on the calling thread (the caller
 /// splits the work).
 template <class T>

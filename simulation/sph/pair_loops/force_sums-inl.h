@@ -30,8 +30,8 @@ constexpr double kNoLevel = 1e30;
 template <class T, class Shape>
 struct PairOwner
 {
-    PairOwner(const ForceRules& rules, const GasRecord<T>& own, uint32_t place, const ImageRules<T>& images)
-        : ids(rules.ids), owner(own, place, images), support(own.support), perH(Pack<T>(1.0) / support),
+    PairOwner(const ForceRules& rules, const GasRecord<T>& own, uint32_t slot, const ImageRules<T>& images)
+        : ids(rules.ids), owner(own, slot, images), support(own.support), perH(Pack<T>(1.0) / support),
           peak(peakSlope(perH)), push(own.push), density(own.density), sound(own.sound),
           viscosity(own.viscosity), limiter(own.limiter), energy(own.energy), pressure(own.pressure),
           beta(rules.beta), conductivity(rules.conductivity)
@@ -66,8 +66,8 @@ HWY_NOINLINE void partCoincident(const Owner<T>& owner, const uint32_t* ids, con
         const uint32_t other = entries[k] & kPlaceMask;
         std::array<T, 3> direction{};
         if (entries[k] == other) {
-            direction = ids ? partingDirection<T>(ids[owner.place], ids[other])
-                            : partingDirection<T>(owner.place, other);
+            direction = ids ? partingDirection<T>(ids[owner.slot], ids[other])
+                            : partingDirection<T>(owner.slot, other);
         } else {
             for (uint32_t a = 0; a < 3; ++a) // away from the walls
                 if (entries[k] & (kMirrorX << a))
@@ -99,7 +99,7 @@ HWY_INLINE uint32_t addPairs(const PairOwner<T, Shape>& i, const GasRecord<T>* r
     const Pack<T>* u = pair.u;
     Pack<T> square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 
-    const auto isPadding = lanes.equal(i.owner.place);
+    const auto isPadding = lanes.equal(i.owner.slot);
     const Pack<T> meanSupport = half * (i.support + where.d);
     const Pack<T> nothing = Pack<T>(kCoincident) * meanSupport;
     const auto isCoincident = hn::AndNot(isPadding, hn::Lt(square.v, (nothing * nothing).v));

@@ -1,5 +1,5 @@
 /// @file neighbors-inl.h
-/// Loads neighbors from their records and places them relative to the particle that they are neighbors of.
+/// Loads neighbors from their records and positions them relative to the particle that they are neighbors of.
 /// Included once for each instruction set.
 #if defined(FX_PAIR_NEIGHBORS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_PAIR_NEIGHBORS_INL
@@ -9,7 +9,7 @@
 #endif
 
 #include "simulation/sph/pair_loops/lanes-inl.h"
-#include "simulation/sph/pair_loops/pair_places.h"
+#include "simulation/sph/pair_loops/pair_slots.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::pairs::HWY_NAMESPACE {
@@ -141,16 +141,16 @@ struct Owner
 {
     Owner(const GasRecord<T>& record, uint32_t ownPlace, const ImageRules<T>& imageRules)
         : rules(imageRules),
-          place(ownPlace), x{Pack<T>(record.x), Pack<T>(record.y), Pack<T>(record.z)}, v{Pack<T>(record.vx),
-                                                                                         Pack<T>(record.vy),
-                                                                                         Pack<T>(record.vz)}
+          slot(ownPlace), x{Pack<T>(record.x), Pack<T>(record.y), Pack<T>(record.z)}, v{Pack<T>(record.vx),
+                                                                                        Pack<T>(record.vy),
+                                                                                        Pack<T>(record.vz)}
     {
         const T position[3] = {record.x, record.y, record.z};
         for (uint32_t a = 0; a < 3; ++a)
             wall[a] = rules.images.nearerWall(a, position[a]);
     }
     const ImageRules<T>& rules;
-    uint32_t place;
+    uint32_t slot;
     Pack<T> x[3];
     Pack<T> v[3];
     T wall[3];

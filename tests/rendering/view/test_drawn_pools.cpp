@@ -34,10 +34,10 @@ std::unique_ptr<sim::EmitterDef> sprites(base::ParticleBlend blend, base::Partic
 {
     auto def = spriteEmitter(float(rows) * 0.4f, {0.8f, 2.0f});
     def->maxParticles = rows;
-    def->look.luminance = 1.0f;
-    def->look.lit = 0.0f;
-    def->look.blend = blend;
-    def->look.order = order;
+    def->appearance.luminance = 1.0f;
+    def->appearance.lit = 0.0f;
+    def->appearance.blend = blend;
+    def->appearance.order = order;
     return def;
 }
 
@@ -48,17 +48,17 @@ std::vector<Effect> together(uint32_t rows = 16)
     all.push_back(effectOf(sprites(base::ParticleBlend::Additive, base::ParticleOrder::None, rows)));
     all.push_back(effectOf(sprites(base::ParticleBlend::Alpha, base::ParticleOrder::Depth, rows)));
     auto turned = sprites(base::ParticleBlend::Additive, base::ParticleOrder::Depth, rows);
-    turned->look.alignment = base::SpriteAlignment::Axis;
-    turned->look.axis = {0.6f, 0.8f, 0.0f};
-    turned->look.aspect = 3.0f;
+    turned->appearance.alignment = base::SpriteAlignment::Axis;
+    turned->appearance.axis = {0.6f, 0.8f, 0.0f};
+    turned->appearance.aspect = 3.0f;
     all.push_back(effectOf(std::move(turned)));
     auto solid = sprites(base::ParticleBlend::Opaque, base::ParticleOrder::None, rows);
-    solid->look.tileColumns = solid->look.tileRows = 2;
-    solid->look.frames = sim::FrameClock::OverLife;
+    solid->appearance.tileColumns = solid->appearance.tileRows = 2;
+    solid->appearance.frames = sim::FrameClock::OverLife;
     all.push_back(effectOf(std::move(solid)));
     auto streaks = sprites(base::ParticleBlend::Additive, base::ParticleOrder::Depth, rows);
-    streaks->look.alignment = base::SpriteAlignment::Velocity;
-    streaks->look.stretch = 0.1f;
+    streaks->appearance.alignment = base::SpriteAlignment::Velocity;
+    streaks->appearance.stretch = 0.1f;
     all.push_back(effectOf(std::move(streaks)));
     return all;
 }

@@ -1,6 +1,6 @@
 // What stays the same is neither gathered, sorted nor uploaded again.
 #include "particle_fixture.h"
-#include "rendering/frame/snapshot_stamps.h"
+#include "rendering/frame/snapshot_revisions.h"
 
 #include <functional>
 
@@ -158,7 +158,7 @@ TEST_F(KeptLists, memoryOfTheFrameIsSharedAndCounted)
     EXPECT_LE(s.sharedBytes, s.textureBytes);
 }
 
-TEST(SnapshotStamps, tellApartWhatDiffersInAnyColumn)
+TEST(SnapshotRevisions, tellApartWhatDiffersInAnyColumn)
 {
     base::SnapshotSchema schema;
     schema.add(base::kParticleKind);

@@ -1,7 +1,7 @@
 // Particles together with media: order, layers, small sizes, the budget, and what a frame leaves behind.
 #include "particle_fixture.h"
 
-#include "rendering/draw_order/draw_runs.h"
+#include "rendering/draw_order/draw_batcher.h"
 #include "rendering/gl/gl_state_guard.h"
 #include "tests/rendering/gl/gl_host_state.h"
 #include "tests/rendering/gl/heap_counter.h"
@@ -264,14 +264,14 @@ TEST_F(ParticleLayersTest, theHostsStateIsAsItWas)
     host.release();
 }
 
-TEST(DrawRuns, streamsThatDoNotOverlapStayWhole)
+TEST(DrawBatcher, streamsThatDoNotOverlapStayWhole)
 {
     const float far[] = {9, 8, 7}, near[] = {3, 2, 1};
     const uint32_t order[] = {0, 1, 2};
-    render::DrawRuns runs(std::pmr::get_default_resource());
+    render::DrawBatcher batcher(std::pmr::get_default_resource());
     const render::DrawStream streams[] = {
         {0, 3, near, order, false, 0}, {1, 3, far, order, false, 0}, {2, 5, nullptr, nullptr, false, 5}};
-    const auto built = runs.build(streams);
+    const auto built = batcher.build(streams);
     ASSERT_EQ(built.size(), 3u);
     EXPECT_EQ(built[0].batch, 1u);
     EXPECT_EQ(built[1].batch, 2u);
@@ -279,7 +279,7 @@ TEST(DrawRuns, streamsThatDoNotOverlapStayWhole)
     EXPECT_EQ(built[1].count, 5u);
 }
 
-TEST(DrawRuns, everyElementIsDrawnOnceAndTheOrderIsRightToASlab)
+TEST(DrawBatcher, everyElementIsDrawnOnceAndTheOrderIsRightToASlab)
 {
     std::vector<float> a, b;
     std::vector<uint32_t> order;
@@ -288,29 +288,29 @@ TEST(DrawRuns, everyElementIsDrawnOnceAndTheOrderIsRightToASlab)
         b.push_back(std::pow(17.0f - 0.01f * float(i), 2.0f));
         order.push_back(i);
     }
-    render::DrawRuns runs(std::pmr::get_default_resource());
+    render::DrawBatcher batcher(std::pmr::get_default_resource());
     const render::DrawStream streams[] = {{0, 1000, a.data(), order.data(), false, 0},
                                           {1, 1000, b.data(), order.data(), true, 0}};
     uint32_t next[2] = {};
     float least = 100.0f;
     const float slab = 7.0f / 13.0f;
-    const auto built = runs.build(streams);
-    for (const auto& run : built) {
-        ASSERT_EQ(run.first, next[run.batch]);
-        next[run.batch] += run.count;
-        for (uint32_t i = run.first; i < next[run.batch]; ++i) {
-            const float distance = streams[run.batch].at(i);
+    const auto built = batcher.build(streams);
+    for (const auto& batch : built) {
+        ASSERT_EQ(batch.first, next[batch.batch]);
+        next[batch.batch] += batch.count;
+        for (uint32_t i = batch.first; i < next[batch.batch]; ++i) {
+            const float distance = streams[batch.batch].at(i);
             EXPECT_LT(distance, least + slab * 1.01f);
             least = std::min(least, distance);
         }
     }
     EXPECT_EQ(next[0], 1000u);
     EXPECT_EQ(next[1], 1000u);
-    EXPECT_LE(built.size(), render::DrawRuns::kMostTurns);
+    EXPECT_LE(built.size(), render::DrawBatcher::kMostBatches);
     EXPECT_GE(built.size(), 15u);
 }
 
-TEST(DrawRuns, whatOnlyAddsIsNotCutAgainstOthersThatAdd)
+TEST(DrawBatcher, whatOnlyAddsIsNotCutAgainstOthersThatAdd)
 {
     std::vector<float> distances;
     std::vector<uint32_t> order;
@@ -318,19 +318,19 @@ TEST(DrawRuns, whatOnlyAddsIsNotCutAgainstOthersThatAdd)
         distances.push_back(100.0f - float(i));
         order.push_back(i);
     }
-    render::DrawRuns runs(std::pmr::get_default_resource());
+    render::DrawBatcher batcher(std::pmr::get_default_resource());
     render::DrawStream streams[3];
     for (uint32_t s = 0; s < 3; ++s) {
         streams[s] = {s, 100, distances.data(), order.data(), false, 0};
         streams[s].adds = true;
     }
-    EXPECT_EQ(runs.build(streams).size(), 3u);
+    EXPECT_EQ(batcher.build(streams).size(), 3u);
     streams[1].adds = false;
-    EXPECT_GT(runs.build(streams).size(), 3u) << "the control: one of them covers";
-    EXPECT_LE(runs.build(streams).size(), render::DrawRuns::kMostTurns);
+    EXPECT_GT(batcher.build(streams).size(), 3u) << "the control: one of them covers";
+    EXPECT_LE(batcher.build(streams).size(), render::DrawBatcher::kMostBatches);
 }
 
-TEST(DrawRuns, manyStreamsAreWholeRatherThanManyTurns)
+TEST(DrawBatcher, manyStreamsAreWholeRatherThanManyBatches)
 {
     std::vector<float> distances;
     std::vector<uint32_t> order;
@@ -338,15 +338,15 @@ TEST(DrawRuns, manyStreamsAreWholeRatherThanManyTurns)
         distances.push_back(100.0f - float(i));
         order.push_back(i);
     }
-    render::DrawRuns runs(std::pmr::get_default_resource());
+    render::DrawBatcher batcher(std::pmr::get_default_resource());
     std::vector<render::DrawStream> streams;
     for (uint32_t s = 0; s < 40; ++s) {
         streams.push_back({s, 100, distances.data(), order.data(), false, 0});
         uint64_t drawn = 0;
-        const auto built = runs.build(streams);
-        for (const auto& run : built)
-            drawn += run.count;
+        const auto built = batcher.build(streams);
+        for (const auto& batch : built)
+            drawn += batch.count;
         EXPECT_EQ(drawn, 100 * streams.size());
-        EXPECT_LE(built.size(), std::max<size_t>(render::DrawRuns::kMostTurns, streams.size()));
+        EXPECT_LE(built.size(), std::max<size_t>(render::DrawBatcher::kMostBatches, streams.size()));
     }
 }

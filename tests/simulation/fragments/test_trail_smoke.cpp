@@ -25,15 +25,15 @@ TEST(TrailSmoke, spreadsAsDiffusionDoesAndFadesToNothing)
     def.spreading = 0.09f;
     def.temperature = 1000.0f;
     def.mixing = 2.0f;
-    EXPECT_NEAR(smokeLook(def, 0.4f, 1.0f, 2.0f).radius, 0.5f, 1e-6f);
-    EXPECT_NEAR(smokeLook(def, 0.4f, 0.5f, 2.0f).temperature, 293.15 + (1000.0 - 293.15) * std::exp(-1.0),
-                1e-3);
-    EXPECT_EQ(smokeLook(def, 0.4f, 0.0f, 2.0f).share, 1.0f);
-    EXPECT_EQ(smokeLook(def, 0.4f, 2.0f, 2.0f).share, 0.0f);
+    EXPECT_NEAR(smokeAppearance(def, 0.4f, 1.0f, 2.0f).radius, 0.5f, 1e-6f);
+    EXPECT_NEAR(smokeAppearance(def, 0.4f, 0.5f, 2.0f).temperature,
+                293.15 + (1000.0 - 293.15) * std::exp(-1.0), 1e-3);
+    EXPECT_EQ(smokeAppearance(def, 0.4f, 0.0f, 2.0f).share, 1.0f);
+    EXPECT_EQ(smokeAppearance(def, 0.4f, 2.0f, 2.0f).share, 0.0f);
     float last = 1.0f;
     for (float age = 0.0f; age < 2.0f; age += 0.1f) {
-        EXPECT_LE(smokeLook(def, 0.4f, age, 2.0f).share, last);
-        last = smokeLook(def, 0.4f, age, 2.0f).share;
+        EXPECT_LE(smokeAppearance(def, 0.4f, age, 2.0f).share, last);
+        last = smokeAppearance(def, 0.4f, age, 2.0f).share;
     }
 }
 

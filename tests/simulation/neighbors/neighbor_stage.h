@@ -67,15 +67,15 @@ struct Searched
     std::unique_ptr<sim::NeighborLists<T>> lists;
     std::vector<uint32_t> owners;
 
-    std::vector<uint32_t> list(uint32_t place) const
+    std::vector<uint32_t> list(uint32_t slot) const
     {
         std::vector<uint32_t> entries;
         bool ended = false;
-        lists->forEachPiece(place, [&](const uint32_t* piece, uint32_t count, bool last) {
+        lists->forEachPiece(slot, [&](const uint32_t* piece, uint32_t count, bool last) {
             EXPECT_FALSE(ended) << "a piece after the last";
             EXPECT_TRUE(last || count % sim::kLanes == 0);
             for (uint32_t k = count; k % sim::kLanes != 0; ++k)
-                EXPECT_EQ(piece[k], place) << "padding";
+                EXPECT_EQ(piece[k], slot) << "padding";
             entries.insert(entries.end(), piece, piece + count);
             ended = last;
         });
@@ -161,7 +161,7 @@ T distance2(const Cloud<T>& cloud, const sim::Domain& domain, uint32_t i, uint32
     return d2;
 }
 
-/// Entries of place `i` by trial of all particles and all images, in the order that lists have.
+/// Entries of slot `i` by trial of all particles and all images, in the order that lists have.
 template <class T>
 std::vector<uint32_t> trialOfAll(const Cloud<T>& cloud, const sim::Domain& domain, T margin, uint32_t i)
 {
@@ -181,8 +181,8 @@ template <class T>
 void expectTrialOfAll(const Searched<T>& s, uint32_t stride = 1)
 {
     for (size_t k = 0; k < s.owners.size(); k += stride) {
-        const uint32_t place = s.owners[k];
-        ASSERT_EQ(s.list(place), trialOfAll(s.cloud, s.domain, s.margin, place)) << "place " << place;
+        const uint32_t slot = s.owners[k];
+        ASSERT_EQ(s.list(slot), trialOfAll(s.cloud, s.domain, s.margin, slot)) << "place " << slot;
     }
 }
 

@@ -49,14 +49,14 @@ TEST(NeighborExtremes, aMillionInOneSmallCellBesideAWideCloudAreFoundInBoundedMe
     // Particles that reach across the whole cluster have too many neighbors for a list; no other list may be
     // lost.
     EXPECT_LE(lists.unlisted(), 2'000u);
-    for (uint32_t place = 0; place < cloud.count(); place += 20'011) {
-        if (s.cloud.support[place] > 1)
+    for (uint32_t slot = 0; slot < cloud.count(); slot += 20'011) {
+        if (s.cloud.support[slot] > 1)
             continue;
         std::vector<uint32_t> found;
-        lists.forEachPiece(place, [&](const uint32_t* entries, uint32_t count, bool) {
+        lists.forEachPiece(slot, [&](const uint32_t* entries, uint32_t count, bool) {
             found.insert(found.end(), entries, entries + count);
         });
-        EXPECT_EQ(found, trialOfAll(s.cloud, {}, 0.0f, place));
+        EXPECT_EQ(found, trialOfAll(s.cloud, {}, 0.0f, slot));
     }
 }
 
@@ -68,10 +68,10 @@ TEST(NeighborExtremes, fourThousandCoincidentParticlesFindEachOtherInFewPieces)
     cloud.add(-1, 2, 3.25, 0.125);
     const auto s = searched(cloud, {}, {.margin = 0, .entriesPerParticle = 64});
     EXPECT_EQ(s.lists->unlisted(), 4097u);
-    for (uint32_t place = 0; place < 4097; place += 128) {
+    for (uint32_t slot = 0; slot < 4097; slot += 128) {
         uint32_t pieces = 0;
         uint32_t total = 0;
-        s.lists->forEachPiece(place, [&](const uint32_t*, uint32_t count, bool) {
+        s.lists->forEachPiece(slot, [&](const uint32_t*, uint32_t count, bool) {
             ++pieces;
             total += count;
         });
@@ -112,8 +112,8 @@ TEST(NeighborExtremes, supportsWithoutBoundReachEverybody)
     Cloud<float> cloud;
     cloud.addRandom(300, 6, -1e6, 2e6, 1e30, 1e30);
     const auto s = searched(cloud, {});
-    for (const uint32_t place : s.owners)
-        EXPECT_EQ(s.list(place).size(), 299u);
+    for (const uint32_t slot : s.owners)
+        EXPECT_EQ(s.list(slot).size(), 299u);
 }
 
 TEST(NeighborExtremes, aParticleAtNanHasNoNeighborsAndCostsNobodyTheirs)

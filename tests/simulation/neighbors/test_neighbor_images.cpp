@@ -36,8 +36,8 @@ TYPED_TEST(NeighborImages, giveEveryParticleOfAPeriodicLatticeTheSameNeighbors)
     cloud.addLattice(12, 3, 0.25, 0.6);
     const auto s = searched(cloud, box(Periodic, Periodic, Periodic, 3, 6), {.margin = 0});
     expectTrialOfAll(s, 5);
-    for (const uint32_t place : s.owners)
-        ASSERT_EQ(s.list(place).size(),
+    for (const uint32_t slot : s.owners)
+        ASSERT_EQ(s.list(slot).size(),
                   56u); // of a cubic lattice, distances below 2.4 spacings, without itself
 }
 
@@ -86,8 +86,8 @@ TYPED_TEST(NeighborImages, nearerThanTheirReachByOneBitAreNotLostToRoundedBoxes)
     const auto s = searched(cloud, domain, {.margin = 0});
     expectTrialOfAll(s);
     std::vector<uint32_t> some; // alone, a box is a point
-    for (uint32_t place = 0; place < cloud.count(); place += 40)
-        some.push_back(place);
+    for (uint32_t slot = 0; slot < cloud.count(); slot += 40)
+        some.push_back(slot);
     expectTrialOfAll(searched(cloud, domain, {.margin = 0, .owners = some}));
     expectTrialOfAll(searched(cloud, domain, {.margin = 0, .entriesPerParticle = 0}));
 }
@@ -109,12 +109,12 @@ TYPED_TEST(NeighborImages, ofAParticleInACornerAreSevenOfItself)
     cloud.add(0.125, 0.125, 0.125, 0.5); // own images at 0.25, 0.35 and 0.43
     cloud.add(7, 7, 7, 0.5);
     const auto s = searched(cloud, box(Reflecting, Reflecting, Reflecting, 0, kInf), {.margin = 0});
-    const uint32_t place = s.cloud.x[0] < 1 ? 0 : 1;
+    const uint32_t slot = s.cloud.x[0] < 1 ? 0 : 1;
     std::vector<uint32_t> expected;
     for (uint32_t mirrors = 1; mirrors < 8; ++mirrors)
-        expected.push_back(place | mirrors * sim::kMirrorX);
-    EXPECT_EQ(s.list(place), expected);
-    EXPECT_TRUE(s.list(1 - place).empty());
+        expected.push_back(slot | mirrors * sim::kMirrorX);
+    EXPECT_EQ(s.list(slot), expected);
+    EXPECT_TRUE(s.list(1 - slot).empty());
 }
 
 TYPED_TEST(NeighborImages, inBothWallsAreThoseOfTheNearerOne)
@@ -128,11 +128,10 @@ TYPED_TEST(NeighborImages, inBothWallsAreThoseOfTheNearerOne)
     domain.high.x = 1;
     const auto s = searched(cloud, domain, {.margin = 0});
     expectTrialOfAll(s);
-    for (const uint32_t place : s.owners) {
-        const auto list = s.list(place);
-        const TypeParam x = s.cloud.x[place];
-        EXPECT_EQ(std::count(list.begin(), list.end(), place | sim::kMirrorX),
-                  x < 0.225 || x > 0.775 ? 1 : 0);
+    for (const uint32_t slot : s.owners) {
+        const auto list = s.list(slot);
+        const TypeParam x = s.cloud.x[slot];
+        EXPECT_EQ(std::count(list.begin(), list.end(), slot | sim::kMirrorX), x < 0.225 || x > 0.775 ? 1 : 0);
     }
     // Even where reaches are too long for the box, an entry never means two images.
     for (TypeParam& support : cloud.support)

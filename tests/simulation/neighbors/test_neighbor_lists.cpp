@@ -32,8 +32,8 @@ template <class T>
 std::vector<std::vector<uint32_t>> allLists(const Searched<T>& s)
 {
     std::vector<std::vector<uint32_t>> lists;
-    for (const uint32_t place : s.owners)
-        lists.push_back(s.list(place));
+    for (const uint32_t slot : s.owners)
+        lists.push_back(s.list(slot));
     return lists;
 }
 
@@ -53,14 +53,14 @@ TYPED_TEST(NeighborLists, leaveOutParticlesAtExactlyTheirReach)
     Cloud<TypeParam> cloud; // on borders of cells, with pairs at distances 1 and sqrt(2)
     cloud.addLattice(9, -4, 1, 1);
     const auto touching = searched(cloud, {}, {.margin = 0});
-    for (const uint32_t place : touching.owners)
-        EXPECT_TRUE(touching.list(place).empty());
+    for (const uint32_t slot : touching.owners)
+        EXPECT_TRUE(touching.list(slot).empty());
     const auto reaching = searched(cloud, {}, {.margin = 0.0625});
     expectTrialOfAll(reaching);
-    for (const uint32_t place : reaching.owners) {
-        const bool inside = std::abs(reaching.cloud.x[place]) < 4 && std::abs(reaching.cloud.y[place]) < 4 &&
-                            std::abs(reaching.cloud.z[place]) < 4;
-        EXPECT_TRUE(!inside || reaching.list(place).size() == 6);
+    for (const uint32_t slot : reaching.owners) {
+        const bool inside = std::abs(reaching.cloud.x[slot]) < 4 && std::abs(reaching.cloud.y[slot]) < 4 &&
+                            std::abs(reaching.cloud.z[slot]) < 4;
+        EXPECT_TRUE(!inside || reaching.list(slot).size() == 6);
     }
 }
 
@@ -109,11 +109,11 @@ TYPED_TEST(NeighborLists, ofFewOwnersAreThoseThatAllWouldHave)
     const auto all = searched(someCloud<TypeParam>(), mixedBox());
     for (const uint32_t stride : {2u, 7u, 100u, 4999u}) {
         std::vector<uint32_t> owners;
-        for (uint32_t place = stride / 2; place < all.cloud.count(); place += stride)
-            owners.push_back(place);
+        for (uint32_t slot = stride / 2; slot < all.cloud.count(); slot += stride)
+            owners.push_back(slot);
         const auto few = searched(someCloud<TypeParam>(), mixedBox(), {.owners = owners});
-        for (const uint32_t place : owners)
-            ASSERT_EQ(few.list(place), all.list(place)) << "place " << place << ", every " << stride;
+        for (const uint32_t slot : owners)
+            ASSERT_EQ(few.list(slot), all.list(slot)) << "place " << slot << ", every " << stride;
     }
 }
 

@@ -6,7 +6,7 @@
 #include "foundation/math/elementary.h"
 #include "foundation/random/philox.h"
 #include "foundation/simd/floating_point_scope.h"
-#include "simulation/sph/pair_loops/crowding_loop.h"
+#include "simulation/sph/pair_loops/concentration_loop.h"
 #include "simulation/sph/pair_loops/force_loop.h"
 
 #include <cmath>
@@ -93,7 +93,7 @@ struct Forces
 };
 
 template <class T>
-struct Crowdings
+struct Concentrations
 {
     std::vector<T> x, y, z, outwardX, outwardY, outwardZ;
 };
@@ -140,14 +140,14 @@ public:
         return inOrderGiven(at);
     }
 
-    Crowdings<T> crowding(double range) const
+    Concentrations<T> concentration(double range) const
     {
-        Crowdings<T> at = sized<Crowdings<T>>();
+        Concentrations<T> at = sized<Concentrations<T>>();
         const base::FloatingPointScope floatingPoint;
-        sim::sumCrowding<T>({range,
-                             pairs(),
-                             {at.x.data(), at.y.data(), at.z.data(), at.outwardX.data(), at.outwardY.data(),
-                              at.outwardZ.data()}});
+        sim::sumConcentration<T>({range,
+                                  pairs(),
+                                  {at.x.data(), at.y.data(), at.z.data(), at.outwardX.data(),
+                                   at.outwardY.data(), at.outwardZ.data()}});
         return inOrderGiven(at);
     }
 
@@ -170,7 +170,7 @@ public:
                            {at.ax.data(), at.ay.data(), at.az.data(), at.heating.data(),
                             at.signalSpeed.data(), at.fastestNeighbor.data(), at.pairs.data()}});
     }
-    sim::PairPlaces<T> pairs() const { return {lists_, records_.data(), domain_, places_}; }
+    sim::PairSlots<T> pairs() const { return {lists_, records_.data(), domain_, places_}; }
     template <class Results>
     Results sized() const
     {
@@ -226,7 +226,7 @@ private:
         f(r.ax), f(r.ay), f(r.az), f(r.heating), f(r.signalSpeed), f(r.fastestNeighbor), f(r.pairs);
     }
     template <class F>
-    static void eachColumn(Crowdings<T>& r, F&& f)
+    static void eachColumn(Concentrations<T>& r, F&& f)
     {
         f(r.x), f(r.y), f(r.z), f(r.outwardX), f(r.outwardY), f(r.outwardZ);
     }

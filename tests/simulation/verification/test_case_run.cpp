@@ -71,12 +71,12 @@ TEST(CaseRun, progressCountsLooks)
     const auto tasks = base::makeSerialRunner();
     CaseWatch watch;
     uint32_t calls = 0;
-    watch.progress = [&](uint32_t look, uint32_t looks) {
-        EXPECT_EQ(look, calls++);
-        EXPECT_EQ(looks, gasCase->looks().size());
+    watch.progress = [&](uint32_t sample, uint32_t samples) {
+        EXPECT_EQ(sample, calls++);
+        EXPECT_EQ(samples, gasCase->sampleTimes().size());
     };
     ASSERT_TRUE(runCase<float>(*gasCase, *tasks, watch).ok());
-    EXPECT_EQ(calls, gasCase->looks().size());
+    EXPECT_EQ(calls, gasCase->sampleTimes().size());
 }
 
 TEST(CaseRun, conservationIsAmongTheLimitsWhereNoWallTakesMomentum)

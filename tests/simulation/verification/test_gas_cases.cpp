@@ -36,7 +36,7 @@ TEST(GasCases, allAreFoundByNameAndAcceptedByTheDynamics)
         EXPECT_TRUE(checkGasDynamicsDef(gasCase->dynamics()).ok()) << entry.name;
         GasDynamics<double> gas(gasCase->dynamics(), std::pmr::get_default_resource());
         EXPECT_TRUE(gas.add(gasCase->particles()).ok()) << entry.name;
-        EXPECT_FALSE(gasCase->looks().empty());
+        EXPECT_FALSE(gasCase->sampleTimes().empty());
     }
     EXPECT_EQ(findGasCase("sedv"), nullptr);
 }
@@ -120,7 +120,7 @@ TEST(GasCases, theSettingsOfTheUserReachTheDynamics)
     EXPECT_EQ(gasCase->dynamics().neighbors, 80);
     EXPECT_EQ(gasCase->dynamics().courant, 0.1);
     EXPECT_EQ(gasCase->dynamics().steps, StepScheme::Global);
-    EXPECT_EQ(gasCase->looks().back(), 0.01);
+    EXPECT_EQ(gasCase->sampleTimes().back(), 0.01);
 }
 
 } // namespace

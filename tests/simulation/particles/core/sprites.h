@@ -12,7 +12,7 @@ namespace fx::test {
 inline std::unique_ptr<sim::EmitterDef> spriteEmitter(float rate, base::Range lifetime)
 {
     auto def = rateEmitter(rate);
-    def->look.kind = sim::Appearance::Sprite;
+    def->appearance.kind = sim::AppearanceKind::Sprite;
     def->lifetime = lifetime;
     def->shape = sim::EmitterShape::Cone;
     def->size = {0.5f, 0, 0};
@@ -21,7 +21,7 @@ inline std::unique_ptr<sim::EmitterDef> spriteEmitter(float rate, base::Range li
     def->radius = {0.02f, 0.06f};
     def->forces.drag = 0.8f;
     def->forces.wind = {1.0f, 0.0f, 0.25f};
-    def->look.spin = {-2.0f, 2.0f};
+    def->appearance.spin = {-2.0f, 2.0f};
     const std::array<base::CurveKey<1>, 3> keys{{{0.0f, {0.2f}}, {0.25f, {1.0f}}, {1.0f, {0.0f}}}};
     def->opacityOverLife = base::ScalarCurve(std::span<const base::CurveKey<1>>(keys));
     return def;

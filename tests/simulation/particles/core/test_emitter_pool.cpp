@@ -30,19 +30,19 @@ std::vector<std::shared_ptr<const sim::EffectDef>> effects()
         defs.push_back(spriteEmitter(7.0f, {0.8f, 2.4f}));
     defs[0]->shape = sim::EmitterShape::Point;
     defs[0]->lifetime = {1.5f, 1.5f};
-    defs[0]->look.spin = {0.0f, 0.0f};
+    defs[0]->appearance.spin = {0.0f, 0.0f};
     defs[0]->maxParticles = 13;
     defs[1]->maxParticles = 9; // some find no row
-    defs[1]->look.tileColumns = defs[1]->look.tileRows = 4;
-    defs[1]->look.frames = sim::FrameClock::OverLife;
+    defs[1]->appearance.tileColumns = defs[1]->appearance.tileRows = 4;
+    defs[1]->appearance.frames = sim::FrameClock::OverLife;
     defs[2]->lifetime = {2.0f, 5.0f};
     defs[2]->maxParticles = 40;
     defs[2]->emission.duration = 3.0f;
-    defs[3]->look.kind = sim::Appearance::Medium;
+    defs[3]->appearance.kind = sim::AppearanceKind::Medium;
     defs[3]->maxParticles = 20;
     defs[4]->maxParticles = 25;
-    defs[4]->look.alignment = base::SpriteAlignment::Velocity;
-    defs[4]->look.stretch = 0.15f;
+    defs[4]->appearance.alignment = base::SpriteAlignment::Velocity;
+    defs[4]->appearance.stretch = 0.15f;
     std::vector<std::shared_ptr<const sim::EffectDef>> all;
     for (auto& def : defs)
         all.push_back(effectOf(std::move(def)));

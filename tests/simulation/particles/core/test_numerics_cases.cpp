@@ -172,7 +172,7 @@ TEST(EmitterCases, EM08_indicesWrapNowhereAndAgesStayExact)
     // After 36 hours ages still rise by exactly a step: they are counted from the birth.
     Stage stage;
     auto def = rateEmitter(10.0f, 2.0f);
-    def->look.kind = Appearance::Sprite;
+    def->appearance.kind = AppearanceKind::Sprite;
     const Slot slot = stage.add({}, std::move(def));
     stage.step(1);
     StepCounters counters;

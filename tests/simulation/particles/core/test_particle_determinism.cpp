@@ -14,8 +14,8 @@ void addAll(Stage& stage)
 {
     auto ballistic = spriteEmitter(6000.0f, {0.3f, 1.1f});
     ballistic->maxParticles = 7000;
-    ballistic->look.fastest = 5.0f;
-    ballistic->look.kind = sim::Appearance::Mesh;
+    ballistic->appearance.fastest = 5.0f;
+    ballistic->appearance.kind = sim::AppearanceKind::Mesh;
     auto integrated = spriteEmitter(1200.0f, {0.3f, 1.1f});
     integrated->shape = sim::EmitterShape::Sphere;
     integrated->maxParticles = 1500;

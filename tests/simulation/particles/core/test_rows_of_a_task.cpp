@@ -33,7 +33,7 @@ struct CuttingHost
 std::unique_ptr<sim::EmitterDef> leanEmitter(uint32_t particles)
 {
     auto def = rateEmitter(0.0f);
-    def->look.kind = sim::Appearance::Sprite;
+    def->appearance.kind = sim::AppearanceKind::Sprite;
     def->lifetime = {2.0f, 2.0f};
     def->radius = {0.05f, 0.05f};
     def->emission.bursts = {{0.0f, particles}};
@@ -44,8 +44,8 @@ std::unique_ptr<sim::EmitterDef> leanEmitter(uint32_t particles)
 std::unique_ptr<sim::EmitterDef> richEmitter(uint32_t particles)
 {
     auto def = spriteEmitter(0.0f, {1.0f, 3.0f});
-    def->look.angle = {0.0f, 6.0f};
-    def->look.tileColumns = def->look.tileRows = 4;
+    def->appearance.angle = {0.0f, 6.0f};
+    def->appearance.tileColumns = def->appearance.tileRows = 4;
     def->emission.bursts = {{0.0f, particles}};
     def->maxParticles = particles;
     return def;

@@ -26,7 +26,7 @@ inline std::unique_ptr<sim::EmitterDef> fedEmitter(float lifetime = 1000.0f)
 {
     auto def = std::make_unique<sim::EmitterDef>();
     def->fed = true;
-    def->look.kind = sim::Appearance::Sprite;
+    def->appearance.kind = sim::AppearanceKind::Sprite;
     def->lifetime = {lifetime, lifetime};
     def->forces.gravity = 0;
     return def;

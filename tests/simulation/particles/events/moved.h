@@ -14,7 +14,7 @@ namespace fx::test {
 inline std::unique_ptr<sim::EmitterDef> dropper(float rate)
 {
     auto def = rateEmitter(rate);
-    def->look.kind = sim::Appearance::Sprite;
+    def->appearance.kind = sim::AppearanceKind::Sprite;
     def->forces.gravity = 0;
     def->inWorld = true;
     return def;

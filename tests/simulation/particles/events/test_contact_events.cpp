@@ -21,7 +21,7 @@ constexpr int kRates[] = {30, 60, 120, 144}; ///< [1/s] steps
 std::unique_ptr<EmitterDef> falling(float height, const CollisionDef& plane, const EventRule& rule)
 {
     auto ball = rateEmitter(17.0f, 100.0f);
-    ball->look.kind = Appearance::Sprite;
+    ball->appearance.kind = AppearanceKind::Sprite;
     ball->position = {0, height, 0};
     ball->maxParticles = 256;
     ball->modules = {makeCollisionOp(std::span(&plane, 1))};

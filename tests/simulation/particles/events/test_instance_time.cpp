@@ -110,7 +110,7 @@ TEST(InstanceTime, twiceTheSpeedTakesTheSameSteps)
 
 TEST(InstanceTime, aSpeedOfAThirdReachesAClosedFormExactlyAtItsOwnTicks)
 {
-    const RunClock clock{5, 7, kNormalRate / 3};
+    const InstanceClock clock{5, 7, kNormalRate / 3};
     for (base::Ticks tick = 5; tick < 400; ++tick) {
         EXPECT_EQ(clock.toLocal(tick), 7 + (tick - 5) * (kNormalRate / 3) / kNormalRate);
         EXPECT_LE(clock.toLocal(clock.toScene(clock.toLocal(tick))), clock.toLocal(tick));
@@ -148,7 +148,7 @@ TEST(InstanceTime, whatTheHostSaysIsHeardWithTheNextStep)
     const Slot slot = stage.add({}, effect);
     stage.play(10);
     EXPECT_TRUE(particlesOf(stage.look(), 1).empty());
-    stage.world().tell(slot, {0, 3});
+    stage.world().postEvent(slot, {0, 3});
     StateBuffer before(&stage.memory());
     stage.world().save(std::array{slot}, before); // what is not heard yet is part of the state
     stage.step();

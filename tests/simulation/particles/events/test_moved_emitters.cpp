@@ -224,7 +224,7 @@ TEST(MovedEmitters, savedStatesGoOnAlike)
 TEST(MovedEmitters, eventsHappenWhereTheParticlesAre)
 {
     auto shell = burstEmitter(1);
-    shell->look.kind = Appearance::Sprite;
+    shell->appearance.kind = AppearanceKind::Sprite;
     shell->inWorld = true;
     shell->forces.gravity = 0;
     shell->lifetime = {0.5f, 0.5f};
@@ -250,13 +250,13 @@ TEST(InheritedColor, multipliesThatOfThoseWhoAreBorn)
 {
     for (const float share : {0.0f, 0.5f, 1.0f}) {
         auto shell = burstEmitter(1);
-        shell->look.kind = Appearance::Sprite;
+        shell->appearance.kind = AppearanceKind::Sprite;
         shell->lifetime = {0.5f, 0.5f};
-        shell->look.colorOverLife = base::ColorCurve(std::array{0.25f, 0.5f, 1.0f});
+        shell->appearance.colorOverLife = base::ColorCurve(std::array{0.25f, 0.5f, 1.0f});
         shell->events = {ruleOf(EventKind::Death, 1)};
         shell->events[0].inheritColor = share;
         auto stars = fedEmitter();
-        stars->look.colorOverLife = base::ColorCurve(std::array{1.0f, 0.5f, 0.25f});
+        stars->appearance.colorOverLife = base::ColorCurve(std::array{1.0f, 0.5f, 0.25f});
         stars->tinted = share > 0.0f;
         Stage stage;
         stage.add({}, linkedEffect(std::move(shell), std::move(stars)));

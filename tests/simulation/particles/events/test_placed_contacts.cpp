@@ -34,7 +34,7 @@ struct Floor
 std::shared_ptr<EffectDef> hail(bool inWorld)
 {
     auto def = burstEmitter(16);
-    def->look.kind = Appearance::Sprite;
+    def->appearance.kind = AppearanceKind::Sprite;
     def->inWorld = inWorld;
     CollisionDef collision;
     collision.kind = ObstacleKind::Hook;

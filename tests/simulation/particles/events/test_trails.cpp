@@ -92,7 +92,7 @@ private:
 std::unique_ptr<EmitterDef> comet()
 {
     auto def = burstEmitter(1);
-    def->look.kind = Appearance::Sprite;
+    def->appearance.kind = AppearanceKind::Sprite;
     def->shape = EmitterShape::Box; // heads along +Y
     def->forces.gravity = 0;
     def->speed = {3, 3};
@@ -205,8 +205,8 @@ TEST(Lights, aSpriteShinesWithItsLuminanceTimesItsArea)
 {
     auto def = comet();
     def->radius = {0.1f, 0.1f};
-    def->look.luminance = 1000.0f;
-    def->look.colorOverLife = base::ColorCurve(std::array{1.0f, 0.5f, 0.25f});
+    def->appearance.luminance = 1000.0f;
+    def->appearance.colorOverLife = base::ColorCurve(std::array{1.0f, 0.5f, 0.25f});
     def->light.given = true;
     Pictures pictures(std::move(def));
     for (int i = 0; i < 60; ++i)
@@ -224,7 +224,7 @@ TEST(Lights, theBrightestAreKeptAndMergingKeepsTheSum)
     const auto lights = [](uint32_t most, bool merged) {
         auto def = spriteEmitter(50.0f, {1.0f, 1.0f});
         def->opacityOverLife = base::ScalarCurve(std::array{1.0f});
-        def->look.brightness = {0.1f, 10.0f};
+        def->appearance.brightness = {0.1f, 10.0f};
         def->light.given = true;
         def->light.intensity = 2.0f;
         def->light.maxLights = most;

@@ -215,7 +215,7 @@ TEST(ContactPath, givesTheSameBitsWithEveryInstructionSet)
     test::everySet([&](base::InstructionSet) { EXPECT_EQ(play(), want); });
 }
 
-TEST(ContactPath, tellsWhetherItHeedsTheHostsGeometry)
+TEST(ContactPath, tellsWhetherItDependsOnTheHostsGeometry)
 {
     EXPECT_TRUE(opOf({obstacle(ObstacleKind::Scene, 0)})->collides());
     EXPECT_FALSE(opOf({obstacle(ObstacleKind::Ground, 0)})->collides());

@@ -1,0 +1,249 @@
+#include "benchmarks/calibrate/calibrate_levels.h"
+
+#include "fxsdk/cli/scene/default_stage.h"
+#include "fxsdk/cli/support/interrupt.h"
+#include "fxsdk/quality/calibration_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fx::cli {
+namespace {
+
+using quality::Knobs;
+
+constexpr double kLeastStep = 0.9; ///< a step costs at most so much of the one above it
+constexpr double kFarAway = 12.0;  ///< times the distance: an effect of a dozen pixels
+
+/// A moment of a preset that calls for a technique.
+struct Moment
+{
+    const char* preset;
+    double seconds;
+    double away = 1.0; ///< distance of the camera over that from which the effect fills the picture
+};
+
+struct Subject
+{
+    const char* technique;
+    std::vector<Knobs> settings; ///< the first is the best
+    std::vector<Moment> moments;
+    bool countsOff;          ///< the last setting leaves the technique out: it costs nothing
+    bool withDazzle = false; ///< otherwise there is no glare: it would hide differences
+};
+
+Subject media()
+{
+    Subject subject{"media",
+                    {},
+                    {{"library:explosion", 0.5},
+                     {"library:smoke-column", 4.0},
+                     {"library:campfire", 2.5},
+                     {"library:dust-burst", 1.0},
+                     {"library:explosion", 0.5, kFarAway},
+                     {"library:smoke-column", 4.0, kFarAway}},
+                    false};
+    for (const float particles : {1.0f, 0.5f, 0.25f, 0.125f})
+        for (const auto form :
+             {render::BillboardForm::Kernel, render::BillboardForm::Constant, render::BillboardForm::Planar})
+            for (const bool detail : {true, false})
+                subject.settings.push_back({form, detail, particles});
+    for (const float bias : {1.0f, 4.0f, 16.0f})
+        for (const float particles : {1.0f, 0.5f, 0.25f})
+            for (const bool detail : {true, false}) {
+                Knobs knobs{render::BillboardForm::Kernel, detail, particles};
+                knobs.lodBias = bias;
+                subject.settings.push_back(knobs);
+            }
+    return subject;
+}
+
+Subject dazzle()
+{
+    Knobs on, off;
+    on.dazzle = true;
+    off.dazzle = false;
+    return {"dazzle",
+            {on, off},
+            {{"library:explosion", 0.2}, {"library:gas-fire", 2.5}, {"library:campfire", 2.5}},
+            true,
+            true};
+}
+
+Subject shimmer()
+{
+    Knobs on, off;
+    on.shimmer = true;
+    off.shimmer = false;
+    return {"shimmer", {on, off}, {{"library:campfire", 2.5}, {"library:gas-fire", 2.5}}, true};
+}
+
+/// One preset at one moment, and all its settings drawn again and again.
+class MomentMeasurement
+{
+public:
+    MomentMeasurement(const Subject& subject, const Moment& moment, const CalibrateRules& rules)
+        : subject_(subject), moment_(moment), rules_(rules)
+    {}
+
+    base::Status start()
+    {
+        auto scene = sceneOfPreset(moment_.preset);
+        if (!scene.ok())
+            return scene.status();
+        file_ = std::move(*scene);
+        file_.view.dazzle.enabled = subject_.withDazzle;
+        const base::Ticks tick = base::toTicks(moment_.seconds);
+        if (base::Status status = frameEffect(file_, tick, {}); !status)
+            return status;
+        scene_file::CameraPath& camera = file_.camera;
+        camera.position = camera.target + moment_.away * (camera.position - camera.target);
+        auto stage = QualityStage::create(file_, rules_.width, rules_.height);
+        if (!stage.ok())
+            return stage.status();
+        stage_ = std::move(*stage);
+        clock = rules_.clock.value_or(stage_->bestClock());
+        if (base::Status status = stage_->setBudget(0.0, clock); !status)
+            return status;
+        if (base::Status status = stage_->simulate(tick); !status)
+            return status;
+        return stage_->look(file_.camera);
+    }
+
+    /// Adds the time of one frame, and in the first round the error, to every point.
+    base::Status round(bool first, std::vector<double>& ioSeconds, std::vector<PictureDifference>& ioErrors)
+    {
+        for (size_t k = 0; k < subject_.settings.size(); ++k) {
+            stage_->view().quality.force(subject_.settings[k]);
+            if (base::Status status = stage_->draw(); !status)
+                return status;
+            const size_t group = stage_->view().renderer.passGroups().find(subject_.technique);
+            ioSeconds[k] += 1e-3 * stage_->times().milliseconds[group];
+            if (!first)
+                continue;
+            const std::vector<float> picture = stage_->picture();
+            if (k == 0)
+                best_ = picture;
+            const PictureDifference found = compare(picture, best_, stage_->background());
+            ioErrors[k].difference += found.light > 0.0 ? found.difference / found.light : 0.0;
+            ioErrors[k].light += 1.0;
+        }
+        return {};
+    }
+
+    std::string rendererName() const { return stage_->rendererName(); }
+    StageClock clock = StageClock::Wall;
+
+private:
+    const Subject& subject_;
+    const Moment& moment_;
+    const CalibrateRules& rules_;
+    scene_file::SceneFile file_;
+    std::unique_ptr<QualityStage> stage_;
+    std::vector<float> best_;
+};
+
+AccuracyCurve emptyCurve(const Subject& subject)
+{
+    AccuracyCurve curve;
+    curve.technique = subject.technique;
+    curve.scene = "library";
+    curve.item = "frame";
+    curve.shown = ShownError::Mean;
+    for (size_t k = 0; k < subject.settings.size(); ++k) {
+        AccuracyPoint point;
+        point.setting.name = toText(subject.settings[k]);
+        point.setting.tier = k == 0 ? "high" : "";
+        point.sample.items = double(subject.moments.size());
+        curve.points.push_back(point);
+    }
+    return curve;
+}
+
+/// All moments, and of each all settings in turn, again and again.
+base::Status measureSubject(const Subject& subject, const CalibrateRules& rules,
+                            const std::function<void()>& roundDone, AccuracyCurve& ioCurve,
+                            MeasuredCalibration& ioCalibration)
+{
+    const size_t count = subject.settings.size();
+    std::vector<PictureDifference> errors(count);
+    std::vector<std::vector<double>> seconds(rules.repetitions, std::vector<double>(count, 0.0));
+    for (const Moment& moment : subject.moments) {
+        MomentMeasurement measurement(subject, moment, rules);
+        if (base::Status status = measurement.start(); !status)
+            return status;
+        ioCalibration.clock = measurement.clock;
+        ioCalibration.renderer = measurement.rendererName();
+        std::vector<double> warmUp(count, 0.0);
+        if (base::Status status = measurement.round(true, warmUp, errors); !status)
+            return status;
+        for (std::vector<double>& round : seconds) {
+            if (rules.stop && rules.stop())
+                return interruptedStatus();
+            if (base::Status status = measurement.round(false, round, errors); !status)
+                return status;
+            roundDone();
+        }
+    }
+    for (size_t k = 0; k < count; ++k) {
+        AccuracyPoint& point = ioCurve.points[k];
+        point.sample.errorMean = errors[k].light > 0.0 ? errors[k].difference / errors[k].light : 0.0;
+        for (const std::vector<double>& round : seconds)
+            point.seconds.push_back(round[k]);
+        point.sample.seconds = *std::min_element(point.seconds.begin(), point.seconds.end());
+    }
+    return {};
+}
+
+} // namespace
+
+quality::ScalabilityLevels scalabilityLevelsOf(const AccuracyCurve& curve, const std::vector<Knobs>& knobs)
+{
+    std::vector<size_t> front;
+    for (size_t k = 1; k < curve.points.size(); ++k)
+        if (isOnFront(curve, k))
+            front.push_back(k);
+    std::stable_sort(front.begin(), front.end(),
+                     [&](size_t a, size_t b) { return timeRatio(curve, a).best > timeRatio(curve, b).best; });
+    const auto rounded = [](double x) { return std::round(x * 1e4) / 1e4; };
+    std::vector<quality::ScalabilityLevel> falling = {{1.0, 0.0, knobs[0]}};
+    for (const size_t k : front) {
+        const quality::ScalabilityLevel step{rounded(timeRatio(curve, k).best), rounded(shownError(curve, k)),
+                                             knobs[k]};
+        if (falling.size() < quality::kMostSteps && step.cost <= kLeastStep * falling.back().cost &&
+            step.error > falling.back().error)
+            falling.push_back(step);
+    }
+    return {curve.technique, {falling.rbegin(), falling.rend()}};
+}
+
+base::Result<MeasuredCalibration> measureLevels(const CalibrateRules& rules)
+{
+    MeasuredCalibration calibration;
+    const Subject subjects[] = {media(), shimmer(), dazzle()};
+    uint64_t all = 0;
+    for (const Subject& subject : subjects)
+        all += subject.moments.size() * rules.repetitions;
+    uint64_t done = 0;
+    const auto roundDone = [&] {
+        ++done;
+        if (rules.progress)
+            rules.progress(done, all);
+    };
+    for (const Subject& subject : subjects) {
+        MeasuredLevels measured{emptyCurve(subject), {}};
+        if (base::Status status = measureSubject(subject, rules, roundDone, measured.curve, calibration);
+            !status)
+            return status;
+        if (!(measured.curve.points[0].sample.seconds > 0.0))
+            return base::Status(base::Code::GlFailed, std::string("the time of '") + subject.technique +
+                                                          "' could not be measured; try --clock wall");
+        if (subject.countsOff)
+            measured.curve.points.back().seconds.assign(rules.repetitions, 0.0);
+        measured.levels = scalabilityLevelsOf(measured.curve, subject.settings);
+        calibration.techniqueLevels.push_back(std::move(measured));
+    }
+    return calibration;
+}
+
+} // namespace fx::cli

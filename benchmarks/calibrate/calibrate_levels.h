@@ -1,0 +1,46 @@
+/// @file calibrate_levels.h
+/// Measures the scalability levels on this machine: every setting of a technique on frames of several
+/// presets.
+#pragma once
+
+#include "benchmarks/accuracy/accuracy_curve.h"
+#include "benchmarks/scenes/quality_stage.h"
+#include "fxsdk/quality/scalability_levels.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace fx::cli {
+
+struct CalibrateRules
+{
+    int width = 320, height = 180; ///< [pixel]
+    uint32_t repetitions = 7;
+    std::optional<StageClock> clock; ///< nothing: the best of the machine
+    std::function<bool()> stop;
+    std::function<void(uint64_t done, uint64_t all)> progress;
+};
+
+/// The measured settings of one technique and those of them that are worth having.
+struct MeasuredLevels
+{
+    AccuracyCurve curve; ///< the first point is the best setting
+    quality::ScalabilityLevels levels;
+};
+
+struct MeasuredCalibration
+{
+    std::vector<MeasuredLevels> techniqueLevels;
+    StageClock clock;
+    std::string renderer; ///< as the driver names itself
+};
+
+base::Result<MeasuredCalibration> measureLevels(const CalibrateRules& rules);
+
+/// The front of a curve as a list of scalability levels: from the baseline downwards, each step at least a
+/// tenth cheaper than the one above it and more wrong, at most quality::kMostSteps.
+quality::ScalabilityLevels scalabilityLevelsOf(const AccuracyCurve& curve,
+                                               const std::vector<quality::Knobs>& knobs);
+
+} // namespace fx::cli

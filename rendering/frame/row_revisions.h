@@ -1,0 +1,97 @@
+/// @file row_revisions.h
+/// Numbers that tell whether rows, such as those of particles and ribbons, are those that were uploaded
+/// before, group by group, and whether several groups hold the same rows, as instances do that share a
+/// simulation.
+///
+/// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
+#pragma once
+
+#include "foundation/snapshot/frame_snapshot.h"
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// Some rows of a group. Equal numbers, 0 apart, stand for the same columns, bit for bit.
+struct RowRevision
+{
+    uint32_t first = 0, count = 0;
+    uint64_t revision = 0; ///< 0: nothing is known
+
+    bool operator==(const RowRevision&) const = default;
+};
+
+/// Of all groups of a snapshot.
+struct SnapshotRowRevisions
+{
+    std::span<const RowRevision> parts; ///< of all groups, one after the other
+    std::span<const size_t> begin;      ///< of each group, and the end; empty: one part a group
+    std::span<const uint32_t> alike;    ///< first group with the same rows, or the group; empty: all differ
+
+    std::span<const RowRevision> of(size_t group) const
+    {
+        return begin.empty() ? parts.subspan(group, 1)
+                             : parts.subspan(begin[group], begin[group + 1] - begin[group]);
+    }
+    size_t alikeOf(size_t group) const { return alike.empty() ? group : alike[group]; }
+};
+
+/// Whether the columns of two groups of one kind are the same, bit for bit; ids, constants and placements may
+/// differ.
+bool haveSameRows(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
+                  std::span<const base::ColumnDesc> columns);
+
+/// Whether two pools that were written one after the other hold the same in all rows, those of the dead among
+/// them; false also where a comparison would be expensive.
+bool haveSameRows(const base::PooledRows& a, const base::PooledRows& b,
+                  std::span<const base::ColumnDesc> columns);
+
+/// Whether the rows of two groups, which are in pools, are those of pools with the same rows.
+class SamePools
+{
+public:
+    explicit SamePools(std::pmr::memory_resource* memory) : same_(memory) {}
+    /// @param older may be null
+    void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older);
+    bool holdSame(const base::GroupRoster::Entry& newer, const base::GroupRoster::Entry& older) const
+    {
+        return newer.member == older.member && same_[newer.pool] == older.pool;
+    }
+
+private:
+    static constexpr uint32_t kNone = ~0u;
+    std::pmr::vector<uint32_t> same_; ///< by pool of the newer snapshot: of the older one
+};
+
+/// Gives revisions to the groups of some kinds of snapshots that follow each other.
+class RowRevisions
+{
+public:
+    explicit RowRevisions(std::pmr::memory_resource* memory)
+        : parts_(memory), before_(memory), alike_(memory), table_(memory), pools_(memory)
+    {}
+
+    /// @param older  null, or a snapshot of the same scene; what it shares with `newer` has the same
+    /// revisions
+    /// @param before revisions of `older`; without parts: not known
+    /// @param kinds  those that are stamped; pools are stamped in any case
+    void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older,
+               const SnapshotRowRevisions& before, std::span<const base::KindId> kinds, uint64_t& ioLast);
+    SnapshotRowRevisions revisions() const { return {parts_, {}, alike_}; }
+
+private:
+    uint64_t revisionOf(const base::FrameSnapshot& newer, size_t group, const base::FrameSnapshot* older,
+                        uint64_t& ioLast) const;
+    void findAlike(const base::FrameSnapshot& snapshot, size_t group);
+
+    std::pmr::vector<RowRevision> parts_;
+    std::pmr::vector<RowRevision> before_;
+    std::pmr::vector<uint32_t> alike_;
+    std::pmr::vector<uint32_t> table_; ///< groups by a sample of their rows; open addressing
+    SamePools pools_;
+};
+
+} // namespace fx::render

@@ -1,0 +1,79 @@
+/// @file spawn_batch.h
+/// What many small emitters do together: births of one step, and what is published of one moment. Each gets
+/// the same bits as by itself; together they share the random numbers of a vector, and what a pass over
+/// particles costs before its first row.
+#pragma once
+
+#include "simulation/emitters/pools/pooled_emitter.h"
+#include "simulation/particles/appearance_kernel.h"
+#include "simulation/particles/birth_kernel.h"
+
+#include <array>
+#include <memory_resource>
+#include <vector>
+
+namespace fx::sim {
+
+/// Threads: one at a time (the scene thread); a publication is spread over the task runner where it pays.
+class SpawnBatch
+{
+public:
+    explicit SpawnBatch(std::pmr::memory_resource* memory);
+
+    // ---- a step ----
+    static constexpr size_t kMostAtOnce = 256; ///< births that wait together; more fill vectors by themselves
+    /// `births` of `emitter`, up to kMostAtOnce and up to its rows, are made by close() at the latest, and
+    /// its step is ended then.
+    void wait(PooledEmitter& emitter, const StepContext& context, std::span<const Birth> births);
+    /// Whether its step is still to be ended.
+    bool waitsFor(const PooledEmitter& emitter) const { return !open_.empty() && open_.back() == &emitter; }
+    /// After an exception: discards pending births.
+    void forget();
+    /// Makes the births that wait.
+    void makeBirths();
+    /// Makes all pending births and ends the steps of their emitters. Must precede any read of them.
+    void close();
+
+    // ---- a publication ----
+    void beginPublication(base::FrameSnapshot& snapshot, base::TaskRunner* tasks);
+    /// The columns of the last group of the snapshot are to be filled, and its bounds. @return what from
+    AppearanceJob& add(base::SnapshotGroup& group)
+    {
+        if (partCount_ == kMostParts)
+            writeParts();
+        AppearancePart& part = parts_[partCount_++];
+        part.storage = group.editStorage();
+        part.group = snapshot_->groupCount() - 1;
+        return part.job;
+    }
+    /// @return [unit] of base::WorkBudget that it counts
+    uint64_t endPublication();
+
+private:
+    /// Whose a birth is.
+    struct Owner
+    {
+        PooledEmitter* emitter;
+        const ParticleProgram* program; ///< null: made
+        uint32_t solver;
+    };
+    void makeRoom();
+    void makeBirthsLike(const Owner& first);
+    void writeParts();
+
+    std::pmr::vector<ScatteredBirth> births_;
+    std::pmr::vector<Owner> owners_; ///< of the births
+    std::pmr::vector<ScatteredBirth> alike_;
+    std::pmr::vector<PooledEmitter*> alikeOwners_;
+    std::pmr::vector<PooledEmitter*> open_; ///< steps to be ended
+    StepCounters* counters_ = nullptr;
+
+    static constexpr size_t kMostParts = 64; ///< with what they read they stay in the caches near the core
+    std::array<AppearancePart, kMostParts> parts_;
+    size_t partCount_ = 0;
+    uint64_t rows_ = 0; ///< of the publication
+    base::FrameSnapshot* snapshot_ = nullptr;
+    base::TaskRunner* tasks_ = nullptr;
+};
+
+} // namespace fx::sim

@@ -1,0 +1,109 @@
+/// @file appearance_kernel.h
+/// From the state of particles to what is seen of them: one pass over memory, written where it is published.
+///
+/// @formula ballistic-motion
+/// Position and velocity of a particle under gravity, linear drag and wind as a function of its age.
+///
+/// symbol    unit   meaning
+///   x0, v0         position and velocity when its motion began
+///   t        s     time since then
+///   a        m/s2  gravity
+///   k        1/s   drag rate
+///   u        m/s   velocity of the air
+///   E, G, R        as in linear-drag-step, for a step of t
+/// @derivation
+///   One step of linear-drag-step over the whole time, with t - G = k R:
+///       x(t) = x0 + G v0 + R (a + k u)                                                     (1)
+///       v(t) = E v0 + G (a + k u)                                                          (2)
+///   Nothing is integrated: any time is reached at once, whatever the steps were. When gravity or wind
+///   change, x0 and v0 become the state at that moment, and t counts from there.
+/// @source    elementary (linear ordinary differential equation)
+/// @deviation none
+/// @valid     as linear-drag-step
+/// @accuracy  drag-coefficients and float rounding of the sums
+/// @tests     tests/simulation/particles/core/test_ballistic_motion.cpp
+#pragma once
+
+#include "foundation/math/geometry.h"
+#include "foundation/snapshot/frame_snapshot.h"
+#include "simulation/particles/particle_store.h"
+
+#include <limits>
+#include <span>
+
+namespace fx::sim {
+
+constexpr float kLongestStep = 1.0f; ///< [s] between two snapshots
+constexpr float kFarAway = std::numeric_limits<float>::infinity();
+
+/// What all particles of an emitter have in common when they are looked at.
+struct AppearanceJob
+{
+    const ParticleProgram* program;
+    const ParticleStore* store;
+    RowWindow rows;
+    base::Ticks now;
+    base::Ticks motionBegin;          ///< motion of what is older begins there
+    glm::vec3 pull;                   ///< [m/s2] a + k u; only where motion is ballistic
+    float secondsBack = kLongestStep; ///< [s] since the snapshot before, for bounds
+};
+
+/// Columns of a group of the kind "particle"; null where it has none.
+struct AppearanceColumns
+{
+    float* x;
+    float* y;
+    float* z;
+    float* age;
+    float* radius;
+    uint64_t* color;
+    float* velocity[3];
+    float* angle;
+    float* frame;
+    float* orientation[4];
+    uint64_t* index;
+    bool stream; ///< write past the caches
+};
+
+/// Box around the centers, and the largest half height of what is drawn there.
+struct AppearanceBounds
+{
+    glm::vec3 low{kFarAway};
+    glm::vec3 high{-kFarAway};
+    float radius = 0;
+
+    void add(const AppearanceBounds& other);
+    base::Bounds box() const;
+};
+
+/// Writes the rows [begin, end); begin is a multiple of kTilePadding, end too or the window's count. Empty
+/// rows are zero throughout.
+AppearanceBounds writeAppearance(const AppearanceJob& job, const AppearanceColumns& out, uint32_t begin,
+                                 uint32_t end);
+
+/// One of many groups that are written together.
+struct AppearancePart
+{
+    AppearanceJob job;
+    float* storage; ///< see base::SnapshotGroup::editStorage(); columns are those that the program publishes
+    size_t group;   ///< of the snapshot
+    AppearanceBounds bounds; ///< out
+};
+
+/// The same as writeAppearance() for all rows of each part, bit for bit; much cheaper where parts are small.
+/// Parts of one program that follow each other share the most.
+void writeManyAppearances(std::span<AppearancePart> parts);
+
+/// Where particles are and how they move, for rows that are read one by one.
+struct alignas(64) MotionTile
+{
+    float position[3][kTileRows];
+    float velocity[3][kTileRows];
+    float age[kTileRows];  ///< [s]
+    float life[kTileRows]; ///< [1] age / lifetime; >= 1 or NaN: empty row
+};
+
+/// Fills the first `count` rows from those that begin at `row`, a multiple of kTilePadding.
+void readMotion(const AppearanceJob& job, uint32_t row, uint32_t count, MotionTile& out);
+
+} // namespace fx::sim

@@ -1,0 +1,69 @@
+/// @file emitter_appearance.h
+/// How the particles of an emitter are drawn when they are not a medium.
+#pragma once
+
+#include "foundation/math/curve.h"
+#include "foundation/snapshot/particle_kind.h"
+
+#include <glm/vec3.hpp>
+
+namespace fx::sim {
+
+enum class AppearanceKind : uint8_t
+{
+    Medium, ///< balls of participating medium: the kind "blob"
+    Sprite, ///< the kind "particle"
+    Mesh,   ///< the kind "particle" with instanced meshes
+    None,   ///< nothing is published: particles that only give birth to others
+};
+
+/// What tells which frame of the texture is shown.
+enum class FrameClock : uint8_t
+{
+    None,      ///< the first, or the one that `firstFrame` draws
+    OverLife,  ///< all frames once from birth to death
+    PerSecond, ///< `framesPerSecond`, from the first again after the last
+};
+
+struct EmitterAppearance
+{
+    AppearanceKind kind = AppearanceKind::Medium;
+
+    // Constants of the group, see base::particle_constant.
+    base::ParticleBlend blend = base::ParticleBlend::Alpha;
+    base::ParticleOrder order = base::ParticleOrder::Depth;
+    float orderBias = 0.0f; ///< [m]
+    base::SpriteAlignment alignment = base::SpriteAlignment::Camera;
+    glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< [1] unit vector
+    float aspect = 1.0f;              ///< [1] > 0
+    float stretch = 0.0f;             ///< [s]
+    float luminance = 0.0f;           ///< [cd/m2]
+    float lit = 1.0f;                 ///< [1] 0..1
+    float softness = 0.0f;            ///< [m]
+    uint32_t texture = 0;             ///< id in the AssetTable, 0 none
+    uint32_t tileColumns = 1;
+    uint32_t tileRows = 1;
+    bool frameBlend = false;
+    uint32_t motion = 0;      ///< id in the AssetTable, 0 none
+    float motionScale = 0.0f; ///< [1]
+    uint32_t mesh = 0;        ///< id in the AssetTable, 0 none
+    float meshReach = 1.0f;   ///< [1] distance of its farthest vertex, of the radius
+
+    base::ColorCurve colorOverLife{std::array{1.0f, 1.0f, 1.0f}}; ///< linear Rec. 709
+    base::Range opacity{1.0f, 1.0f};    ///< [1] 0..1, multiplied by the emitter's opacityOverLife
+    base::Range brightness{1.0f, 1.0f}; ///< [1] multiplies the color
+
+    base::Range angle{0.0f, 0.0f}; ///< [rad] at birth
+    base::Range spin{0.0f, 0.0f};  ///< [rad/s]
+    FrameClock frames = FrameClock::None;
+    float framesPerSecond = 0.0f;
+    base::Range firstFrame{0.0f, 0.0f}; ///< [1] frame at birth, a fraction of a frame is kept
+
+    // Over speed, t = speed / fastest in [0, 1]; multiply what life gives. fastest 0: not used.
+    float fastest = 0.0f; ///< [m/s]
+    base::ColorCurve colorOverSpeed{std::array{1.0f, 1.0f, 1.0f}};
+    base::ScalarCurve sizeOverSpeed{std::array{1.0f}};
+    base::ScalarCurve opacityOverSpeed{std::array{1.0f}};
+};
+
+} // namespace fx::sim

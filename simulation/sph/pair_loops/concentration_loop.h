@@ -1,0 +1,54 @@
+/// @file concentration_loop.h
+/// How unevenly neighbors stand around a particle.
+///
+/// @formula particle-concentration
+/// The gradient of a concentration of particles that is steepest where they meet, and the way out of the gas.
+///
+/// symbol    unit   meaning
+///   m        kg     mass of a particle
+///   H        m      its support
+///   d, r     m      position of i relative to j, its length
+///   k        1      range over support
+///   R        m      range of the concentration, k times the larger support of a pair
+///   G        m      gradient
+///   E        m      direction out of the gas
+/// @derivation
+///   A concentration that falls as (1 - r/R)^3 around each particle has the gradient -3/R (1 - r/R)^2 d/r, so
+///       G = sum over r < R of R 2 m_j / (m_i + m_j) (1 - r/R)^2 d/r                                (1)
+///   points to where there is room. m_i times a summand is symmetric in the pair but for d, which is
+///   antisymmetric: displacements by a multiple of G leave the center of mass where it is.
+///       E = sum over r < H of (1 - r^2/H^2) d                                                      (2)
+///   is zero inside of even gas and points out of a free surface.
+/// @source    [LIN12] for displacement down a gradient of concentration; (1) and (2) are ours
+/// @deviation the published concentration is that of the flow's kernel, flat where particles meet
+/// @valid     H > 0, everything finite. Coincident pairs have no direction and add nothing
+/// @accuracy  float rounding; every instruction set gives the same bits
+/// @tests     tests/simulation/pair_loops/test_concentration_loop.cpp
+#pragma once
+
+#include "simulation/sph/pair_loops/pair_slots.h"
+
+namespace fx::sim {
+
+/// Where results go: arrays indexed by slot. [m]
+template <class T>
+struct ConcentrationResults
+{
+    T *x, *y, *z;                      ///< G
+    T *outwardX, *outwardY, *outwardZ; ///< E
+};
+
+template <class T>
+struct ConcentrationCall
+{
+    double range; ///< [1] k in (0, 1]
+    PairSlots<T> of;
+    const ConcentrationResults<T>& results;
+};
+
+/// G and E of all slots. Reads x, y, z, support and mass of the records; lists must hold all neighbors
+/// within the larger support. Runs on the calling thread (the caller splits the work).
+template <class T>
+void sumConcentration(const ConcentrationCall<T>& call);
+
+} // namespace fx::sim

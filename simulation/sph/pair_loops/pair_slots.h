@@ -1,0 +1,43 @@
+/// @file pair_slots.h
+/// What a loop over pairs reads: the particles that it makes sums for, their neighbors, and a record of each.
+#pragma once
+
+#include "simulation/sph/neighbors/neighbor_lists.h"
+
+#include <span>
+
+namespace fx::sim {
+
+/// All that the loops need of a gas particle, in one cache line (float) or two (double).
+///
+/// Sixteen numbers in four groups of four: loops over neighbors load groups and transpose them, which is
+/// faster than gathering numbers one by one. The density needs the first two groups, the forces all.
+template <class T>
+struct alignas(16 * sizeof(T)) GasRecord
+{
+    T x, y, z;    ///< [m]
+    T support;    ///< [m] H, radius of the kernel's support, > 0
+    T vx, vy, vz; ///< [m/s] predicted to the time of the loop
+    T mass;       ///< [kg] > 0
+    T push;       ///< [m5/(kg s2)] f (P - P_ambient) / rho^2, f the correction for varying support
+    T density;    ///< [kg/m3] > 0
+    T sound;      ///< [m/s]
+    T viscosity;  ///< [1] alpha of the switch
+    T limiter;    ///< [1] Balsara's factor, 0..1
+    T energy;     ///< [J/kg] specific thermal energy, for conduction
+    T pressure;   ///< [Pa], for the signal speed of conduction
+    T stepLevel;  ///< [1] binary logarithm of the particle's time step in ticks, a small integer
+};
+
+static_assert(sizeof(GasRecord<float>) == 64 && sizeof(GasRecord<double>) == 128);
+
+template <class T>
+struct PairSlots
+{
+    const NeighborLists<T>& lists;
+    const GasRecord<T>* records; ///< by slot
+    const Domain& domain;
+    std::span<const uint32_t> slots; ///< a part of the lists' owners
+};
+
+} // namespace fx::sim
