@@ -78,6 +78,18 @@ TEST(BlobListReader, messagesNameFileLineAndColumn)
     EXPECT_TRUE(startsWith(messageOf("1,2,3,1,1,0,1,1,\n"), "a.blobs.csv:2:17: found '' for eb"));
 }
 
+TEST(BlobListReader, aTenthColumnIsTheMeanCosine)
+{
+    const std::string header = "x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb,g\n";
+    const auto blobs = readBlobList(header + "1,2,3,1,1,0,1,1,1,-0.4\n", "a.blobs.csv");
+    ASSERT_TRUE(blobs.ok());
+    EXPECT_EQ(blobs->front().anisotropy, -0.4);
+    EXPECT_TRUE(startsWith(messageOf(header + "1,2,3,1,1,0,1,1,1\n", false),
+                           "a.blobs.csv:2:18: expected 10 numbers, found 9"));
+    EXPECT_TRUE(
+        startsWith(messageOf(header + "1,2,3,1,1,0,1,1,1,1\n", false), "a.blobs.csv:2:19: found '1' for g"));
+}
+
 TEST(BlobListReader, numbersOutsideTheirRangeAreRefused)
 {
     for (const char* row :

@@ -150,6 +150,32 @@ class FxReference(FxTest):
         self.assertGreater(light["single"], 0.0)
         self.assertLess(max(light["centers"], light["single"]), 2.0 * min(light["centers"], light["single"]))
 
+    def test_paths_write_light_variance_and_samples(self):
+        path = self.write("a.blobs.csv", HEADER.strip() + ",g\n0,0,0,1,6,0.9,0,0,0,0.5\n")
+        lights = self.folder / "lights.scene.json"
+        lights.write_text(json.dumps({"version": 1, "name": "lights", "camera": {"position": [0, 0, 4], "target": [0, 0, 0]},
+                                      "lighting": {"sunDirection": [0, 1, 0], "sunIlluminance": [30000, 30000, 30000]},
+                                      "exposureEv100": 12, "instances": []}))
+        outcome = fx("render", path, "-o", self.folder / "a.exr", "--renderer", "path", "--view", "0,0,4,0,0,0,40", "--size", "24x16",
+                     "--spp", 32, "--lights", lights, "--json")
+        self.assertEqual(outcome.code, 0, outcome.err)
+        line = json.loads(outcome.out)
+        self.assertEqual((line["renderer"], line["paths"], line["nonfinite"]), ("path", 24 * 16 * 32, 0))
+        self.assertGreater(line["efficiency"], 0.0)
+        planes = read_planes(self.folder / "a.exr")[2]
+        self.assertEqual(set(planes), {"R", "G", "B", "A", "variance.R", "variance.G", "variance.B", "samples.Y"})
+        middle = 24 * 8 + 12
+        self.assertGreater(planes["G"][middle], 0.0)
+        self.assertGreater(planes["variance.G"][middle], 0.0)
+        self.assertEqual(set(planes["samples.Y"]), {32.0})
+
+    def test_options_of_paths_need_the_path_tracer(self):
+        path = self.write("a.blobs.csv", blobs(3))
+        for option in (("--spp", "4"), ("--error", "0.1"), ("--bounces", "1")):
+            outcome = fx("render", path, "-o", self.folder / "a.exr", *VIEW, *option)
+            self.assertEqual(outcome.code, 2, outcome.err)
+            self.assertIn("--renderer path", outcome.err)
+
     def start(self, output, *arguments, size="320x240", before_start=None):
         return subprocess.Popen([FX, "render", str(self.folder / "a.blobs.csv"), "-o", str(self.folder / output), *VIEW,
                                  "--size", size, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
