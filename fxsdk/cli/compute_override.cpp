@@ -3,6 +3,7 @@
 #include "fxsdk/assets/read_file.h"
 #include "fxsdk/cli/api_status.h"
 #include "fxsdk/presets/preset_loader.h"
+#include "simulation/emitters/emitter_def.h"
 #include "simulation/gpu_programs/gpu_program.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 /// @file explain_command.cpp
 /// fx explain: what a moment of a scene costs, and which effect called for it.
 
+#include "foundation/tasks/work_budget.h"
 #include "fxsdk/cli/api_status.h"
 #include "fxsdk/cli/commands.h"
 #include "fxsdk/cli/default_stage.h"
@@ -8,6 +9,7 @@
 #include "fxsdk/cli/frame_renderer.h"
 #include "fxsdk/cli/json_line.h"
 #include "fxsdk/techniques.h"
+#include "simulation/emitters/emitter_def.h"
 #include "simulation/gpu_programs/gpu_program.h"
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,7 @@
 /// @file validate_command.cpp
 /// fx validate: presets and scenes against their schema.
 
+#include "foundation/tasks/work_budget.h"
 #include "fxsdk/cli/commands.h"
 #include "fxsdk/cli/exit_code.h"
 #include "fxsdk/cli/interrupt.h"

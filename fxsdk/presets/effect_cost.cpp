@@ -1,5 +1,6 @@
 #include "fxsdk/presets/effect_cost.h"
 
+#include "foundation/tasks/work_budget.h"
 #include "fxsdk/presets/birth_count.h"
 #include "simulation/emitters/events/event_board.h"
 #include "simulation/particles/particle_program.h"
