@@ -57,7 +57,7 @@ void BlobSource::read(FrameGraph::Builder& builder) const
 
 void BlobSource::draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const
 {
-    drawQuads(backend, mediaProgram(form, detail, target.layers, target.isSmall), blobs, run, target);
+    drawQuads(backend, mediaProgram(form, detail, target.layers, target.isSmall), blobs, batch, target);
 }
 
 } // namespace fx::render

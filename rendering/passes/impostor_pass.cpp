@@ -69,7 +69,7 @@ void ImpostorSource::read(FrameGraph::Builder& builder) const
 
 void ImpostorSource::draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const
 {
-    drawQuads(backend, kImpostorProgram, instances, run, target, {1, atlas, Sampling::Linear});
+    drawQuads(backend, kImpostorProgram, instances, batch, target, {1, atlas, Sampling::Linear});
 }
 
 } // namespace fx::render

@@ -6,7 +6,7 @@ void drawQuads(Backend& backend, const ProgramDesc& program, ResourceId instance
                const MediaTarget& target, const TextureBinding& picture)
 {
     ViewBlock view = *target.view;
-    view.pass.y = float(run.first); // exact up to 2^24
+    view.pass.y = float(batch.first); // exact up to 2^24
     const TextureBinding textures[] = {{0, target.distance}, picture};
     const BufferBinding buffers[] = {{0, instances}};
     DrawCall call;
@@ -17,7 +17,7 @@ void drawQuads(Backend& backend, const ProgramDesc& program, ResourceId instance
     call.uniforms = asUniforms(view);
     call.blend = Blend::Premultiplied;
     call.vertices = 6;
-    call.instances = run.count;
+    call.instances = batch.count;
     backend.draw(call);
 }
 
