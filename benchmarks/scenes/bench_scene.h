@@ -38,7 +38,7 @@ public:
     /// Where the camera of draw() is, as far as it is not turned; what is simulated does not change by it.
     void moveTo(double x, double y, double z);
     base::Status setView(const FxViewSettings& settings);
-    /// Levels of detail stay as the last frame has left them, until this is false or setView() is called.
+    /// @param isHeld true: the next frames use the levels of detail of the last one; setView() ends this too
     void holdDetail(bool isHeld);
     base::Status update();
     base::Status draw();          ///< nothing without GL

@@ -9,8 +9,9 @@
 
 namespace fx::base {
 
-/// Number of insertions, deletions, replacements and swaps of neighbors that turn `a` into `b`, letter case
-/// ignored (restricted Damerau-Levenshtein distance). Of longer names only the first 64 bytes count.
+/// The least number of letters to insert, delete, replace, or exchange with the next one, that turns `a` into
+/// `b`. Letter case is ignored (restricted Damerau-Levenshtein distance). Of longer names only the first 64
+/// bytes count.
 size_t editDistance(std::string_view a, std::string_view b);
 
 /// The closest of `known`, or nothing when all differ by more than a third of their letters.

@@ -11,8 +11,8 @@
 
 namespace fx::preset {
 
-/// Iterator over text that leaves the position of the furthest copy behind, so that an event has the end of
-/// the consumed text.
+/// Iterator over the text of a JSON document. All copies of an iterator share the position of the one that is
+/// furthest, from which a handler of SAX events takes the end of the text that the parser has read.
 class TrackedIterator
 {
 public:

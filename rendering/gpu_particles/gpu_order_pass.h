@@ -11,7 +11,8 @@
 
 namespace fx::render {
 
-/// By what the rows of a computed batch are ordered; numbers as in rowDistances().
+/// The draw order of particles of one batch that the GPU has computed: by age, or by the distances of
+/// rowDistances().
 struct GpuOrderJob
 {
     uint32_t batch;

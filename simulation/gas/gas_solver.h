@@ -57,7 +57,7 @@ public:
     BudgetedSolver* budgeted() override { return this; }
 
 private:
-    /// A step that goes on in further calls.
+    /// State of a step that is computed over several calls of proceed().
     struct Open
     {
         base::Ticks tick = -1; ///< at which it began; -1 while there is none

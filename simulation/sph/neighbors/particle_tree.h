@@ -71,7 +71,7 @@ public:
     void refit(const PointColumns<T>& sorted, base::TaskRunner& tasks);
     /// [1] growth, since the first refit after the last sort, of the volume that a search from a leaf covers,
     /// in units of its reach cubed, mean over leaves: 1 means that searches test about twice as many
-    /// particles. Even expansion leaves it at 0.
+    /// particles. A uniform expansion of all particles leaves it at 0.
     double loosened() const { return loosened_; }
 
     TreeView<T> view() const;
