@@ -51,7 +51,7 @@ struct ResourceId
     bool valid() const { return index != ~0u; }
 };
 
-/// One program: names of embedded sources (shaders/passes) and the permutation's macro definitions. Instances
+/// One program: names of embedded sources (shaders/) and the permutation's macro definitions. Instances
 /// are constants with static storage. Those of the frame's own passes are listed in
 /// rendering/passes/programs.cpp, those of a technique by its DrawTechnique::programs, so that all
 /// permutations are known beforehand.
