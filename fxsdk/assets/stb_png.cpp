@@ -46,6 +46,7 @@ base::Result<std::vector<uint8_t>> unpackPng(std::span<const uint8_t> file, bool
                                              int height, size_t mostBytes)
 {
     mostBlockBytes = mostBytes;
+    stbi__g_failure_reason = nullptr; // some failures set none, and that of another file would be named
     const auto size = int(file.size());
     int w = 0, h = 0, channels = 0;
     const std::unique_ptr<void, FreePicture> picture(
@@ -53,6 +54,8 @@ base::Result<std::vector<uint8_t>> unpackPng(std::span<const uint8_t> file, bool
                : static_cast<void*>(stbi_load_from_memory(file.data(), size, &w, &h, &channels, kChannels)));
     if (!picture || w != width || h != height) {
         const char* why = picture ? "its size has changed" : stbi_failure_reason();
+        if (!why)
+            why = "its data are damaged";
         return base::Status(base::Code::Parse, std::string("PNG: it cannot be unpacked: ") + why);
     }
     const size_t count = size_t(width) * size_t(height) * kChannels;

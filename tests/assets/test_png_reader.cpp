@@ -302,6 +302,19 @@ TEST(PngReader, dataThatUnpackToFarMoreThanThePictureNeedAreRefused)
     EXPECT_EQ(asset::readPng(bomb).status().code(), base::Code::Parse);
 }
 
+TEST(PngReader, damagedDataAreRefusedWhereTheUnpackerGivesNoReason)
+{
+    Bytes file{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
+    addChunk(file, "IHDR", {0, 0, 0, 2, 0, 0, 0, 1, 8, 6, 0, 0, 0});
+    addChunk(file, "IDAT",
+             {0x78, 0xDA, 0x2A, 0xF8, 0xCF, 0xC0, 0x00, 0x42, 0x0D, 0x00, 0x0F, 0x7A, 0x03, 0x7E});
+    addChunk(file, "IEND", {});
+    const auto image = asset::readPng(file);
+    ASSERT_FALSE(image.ok());
+    EXPECT_NE(image.status().message().find("its data are damaged"), std::string::npos)
+        << image.status().message();
+}
+
 TEST(PngReader, noiseInsteadOfPackedDataIsRefusedWithoutHarm)
 {
     for (uint64_t seed = 0; seed < 3000; ++seed) {
