@@ -1,4 +1,4 @@
-# Headers of the standard library and GLM that most sources include are read once, which halves the time of a build.
+# Headers of the standard library and GLM that most sources include are compiled once.
 # Sources name what they use all the same: builds with Clang or with sanitizers read every header by itself.
 option(FXSDK_PRECOMPILE_HEADERS "Read headers that most sources include once (GCC without sanitizers)" ON)
 set(FX_COMMON_HEADERS <algorithm> <array> <atomic> <cmath> <cstdint> <cstring> <functional> <limits> <map> <memory> <memory_resource>

@@ -15,7 +15,8 @@ namespace {
 
 constexpr uint32_t kMostDigitBits = 13; ///< as many places to write to as the caches near the core follow
 constexpr size_t kMostPasses = 3;
-constexpr size_t kProbe = 2048;       ///< elements after which a scrambled order is sorted anew
+constexpr size_t kProbe =
+    2048; ///< first elements; with a quarter of them out of order, all are sorted without the old order
 constexpr size_t kScanPause = 16;     ///< elements after a sorted vector before the next is looked for
 constexpr size_t kAhead = 32;         ///< elements whose keys are fetched before they are looked at
 constexpr size_t kMostMovedShare = 6; ///< incremental sorting pays while less than one in so many has moved

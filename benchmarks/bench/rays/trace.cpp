@@ -1,7 +1,7 @@
 // fx bench trace: times finding all balls that every ray of a picture meets, with where it enters them, among
-// `balls` balls that fill a unit ball `fill` times over: the tree is built anew each time, with caches that
-// hold something else. One thread, CPU time, minimum of `repeat` runs. Prints one JSON object with a hash of
-// the hits.
+// `balls` balls, the sum of whose volumes is `fill` times that of a unit ball around them. The tree is built
+// again for each run, after the caches have been filled with other data. One thread, CPU time, minimum of
+// `repeat` runs. Prints one JSON object with a hash of the hits.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
 #include "foundation/math/hash.h"

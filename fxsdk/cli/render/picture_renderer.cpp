@@ -99,7 +99,11 @@ public:
     }
     uint64_t key() const override { return renderer_.key(); }
     uint32_t tileCount() const override { return renderer_.tileCount(); }
-    void restore(uint32_t tile, std::span<const float> values) override { renderer_.restore(tile, values); }
+    void restore(uint32_t tile, std::span<const float> values) override
+    {
+        renderer_.restore(tile, values);
+        isResumed_ = true;
+    }
     base::Status render(render::TileJournal* journal, const render::RenderCallbacks& callbacks) override
     {
         return renderer_.render(journal, callbacks);
@@ -124,14 +128,15 @@ public:
         io["paths"] = work.paths;
         io["collisions"] = work.collisions;
         io["standard_error"] = error;
-        io["efficiency"] = error > 0.0 && seconds > 0.0 ? nlohmann::json(1.0 / (error * error * seconds))
-                                                        : nlohmann::json(nullptr);
+        io["efficiency"] = error > 0.0 && !isResumed_ ? nlohmann::json(1.0 / (error * error * seconds))
+                                                      : nlohmann::json(nullptr);
     }
     uint64_t nonFinite() const override { return renderer_.work().nonFinite; }
 
 private:
     render::PathPictureSettings settings_;
     render::PathRenderer renderer_;
+    bool isResumed_ = false; ///< the time of the earlier run is not known
 };
 
 } // namespace

@@ -13,7 +13,6 @@ namespace fx::render {
 namespace {
 
 constexpr double kInvPi = std::numbers::inv_pi;
-constexpr double kLift = 1e-6; ///< of the distance, by which rays begin above their surface
 
 double largest(const glm::dvec3& v)
 {
@@ -23,13 +22,6 @@ double largest(const glm::dvec3& v)
 double sum(const glm::dvec3& v)
 {
     return v.x + v.y + v.z;
-}
-
-glm::dvec3 blend(std::span<const glm::vec3> column, const SurfaceHit& hit)
-{
-    const size_t first = size_t(hit.triangle) * 3;
-    return (1.0 - hit.u - hit.v) * glm::dvec3(column[first]) + hit.u * glm::dvec3(column[first + 1]) +
-           hit.v * glm::dvec3(column[first + 2]);
 }
 
 /// Way to the next tentative collision [m].
@@ -133,6 +125,15 @@ SurfaceHit PathIntegrator::surface(const TraceRay& ray, double begin)
     return scene_.triangles->trace(ray, begin, hits_);
 }
 
+glm::dvec3 PathIntegrator::arriving(const LightSample& sample, const glm::dvec3& position,
+                                    PathSampler& sampler)
+{
+    const TraceRay shadow{position, sample.direction};
+    if (surface(shadow, 0.0).distance < sample.distance)
+        return glm::dvec3(0.0);
+    return sample.illuminance * transmittance(shadow, 0.0, sample.distance, sampler);
+}
+
 glm::dvec3 PathIntegrator::lightAt(const glm::dvec3& position, const glm::dvec3& direction,
                                    const PhaseFunction& phase, PathSampler& sampler)
 {
@@ -140,12 +141,8 @@ glm::dvec3 PathIntegrator::lightAt(const glm::dvec3& position, const glm::dvec3&
     for (const PathLight* source : scene_.lights) {
         const LightSample sample = source->sample(position, sampler.pair());
         const double share = phase.at(glm::dot(direction, sample.direction));
-        if (!(largest(sample.illuminance) * share > 0.0))
-            continue;
-        const TraceRay shadow{position, sample.direction};
-        if (surface(shadow, 0.0).distance < sample.distance)
-            continue;
-        light += share * sample.illuminance * transmittance(shadow, 0.0, sample.distance, sampler);
+        if (largest(sample.illuminance) * share > 0.0)
+            light += share * arriving(sample, position, sampler);
     }
     return light;
 }
@@ -153,18 +150,17 @@ glm::dvec3 PathIntegrator::lightAt(const glm::dvec3& position, const glm::dvec3&
 void PathIntegrator::reflect(const SurfaceHit& hit, TraceRay& ray, PathSampler& sampler, glm::dvec3& io,
                              glm::dvec3& outLuminance)
 {
-    glm::dvec3 normal = glm::normalize(blend(scene_.mesh.normals, hit));
+    glm::dvec3 normal = glm::normalize(interpolate(scene_.mesh.normals, hit));
     if (glm::dot(normal, ray.direction) > 0.0)
         normal = -normal;
-    const glm::dvec3 position = ray.origin + ray.direction * hit.distance + normal * (kLift * hit.distance);
-    io *= blend(scene_.mesh.colors, hit);
+    const glm::dvec3 position =
+        ray.origin + ray.direction * hit.distance + normal * (kSurfaceLift * hit.distance);
+    io *= interpolate(scene_.mesh.colors, hit);
     for (const PathLight* source : scene_.lights) {
         const LightSample sample = source->sample(position, sampler.pair());
         const double cosine = glm::dot(normal, sample.direction);
-        const TraceRay shadow{position, sample.direction};
-        if (cosine > 0.0 && !(surface(shadow, 0.0).distance < sample.distance))
-            outLuminance += io * (cosine * kInvPi) * sample.illuminance *
-                            transmittance(shadow, 0.0, sample.distance, sampler);
+        if (largest(sample.illuminance) * cosine > 0.0)
+            outLuminance += io * (cosine * kInvPi) * arriving(sample, position, sampler);
     }
     const auto [u, turn] = sampler.pair();
     ray = {position, PhaseFunction::around(normal, std::sqrt(1.0 - u), turn)}; // density cosine / pi

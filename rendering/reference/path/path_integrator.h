@@ -110,6 +110,8 @@ public:
 
 private:
     SurfaceHit surface(const TraceRay& ray, double begin);
+    /// [lx] of a light, behind what stands between.
+    glm::dvec3 arriving(const LightSample& sample, const glm::dvec3& position, PathSampler& sampler);
     glm::dvec3 lightAt(const glm::dvec3& position, const glm::dvec3& direction, const PhaseFunction& phase,
                        PathSampler& sampler);
     /// Continues `ray` above the surface that it met.

@@ -23,11 +23,9 @@ constexpr uint32_t kPilotBegin = 1u << 31;
 class LightingSky final : public PathSky
 {
 public:
-    explicit LightingSky(const Lighting& lighting) : above_(lighting.skyLuminance)
-    {
-        const double sun = std::max(double(lighting.sunDirection.y), 0.0) * std::numbers::inv_pi;
-        below_ = double(lighting.groundAlbedo) * (glm::dvec3(lighting.sunIlluminance) * sun + above_);
-    }
+    explicit LightingSky(const Lighting& lighting)
+        : above_(lighting.skyLuminance), below_(groundLuminance(lighting))
+    {}
     glm::dvec3 luminance(const glm::dvec3& direction) const override
     {
         return direction.y >= 0.0 ? above_ : below_;

@@ -24,8 +24,8 @@ struct PathPictureSettings
     uint32_t samples = 64; ///< paths of a pixel, 1..2^24; with `error` the most that it may take
     /// [1] standard error that pixels are to have, root mean square over a tile, in the unit of written
     /// values; 0: all pixels take `samples`. A tile first takes kPilotSamples, from whose variance follows
-    /// how many; those then are drawn anew, since a mean over a number of samples that depends on them would
-    /// be biased.
+    /// how many the pixels need. The picture is made of other paths: a mean over a number of samples that
+    /// depends on the samples is biased.
     double error = 0.0;
     double exposure = 1.0;      ///< [m2/cd] written value per luminance
     double sunRadius = 0.00465; ///< [rad] angular radius of the sun, 0..pi/2

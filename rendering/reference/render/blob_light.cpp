@@ -50,8 +50,7 @@ public:
         const Lighting& light = opaque.scene().lighting;
         sun_ = glm::dvec3(light.sunDirection);
         sky_ = glm::dvec3(light.skyLuminance);
-        ground_ = double(light.groundAlbedo) *
-                  (glm::dvec3(light.sunIlluminance) * (std::max(sun_.y, 0.0) * std::numbers::inv_pi) + sky_);
+        ground_ = groundLuminance(light);
     }
 
     /// [cd/m2] mean over all directions

@@ -12,16 +12,15 @@ namespace fx::render {
 namespace {
 
 constexpr double kInvPi = std::numbers::inv_pi;
-constexpr double kLift = 1e-6; ///< of the distance, by which shadow rays begin above their surface
-
-glm::dvec3 blend(std::span<const glm::vec3> column, const SurfaceHit& hit)
-{
-    const size_t first = size_t(hit.triangle) * 3;
-    return (1.0 - hit.u - hit.v) * glm::dvec3(column[first]) + hit.u * glm::dvec3(column[first + 1]) +
-           hit.v * glm::dvec3(column[first + 2]);
-}
 
 } // namespace
+
+glm::dvec3 groundLuminance(const Lighting& lighting)
+{
+    const double sun = std::max(double(lighting.sunDirection.y), 0.0) * kInvPi;
+    return double(lighting.groundAlbedo) *
+           (glm::dvec3(lighting.sunIlluminance) * sun + glm::dvec3(lighting.skyLuminance));
+}
 
 void OpaqueView::build(const OpaqueScene& scene, const glm::dvec3& eye, base::TaskRunner& tasks)
 {
@@ -78,16 +77,16 @@ glm::dvec3 OpaqueView::surfaceAt(const TraceRay& ray, const SurfaceHit& hit, Ray
     const glm::dvec3 sun(light.sunDirection);
     const glm::dvec3 sunLight(light.sunIlluminance);
     const glm::dvec3 sky(light.skyLuminance);
-    const glm::dvec3 n = glm::normalize(blend(scene_.mesh.normals, hit));
+    const glm::dvec3 n = glm::normalize(interpolate(scene_.mesh.normals, hit));
     const glm::dvec3 point = ray.origin + ray.direction * hit.distance;
     glm::dvec3 illuminance(0.0);
     const double cosine = glm::dot(n, sun);
     if (cosine > 0.0 && sunLight != glm::dvec3(0.0)) {
-        const TraceRay shadow{point + n * (kLift * hit.distance), sun};
+        const TraceRay shadow{point + n * (kSurfaceLift * hit.distance), sun};
         if (!triangles_.trace(shadow, 0.0, scratch).isHit())
             illuminance += sunLight * cosine;
     }
-    const glm::dvec3 ground = double(light.groundAlbedo) * (sunLight * (std::max(sun.y, 0.0) * kInvPi) + sky);
+    const glm::dvec3 ground = groundLuminance(light);
     illuminance += std::numbers::pi * glm::mix(ground, sky, 0.5 + 0.5 * n.y);
     for (const EffectLight& fire : scene_.lights) {
         const glm::dvec3 toLight = fire.position - eye_ - point;
@@ -96,7 +95,7 @@ glm::dvec3 OpaqueView::surfaceAt(const TraceRay& ray, const SurfaceHit& hit, Ray
         illuminance +=
             glm::dvec3(fire.intensity) * (std::max(facing * 0.8 + 0.2, 0.0) / d2); // a wide light wraps
     }
-    return blend(scene_.mesh.colors, hit) * kInvPi * illuminance;
+    return interpolate(scene_.mesh.colors, hit) * kInvPi * illuminance;
 }
 
 } // namespace fx::render

@@ -33,6 +33,9 @@ struct OpaqueScene
     bool isEmpty = false; ///< nothing at all stands behind the medium: the picture is transparent there
 };
 
+/// [cd/m2] light that the ground below the scene sends upwards.
+glm::dvec3 groundLuminance(const Lighting& lighting);
+
 /// One pixel of it.
 struct OpaqueSample
 {

@@ -29,7 +29,7 @@ public:
     /// @return false when it was stopped: `out` is not used
     using RenderTile = std::function<bool(const PixelBlock& block, std::span<float> out)>;
 
-    /// Begins anew. @param edge [pixel] of a tile: what a killed process has to do again
+    /// Starts a picture without any tile. @param edge [pixel] of a tile, the part that a killed process loses
     void start(int width, int height, int edge, uint32_t channels);
     uint32_t tileCount() const { return tilesX_ * tilesY_; }
 

@@ -34,6 +34,17 @@ struct SurfaceHit
     bool isHit() const { return distance < std::numeric_limits<double>::infinity(); }
 };
 
+/// [1] of the distance from the ray's origin, by which rays that leave a surface begin above it.
+constexpr double kSurfaceLift = 1e-6;
+
+/// A column of vertices at the place of `hit`.
+inline glm::dvec3 interpolate(std::span<const glm::vec3> column, const SurfaceHit& hit)
+{
+    const size_t first = size_t(hit.triangle) * 3;
+    return (1.0 - hit.u - hit.v) * glm::dvec3(column[first]) + hit.u * glm::dvec3(column[first + 1]) +
+           hit.v * glm::dvec3(column[first + 2]);
+}
+
 /// Finds triangles by a tree over balls around them. Coordinates are relative to the origin given to build().
 class TriangleScene
 {

@@ -44,7 +44,8 @@ void measureGrowth(DynamicsState<T>& s, base::TaskRunner& tasks)
 }
 
 /// Looks farther around the active slots whose supports have met the end of their lists. Lists of all active
-/// slots are made anew: theirs have become too short, and so have those of their neighbors.
+/// slots are searched again: lists of these slots and of their neighbors are too short for the larger
+/// supports.
 template <class T>
 void sumWanting(DynamicsState<T>& s, base::TaskRunner& tasks)
 {

@@ -14,7 +14,8 @@ bool treeIsGood(const DynamicsState<T>& s)
     return s.treeIsSorted && s.tree.loosened() <= kMostLoosened;
 }
 
-/// Sorts particles by their positions now, moving all columns. Records and active slots must be made anew.
+/// Sorts particles by their current positions and moves all columns. Records and active slots are invalid
+/// afterwards.
 template <class T>
 void sortParticles(DynamicsState<T>& state, base::TaskRunner& tasks);
 
@@ -32,7 +33,7 @@ void searchNeighbors(DynamicsState<T>& state, std::span<const uint32_t> owners, 
 template <class T>
 void measureWays(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// [1] How much supports may grow with the lists that exist; 0 where they must be made anew.
+/// [1] How much supports may grow with the lists that exist; 0 where they must be searched again.
 template <class T>
 double roomOfLists(const DynamicsState<T>& state);
 

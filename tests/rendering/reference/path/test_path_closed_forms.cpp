@@ -183,6 +183,42 @@ TEST(PathClosedForms, mediaInEquilibriumAreInvisibleWhateverTheyAbsorb)
     EXPECT_NEAR(withRoulette.mean(), 1.0, 3.0 * withRoulette.error());
 }
 
+/// As bright as the cosine to the zenith; black below the horizon.
+struct CosineSky final : PathSky
+{
+    glm::dvec3 luminance(const glm::dvec3& direction) const override
+    {
+        return glm::dvec3(std::max(0.0, direction.y));
+    }
+};
+
+TEST(PathClosedForms, aDiffuseFloorReflectsItsIlluminance)
+{
+    // Under a sky of luminance cos(z): illuminance 2 pi / 3. Under a sun and a sky of 1: E cosine + pi.
+    const auto tasks = base::makeSerialRunner();
+    const std::vector<glm::vec3> positions{{-9, 0, -9}, {-9, 0, 9}, {9, 0, -9},
+                                           {9, 0, -9},  {-9, 0, 9}, {9, 0, 9}};
+    const std::vector<glm::vec3> normals(6, {0, 1, 0}), colors(6, {0.6f, 0.6f, 0.6f});
+    TriangleScene triangles;
+    PathScene scene;
+    scene.mesh = {glm::dvec3(0.0), positions, normals, colors};
+    triangles.build(scene.mesh, glm::dvec3(0.0), *tasks);
+    scene.triangles = &triangles;
+    const CosineSky cosine;
+    scene.sky = &cosine;
+    const double albedo = double(0.6f);
+    const TraceRay ray{{1, 3, 0}, glm::normalize(glm::dvec3(0.1, -1, 0.2))};
+    const Statistics sky = traced(scene, {}, ray, 20000);
+    EXPECT_NEAR(sky.mean(), albedo * 2.0 / 3.0, 3.0 * sky.error());
+    const WhiteSky white;
+    const glm::dvec3 toSun = glm::normalize(glm::dvec3(0.5, 1.0, -0.2));
+    const SunLight sun(toSun, glm::dvec3(4.0), 0.0);
+    const std::array<const PathLight*, 1> lights{&sun};
+    scene.sky = &white;
+    scene.lights = lights;
+    EXPECT_NEAR(traced(scene, {}, ray, 100).mean(), albedo * (4.0 * toSun.y / kPi + 1.0), 1e-9);
+}
+
 TEST(PathClosedForms, aLitBallReflectsAndTransmitsWhatOtherProgramsFound)
 {
     struct Case
