@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -52,6 +53,50 @@ struct Lighting
     bool operator==(const Lighting&) const = default;
 };
 
+/// A light of the host: a glowing ball, or a spot.
+struct HostLight
+{
+    glm::dvec3 position{0.0};     ///< [m] world
+    glm::vec3 intensity{0.0f};    ///< [cd] in the direction where it is largest
+    float radius = 0.05f;         ///< [m] > 0, of the ball that glows
+    glm::vec3 axis{0, -1, 0};     ///< unit, where a spot shines
+    float cosInner = -1.0f;       ///< [1] of the angle up to which a spot has its full intensity
+    float cosOuter = -1.0f;       ///< [1] of the angle from which on it has none; -1: light in all directions
+
+    bool operator==(const HostLight&) const = default;
+};
+
+constexpr size_t kMostHostLights = 8;
+
+struct HostLights
+{
+    HostLight lights[kMostHostLights];
+    size_t count = 0;
+
+    bool operator==(const HostLights&) const = default;
+};
+
+/// Size of the planes of a light.
+struct SliceResolution
+{
+    int texels = 128; ///< along a side of a plane of the sun, 8..512, a multiple of 8; points have half of it
+    int planes = 32;  ///< 2..128
+
+    bool operator==(const SliceResolution&) const = default;
+};
+
+/// Light slices: shadows of media on media and on the host's surfaces.
+struct SliceSettings
+{
+    bool enabled = true;
+    SliceResolution resolution;
+    int castingPoints = 2; ///< 0..4 lights at points that cast shadows through media, those that light most
+    int samples = 2;       ///< 1..4 points of a ray through a ball at which light is looked up
+    bool multiple = true;  ///< light that is scattered more than once counts
+
+    bool operator==(const SliceSettings&) const = default;
+};
+
 /// Heat shimmer.
 struct ShimmerSettings
 {
@@ -93,6 +138,8 @@ struct ViewSettings
 {
     float exposureEv100 = 13.0f; ///< [EV100]
     Lighting lighting;
+    HostLights hostLights;
+    SliceSettings slices;
     ShimmerSettings shimmer;
     DazzleSettings dazzle;
     BillboardForm form = BillboardForm::Kernel;

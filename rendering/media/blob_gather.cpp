@@ -95,15 +95,12 @@ class GroupGather
 {
 public:
     GroupGather(const CameraGeometry& camera, int height, float share, LevelOfDetail* lod,
-                std::pmr::vector<GatheredBlob>& visible, std::pmr::vector<GridBlob>& medium,
+                std::pmr::vector<GatheredBlob>& visible, std::pmr::vector<MediumCaster>& medium,
                 GatherCounts& counts)
         : camera_(camera), volume_(camera),
           pixelsPerSlope_(0.5f * float(height) * std::abs(camera.clipScale.y)), share_(share), lod_(lod),
           visible_(visible), medium_(medium), counts_(counts)
     {}
-
-    /// [1] of the group that was run last, see LodLevel.
-    float shadowCoarse() const { return level_.shadowCoarse; }
 
     /// Whether what is beside the view is left out.
     void cullToView(bool isCulled) { isCulled_ = isCulled; }
@@ -196,7 +193,7 @@ private:
     LodLevel level_;
     bool isCulled_ = true;
     std::pmr::vector<GatheredBlob>& visible_;
-    std::pmr::vector<GridBlob>& medium_;
+    std::pmr::vector<MediumCaster>& medium_;
     GatherCounts& counts_;
 };
 
@@ -242,7 +239,7 @@ ImpostorPlan planImpostor(const base::SnapshotPair& snapshots, size_t first, flo
 
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
-                         std::pmr::vector<GridBlob>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances,
+                         std::pmr::vector<MediumCaster>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances,
                          float share, LevelOfDetail* lod, ImpostorField* impostors)
 {
     GatherCounts counts;
@@ -262,7 +259,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
             const ImpostorPlan plan =
                 impostors ? planImpostor(snapshots, g, t, camera, height, *impostors) : ImpostorPlan();
             outInstances.push_back({group.info().instance, outVisible.size(), outVisible.size(),
-                                    outMedium.size(), outMedium.size(), LodLevel::kCoarsest, plan});
+                                    outMedium.size(), outMedium.size(), plan});
             gather.cullToView(!plan.isTaken);
         }
         const ImpostorPlan& plan = outInstances.back().plan;
@@ -272,7 +269,6 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         gather.run(group, same == kNoGroup ? nullptr : &snapshots.older->group(same), t, stepSeconds);
         outInstances.back().visibleEnd = outVisible.size();
         outInstances.back().mediumEnd = outMedium.size();
-        outInstances.back().shadowCoarse = std::min(outInstances.back().shadowCoarse, gather.shadowCoarse());
     }
     return counts;
 }

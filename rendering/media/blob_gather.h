@@ -5,7 +5,7 @@
 
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/frame/view_block.h"
-#include "rendering/lights/extinction_grid.h"
+#include "rendering/lights/medium_caster.h"
 #include "rendering/lod/impostor_field.h"
 #include "rendering/lod/level_of_detail.h"
 
@@ -41,7 +41,6 @@ struct InstanceBlobs
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
     size_t mediumBegin, mediumEnd;
-    float shadowCoarse; ///< see LodLevel; the least of its groups
     ImpostorPlan plan;  ///< what of it is drawn as a picture
 };
 
@@ -70,7 +69,7 @@ struct GatherCounts
 /// @param lod thins out groups that are small on the picture, for shadows too; null: none
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
-                         std::pmr::vector<GridBlob>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances,
+                         std::pmr::vector<MediumCaster>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances,
                          float share = 1.0f, LevelOfDetail* lod = nullptr,
                          ImpostorField* impostors = nullptr);
 

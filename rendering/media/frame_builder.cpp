@@ -7,51 +7,25 @@
 
 namespace fx::render {
 
-namespace {
-
-constexpr float kMixedBand = 0.15f; ///< [1] half the width over which one grid of shadows replaces another
-
-/// Two grids of the same media; with `coarse` 0 or 1 only one is asked.
-struct MixedShadow final : MediaShadow
-{
-    MixedShadow(const MediaShadow* first, const MediaShadow* second) : fineGrid(first), coarseGrid(second) {}
-
-    float transmittance(const glm::vec3& position, const glm::vec3& direction, float distance) const override
-    {
-        if (coarse <= 0.0f)
-            return fineGrid->transmittance(position, direction, distance);
-        const float far = coarseGrid->transmittance(position, direction, distance);
-        if (coarse >= 1.0f)
-            return far;
-        return glm::mix(fineGrid->transmittance(position, direction, distance), far, coarse);
-    }
-
-    const MediaShadow* fineGrid;
-    const MediaShadow* coarseGrid;
-    float coarse = 0.0f;
-};
-
-} // namespace
-
 FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
-    : gathered_(memory), gridBlobs_(memory), instances_(memory), shaded_(memory), sorted_(memory),
-      distances_(memory), fires_(memory), grid_(memory), coarseGrid_(memory), depthSort_(memory),
+    : gathered_(memory), casters_(memory), instances_(memory), shaded_(memory), sorted_(memory),
+      distances_(memory), depthSort_(memory),
       impostors_(memory), impostorSort_(memory), takenSort_(memory), sortedImpostors_(memory), taken_(memory),
       sortedTaken_(memory), takenDistances_(memory), takenTiles_(memory)
 {}
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,
                          const ViewSettings& settings, const CameraGeometry& camera, LevelOfDetail& lod,
-                         std::span<const EffectLight> lights, uint64_t content)
+                         uint64_t content)
 {
     gathered_.clear();
-    gridBlobs_.clear();
+    casters_.clear();
     instances_.clear();
     beginImpostors(request, settings, camera, content);
     counts_ = gatherBlobs(snapshots, request.interpolation, camera, request.targets.height, gathered_,
-                          gridBlobs_, instances_, settings.particleShare, &lod, &impostors_);
+                          casters_, instances_, settings.particleShare, &lod, &impostors_);
     impostors_.end();
-    shade(settings, camera, lights);
+    shade(settings, camera);
     sort(camera);
     sortImpostors(camera);
 }
@@ -70,34 +44,20 @@ void FrameBuilder::beginImpostors(const FrameRequest& request, const ViewSetting
     mustForget_ = false;
 }
 
-void FrameBuilder::shade(const ViewSettings& settings, const CameraGeometry& camera,
-                         std::span<const EffectLight> lights)
+void FrameBuilder::shade(const ViewSettings& settings, const CameraGeometry& camera)
 {
-    fires_.clear();
-    for (const EffectLight& light : lights)
-        fires_.emplace_back(glm::vec3(light.position - camera.eye), light.intensity, light.radius);
-
-    const DirectionalLight sun(settings.lighting.sunDirection, settings.lighting.sunIlluminance);
-    MixedShadow shadow{&grid_, &coarseGrid_};
-    const ShadingContext context{
-        &settings.lighting,  &sun,          &shadow, fires_, exposureFromEv100(settings.exposureEv100),
-        camera.orthographic, camera.forward};
+    const ShadingContext context{&settings.lighting, exposureFromEv100(settings.exposureEv100)};
     anyHeat_ = false;
     anyDetail_ = false;
     shaded_.clear();
     taken_.clear();
     for (const InstanceBlobs& instance : instances_)
-    { // each effect shadows itself: its grid fits it, wherever others are
-        if (instance.visibleBegin == instance.visibleEnd)
-            continue;
-        shadow.coarse = buildShadow(instance);
         for (size_t i = instance.visibleBegin; i < instance.visibleEnd; ++i) {
             const GatheredBlob& blob = gathered_[i];
             add(shadeBlob(blob, context), instance.plan, camera);
             anyHeat_ = anyHeat_ || (blob.heat > 0.0f && instance.plan.blobShare > 0.0f);
             anyDetail_ = anyDetail_ || blob.detailAmount > 0.0f;
         }
-    }
 }
 
 /// To what is drawn, to a picture that is taken, or to both.
@@ -115,24 +75,9 @@ void FrameBuilder::add(const BlobInstance& blob, const ImpostorPlan& plan, const
     const glm::vec3 place =
         placeInTaking(impostors_.taking(plan.slot), plan.slot, camera, glm::vec3(blob.centerRadius), scale);
     placed.centerRadius = {place, blob.centerRadius.w * scale};
+    placed.lit.w = -1.0f - blob.lit.w;
     placed.medium.x *= scale * scale;
     taken_.push_back(placed);
-}
-
-/// Small effects shadow themselves on coarser grids; between two of them both count.
-/// @return share of the coarser one
-float FrameBuilder::buildShadow(const InstanceBlobs& instance)
-{
-    const auto blobs =
-        std::span(gridBlobs_).subspan(instance.mediumBegin, instance.mediumEnd - instance.mediumBegin);
-    const int halvings = int(instance.shadowCoarse);
-    const float coarse =
-        glm::smoothstep(0.5f - kMixedBand, 0.5f + kMixedBand, instance.shadowCoarse - float(halvings));
-    if (coarse < 1.0f)
-        grid_.build(blobs, ExtinctionGrid::kCells >> halvings);
-    if (coarse > 0.0f)
-        coarseGrid_.build(blobs, ExtinctionGrid::kCells >> (halvings + 1));
-    return coarse;
 }
 
 void FrameBuilder::sort(const CameraGeometry& camera)

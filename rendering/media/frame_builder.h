@@ -5,9 +5,7 @@
 #include "rendering/draw_order/depth_sort.h"
 #include "rendering/draw_order/draw_batcher.h"
 #include "rendering/frame/view_types.h"
-#include "rendering/lights/effect_lights.h"
-#include "rendering/lights/extinction_grid.h"
-#include "rendering/lights/light.h"
+#include "rendering/lights/medium_caster.h"
 #include "rendering/media/blob_gather.h"
 #include "rendering/passes/blob_instance.h"
 
@@ -25,15 +23,15 @@ public:
 
     /// Builds the list for one frame. Equal input gives equal bits. [GL thread, but no GL]
     /// @param lod begun for this frame
-    /// @param lights of all effects, brightest first; what is made of them is in the blobs
     /// @param content differs where what is shown differs, for pictures that are kept
     void build(const base::SnapshotPair& snapshots, const FrameRequest& request, const ViewSettings& settings,
-               const CameraGeometry& camera, LevelOfDetail& lod, std::span<const EffectLight> lights,
-               uint64_t content = 0);
+               const CameraGeometry& camera, LevelOfDetail& lod, uint64_t content = 0);
 
     std::span<const BlobInstance> blobs() const { return sorted_; } ///< farthest first
     bool anyHeat() const { return anyHeat_; }                       ///< some blob bends light
     bool anyDetail() const { return anyDetail_; }                   ///< some blob has procedural detail
+    /// All that casts shadows, seen or not.
+    std::span<const MediumCaster> casters() const { return casters_; }
     const GatherCounts& counts() const { return counts_; }
     /// The blobs as a stream whose elements are the drawn ones; count 0 without any.
     DrawStream stream() const;
@@ -49,24 +47,19 @@ public:
     void forgetPictures() { mustForget_ = true; } ///< those of the last frame were not taken
 
 private:
-    void shade(const ViewSettings& settings, const CameraGeometry& camera,
-               std::span<const EffectLight> lights);
+    void shade(const ViewSettings& settings, const CameraGeometry& camera);
     void sort(const CameraGeometry& camera);
-    float buildShadow(const InstanceBlobs& instance);
     void beginImpostors(const FrameRequest& request, const ViewSettings& settings,
                         const CameraGeometry& camera, uint64_t content);
     void sortImpostors(const CameraGeometry& camera);
     void add(const BlobInstance& blob, const ImpostorPlan& plan, const CameraGeometry& camera);
 
     std::pmr::vector<GatheredBlob> gathered_;
-    std::pmr::vector<GridBlob> gridBlobs_;
+    std::pmr::vector<MediumCaster> casters_;
     std::pmr::vector<InstanceBlobs> instances_;
     std::pmr::vector<BlobInstance> shaded_;
     std::pmr::vector<BlobInstance> sorted_;
     std::pmr::vector<float> distances_;
-    std::pmr::vector<BallLight> fires_;
-    ExtinctionGrid grid_;
-    ExtinctionGrid coarseGrid_;
     DepthSort depthSort_;
     ImpostorField impostors_;
     DepthSort impostorSort_;

@@ -13,6 +13,8 @@ FrameKey frameKey(const RevisionPair& revisions, const FrameRequest& request, co
     key.height = request.targets.height;
     key.exposureEv100 = settings.exposureEv100;
     key.lighting = settings.lighting;
+    key.hostLights = settings.hostLights;
+    key.slices = settings.slices;
     key.particleShare = settings.particleShare;
     key.lod = settings.lod;
     key.layerOutputs = settings.layerOutputs;

@@ -20,6 +20,8 @@ struct FrameKey
     int width = 0, height = 0; ///< [pixel]
     float exposureEv100 = 0;
     Lighting lighting;
+    HostLights hostLights;
+    SliceSettings slices;
     float particleShare = 1;
     LodSettings lod;
     bool layerOutputs = false;

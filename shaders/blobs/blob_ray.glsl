@@ -10,6 +10,10 @@ struct BlobRay
     float opticalDepth; // [1] without detail
     vec3 toPoint;       // [m] from the blob's center to the point whose light stands for the whole path
     float distance;     // [m] of that point from the ray's origin
+    vec3 direction;     // unit
+    vec3 across;        // [m] from the blob's center to the nearest point of the ray
+    float halfChord;    // [m]
+    float front, back;  // [m] where the visible part of the chord begins and ends, from its middle
 };
 
 BlobRay traceBlob()
@@ -40,5 +44,10 @@ BlobRay traceBlob()
     float depthOfView = 0.5 / (1.0 + 0.5 * result.opticalDepth); // thin: the middle; thick: near the front
     result.distance = mix(front, back, depthOfView);
     result.toPoint = chord.origin + chord.direction * result.distance - blobCenterRadius.xyz;
+    result.direction = chord.direction;
+    result.across = chord.across;
+    result.halfChord = w;
+    result.front = front - tc;
+    result.back = back - tc;
     return result;
 }

@@ -1,15 +1,22 @@
 #include "formulas/sphere_path.fx.h"
 #include "formulas/kernel_optical_depth.fx.h"
+#include "formulas/kernel_quantile.fx.h"
 #include "formulas/detail_noise.fx.h"
+#include "formulas/multiple_scattering.fx.h"
 #include "shared/view_block.glsl"
+#include "shared/light_slices.glsl"
+#include "shared/scattered_light.glsl"
 #include "shared/blob_chord.glsl"
 #include "blobs/blob_ray.glsl"
 
-// Light of one blob along one ray, premultiplied: opacity from the travelled optical depth, color from emission, sun
-// and sky. FX_LAYERS 1 writes the same light sorted by layer instead of into one target.
+// Light of one blob along one ray, premultiplied: opacity from the travelled optical depth, color from what it emits and
+// from the lights, which are looked up at several points of the ray. FX_LAYERS 1 writes the same light sorted by layer
+// instead of into one target.
 
-flat in vec4 blobSun;
+flat in vec4 blobScatter;
 flat in vec4 blobSky;
+flat in vec3 blobSkySlope;
+flat in vec4 blobLit;
 flat in vec4 blobEmission;
 flat in mat3 blobDetailAxes;
 
@@ -19,12 +26,50 @@ flat in mat3 blobDetailAxes;
 layout(location = 0) out vec4 light;
 #endif
 
-// Optical depth of the blob's own medium from `toPoint` (relative to its center) towards the sun.
-float ownShadow(vec3 toPoint)
+// Where the ray has passed a share of its optical depth [m, relative to the blob's center].
+vec3 pointOfBlob(BlobRay ray, float passed)
 {
-    float tc = -dot(toPoint, sunDirection.xyz);
-    float h = length(toPoint + tc * sunDirection.xyz);
-    return fxKernelOpticalDepth(blobMedium.x, blobCenterRadius.w, h, tc, 0.0, 1e30);
+    float along = mix(ray.front, ray.back, passed);
+#if FX_FORM == 2
+    float w = max(ray.halfChord, 1e-12);
+    along = w * fxKernelQuantile(mix(fxKernelPassed(ray.front / w), fxKernelPassed(ray.back / w), passed));
+#endif
+    return ray.across + along * ray.direction;
+}
+
+// Light scattered to the eye at a point of the ray [m, relative to the blob's center].
+vec3 scatteredAt(vec3 toPoint, vec3 toEye)
+{
+    vec3 relative = toPoint / blobCenterRadius.w;
+    vec3 sum = blobSky.rgb * max(1.0 + dot(blobSkySlope, relative), 0.0);
+    vec3 place = blobLit.xyz + (blobLit.w < 0.0 ? vec3(0.0) : toPoint);
+    return sum + scatteredLight(place, toEye, blobScatter.rgb, blobScatter.w);
+}
+
+// Mean of the light scattered along the ray, weighted by how much of each point is seen: Gauss quadrature in the opacity
+// that has been passed, so that all points count whatever the optical depth.
+vec3 scatteredAlong(BlobRay ray, float opticalDepth)
+{
+    vec3 toEye = blobLit.w < 0.0 ? -normalize(blobLit.xyz) : -ray.direction;
+    int points = blobLit.w < 0.0 ? 1 : lightCounts.z;
+    float opacity = 1.0 - exp(-opticalDepth);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < points; ++i) {
+        float node = 0.5, weight = 1.0;
+        if (points == 2) {
+            node = i == 0 ? 0.2113249 : 0.7886751;
+            weight = 0.5;
+        } else if (points == 3) {
+            node = i == 0 ? 0.1127017 : i == 1 ? 0.5 : 0.8872983;
+            weight = i == 1 ? 0.4444444 : 0.2777778;
+        } else if (points == 4) {
+            node = i == 0 ? 0.0694318 : i == 1 ? 0.3300095 : i == 2 ? 0.6699905 : 0.9305682;
+            weight = i == 0 || i == 3 ? 0.1739274 : 0.3260726;
+        }
+        float passed = opacity < 1e-3 ? node : -log(1.0 - node * opacity) / opticalDepth; // [1] of the optical depth
+        sum += weight * scatteredAt(pointOfBlob(ray, passed), toEye);
+    }
+    return sum;
 }
 
 void main()
@@ -35,10 +80,10 @@ void main()
 
     float opticalDepth = ray.opticalDepth;
     vec3 emitted = blobEmission.rgb;
-    vec3 relative = ray.toPoint / blobCenterRadius.w;
 #if FX_DETAIL
     float amount = blobMedium.z * forward.w;
     if (amount > 0.0) {
+        vec3 relative = ray.toPoint / blobCenterRadius.w;
         vec3 p = blobDetailAxes * relative + blobMedium.w * vec3(61.3, 37.7, 83.1);
         float n = fxDetailNoise(p.x, p.y, p.z);
         opticalDepth *= max(1.0 + amount * (2.2 * n - 0.25), 0.0);
@@ -46,11 +91,9 @@ void main()
     }
 #endif
     float alpha = 1.0 - exp(-opticalDepth);
-    vec3 scattered = blobSky.rgb * (0.75 + 0.25 * relative.y);
-    if (blobSun.r + blobSun.g + blobSun.b > 0.0) {
-        float shadow = ownShadow(ray.toPoint);
-        scattered += blobSun.rgb * (0.7 * exp(-shadow) + 0.3 * exp(-0.25 * shadow)); // second term: light that has turned
-    }
+    vec3 scattered = vec3(0.0);
+    if (blobScatter.r + blobScatter.g + blobScatter.b > 0.0 && alpha > 0.0)
+        scattered = scatteredAlong(ray, max(opticalDepth, 1e-6));
 
 #if FX_LAYERS
     float layer = floor(blobSky.w * 0.5);

@@ -1,14 +1,19 @@
 #include "shared/view_block.glsl"
 #include "shared/blob_instance.glsl"
 #include "shared/blob_quad.glsl"
+#include "shared/light_slices.glsl"
 
 // One covering rectangle a blob; the fragment gets the blob unchanged.
 flat out vec4 blobCenterRadius;
 flat out vec4 blobMedium;
-flat out vec4 blobSun;
+flat out vec4 blobScatter;
 flat out vec4 blobSky;
+flat out vec3 blobSkySlope; // relative change of the sky's light across a radius
+flat out vec4 blobLit;
 flat out vec4 blobEmission;
 flat out mat3 blobDetailAxes; // noise periods along each axis, turned by the seed so that no two blobs share a lattice
+
+layout(std430, binding = 6) readonly buffer BlobSkies { vec4 blobSkies[]; }; // two a blob, see lights/blob_sky.comp.glsl
 
 mat3 detailAxes(float seed, float periods)
 {
@@ -21,7 +26,8 @@ mat3 detailAxes(float seed, float periods)
 
 void main()
 {
-    BlobInstance blob = blobs[gl_InstanceID + int(pass.y)]; // a draw may begin in the middle of the order
+    int index = gl_InstanceID + int(pass.y); // a draw may begin in the middle of the order
+    BlobInstance blob = blobs[index];
 #if FX_SMALL
     float depthOfTexel = rayOrigin.w > 0.5 ? 1.0 : length(blob.centerRadius.xyz);
     blob.centerRadius.w = max(blob.centerRadius.w, pass.x * depthOfTexel); // a large texel must not lose small blobs
@@ -30,9 +36,15 @@ void main()
     blobMedium = blob.medium;
     if (rayOrigin.w < 0.5) // one sample of the detail stands for a whole path: from inside it would darken all at once
         blobMedium.z *= smoothstep(0.3, 1.3, length(blob.centerRadius.xyz) / blob.centerRadius.w);
-    blobSun = blob.sun;
+    blobScatter = blob.scatter;
     blobSky = blob.sky;
+    blobSkySlope = vec3(0.0, 0.25, 0.0);
+    if (lightCounts.y > 0) {
+        blobSky.rgb = blobSkies[2 * index].rgb;
+        blobSkySlope = blobSkies[2 * index + 1].xyz;
+    }
+    blobLit = blob.lit;
     blobEmission = blob.emission;
-    blobDetailAxes = detailAxes(blob.medium.w, blob.sun.w);
+    blobDetailAxes = detailAxes(blob.medium.w, blob.lit.w < 0.0 ? -1.0 - blob.lit.w : blob.lit.w);
     gl_Position = blobQuadCorner(blob.centerRadius.xyz, blob.centerRadius.w, gl_VertexID);
 }

@@ -43,6 +43,7 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/detail_noise.fx.h"
 #include "shaders/formulas/heat_stream.fx.h"
 #include "shaders/formulas/kernel_optical_depth.fx.h"
+#include "shaders/formulas/kernel_quantile.fx.h"
 #include "shaders/formulas/sensor_law.fx.h"
 #include "shaders/formulas/sphere_path.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
@@ -56,6 +57,7 @@ FX_FORMULA_SPACE_BEGIN
 // clang-format off
 #include "shaders/formulas/sphere_path.fx.h"
 #include "shaders/formulas/kernel_optical_depth.fx.h"
+#include "shaders/formulas/kernel_quantile.fx.h"
 #include "shaders/formulas/black_body_contrast.fx.h"
 #include "shaders/formulas/detail_noise.fx.h"
 #include "shaders/formulas/heat_stream.fx.h"

@@ -1,0 +1,17 @@
+/// @file medium_caster.h
+/// A ball of medium as light sees it.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace fx::render {
+
+/// A ball of medium with the quartic kernel that takes light from what lies behind it.
+struct MediumCaster
+{
+    glm::vec3 center;   ///< [m] relative to the eye
+    float radius;       ///< [m] > 0
+    float crossSection; ///< [m2] extinction cross section, >= 0
+};
+
+} // namespace fx::render

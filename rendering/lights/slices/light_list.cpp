@@ -1,0 +1,217 @@
+#include "rendering/lights/slices/light_list.h"
+
+#include "rendering/frame/exposure.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace fx::render {
+
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+/// Planes of lights at points and of the axes of the sky, relative to those of the sun.
+SliceResolution pointResolution(const SliceResolution& sun)
+{
+    return {std::max(sun.texels / 2, 8), std::max(sun.planes / 2, 2)};
+}
+
+SliceResolution skyResolution(const SliceResolution& sun)
+{
+    return {std::max(sun.texels / 4, 8), std::max(sun.planes / 4, 2)};
+}
+
+/// What light arrives from a point at the middle of the casters decides which points cast shadows.
+float arriving(const HostLight& light, const glm::dvec3& middle)
+{
+    const glm::dvec3 d = light.position - middle;
+    const float brightness = light.intensity.x + light.intensity.y + light.intensity.z;
+    return brightness / float(glm::dot(d, d) + double(light.radius) * double(light.radius) + 1e-6);
+}
+
+HostLight pointOf(const EffectLight& light)
+{
+    HostLight point;
+    point.position = light.position;
+    point.intensity = light.intensity;
+    point.radius = light.radius;
+    return point;
+}
+
+glm::vec4 coneOf(const HostLight& light)
+{
+    if (light.cosOuter <= -1.0f)
+        return {0.0f, 0.0f, 0.0f, 1.0f};
+    const float scale = 1.0f / std::max(light.cosInner - light.cosOuter, 1e-4f);
+    return {light.axis * scale, -light.cosOuter * scale};
+}
+
+glm::dvec3 middleOf(std::span<const MediumCaster> casters, const glm::dvec3& eye)
+{
+    glm::dvec3 sum(0.0);
+    for (const MediumCaster& caster : casters)
+        sum += glm::dvec3(caster.center);
+    return casters.empty() ? eye : eye + sum / double(casters.size());
+}
+
+} // namespace
+
+LightList::LightList(std::pmr::memory_resource* memory)
+    : lights_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory), kept_(memory)
+{}
+
+void LightList::build(const LightListInputs& in, bool keepsPlanes)
+{
+    kept_.clear();
+    if (keepsPlanes)
+        kept_.swap(stacks_);
+    keptEye_ = eye_;
+    eye_ = in.eye;
+    lights_.clear();
+    stacks_.clear();
+    stackLights_.clear();
+    stackBlocks_.clear();
+    const Lighting& lighting = in.settings->lighting;
+    const float exposure = exposureFromEv100(in.settings->exposureEv100);
+    const glm::vec3 sunOnGround = lighting.sunIlluminance * (std::max(lighting.sunDirection.y, 0.0f) / kPi);
+    head_.sky = glm::vec4(lighting.skyLuminance * exposure, in.settings->slices.multiple ? 1.0f : 0.0f);
+    head_.ground =
+        glm::vec4(lighting.groundAlbedo * (sunOnGround + lighting.skyLuminance) * exposure, 0.0f);
+    addSun(in);
+    addPoints(in);
+    head_.counts = {int(lights_.size()), 0, in.settings->slices.samples, 0};
+    addSky(in);
+    head_.counts.y = int(lights_.size()) - head_.counts.x;
+    placeTiles();
+}
+
+void LightList::addSun(const LightListInputs& in)
+{
+    const Lighting& lighting = in.settings->lighting;
+    if (lighting.sunIlluminance == glm::vec3(0.0f))
+        return;
+    SliceLightBlock light{};
+    light.color =
+        glm::vec4(lighting.sunIlluminance * exposureFromEv100(in.settings->exposureEv100), 0.0f);
+    light.place = glm::vec4(lighting.sunDirection, 0.0f);
+    light.cone = {0.0f, 0.0f, 0.0f, 1.0f};
+    SliceStack stack;
+    if (in.settings->slices.enabled &&
+        (takeKept(in.eye, stack) || fitParallelSlices(lighting.sunDirection, in.casters, in.eye,
+                                                      in.settings->slices.resolution, stack)))
+        addStack(stack, light);
+    lights_.push_back(light);
+}
+
+void LightList::addPoints(const LightListInputs& in)
+{
+    std::array<HostLight, kMostEffectLights + kMostHostLights> points;
+    size_t count = 0;
+    for (const EffectLight& light : in.effects.first(std::min(in.effects.size(), kMostEffectLights)))
+        points[count++] = pointOf(light);
+    for (size_t i = 0; i < in.settings->hostLights.count; ++i)
+        points[count++] = in.settings->hostLights.lights[i];
+    const glm::dvec3 middle = middleOf(in.casters, in.eye);
+    std::stable_sort(points.begin(), points.begin() + ptrdiff_t(count),
+                     [&](const HostLight& a, const HostLight& b) {
+                         return arriving(a, middle) > arriving(b, middle);
+                     });
+    const float exposure = exposureFromEv100(in.settings->exposureEv100);
+    for (size_t i = 0; i < count; ++i) {
+        const glm::vec3 place(points[i].position - in.eye);
+        SliceLightBlock light{};
+        light.color = glm::vec4(points[i].intensity * exposure, 1.0f);
+        light.place = glm::vec4(place, points[i].radius);
+        light.cone = coneOf(points[i]);
+        SliceStack stack;
+        if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
+            (takeKept(in.eye, stack) ||
+             fitPointSlices(place, points[i].radius, in.casters, pointResolution(in.settings->slices.resolution), stack)))
+            addStack(stack, light);
+        lights_.push_back(light);
+    }
+}
+
+void LightList::addSky(const LightListInputs& in)
+{
+    const bool isDark = glm::vec3(head_.sky) == glm::vec3(0.0f) && glm::vec3(head_.ground) == glm::vec3(0.0f);
+    if (isDark || !in.settings->slices.enabled)
+        return;
+    for (size_t i = 0; i < kSkyAxes; ++i) {
+        const float turn = float(i) * (2.0f * kPi / 5.0f);
+        const float across = std::sqrt(1.0f - kSkyAxisElevation * kSkyAxisElevation);
+        const glm::vec3 axis =
+            i == 0 ? glm::vec3(0, 1, 0)
+                   : glm::vec3(across * std::cos(turn), kSkyAxisElevation, across * std::sin(turn));
+        SliceStack stack;
+        if (!takeKept(in.eye, stack) &&
+            !fitParallelSlices(axis, in.casters, in.eye, skyResolution(in.settings->slices.resolution), stack))
+            return;
+        SliceLightBlock light{};
+        light.place = glm::vec4(axis, 0.0f);
+        addStack(stack, light);
+        lights_.push_back(light);
+    }
+}
+
+/// The planes that the next light had when the list was built last.
+bool LightList::takeKept(const glm::dvec3& eye, SliceStack& outStack) const
+{
+    if (stacks_.size() >= kept_.size())
+        return false;
+    outStack = kept_[stacks_.size()];
+    outStack.origin = glm::vec3(glm::dvec3(outStack.origin) + (keptEye_ - eye));
+    return true;
+}
+
+/// Its light is the next one of the list.
+void LightList::addStack(const SliceStack& stack, SliceLightBlock& ioLight)
+{
+    if (stack.mapping == SliceMapping::Parallel) {
+        const glm::vec3 right = stack.right / stack.texel, up = stack.up / stack.texel,
+                        along = stack.along / stack.spacing;
+        ioLight.right = glm::vec4(right, -glm::dot(right, stack.origin));
+        ioLight.up = glm::vec4(up, -glm::dot(up, stack.origin));
+        ioLight.along = glm::vec4(along, -glm::dot(along, stack.origin));
+    } else {
+        ioLight.along = {0.0f, 0.0f, 0.0f, 1.0f / stack.spacing};
+    }
+    stacks_.push_back(stack);
+    stackLights_.push_back(lights_.size());
+}
+
+/// Stacks lie side by side in rows; each row is as high as its first stack, the largest.
+void LightList::placeTiles()
+{
+    atlasWidth_ = atlasHeight_ = mostTexels_ = 0;
+    for (const SliceStack& stack : stacks_)
+        mostTexels_ = std::max(mostTexels_, stack.resolution.texels);
+    atlasWidth_ = mostTexels_ * kSliceTileColumns;
+    int x = 0, y = 0, rowHeight = 0;
+    for (size_t i = 0; i < stacks_.size(); ++i) {
+        const SliceStack& stack = stacks_[i];
+        const SliceResolution& size = stack.resolution;
+        const int width = size.texels * kSliceTileColumns;
+        const int height = size.texels * ((size.planes + kSliceTileColumns - 1) / kSliceTileColumns);
+        if (x + width > atlasWidth_) {
+            y += rowHeight;
+            x = rowHeight = 0;
+        }
+        const glm::vec4 tiles(float(x), float(y), float(size.texels), float(size.planes));
+        lights_[stackLights_[i]].tiles = tiles;
+        const bool isParallel = stack.mapping == SliceMapping::Parallel;
+        stackBlocks_.push_back({glm::vec4(stack.origin, stack.spacing),
+                                glm::vec4(stack.right * stack.texel, isParallel ? 0.0f : 1.0f),
+                                glm::vec4(stack.up * stack.texel, 0.0f), glm::vec4(stack.along, stack.begin), tiles});
+        x += width;
+        rowHeight = std::max(rowHeight, height);
+        atlasHeight_ = std::max(atlasHeight_, y + height);
+    }
+}
+
+} // namespace fx::render

@@ -1,0 +1,36 @@
+/// @file light_slices_pass.h
+/// The pass that fills the planes of all lights of a view.
+#pragma once
+
+#include "rendering/frame_graph/frame_graph.h"
+
+namespace fx::render {
+
+extern const ProgramDesc kLightSlicesProgram;
+
+/// Integrates the media between each light and each texel of its planes.
+///
+/// reads   casters  buffer of casters, two vec4 each: center and radius; cross section
+///         stacks   buffer of SliceStackBlock
+/// writes  atlas    R32F, optical depth; each texel is written by one invocation, in the order of the casters,
+///                  so that equal inputs give equal bits
+class LightSlicesPass
+{
+public:
+    struct Inputs
+    {
+        ResourceId casters;
+        ResourceId stacks;
+        ResourceId atlas;
+        uint32_t casterCount;
+        uint32_t stackCount;
+        int mostTexels; ///< [texel] side of the largest plane
+    };
+    struct Outputs
+    {
+        ResourceId atlas;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+} // namespace fx::render

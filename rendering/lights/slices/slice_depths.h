@@ -1,0 +1,44 @@
+/// @file slice_depths.h
+/// Light slices on the processor: the same numbers as those of the GPU within 1e-5 of the largest depth. For
+/// tests, measurements and hosts without OpenGL.
+#pragma once
+
+#include "rendering/lights/slices/slice_stack.h"
+
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// Optical depth at a point of a stack.
+struct SliceDepth
+{
+    float toLight; ///< [1] of the media between the light and the point
+    float total;   ///< [1] of all media on the line through both
+};
+
+/// Optical depths at all texels of the planes of a stack. Threads: one at a time while it is built.
+class SliceDepths
+{
+public:
+    explicit SliceDepths(std::pmr::memory_resource* memory);
+
+    /// Integrates the media of all casters up to each plane, exactly on the rays of the texels.
+    void build(const SliceStack& stack, std::span<const MediumCaster> casters);
+
+    const SliceStack& stack() const { return stack_; }
+    /// [1] at a texel.
+    float at(int plane, int x, int y) const { return depths_[indexOf(plane, x, y)]; }
+    /// Interpolated: linearly between texels and between planes.  @param position [m] as the stack's
+    SliceDepth depthAt(const glm::vec3& position) const;
+
+private:
+    size_t indexOf(int plane, int x, int y) const;
+    float planeAt(int plane, float x, float y) const;
+
+    SliceStack stack_;
+    std::pmr::vector<float> depths_;
+};
+
+} // namespace fx::render

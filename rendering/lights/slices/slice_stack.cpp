@@ -1,0 +1,143 @@
+#include "rendering/lights/slices/slice_stack.h"
+
+#include "foundation/math/geometry.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fx::render {
+
+namespace {
+
+constexpr float kLeastSide = 1e-4f; ///< [m] of a texel, and between planes
+
+/// The smallest power of 2^(1/4) that is not below x, so that small changes of x change nothing.
+float quantizedSide(float x)
+{
+    return std::exp2(std::ceil(4.0f * std::log2(std::max(x, kLeastSide))) * 0.25f);
+}
+
+/// A unit vector across `along`, near to the horizontal.
+glm::vec3 acrossOf(const glm::vec3& along)
+{
+    const glm::vec3 reference = std::abs(along.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    return glm::normalize(glm::cross(reference, along));
+}
+
+/// Octahedral map of a unit vector to [-1, 1]^2.
+glm::vec2 octahedral(const glm::vec3& d)
+{
+    const float sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+    const glm::vec2 p(d.x / sum, d.y / sum);
+    if (d.z >= 0.0f)
+        return p;
+    return {(1.0f - std::abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f),
+            (1.0f - std::abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f)};
+}
+
+/// Inverse of octahedral(); places a little outside of [-1, 1]^2 fold back to where the map goes on.
+glm::vec3 octahedralDirection(glm::vec2 p)
+{
+    if (std::abs(p.x) > 1.0f)
+        p = {std::copysign(2.0f, p.x) - p.x, -p.y};
+    if (std::abs(p.y) > 1.0f)
+        p = {-p.x, std::copysign(2.0f, p.y) - p.y};
+    glm::vec3 d(p.x, p.y, 1.0f - std::abs(p.x) - std::abs(p.y));
+    if (d.z < 0.0f)
+        d = {(1.0f - std::abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f),
+             (1.0f - std::abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f), d.z};
+    return glm::normalize(d);
+}
+
+/// Extent of the casters along an axis, relative to the eye.
+struct Extent
+{
+    float low = INFINITY, high = -INFINITY;
+};
+
+Extent extentAlong(const glm::vec3& axis, std::span<const MediumCaster> casters)
+{
+    Extent extent;
+    for (const MediumCaster& caster : casters) {
+        const float middle = glm::dot(caster.center, axis);
+        extent.low = std::min(extent.low, middle - caster.radius);
+        extent.high = std::max(extent.high, middle + caster.radius);
+    }
+    return extent;
+}
+
+/// [m] relative to the eye: the largest multiple of `side` in the world that is not above `low`.
+float snappedBelow(float low, float side, const glm::vec3& axis, const glm::dvec3& eye)
+{
+    const double world = glm::dot(eye, glm::dvec3(axis));
+    return float(std::floor((world + double(low)) / double(side)) * double(side) - world);
+}
+
+} // namespace
+
+SlicePlace SliceStack::placeOf(const glm::vec3& position) const
+{
+    const glm::vec3 d = position - origin;
+    if (mapping == SliceMapping::Parallel)
+        return {glm::dot(d, right) / texel, glm::dot(d, up) / texel, glm::dot(d, along) / spacing};
+    const float distance = glm::length(d);
+    const glm::vec2 p = distance > 0.0f ? octahedral(d / distance) : glm::vec2(0.0f);
+    const float inner = float(resolution.texels - 2); // a border of one texel lets neighbors be interpolated
+    return {1.0f + (0.5f + 0.5f * p.x) * inner, 1.0f + (0.5f + 0.5f * p.y) * inner, distance / spacing};
+}
+
+SliceRay sliceRay(const SliceStack& stack, float x, float y)
+{
+    if (stack.mapping == SliceMapping::Parallel)
+        return {stack.origin + (x * stack.texel) * stack.right + (y * stack.texel) * stack.up, stack.along};
+    const float inner = float(stack.resolution.texels - 2);
+    return {stack.origin,
+            octahedralDirection({2.0f * (x - 1.0f) / inner - 1.0f, 2.0f * (y - 1.0f) / inner - 1.0f})};
+}
+
+bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters,
+                       const glm::dvec3& eye, const SliceResolution& resolution, SliceStack& outStack)
+{
+    if (casters.empty())
+        return false;
+    SliceStack stack;
+    stack.mapping = SliceMapping::Parallel;
+    stack.resolution = resolution;
+    stack.along = -towards;
+    stack.right = acrossOf(stack.along);
+    stack.up = glm::cross(stack.along, stack.right);
+    const Extent x = extentAlong(stack.right, casters);
+    const Extent y = extentAlong(stack.up, casters);
+    const Extent z = extentAlong(stack.along, casters);
+    // a texel on each side stays free of media, and snapping moves the corner by up to another one
+    stack.texel = quantizedSide(std::max(x.high - x.low, y.high - y.low) / float(resolution.texels - 3));
+    stack.spacing = quantizedSide((z.high - z.low) / float(std::max(resolution.planes - 2, 1)));
+    stack.origin = (snappedBelow(x.low, stack.texel, stack.right, eye) - stack.texel) * stack.right +
+                   (snappedBelow(y.low, stack.texel, stack.up, eye) - stack.texel) * stack.up +
+                   snappedBelow(z.low, stack.spacing, stack.along, eye) * stack.along;
+    outStack = stack;
+    return true;
+}
+
+bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,
+                    const SliceResolution& resolution, SliceStack& outStack)
+{
+    if (casters.empty())
+        return false;
+    float farthest = 0.0f;
+    for (const MediumCaster& caster : casters)
+        farthest = std::max(farthest, glm::length(caster.center - light) + caster.radius);
+    SliceStack stack;
+    stack.mapping = SliceMapping::Octahedral;
+    stack.resolution = resolution;
+    stack.origin = light;
+    stack.spacing = quantizedSide(farthest / float(resolution.planes - 1));
+    stack.begin = radius;
+    outStack = stack;
+    return true;
+}
+
+} // namespace fx::render

@@ -1,0 +1,153 @@
+#include "rendering/lights/slices/view_lights.h"
+
+#include "foundation/math/hash.h"
+#include "rendering/lights/slices/light_slices_pass.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace fx::render {
+
+namespace {
+
+constexpr size_t kListBytes = sizeof(LightListHead) + (kMostLights + kSkyAxes) * sizeof(SliceLightBlock);
+
+uint64_t mixed(uint64_t hash, const glm::dvec3& v)
+{
+    for (int i = 0; i < 3; ++i)
+        hash = base::hashWord(hash, std::bit_cast<uint64_t>(v[i]));
+    return hash;
+}
+
+} // namespace
+
+std::span<const ProgramDesc* const> lightPrograms()
+{
+    static constexpr const ProgramDesc* kPrograms[] = {&kLightSlicesProgram};
+    return kPrograms;
+}
+
+ViewLights::ViewLights(GlDevice* device, std::pmr::memory_resource* memory)
+    : device_(*device), list_(memory), casters_(memory)
+{}
+
+/// Of everything that the planes depend on.
+uint64_t ViewLights::keyOf(const LightListInputs& in, uint64_t casters) const
+{
+    const ViewSettings& settings = *in.settings;
+    const SliceSettings& slices = settings.slices;
+    uint64_t key = base::hashWord(casters, in.casters.size());
+    key = base::hashWord(key, uint64_t(slices.resolution.texels) << 32 | uint64_t(slices.resolution.planes));
+    key = base::hashWord(key, uint64_t(slices.castingPoints) << 1 | uint64_t(slices.enabled));
+    key = mixed(key, glm::dvec3(settings.lighting.sunDirection));
+    key = base::hashWord(key, uint64_t(settings.lighting.sunIlluminance != glm::vec3(0.0f)) << 1 |
+                                  uint64_t(settings.lighting.skyLuminance != glm::vec3(0.0f)));
+    for (const EffectLight& light : in.effects)
+        key = mixed(key, light.position);
+    for (size_t i = 0; i < settings.hostLights.count; ++i)
+        key = mixed(key, settings.hostLights.lights[i].position);
+    return key | 1; // never "nothing"
+}
+
+base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters)
+{
+    isKept_ = false;
+    wanted_ = keyOf(in, casters);
+    list_.build(in, wanted_ == filled_);
+    if (wanted_ != filled_) {
+        casters_.clear();
+        for (const MediumCaster& caster : in.casters)
+            casters_.push_back(
+                {glm::vec4(caster.center, caster.radius), glm::vec4(caster.crossSection, 0.0f, 0.0f, 0.0f)});
+    }
+    return makeRoom();
+}
+
+base::Status ViewLights::makeRoom()
+{
+    if (lightBuffer_.bytes() == 0) {
+        auto created = GlBuffer::create(device_, kListBytes, "lights");
+        if (!created)
+            return created.status();
+        lightBuffer_ = std::move(*created);
+    }
+    if (list_.stacks().empty())
+        return {};
+    const int width = std::max(atlas_.width(), list_.atlasWidth());
+    const int height = std::max(atlas_.height(), list_.atlasHeight());
+    if (width == atlas_.width() && height == atlas_.height())
+        return {};
+    atlas_ = {};
+    auto created =
+        GlTexture::create(device_, width, height, glInternalFormat(Format::R32F), "light slices");
+    if (!created)
+        return created.status();
+    atlas_ = std::move(*created);
+    filled_ = 0;
+    return {};
+}
+
+LightBindings ViewLights::addPasses(FrameGraph& graph)
+{
+    LightBindings bindings;
+    if (lightBuffer_.bytes() == 0)
+        return bindings;
+    bindings.lights = graph.importBuffer({"lights", kListBytes}, lightBuffer_.name());
+    bindings.hasSky = list_.head().counts.y > 0;
+    if (!list_.stacks().empty() && atlas_.name() != 0)
+        bindings.planes = graph.importTexture(
+            {"light slices", atlas_.width(), atlas_.height(), Format::R32F}, atlas_.name());
+    if (!isKept_)
+        graph.addPass("light list", [&](FrameGraph::Builder& builder) {
+            bindings.lights = builder.write(bindings.lights);
+            return [buffer = bindings.lights, head = list_.head(), lights = list_.lights()](Backend& backend) {
+                std::array<std::byte, kListBytes> bytes;
+                const auto headBytes = std::as_bytes(std::span(&head, 1));
+                const auto lightBytes = std::as_bytes(lights);
+                std::copy(headBytes.begin(), headBytes.end(), bytes.begin());
+                std::copy(lightBytes.begin(), lightBytes.end(), bytes.begin() + headBytes.size());
+                backend.upload(buffer, std::span(bytes).first(headBytes.size() + lightBytes.size()));
+            };
+        });
+    if (!bindings.planes.valid() || filled_ == wanted_)
+        return bindings;
+    ResourceId casters, stacks;
+    graph.addPass("light slice casters", [&](FrameGraph::Builder& builder) {
+        const std::span<const CasterBlock> casterBlocks = casters_;
+        const std::span<const SliceStackBlock> stackBlocks = list_.stackBlocks();
+        casters = builder.write(
+            builder.create(BufferDesc{"light casters", std::bit_ceil(casterBlocks.size_bytes())}));
+        stacks = builder.write(
+            builder.create(BufferDesc{"light stacks", std::bit_ceil(stackBlocks.size_bytes())}));
+        return [casters, stacks, casterBlocks, stackBlocks](Backend& backend) {
+            backend.upload(casters, std::as_bytes(casterBlocks));
+            backend.upload(stacks, std::as_bytes(stackBlocks));
+        };
+    });
+    bindings.planes =
+        LightSlicesPass::addTo(graph, {casters, stacks, bindings.planes, uint32_t(casters_.size()),
+                                       uint32_t(list_.stackBlocks().size()), list_.mostTexels()})
+            .atlas;
+    graph.keep(bindings.planes); // later frames read it
+    filled_ = wanted_;
+    return bindings;
+}
+
+void ViewLights::forget()
+{
+    filled_ = 0;
+}
+
+void ViewLights::release()
+{
+    lightBuffer_ = {};
+    atlas_ = {};
+    filled_ = 0;
+}
+
+uint64_t ViewLights::bytes() const
+{
+    return lightBuffer_.bytes() + atlas_.bytes();
+}
+
+} // namespace fx::render

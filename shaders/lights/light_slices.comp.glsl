@@ -1,0 +1,127 @@
+#include "formulas/sphere_path.fx.h"
+#include "formulas/kernel_optical_depth.fx.h"
+
+// Optical depth of all balls of medium between a light and each texel of its planes. One invocation a column of texels;
+// a workgroup has 8 x 8 neighboring columns and first finds the balls that any of them can meet.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+struct MediumCaster
+{
+    vec4 centerRadius; // xyz [m] relative to the eye; w radius [m]
+    vec4 medium;       // x cross section [m2]
+};
+struct SliceStack
+{
+    vec4 origin; // xyz [m] corner of the first plane, or the light's place; w distance of two planes [m]
+    vec4 right;  // xyz [m] one texel to the right; w 0 flat planes, 1 shells around `origin`
+    vec4 up;     // xyz [m] one texel up
+    vec4 along;  // xyz direction in which parallel light goes; w distance from a point up to which media do not count [m]
+    vec4 tiles;  // xy texel of the first plane in the atlas; z texels along a side; w planes
+};
+layout(std430, binding = 0) readonly buffer Casters { MediumCaster casters[]; };
+layout(std430, binding = 1) readonly buffer Stacks { SliceStack stacks[]; };
+layout(r32f, binding = 0) uniform writeonly image2D slices;
+layout(std140, binding = 0) uniform SliceBlock { ivec4 casterCount; };
+
+const int kMostPlanes = 128;
+const int kTileColumns = 8;
+shared uint met[2]; // one bit a ball of the batch of 64
+
+// Inverse of the octahedral map; places a little outside of [-1, 1]^2 fold back to where the map goes on.
+vec3 octahedralDirection(vec2 p)
+{
+    if (abs(p.x) > 1.0)
+        p = vec2((p.x > 0.0 ? 2.0 : -2.0) - p.x, -p.y);
+    if (abs(p.y) > 1.0)
+        p = vec2(-p.x, (p.y > 0.0 ? 2.0 : -2.0) - p.y);
+    vec3 d = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (d.z < 0.0)
+        d.xy = vec2((1.0 - abs(p.y)) * (p.x >= 0.0 ? 1.0 : -1.0), (1.0 - abs(p.x)) * (p.y >= 0.0 ? 1.0 : -1.0));
+    return normalize(d);
+}
+
+void rayOf(SliceStack stack, vec2 texel, out vec3 start, out vec3 direction)
+{
+    start = stack.origin.xyz;
+    if (stack.right.w < 0.5) {
+        start += texel.x * stack.right.xyz + texel.y * stack.up.xyz;
+        direction = stack.along.xyz;
+    } else {
+        direction = octahedralDirection(2.0 * (texel - 1.0) / (stack.tiles.z - 2.0) - 1.0);
+    }
+}
+
+// Whether a column of the workgroup can meet a ball. `middle` is the ray in the middle of all columns; `reach` the largest
+// distance of another one from it: in metres, or for shells in metres a metre of distance.
+bool canMeet(vec4 ball, vec3 start, vec3 direction, float reach, bool isParallel)
+{
+    vec3 d = ball.xyz - start;
+    float along = dot(d, direction);
+    float across = length(d - along * direction);
+    if (isParallel)
+        return across < ball.w + reach;
+    return length(d) < ball.w || across < ball.w + reach * length(d);
+}
+
+void main()
+{
+    SliceStack stack = stacks[gl_WorkGroupID.z];
+    if (float(gl_WorkGroupID.x * 8u) >= stack.tiles.z || float(gl_WorkGroupID.y * 8u) >= stack.tiles.z)
+        return; // the whole workgroup
+    bool isParallel = stack.right.w < 0.5;
+    int planes = int(stack.tiles.w);
+    vec3 start, direction, middleStart, middle, cornerStart, corner;
+    rayOf(stack, vec2(gl_GlobalInvocationID.xy) + 0.5, start, direction);
+    vec2 group = vec2(gl_WorkGroupID.xy * 8u);
+    rayOf(stack, group + 4.0, middleStart, middle);
+    float reach = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        rayOf(stack, group + vec2((i & 1) == 0 ? 0.0 : 8.0, i < 2 ? 0.0 : 8.0), cornerStart, corner);
+        reach = max(reach, isParallel ? length(cornerStart - middleStart) : 1.1 * length(corner - middle));
+    }
+
+    float between[kMostPlanes];
+    for (int k = 0; k < planes; ++k)
+        between[k] = 0.0;
+    for (int batch = 0; batch < casterCount.x; batch += 64) {
+        uint lane = gl_LocalInvocationIndex;
+        if (lane < 2u)
+            met[lane] = 0u;
+        barrier();
+        int mine = batch + int(lane);
+        if (mine < casterCount.x && canMeet(casters[mine].centerRadius, middleStart, middle, reach, isParallel))
+            atomicOr(met[lane >> 5], 1u << (lane & 31u));
+        barrier();
+        for (int word = 0; word < 2; ++word) {
+            uint bits = met[word];
+            while (bits != 0u) {
+                int bit = findLSB(bits);
+                bits &= bits - 1u;
+                MediumCaster ball = casters[batch + 32 * word + bit];
+                float radius = ball.centerRadius.w;
+                vec3 toCenter = ball.centerRadius.xyz - start;
+                float tc = dot(toCenter, direction);
+                float h = length(toCenter - tc * direction);
+                if (h < radius) {
+                    float spacing = stack.origin.w;
+                    float halfChord = sqrt((radius - h) * (radius + h));
+                    int first = clamp(int(floor((tc - halfChord) / spacing)) + 1, 0, planes - 1);
+                    int last = clamp(int(floor((tc + halfChord) / spacing)) + 1, 0, planes - 1);
+                    for (int k = first; k <= last; ++k) {
+                        float begin = k > 0 ? max(float(k - 1) * spacing, stack.along.w) : isParallel ? -1e30 : stack.along.w;
+                        between[k] += fxKernelOpticalDepth(ball.medium.x, radius, h, tc, begin, float(k) * spacing);
+                    }
+                }
+            }
+        }
+        barrier();
+    }
+
+    float depth = 0.0;
+    ivec2 tile = ivec2(stack.tiles.xy) + ivec2(gl_GlobalInvocationID.xy);
+    int side = int(stack.tiles.z);
+    for (int k = 0; k < planes; ++k) {
+        depth += between[k];
+        imageStore(slices, tile + side * ivec2(k % kTileColumns, k / kTileColumns), vec4(depth));
+    }
+}

@@ -1,0 +1,23 @@
+// Light that a medium scatters to the eye at a point, per unit of extinction. Needs shared/light_slices.glsl and
+// formulas/multiple_scattering.fx.h.
+
+// p [m] relative to the eye; toEye unit; g mean cosine of the phase function
+vec3 scatteredLight(vec3 p, vec3 toEye, vec3 albedo, float g)
+{
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < lightCounts.x; ++i) {
+        vec3 towards;
+        vec3 arriving = unshadowedLight(lights[i], p, towards);
+        if (!(arriving.r + arriving.g + arriving.b > 0.0))
+            continue;
+        float cosine = -dot(towards, toEye); // 1: light goes straight on to the eye
+        vec2 depth = sliceDepth(lights[i], p);
+        vec3 source = albedo * (fxHenyeyGreenstein(cosine, g) * exp(-depth.x));
+        if (lightOfSky.w > 0.5)
+            source += vec3(fxMultipleScattering(albedo.r, g, cosine, depth.x, depth.y),
+                           fxMultipleScattering(albedo.g, g, cosine, depth.x, depth.y),
+                           fxMultipleScattering(albedo.b, g, cosine, depth.x, depth.y));
+        sum += arriving * source;
+    }
+    return sum;
+}
