@@ -42,7 +42,9 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/black_body_contrast.fx.h"
 #include "shaders/formulas/detail_noise.fx.h"
 #include "shaders/formulas/heat_stream.fx.h"
+#include "shaders/formulas/henyey_greenstein.fx.h"
 #include "shaders/formulas/kernel_optical_depth.fx.h"
+#include "shaders/formulas/multiple_scattering.fx.h"
 #include "shaders/formulas/sensor_law.fx.h"
 #include "shaders/formulas/sphere_path.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
@@ -59,6 +61,8 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/black_body_contrast.fx.h"
 #include "shaders/formulas/detail_noise.fx.h"
 #include "shaders/formulas/heat_stream.fx.h"
+#include "shaders/formulas/henyey_greenstein.fx.h"
+#include "shaders/formulas/multiple_scattering.fx.h"
 #include "shaders/formulas/sensor_law.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
 // clang-format on
