@@ -33,18 +33,6 @@ void insert(const EffectLight& light, std::span<EffectLight> out, size_t& ioCoun
 
 } // namespace
 
-Incidence BallLight::at(const glm::vec3& position) const
-{
-    const glm::vec3 toLight = center_ - position;
-    const float d2 = glm::dot(toLight, toLight);
-    const float distance = std::sqrt(d2);
-    Incidence incidence;
-    incidence.direction = distance > 0.0f ? toLight / distance : glm::vec3(0.0f, 1.0f, 0.0f);
-    incidence.illuminance = intensity_ / (d2 + radius_ * radius_);
-    incidence.distance = distance;
-    return incidence;
-}
-
 bool GroupGlow::add(const glm::vec3& position, const glm::vec3& intensity, float radius)
 {
     const double weight = double(intensity.x + intensity.y + intensity.z);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
-#include "rendering/lights/light.h"
 
 #include <glm/vec3.hpp>
 

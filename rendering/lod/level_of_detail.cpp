@@ -14,7 +14,6 @@ namespace fx::render {
 namespace {
 
 constexpr float kEverything = std::numeric_limits<float>::infinity();
-constexpr float kFinestCells = 24.0f; ///< along an edge of the finest grid of shadows
 
 size_t countedAs(const LodRamp& ramp)
 {
@@ -100,8 +99,6 @@ LodLevel LevelOfDetail::find(const base::GroupInfo& group, const base::Placement
     level.ramp = LodRamp(share);
     level.grownPixels = kGrown / fineness;
     level.swollenPixels = kSwollen * radius;
-    const float cells = 2.0f * radius * fineness / kShadowCell;
-    level.shadowCoarse = std::clamp(std::log2(kFinestCells / cells), 0.0f, LodLevel::kCoarsest);
     return level;
 }
 

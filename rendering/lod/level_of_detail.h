@@ -81,13 +81,9 @@ private:
 /// How one group is drawn.
 struct LodLevel
 {
-    static constexpr float kCoarsest = 2.0f;
-
     LodRamp ramp;
     float grownPixels = 0.0f;   ///< [pixel] largest radius to which a kept blob grows
     float swollenPixels = 0.0f; ///< [pixel] by which it grows at most
-    float shadowCoarse =
-        0.0f; ///< [1] 0: the grid of the self-shadow is fine; 1, kCoarsest: half, a quarter as fine
 };
 
 /// Groups by the share that is drawn of them: all; at least half; at least an eighth; less.
@@ -100,7 +96,6 @@ public:
     static constexpr float kLeastKept = 12.0f; ///< blobs of a group, however small it is
     static constexpr float kGrown = 1.15f;     ///< [pixel] times sqrt(bias)
     static constexpr float kSwollen = 0.1f;    ///< of the radius of the group on the picture
-    static constexpr float kShadowCell = 2.0f; ///< [pixel] times sqrt(bias): finer cells are not needed
 
     explicit LevelOfDetail(std::pmr::memory_resource* memory) : last_(memory), now_(memory) {}
 

@@ -53,11 +53,16 @@ const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bo
 void BlobSource::read(FrameGraph::Builder& builder) const
 {
     builder.read(blobs);
+    if (skies.valid())
+        builder.read(skies);
 }
 
 void BlobSource::draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const
 {
-    drawQuads(backend, mediaProgram(form, detail, target.layers, target.isSmall), blobs, batch, target);
+    QuadInputs inputs{blobs};
+    inputs.lights = &target.lights;
+    inputs.skies = skies;
+    drawQuads(backend, mediaProgram(form, detail, target.layers, target.isSmall), inputs, batch, target);
 }
 
 } // namespace fx::render

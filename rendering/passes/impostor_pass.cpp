@@ -69,7 +69,7 @@ void ImpostorSource::read(FrameGraph::Builder& builder) const
 
 void ImpostorSource::draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const
 {
-    drawQuads(backend, kImpostorProgram, instances, batch, target, {1, atlas, Sampling::Linear});
+    drawQuads(backend, kImpostorProgram, {instances, {1, atlas, Sampling::Linear}}, batch, target);
 }
 
 } // namespace fx::render

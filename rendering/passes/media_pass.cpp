@@ -36,6 +36,7 @@ MediaPass::Outputs MediaPass::addTo(FrameGraph& graph, const Inputs& in, const O
             if (isFirstOfSource(in.batches, i))
                 in.batches[i].source->read(builder);
         builder.read(in.distance);
+        in.lights.read(builder);
         for (size_t i = 0; i < targetCount; ++i) {
             const ResourceId before = in.layers ? under.layers[i] : under.media;
             targets[i] = builder.write(
@@ -50,7 +51,7 @@ MediaPass::Outputs MediaPass::addTo(FrameGraph& graph, const Inputs& in, const O
             for (size_t i = 0; isFirst && i < targetCount; ++i)
                 backend.clear(targets[i], {0.0f, 0.0f, 0.0f, 0.0f});
             const MediaTarget target{
-                &in.view, in.distance, {targets.data(), targetCount}, in.layers, in.isSmall};
+                &in.view, in.distance, {targets.data(), targetCount}, in.layers, in.isSmall, in.lights};
             for (const DrawBatch& batch : in.batches)
                 batch.source->draw(backend, batch, target);
         };

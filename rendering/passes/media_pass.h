@@ -28,6 +28,7 @@ public:
         ViewBlock view;
         bool layers;
         bool isSmall = false; ///< of a layer grid whose texels are larger than pixels
+        LightBindings lights{};
     };
     /// Outputs with `layers`, in the order of media.frag.glsl.
     enum LayerTarget : size_t

@@ -2,18 +2,27 @@
 
 namespace fx::render {
 
-void drawQuads(Backend& backend, const ProgramDesc& program, ResourceId instances, const DrawBatch& batch,
-               const MediaTarget& target, const TextureBinding& picture)
+void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& inputs, const DrawBatch& batch,
+               const MediaTarget& target)
 {
     ViewBlock view = *target.view;
     view.pass.y = float(batch.first); // exact up to 2^24
-    const TextureBinding textures[] = {{0, target.distance}, picture};
-    const BufferBinding buffers[] = {{0, instances}};
+    TextureBinding textures[3] = {{0, target.distance}};
+    BufferBinding buffers[3] = {{0, inputs.instances}};
+    size_t textureCount = 1, bufferCount = 1;
+    if (inputs.picture.texture.valid())
+        textures[textureCount++] = inputs.picture;
+    if (inputs.lights && inputs.lights->lights.valid())
+        buffers[bufferCount++] = inputs.lights->bufferBinding();
+    if (inputs.lights && inputs.lights->planes.valid())
+        textures[textureCount++] = inputs.lights->textureBinding();
+    if (inputs.skies.valid())
+        buffers[bufferCount++] = {kBlobSkyBinding, inputs.skies};
     DrawCall call;
     call.program = &program;
     call.targets = target.targets;
-    call.textures = {textures, picture.texture.valid() ? 2u : 1u};
-    call.buffers = buffers;
+    call.textures = {textures, textureCount};
+    call.buffers = {buffers, bufferCount};
     call.uniforms = asUniforms(view);
     call.blend = Blend::Premultiplied;
     call.vertices = 6;

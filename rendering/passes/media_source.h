@@ -4,6 +4,7 @@
 
 #include "rendering/frame/view_block.h"
 #include "rendering/frame_graph/frame_graph.h"
+#include "rendering/passes/light_bindings.h"
 
 #include <cstdint>
 #include <span>
@@ -29,6 +30,7 @@ struct MediaTarget
     std::span<const ResourceId> targets; ///< as in MediaPass, or in SolidPass
     bool layers;                         ///< as in MediaPass
     bool isSmall;                        ///< texels are larger than pixels
+    LightBindings lights{};              ///< of the view
 };
 
 /// Draws batches of its own things. It stays as it is from when its pass is added until the graph has
@@ -50,11 +52,20 @@ protected:
     ~MediaSource() = default;
 };
 
+/// What quads read besides the ViewBlock and the target's distance.
+struct QuadInputs
+{
+    ResourceId instances;        ///< buffer at binding 0
+    TextureBinding picture{};    ///< bound when it is valid
+    const LightBindings* lights = nullptr;
+    ResourceId skies{};          ///< buffer at kBlobSkyBinding when it is valid
+};
+
+constexpr uint32_t kBlobSkyBinding = 6;
+
 /// Draws the instances of a batch as quads of 6 vertices, premultiplied "over" what is there. The program has
-/// the ViewBlock, with batch.first in pass.y, the target's distance at texture unit 0 and `instances` at
-/// buffer binding 0.
-/// @param picture bound as well when it is valid
-void drawQuads(Backend& backend, const ProgramDesc& program, ResourceId instances, const DrawBatch& batch,
-               const MediaTarget& target, const TextureBinding& picture = {});
+/// the ViewBlock, with batch.first in pass.y, and the target's distance at texture unit 0.
+void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& inputs, const DrawBatch& batch,
+               const MediaTarget& target);
 
 } // namespace fx::render

@@ -18,8 +18,10 @@
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/pass_groups.h"
 #include "rendering/lights/effect_lights.h"
+#include "rendering/lights/medium_caster.h"
 #include "rendering/lod/level_of_detail.h"
 #include "rendering/passes/blob_instance.h"
+#include "rendering/passes/light_bindings.h"
 #include "rendering/passes/media_source.h"
 #include "rendering/techniques/quality_knob.h"
 
@@ -56,6 +58,7 @@ struct GatherInputs
 struct GatheredFrame
 {
     std::pmr::vector<DrawStream>* streams; ///< what the media pass draws, each with its source
+    std::pmr::vector<MediumCaster>* casters = nullptr; ///< all media that cast shadows, relative to the eye
     FragmentCounts fragments{};            ///< estimated, of what the media pass draws
     std::span<const BlobInstance> blobs{}; ///< balls of medium
     bool anyHeat = false;                  ///< some of those bend light
@@ -80,6 +83,7 @@ struct PassFrame
     ViewBlock view;                ///< of the picture
     ViewBlock layerView;           ///< of the media's layers
     int layerWidth, layerHeight;   ///< [texel]
+    LightBindings lights = {};     ///< of the view
     bool hasSmallLayers = false;   ///< their texels are larger than pixels
     bool hasMedia = false;         ///< something is drawn by the media pass or hides
     ResourceId distance = {};      ///< [m] to what the host, and from Measure on solid particles, show

@@ -47,6 +47,8 @@ public:
     ViewGraphOutputs build()
     {
         importTargets();
+        if (frame_.hasMedia && in_.lights)
+            frame_.lights = in_.lights->addPasses(graph_);
         addStage(PassStage::Pictures);
         if (frame_.hasMedia)
             addMedia();
@@ -143,7 +145,7 @@ private:
     {
         return MediaPass::addTo(graph_,
                                 {in_.batches, distance, grid_.width, grid_.height, frame_.layerView,
-                                 settings_.layerOutputs, frame_.hasSmallLayers},
+                                 settings_.layerOutputs, frame_.hasSmallLayers, frame_.lights},
                                 under);
     }
 

@@ -4,6 +4,7 @@
 
 #include "rendering/frame/view_types.h"
 #include "rendering/frame_graph/frame_graph.h"
+#include "rendering/lights/slices/view_lights.h"
 #include "rendering/techniques/draw_technique.h"
 
 #include <memory>
@@ -21,6 +22,7 @@ struct ViewGraphInputs
     std::span<const std::unique_ptr<TechniqueView>> techniques;
     std::span<const DrawBatch> batches;         ///< of what does not hide
     std::span<const MediaSource* const> solids; ///< of what hides
+    ViewLights* lights = nullptr;               ///< gathered; null: nothing is lit
     int layerDivisor = 1;                       ///< of this frame, >= that of the settings
 };
 

@@ -10,7 +10,7 @@ namespace fx::render {
 ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
                          DrawTechniques list)
     : device(d), graph(memory), backend(*d, memory), techniques(list), parts(memory), lod(memory),
-      batcher(memory), streams(memory), solids(memory), revisions(memory), targetCheck(*d),
+      lights(d, memory), casters(memory), batcher(memory), streams(memory), solids(memory), revisions(memory), targetCheck(*d),
       timer(*d, render::passGroups(list))
 {
     const TechniqueSetup setup{d, schema, memory, list};
@@ -27,7 +27,7 @@ ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::p
 
 uint64_t ViewRenderer::Impl::bytes() const
 {
-    uint64_t sum = backend.pooledBytes();
+    uint64_t sum = backend.pooledBytes() + lights.bytes();
     for (const auto& part : parts)
         sum += part->bytes();
     return sum;
@@ -41,6 +41,8 @@ FrameStatistics ViewRenderer::Impl::rest()
     const uint64_t before = device->callCount();
     if (++idleFrames >= kIdleFrames && backend.pooledBytes() > 0)
         backend.releasePool();
+    if (idleFrames == kIdleFrames)
+        lights.release();
     for (const auto& part : parts)
         part->rest();
     if (idleFrames == kIdleFrames)

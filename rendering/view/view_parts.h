@@ -7,6 +7,7 @@
 #include "rendering/gl/gl_device.h"
 #include "rendering/host_targets/host_target_check.h"
 #include "rendering/lights/effect_lights.h"
+#include "rendering/lights/slices/view_lights.h"
 #include "rendering/lod/level_of_detail.h"
 #include "rendering/view/frame_key.h"
 #include "rendering/view/layer_scale_control.h"
@@ -45,6 +46,8 @@ struct ViewRenderer::Impl
     DrawTechniques techniques;
     std::pmr::vector<std::unique_ptr<TechniqueView>> parts; ///< of techniques, in their order
     LevelOfDetail lod;
+    ViewLights lights;
+    std::pmr::vector<MediumCaster> casters;
     DrawBatcher batcher;
     std::pmr::vector<DrawStream> streams;
     std::span<const DrawBatch> mediaBatches;

@@ -25,6 +25,17 @@ uint64_t contentOf(const RevisionPair& revisions, double interpolation)
                           moment);
 }
 
+/// Differs where the casters of a frame differ in the world: level of detail depends on the camera.
+uint64_t casterRevision(const GatherInputs& in)
+{
+    const LodSettings& lod = in.settings->lod;
+    uint64_t revision = base::hashWord(in.content, std::bit_cast<uint32_t>(in.settings->particleShare));
+    if (lod.bias > 0.0f || lod.impostorPixels > 0.0f)
+        for (int i = 0; i < 3; ++i)
+            revision = base::hashWord(revision, std::bit_cast<uint64_t>(in.camera->eye[i]));
+    return revision;
+}
+
 base::Status invalid(std::string message)
 {
     return {base::Code::InvalidArgument, std::move(message)};
@@ -59,6 +70,7 @@ bool ViewRenderer::Impl::leavesPictureAlone(const base::SnapshotPair& snapshots,
 
 void ViewRenderer::Impl::forget()
 {
+    lights.forget();
     for (const auto& part : parts)
         part->forget();
 }
@@ -76,6 +88,7 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     const FrameKey wanted = frameKey(now, request, settings, assets);
     keptLists = key == wanted && !request.resetHistory;
     if (keptLists) {
+        lights.keep();
         for (const auto& part : parts)
             part->keep();
         return {};
@@ -104,8 +117,8 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
 {
     const CameraGeometry camera = cameraGeometry(request.camera);
     lod.begin(settings.lod, camera, request.targets.height, request.resetHistory);
-    std::array<EffectLight, kMostEffectLights> lights;
-    const size_t lightCount = snapshots.newer ? effectLights(*snapshots.newer, lights, techniques) : 0;
+    std::array<EffectLight, kMostEffectLights> glows;
+    const size_t glowCount = snapshots.newer ? effectLights(*snapshots.newer, glows, techniques) : 0;
     const GatherInputs inputs{&snapshots,
                               now,
                               rowsOf(snapshots.newer),
@@ -114,19 +127,23 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
                               &settings,
                               &camera,
                               assets,
-                              std::span(lights).first(lightCount),
+                              std::span(glows).first(glowCount),
                               &lod,
                               contentOf(now, request.interpolation)};
     streams.clear();
     solids.clear();
     mediaBatches = {};
-    GatheredFrame gathered{&streams};
+    casters.clear();
+    GatheredFrame gathered{&streams, &casters};
     for (const auto& part : parts)
         if (base::Status status = part->gather(inputs, gathered); !status)
             return status;
     for (const auto& part : parts)
         if (const MediaSource* source = part->solids())
             solids.push_back(source);
+    const LightListInputs lit{&settings, camera.eye, inputs.lights, casters};
+    if (base::Status status = lights.gather(lit, casterRevision(inputs)); !status)
+        return status;
     fragments = gathered.fragments;
     mediaBatches = batcher.build(streams);
     return {};
@@ -152,8 +169,9 @@ base::Status ViewRenderer::warmUp()
                 return status;
         return base::Status();
     };
-    if (base::Status status = compile(framePrograms()); !status)
-        return status;
+    for (const auto programs : {framePrograms(), lightPrograms()})
+        if (base::Status status = compile(programs); !status)
+            return status;
     for (const DrawTechnique* technique : impl_->techniques)
         if (base::Status status = technique->programs ? compile(technique->programs()) : base::Status();
             !status)
@@ -196,7 +214,7 @@ base::Status ViewRenderer::check(const FrameRequest& request)
 base::Status ViewRenderer::Impl::draw(const FrameRequest& request, const ViewSettings& settings, int divisor)
 {
     graph.begin();
-    outputs = buildViewGraph(graph, {&request, &settings, parts, mediaBatches, solids, divisor});
+    outputs = buildViewGraph(graph, {&request, &settings, parts, mediaBatches, solids, &lights, divisor});
     if (!outputs.anyPass)
         return {};
     graph.compile();

@@ -2,6 +2,7 @@
 #include "formulas/kernel_optical_depth.fx.h"
 #include "formulas/kernel_quantile.fx.h"
 #include "formulas/detail_noise.fx.h"
+#include "formulas/henyey_greenstein.fx.h"
 #include "formulas/multiple_scattering.fx.h"
 #include "shared/view_block.glsl"
 #include "shared/light_slices.glsl"

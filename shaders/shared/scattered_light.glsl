@@ -1,6 +1,16 @@
 // Light that a medium scatters to the eye at a point, per unit of extinction. Needs shared/light_slices.glsl and
 // formulas/multiple_scattering.fx.h.
 
+vec3 scatteredAgain(vec3 albedo, float g, float cosine, vec2 depth)
+{
+    vec3 source = vec3(fxMultipleScattering(albedo.r, g, cosine, depth.x, depth.y));
+    if (albedo.g != albedo.r || albedo.b != albedo.r) {
+        source.g = fxMultipleScattering(albedo.g, g, cosine, depth.x, depth.y);
+        source.b = fxMultipleScattering(albedo.b, g, cosine, depth.x, depth.y);
+    }
+    return source;
+}
+
 // p [m] relative to the eye; toEye unit; g mean cosine of the phase function
 vec3 scatteredLight(vec3 p, vec3 toEye, vec3 albedo, float g)
 {
@@ -14,9 +24,7 @@ vec3 scatteredLight(vec3 p, vec3 toEye, vec3 albedo, float g)
         vec2 depth = sliceDepth(lights[i], p);
         vec3 source = albedo * (fxHenyeyGreenstein(cosine, g) * exp(-depth.x));
         if (lightOfSky.w > 0.5)
-            source += vec3(fxMultipleScattering(albedo.r, g, cosine, depth.x, depth.y),
-                           fxMultipleScattering(albedo.g, g, cosine, depth.x, depth.y),
-                           fxMultipleScattering(albedo.b, g, cosine, depth.x, depth.y));
+            source += scatteredAgain(albedo, g, cosine, depth);
         sum += arriving * source;
     }
     return sum;

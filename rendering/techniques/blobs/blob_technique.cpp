@@ -1,6 +1,7 @@
 #include "rendering/techniques/blobs/blob_technique.h"
 
 #include "foundation/snapshot/blob_kind.h"
+#include "rendering/passes/blob_sky_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/techniques/blobs/blob_lights.h"
 #include "rendering/techniques/blobs/blob_quality.h"
@@ -15,17 +16,20 @@ namespace {
 constexpr TimedPass kTimed[] = {{"blob upload", "media"},
                                 {"media impostor upload", "media"},
                                 {"media impostor blobs", "media"},
-                                {"media impostors", "media"}};
+                                {"media impostors", "media"},
+                                {"impostor skies", "media"},
+                                {"blob sky", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
     static const auto all = [] {
-        std::array<const ProgramDesc*, kMediaPrograms + 4> list{};
+        std::array<const ProgramDesc*, kMediaPrograms + 5> list{};
         for (size_t i = 0; i < kMediaPrograms; ++i)
             list[i] = &mediaProgramAt(i);
         size_t end = kMediaPrograms;
         for (const ProgramDesc* program :
-             {&kOverdrawProgram, &kOverdrawSmallProgram, &kImpostorProgram, &kImpostorKeepProgram})
+             {&kOverdrawProgram, &kOverdrawSmallProgram, &kImpostorProgram, &kImpostorKeepProgram,
+              &kBlobSkyProgram})
             list[end++] = program;
         return list;
     }();

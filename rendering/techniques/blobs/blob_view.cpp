@@ -3,6 +3,7 @@
 #include "rendering/gl/gl_backend.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/media/blob_estimate.h"
+#include "rendering/passes/blob_sky_pass.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
@@ -25,8 +26,9 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
     isKept_ = false;
     restingFrames_ = 0;
     const HostTargets& targets = in.request->targets;
-    builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.lights, in.content);
+    builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.content);
     io.blobs = builder_.blobs();
+    io.casters->insert(io.casters->end(), builder_.casters().begin(), builder_.casters().end());
     io.anyHeat = builder_.anyHeat();
     io.fragments = estimateFragments(builder_.blobs(), *in.camera, targets.width, targets.height);
     if (builder_.stream().count > 0) {
@@ -38,6 +40,8 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
         io.streams->back().source = &impostors_;
     }
     if (base::Status status = makeRoom(blobBuffer_, builder_.blobs().size_bytes(), "blobs"); !status)
+        return status;
+    if (base::Status status = makeRoom(skyBuffer_, builder_.blobs().size() * kBlobSkyBytes, "blob skies"); !status)
         return status;
     return makeRoomForImpostors();
 }
@@ -152,10 +156,22 @@ void BlobView::takePictures(FrameGraph& graph, const PassFrame& frame)
     });
     takenBlobs_.form = frame.settings->form;
     takenBlobs_.detail = frame.settings->detail && builder_.anyDetail();
+    takenBlobs_.skies = {};
+    if (frame.lights.hasSky && frame.lights.planes.valid()) {
+        ResourceId skies;
+        graph.addPass("impostor skies", [&](FrameGraph::Builder& builder) {
+            skies = builder.write(builder.create(BufferDesc{
+                "impostor skies", std::bit_ceil(builder_.takenBlobs().size() * kBlobSkyBytes + kBlobSkyBytes)}));
+            return [](Backend&) {};
+        });
+        takenBlobs_.skies = BlobSkyPass::addTo(graph, {takenBlobs_.blobs, skies, frame.lights,
+                                                       uint32_t(builder_.takenBlobs().size())})
+                                .skies;
+    }
     takenBatch_ = {0, 0, uint32_t(builder_.takenBlobs().size()), &takenBlobs_};
     const ResourceId nothing = SceneDistancePass::addTo(graph, {{}, kSide, kSide, view}).distance;
     const auto drawn =
-        MediaPass::addTo(graph, {{&takenBatch_, 1}, nothing, kSide, kSide, view, false, false}, {});
+        MediaPass::addTo(graph, {{&takenBatch_, 1}, nothing, kSide, kSide, view, false, false, frame.lights}, {});
     impostors_.atlas =
         ImpostorKeepPass::addTo(graph, {drawn.media, impostors_.atlas, tiles, uint32_t(kept.size())}).atlas;
     graph.keep(impostors_.atlas); // later frames show it
@@ -176,6 +192,20 @@ void BlobView::uploadBlobs(FrameGraph& graph, PassFrame& frame)
             };
         });
     frame.blobs = blobs_.blobs;
+    addSkies(graph, frame);
+}
+
+void BlobView::addSkies(FrameGraph& graph, const PassFrame& frame)
+{
+    blobs_.skies = {};
+    if (!frame.lights.hasSky || !frame.lights.planes.valid())
+        return;
+    blobs_.skies = graph.importBuffer(
+        {"blob skies", std::bit_ceil(builder_.blobs().size() * kBlobSkyBytes)}, skyBuffer_.name());
+    if (!isKept_)
+        blobs_.skies = BlobSkyPass::addTo(graph, {blobs_.blobs, blobs_.skies, frame.lights,
+                                                  uint32_t(builder_.blobs().size())})
+                           .skies;
 }
 
 void BlobView::countOverdraw(FrameGraph& graph, const PassFrame& frame)
@@ -218,6 +248,7 @@ void BlobView::rest()
 void BlobView::releaseBlobs()
 {
     blobBuffer_ = {};
+    skyBuffer_ = {};
 }
 
 void BlobView::releaseImpostors()
@@ -260,7 +291,7 @@ void BlobView::cover(const CameraGeometry& camera, ScreenShare& share) const
 
 uint64_t BlobView::bytes() const
 {
-    return blobBuffer_.bytes() + impostorBuffer_.bytes() + impostorAtlas_.bytes();
+    return blobBuffer_.bytes() + skyBuffer_.bytes() + impostorBuffer_.bytes() + impostorAtlas_.bytes();
 }
 
 } // namespace fx::render

@@ -56,7 +56,7 @@ protected:
         std::pmr::vector<render::GatheredBlob> blobs;
         const auto camera =
             render::cameraGeometry(render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f));
-        std::pmr::vector<render::GridBlob> medium;
+        std::pmr::vector<render::MediumCaster> medium;
         std::pmr::vector<render::InstanceBlobs> instances;
         counts_ = render::gatherBlobs(pair, t, camera, 720, blobs, medium, instances);
         mediumCount_ = medium.size();
@@ -119,7 +119,7 @@ TEST_F(FrameBuilderTest, aShutterDrawsAFastBlobOutAndKeepsItsMedium)
     std::pmr::vector<render::GatheredBlob> blobs;
     const auto camera =
         render::cameraGeometry(render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f));
-    std::pmr::vector<render::GridBlob> medium;
+    std::pmr::vector<render::MediumCaster> medium;
     std::pmr::vector<render::InstanceBlobs> instances;
     render::gatherBlobs(pair, 1.0, camera, 720, blobs, medium, instances);
     ASSERT_GT(blobs.size(), 2u);
@@ -139,7 +139,7 @@ TEST_F(FrameBuilderTest, aStreakOfAnyLengthHasNoGaps)
         base::SnapshotPair pair;
         pair.newer = &newer;
         std::pmr::vector<render::GatheredBlob> blobs;
-        std::pmr::vector<render::GridBlob> medium;
+        std::pmr::vector<render::MediumCaster> medium;
         std::pmr::vector<render::InstanceBlobs> instances;
         render::gatherBlobs(pair, 1.0, camera, 1 << 14, blobs, medium, instances);
         for (size_t k = 1; k < blobs.size(); ++k)
@@ -162,7 +162,7 @@ TEST_F(FrameBuilderTest, aShareOfTheParticlesStandsForAllOfThemAndGrowsByAdditio
     std::vector<float> before;
     for (const float share : {0.125f, 0.25f, 0.5f, 1.0f}) {
         std::pmr::vector<render::GatheredBlob> blobs;
-        std::pmr::vector<render::GridBlob> medium;
+        std::pmr::vector<render::MediumCaster> medium;
         std::pmr::vector<render::InstanceBlobs> instances;
         render::gatherBlobs(pair, 1.0, camera, 720, blobs, medium, instances, share);
         EXPECT_NEAR(float(blobs.size()) / 20'000.0f, share, 0.015f); // 4 standard deviations
@@ -218,7 +218,7 @@ TEST_F(FrameBuilderTest, aMirroredProjectionSeesTheSameBlobs)
     auto view = render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f);
     view.projection[1][1] *= -1.0f;
     std::pmr::vector<render::GatheredBlob> blobs;
-    std::pmr::vector<render::GridBlob> medium;
+    std::pmr::vector<render::MediumCaster> medium;
     std::pmr::vector<render::InstanceBlobs> instances;
     render::gatherBlobs(pair, 1.0, render::cameraGeometry(view), 720, blobs, medium, instances);
     ASSERT_EQ(blobs.size(), 2u);

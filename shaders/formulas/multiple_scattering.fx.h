@@ -1,0 +1,96 @@
+/// @formula multiple-scattering
+/// Light that a medium scatters towards the eye, also after it has been scattered many times before, from two optical
+/// depths along the line of the light: cheap enough for every fragment.
+///
+/// symbol         unit   meaning
+///   albedo       1      share of the extinction that scatters, 0..1
+///   g            1      mean cosine of Henyey and Greenstein's phase function
+///   cosine       1      between the way the light travels and the direction to the eye; 1: straight on
+///   tauLight     1      optical depth between the light and the point
+///   tauColumn    1      optical depth of the whole medium on the light's line through the point
+///   source       1/sr   light scattered towards the eye per unit of extinction, for a light of illuminance 1
+///   x, X         1      tauLight and tauColumn in lengths after which a direction is forgotten
+///   f            1      share of the scattering that goes so nearly straight on that it belongs to the beam
+///   b            1      extinction of such a beam per x
+///   q, p         1      light that the beam loses to all sides per x, and its mean cosine times that light
+///   k            1      diffuse light falls as exp(-k x)
+///   phi, F       1      integral of the diffuse radiance over all directions; its flux along the light
+/// @derivation
+///   Light that is scattered once: albedo p(cosine) exp(-tauLight), p of henyey-greenstein              (1)
+///   Of the rest a part follows the beam, which with f = g^3 holds longer than its unscattered light:
+///       w albedo p(cosine) (exp(-(1 - albedo f) tauLight) - exp(-tauLight))                             (2)
+///   The other part is diffuse. Equal mean cosines of the deflection mean equal fields: with s = 1 - albedo g
+///       x = s tauLight, X = s tauColumn                                                                (3)
+///       b = (1 - albedo f) / s, q = albedo (1 - f) / s, p = albedo (g - f) / s                          (4)
+///   In Eddington's approximation, radiance (phi + 3 F cosine) / (4 pi),
+///       F' = -a phi + q exp(-b x), phi' / 3 = -F + p exp(-b x), a = (1 - albedo) / s
+///   so that phi'' = k^2 phi - 3 (q + b p) exp(-b x) with k^2 = 3 a. Light that leaves a cloud sideways is lost to
+///   the line like absorbed light. A cloud is about as wide as it is deep, hence
+///       k^2 = 3 a + (c1 / (X + c2))^2                                                                  (5)
+///   which also is above 0 for albedo 1, so that no conservative case has to be told apart. With B = exp(-k X)
+///       phi = A1 exp(-k x) + A2 exp(-k (X - x)) + C exp(-b x), C = -3 (q + b p) / (b^2 - k^2)           (6)
+///       F = (k / 3) (A1 exp(-k x) - A2 exp(-k (X - x))) + D exp(-b x), D = b C / 3 + p                  (7)
+///   No diffuse light comes in at the ends: phi + 2 m F = 0 at x = 0, phi - 2 m F = 0 at X. With h = 2 m k / 3 and
+///   d = 2 m D these are two equations for A1 and A2:
+///       A1 (1 + h) + A2 B (1 - h) = -(C + d),  A1 B (1 - h) + A2 (1 + h) = -(C - d) exp(-b X)           (8)
+///       diffuse = albedo / (4 pi) (n phi + 3 g u cosine F)                                             (9)
+///   b = k would divide by 0: |b^2 - k^2| is held above 0.002                                          (10)
+///   c1, c2, w, m, n, u are fitted to the path tracer.
+/// @source    [JWW76] Eddington's approximation with a part of the scattering left in the beam; [VDH80] the similarity of (3)
+/// @deviation (2) and (5) are own, f is g^3 instead of g^2, and the constants are fitted
+/// @valid     albedo 0..1, |g| < 1 (the multiple part takes g from 0 to 0.9), 0 <= tauLight <= tauColumn <= 1e4; a
+///            tauColumn below tauLight is taken as tauLight
+/// @accuracy  mean radiance of pictures of round clouds within 25 %; float within
+///            1e-4 of double plus 2e-5
+/// @tests     tests/rendering/core/test_multiple_scattering.cpp
+FX_FORMULA(fxMultipleScattering)
+(FX_REAL albedo, FX_REAL g, FX_REAL cosine, FX_REAL tauLight, FX_REAL tauColumn)
+{
+    FX_REAL c1 = FX_REAL(2.70); // fitted
+    FX_REAL c2 = FX_REAL(1.45); // fitted
+    FX_REAL m = FX_REAL(0.72); // fitted
+    FX_REAL n = FX_REAL(0.77); // fitted
+    FX_REAL u = FX_REAL(0.31); // fitted
+    FX_REAL w = FX_REAL(0.67); // fitted
+    FX_REAL one = FX_REAL(1.0);
+    FX_REAL o = clamp(albedo, FX_REAL(0.0), one);
+    FX_REAL gm = clamp(g, FX_REAL(0.0), FX_REAL(0.9));
+    FX_REAL f = gm * gm * gm;
+    FX_REAL s = one - o * gm;
+    FX_REAL x = s * tauLight;                      // (3)
+    FX_REAL X = s * max(tauColumn, tauLight);      // (3)
+    FX_REAL b = (one - o * f) / s;                 // (4)
+    FX_REAL q = o * (one - f) / s;                 // (4)
+    FX_REAL p = o * (gm - f) / s;                  // (4)
+    FX_REAL side = c1 / (X + c2);                  // (5)
+    FX_REAL k2 = FX_REAL(3.0) * (one - o) / s + side * side; // (5)
+    FX_REAL apart = b * b - k2;
+    FX_REAL gap = apart < FX_REAL(0.0) ? min(apart, FX_REAL(-0.002)) : max(apart, FX_REAL(0.002)); // (10)
+    FX_REAL k = sqrt(k2 + (apart - gap));
+    FX_REAL C = FX_REAL(-3.0) * (q + b * p) / gap; // (6)
+    FX_REAL D = b * C / FX_REAL(3.0) + p;          // (7)
+    FX_REAL d = FX_REAL(2.0) * m * D;
+    FX_REAL h = FX_REAL(2.0) * m * k / FX_REAL(3.0);
+    FX_REAL beam = exp(-b * x);
+    FX_REAL away = exp(-k * x);
+    FX_REAL back = exp(-k * (X - x));
+    FX_REAL mirrored = away * back * (one - h);
+    FX_REAL first = -(C + d);
+    FX_REAL last = (d - C) * exp(-b * X);
+    FX_REAL determinant = (one + h) * (one + h) - mirrored * mirrored;
+    FX_REAL a1 = (first * (one + h) - last * mirrored) / determinant * away; // (8)
+    FX_REAL a2 = (last * (one + h) - first * mirrored) / determinant * back; // (8)
+    FX_REAL phi = a1 + a2 + C * beam;                                      // (6)
+    FX_REAL flux = k / FX_REAL(3.0) * (a1 - a2) + D * beam;                // (7)
+    FX_REAL diffuse = n * phi + FX_REAL(3.0) * gm * u * cosine * flux;     // (9)
+    FX_REAL along = exp(-(one - o * f) * tauLight) - exp(-tauLight);
+    return o * (max(diffuse, FX_REAL(0.0)) * FX_REAL(0.0795774715459477) +
+                w * along * fxHenyeyGreenstein(cosine, gm)); // (2), (9)
+}
+
+FX_FORMULA(fxScatteredLight)
+(FX_REAL albedo, FX_REAL g, FX_REAL cosine, FX_REAL tauLight, FX_REAL tauColumn)
+{
+    return albedo * fxHenyeyGreenstein(cosine, g) * exp(-tauLight) +
+           fxMultipleScattering(albedo, g, cosine, tauLight, tauColumn); // (1)
+}
