@@ -56,12 +56,12 @@ struct Lighting
 /// A light of the host: a glowing ball, or a spot.
 struct HostLight
 {
-    glm::dvec3 position{0.0};     ///< [m] world
-    glm::vec3 intensity{0.0f};    ///< [cd] in the direction where it is largest
-    float radius = 0.05f;         ///< [m] > 0, of the ball that glows
-    glm::vec3 axis{0, -1, 0};     ///< unit, where a spot shines
-    float cosInner = -1.0f;       ///< [1] of the angle up to which a spot has its full intensity
-    float cosOuter = -1.0f;       ///< [1] of the angle from which on it has none; -1: light in all directions
+    glm::dvec3 position{0.0};  ///< [m] world
+    glm::vec3 intensity{0.0f}; ///< [cd] in the direction where it is largest
+    float radius = 0.05f;      ///< [m] > 0, of the ball that glows
+    glm::vec3 axis{0, -1, 0};  ///< unit, where a spot shines
+    float cosInner = -1.0f;    ///< [1] of the angle up to which a spot has its full intensity
+    float cosOuter = -1.0f;    ///< [1] of the angle from which on it has none; -1: light in all directions
 
     bool operator==(const HostLight&) const = default;
 };

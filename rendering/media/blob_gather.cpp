@@ -239,8 +239,9 @@ ImpostorPlan planImpostor(const base::SnapshotPair& snapshots, size_t first, flo
 
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
-                         std::pmr::vector<MediumCaster>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances,
-                         float share, LevelOfDetail* lod, ImpostorField* impostors)
+                         std::pmr::vector<MediumCaster>& outMedium,
+                         std::pmr::vector<InstanceBlobs>& outInstances, float share, LevelOfDetail* lod,
+                         ImpostorField* impostors)
 {
     GatherCounts counts;
     if (!snapshots.newer)

@@ -41,7 +41,7 @@ struct InstanceBlobs
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
     size_t mediumBegin, mediumEnd;
-    ImpostorPlan plan;  ///< what of it is drawn as a picture
+    ImpostorPlan plan; ///< what of it is drawn as a picture
 };
 
 /// What a gather left out.
@@ -69,8 +69,8 @@ struct GatherCounts
 /// @param lod thins out groups that are small on the picture, for shadows too; null: none
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
-                         std::pmr::vector<MediumCaster>& outMedium, std::pmr::vector<InstanceBlobs>& outInstances,
-                         float share = 1.0f, LevelOfDetail* lod = nullptr,
-                         ImpostorField* impostors = nullptr);
+                         std::pmr::vector<MediumCaster>& outMedium,
+                         std::pmr::vector<InstanceBlobs>& outInstances, float share = 1.0f,
+                         LevelOfDetail* lod = nullptr, ImpostorField* impostors = nullptr);
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file blob_shading.h
-/// What a blob emits, and what it scatters where no medium shadows it; the rest of its light is found when it is
-/// drawn.
+/// What a blob emits, and what it scatters where no medium shadows it; the rest of its light is found when it
+/// is drawn.
 #pragma once
 
 #include "rendering/frame/exposure.h"

@@ -9,9 +9,9 @@ namespace fx::render {
 
 FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
     : gathered_(memory), casters_(memory), instances_(memory), shaded_(memory), sorted_(memory),
-      distances_(memory), depthSort_(memory),
-      impostors_(memory), impostorSort_(memory), takenSort_(memory), sortedImpostors_(memory), taken_(memory),
-      sortedTaken_(memory), takenDistances_(memory), takenTiles_(memory)
+      distances_(memory), depthSort_(memory), impostors_(memory), impostorSort_(memory), takenSort_(memory),
+      sortedImpostors_(memory), taken_(memory), sortedTaken_(memory), takenDistances_(memory),
+      takenTiles_(memory)
 {}
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,

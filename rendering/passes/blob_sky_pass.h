@@ -12,7 +12,8 @@ constexpr size_t kBlobSkyBytes = 2 * 16; ///< [byte] a blob
 
 /// reads   blobs    buffer of BlobInstance
 ///         lights   with planes for the axes of the sky
-/// writes  skies    buffer, two vec4 a blob: rgb exposed radiance in the middle; xyz its relative slope [1/radius]
+/// writes  skies    buffer, two vec4 a blob: rgb exposed radiance in the middle; xyz its relative slope
+/// [1/radius]
 class BlobSkyPass
 {
 public:

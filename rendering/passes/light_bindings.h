@@ -11,8 +11,8 @@ constexpr uint32_t kLightSliceUnit = 7;     ///< texture unit of the planes
 
 struct LightBindings
 {
-    ResourceId lights; ///< buffer; invalid: nothing is lit
-    ResourceId planes; ///< R32F optical depths; invalid: media cast no shadow
+    ResourceId lights;   ///< buffer; invalid: nothing is lit
+    ResourceId planes;   ///< R32F optical depths; invalid: media cast no shadow
     bool hasSky = false; ///< there are planes for the light of the sky
 
     void read(FrameGraph::Builder& builder) const

@@ -50,8 +50,8 @@ MediaPass::Outputs MediaPass::addTo(FrameGraph& graph, const Inputs& in, const O
         return [in, targets, targetCount, isFirst](Backend& backend) {
             for (size_t i = 0; isFirst && i < targetCount; ++i)
                 backend.clear(targets[i], {0.0f, 0.0f, 0.0f, 0.0f});
-            const MediaTarget target{
-                &in.view, in.distance, {targets.data(), targetCount}, in.layers, in.isSmall, in.lights};
+            const MediaTarget target{&in.view,  in.distance, {targets.data(), targetCount},
+                                     in.layers, in.isSmall,  in.lights};
             for (const DrawBatch& batch : in.batches)
                 batch.source->draw(backend, batch, target);
         };

@@ -55,10 +55,10 @@ protected:
 /// What quads read besides the ViewBlock and the target's distance.
 struct QuadInputs
 {
-    ResourceId instances;        ///< buffer at binding 0
-    TextureBinding picture{};    ///< bound when it is valid
+    ResourceId instances;     ///< buffer at binding 0
+    TextureBinding picture{}; ///< bound when it is valid
     const LightBindings* lights = nullptr;
-    ResourceId skies{};          ///< buffer at kBlobSkyBinding when it is valid
+    ResourceId skies{}; ///< buffer at kBlobSkyBinding when it is valid
 };
 
 constexpr uint32_t kBlobSkyBinding = 6;

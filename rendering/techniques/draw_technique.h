@@ -57,11 +57,11 @@ struct GatherInputs
 /// What techniques have gathered so far, in the order of their list.
 struct GatheredFrame
 {
-    std::pmr::vector<DrawStream>* streams; ///< what the media pass draws, each with its source
+    std::pmr::vector<DrawStream>* streams;             ///< what the media pass draws, each with its source
     std::pmr::vector<MediumCaster>* casters = nullptr; ///< all media that cast shadows, relative to the eye
-    FragmentCounts fragments{};            ///< estimated, of what the media pass draws
-    std::span<const BlobInstance> blobs{}; ///< balls of medium
-    bool anyHeat = false;                  ///< some of those bend light
+    FragmentCounts fragments{};                        ///< estimated, of what the media pass draws
+    std::span<const BlobInstance> blobs{};             ///< balls of medium
+    bool anyHeat = false;                              ///< some of those bend light
 };
 
 /// Where in a frame a technique adds its passes. buildViewGraph() has the order of all passes.

@@ -10,8 +10,8 @@ namespace fx::render {
 ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
                          DrawTechniques list)
     : device(d), graph(memory), backend(*d, memory), techniques(list), parts(memory), lod(memory),
-      lights(d, memory), casters(memory), batcher(memory), streams(memory), solids(memory), revisions(memory), targetCheck(*d),
-      timer(*d, render::passGroups(list))
+      lights(d, memory), casters(memory), batcher(memory), streams(memory), solids(memory), revisions(memory),
+      targetCheck(*d), timer(*d, render::passGroups(list))
 {
     const TechniqueSetup setup{d, schema, memory, list};
     for (size_t i = 0; i < list.size(); ++i) {

@@ -20,7 +20,7 @@ FX_FORMULA(fxKernelPassed)(FX_REAL u)
     return FX_REAL(0.5) + FX_REAL(0.9375) * u * (FX_REAL(1.0) - s * (FX_REAL(0.666666666666667) - s * FX_REAL(0.2))); // (1)
 }
 
-FX_FORMULA(fxKernelQuantileStep)(FX_REAL u, FX_REAL halfShareShare)
+FX_FORMULA(fxKernelQuantileStep)(FX_REAL u, FX_REAL halfShare)
 {
     FX_REAL q = FX_REAL(1.0) - u * u;
     FX_REAL slope = max(FX_REAL(0.9375) * q * q, FX_REAL(1e-3));

@@ -80,8 +80,7 @@ void LightList::build(const LightListInputs& in, bool keepsPlanes)
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
     const glm::vec3 sunOnGround = lighting.sunIlluminance * (std::max(lighting.sunDirection.y, 0.0f) / kPi);
     head_.sky = glm::vec4(lighting.skyLuminance * exposure, in.settings->slices.multiple ? 1.0f : 0.0f);
-    head_.ground =
-        glm::vec4(lighting.groundAlbedo * (sunOnGround + lighting.skyLuminance) * exposure, 0.0f);
+    head_.ground = glm::vec4(lighting.groundAlbedo * (sunOnGround + lighting.skyLuminance) * exposure, 0.0f);
     addSun(in);
     addPoints(in);
     head_.counts = {int(lights_.size()), 0, in.settings->slices.samples, 0};
@@ -96,14 +95,13 @@ void LightList::addSun(const LightListInputs& in)
     if (lighting.sunIlluminance == glm::vec3(0.0f))
         return;
     SliceLightBlock light{};
-    light.color =
-        glm::vec4(lighting.sunIlluminance * exposureFromEv100(in.settings->exposureEv100), 0.0f);
+    light.color = glm::vec4(lighting.sunIlluminance * exposureFromEv100(in.settings->exposureEv100), 0.0f);
     light.place = glm::vec4(lighting.sunDirection, 0.0f);
     light.cone = {0.0f, 0.0f, 0.0f, 1.0f};
     SliceStack stack;
     if (in.settings->slices.enabled &&
-        (takeKept(in.eye, stack) || fitParallelSlices(lighting.sunDirection, in.casters, in.eye,
-                                                      in.settings->slices.resolution, stack)))
+        (takeKept(in.eye, stack) ||
+         fitParallelSlices(lighting.sunDirection, in.casters, in.eye, in.settings->slices.resolution, stack)))
         addStack(stack, light);
     lights_.push_back(light);
 }
@@ -117,10 +115,9 @@ void LightList::addPoints(const LightListInputs& in)
     for (size_t i = 0; i < in.settings->hostLights.count; ++i)
         points[count++] = in.settings->hostLights.lights[i];
     const glm::dvec3 middle = middleOf(in.casters, in.eye);
-    std::stable_sort(points.begin(), points.begin() + ptrdiff_t(count),
-                     [&](const HostLight& a, const HostLight& b) {
-                         return arriving(a, middle) > arriving(b, middle);
-                     });
+    std::stable_sort(
+        points.begin(), points.begin() + ptrdiff_t(count),
+        [&](const HostLight& a, const HostLight& b) { return arriving(a, middle) > arriving(b, middle); });
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
     for (size_t i = 0; i < count; ++i) {
         const glm::vec3 place(points[i].position - in.eye);
@@ -131,7 +128,8 @@ void LightList::addPoints(const LightListInputs& in)
         SliceStack stack;
         if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
             (takeKept(in.eye, stack) ||
-             fitPointSlices(place, points[i].radius, in.casters, pointResolution(in.settings->slices.resolution), stack)))
+             fitPointSlices(place, points[i].radius, in.casters,
+                            pointResolution(in.settings->slices.resolution), stack)))
             addStack(stack, light);
         lights_.push_back(light);
     }
@@ -150,7 +148,8 @@ void LightList::addSky(const LightListInputs& in)
                    : glm::vec3(across * std::cos(turn), kSkyAxisElevation, across * std::sin(turn));
         SliceStack stack;
         if (!takeKept(in.eye, stack) &&
-            !fitParallelSlices(axis, in.casters, in.eye, skyResolution(in.settings->slices.resolution), stack))
+            !fitParallelSlices(axis, in.casters, in.eye, skyResolution(in.settings->slices.resolution),
+                               stack))
             return;
         SliceLightBlock light{};
         light.place = glm::vec4(axis, 0.0f);
@@ -207,7 +206,8 @@ void LightList::placeTiles()
         const bool isParallel = stack.mapping == SliceMapping::Parallel;
         stackBlocks_.push_back({glm::vec4(stack.origin, stack.spacing),
                                 glm::vec4(stack.right * stack.texel, isParallel ? 0.0f : 1.0f),
-                                glm::vec4(stack.up * stack.texel, 0.0f), glm::vec4(stack.along, stack.begin), tiles});
+                                glm::vec4(stack.up * stack.texel, 0.0f), glm::vec4(stack.along, stack.begin),
+                                tiles});
         x += width;
         rowHeight = std::max(rowHeight, height);
         atlasHeight_ = std::max(atlasHeight_, y + height);

@@ -59,15 +59,15 @@ struct LightListInputs
     std::span<const MediumCaster> casters;
 };
 
-/// Lights of a frame in the order in which they get planes: the sun, then the others by the light that arrives
-/// at the casters, then the axes of the sky. Threads: one at a time. Equal inputs give equal bits.
+/// Lights of a frame in the order in which they get planes: the sun, then the others by the light that
+/// arrives at the casters, then the axes of the sky. Threads: one at a time. Equal inputs give equal bits.
 class LightList
 {
 public:
     explicit LightList(std::pmr::memory_resource* memory);
 
-    /// @param keepsPlanes the planes stay where they were in the world when build() was called last; the casters
-    /// and lights are those of then
+    /// @param keepsPlanes the planes stay where they were in the world when build() was called last; the
+    /// casters and lights are those of then
     void build(const LightListInputs& in, bool keepsPlanes = false);
 
     const LightListHead& head() const { return head_; }

@@ -28,11 +28,11 @@ void addCaster(const SliceStack& stack, const SliceRay& ray, const MediumCaster&
     const int first = std::clamp(int(std::floor((tc - half) / stack.spacing)) + 1, 0, last);
     const int end = std::clamp(int(std::floor((tc + half) / stack.spacing)) + 1, 0, last);
     for (int k = first; k <= end; ++k) {
-        const float begin = k > 0         ? std::max(float(k - 1) * stack.spacing, stack.begin)
+        const float begin = k > 0        ? std::max(float(k - 1) * stack.spacing, stack.begin)
                             : isParallel ? -1e30f
                                          : stack.begin;
-        ioBetween[size_t(k)] += formula::fxKernelOpticalDepth(caster.crossSection, caster.radius, h, tc, begin,
-                                                              float(k) * stack.spacing);
+        ioBetween[size_t(k)] += formula::fxKernelOpticalDepth(caster.crossSection, caster.radius, h, tc,
+                                                              begin, float(k) * stack.spacing);
     }
 }
 

@@ -98,8 +98,8 @@ SliceRay sliceRay(const SliceStack& stack, float x, float y)
             octahedralDirection({2.0f * (x - 1.0f) / inner - 1.0f, 2.0f * (y - 1.0f) / inner - 1.0f})};
 }
 
-bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters,
-                       const glm::dvec3& eye, const SliceResolution& resolution, SliceStack& outStack)
+bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters, const glm::dvec3& eye,
+                       const SliceResolution& resolution, SliceStack& outStack)
 {
     if (casters.empty())
         return false;

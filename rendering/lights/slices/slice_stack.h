@@ -3,7 +3,8 @@
 ///
 /// A stack follows the light: its first plane is nearest to the light, and a plane stores at each texel the
 /// optical depth of all media between the light and that texel. Planes of parallel light are flat and
-/// perpendicular to it. Those of a light at a point are shells around it, with an octahedral map of directions.
+/// perpendicular to it. Those of a light at a point are shells around it, with an octahedral map of
+/// directions.
 #pragma once
 
 #include "rendering/frame/view_types.h"
@@ -39,10 +40,11 @@ struct SliceStack
     SliceMapping mapping = SliceMapping::Parallel;
     SliceResolution resolution;
     glm::vec3 right{1, 0, 0}, up{0, 1, 0}, along{0, 0, 1}; ///< unit; `along` is where parallel light goes
-    glm::vec3 origin{0}; ///< [m] corner of the first plane, or the light's place
+    glm::vec3 origin{0};  ///< [m] corner of the first plane, or the light's place
     float texel = 1.0f;   ///< [m] side of a texel of flat planes
     float spacing = 1.0f; ///< [m] between two planes
-    float begin = 0.0f;   ///< [m] distance from a point up to which media cast no shadow: the radius of what glows
+    float begin =
+        0.0f; ///< [m] distance from a point up to which media cast no shadow: the radius of what glows
 
     SlicePlace placeOf(const glm::vec3& position) const;
 };
@@ -61,8 +63,8 @@ SliceRay sliceRay(const SliceStack& stack, float x, float y);
 /// sides are powers of 2^(1/4), the corner is a multiple of them.
 /// @param towards unit, to the light  @param eye [m] world position that casters are relative to
 /// @return whether there are casters
-bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters,
-                       const glm::dvec3& eye, const SliceResolution& resolution, SliceStack& outStack);
+bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters, const glm::dvec3& eye,
+                       const SliceResolution& resolution, SliceStack& outStack);
 
 /// Fits shells around a glowing ball.  @param light [m] relative to the eye  @param radius [m] of the ball
 bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,

@@ -78,8 +78,7 @@ base::Status ViewLights::makeRoom()
     if (width == atlas_.width() && height == atlas_.height())
         return {};
     atlas_ = {};
-    auto created =
-        GlTexture::create(device_, width, height, glInternalFormat(Format::R32F), "light slices");
+    auto created = GlTexture::create(device_, width, height, glInternalFormat(Format::R32F), "light slices");
     if (!created)
         return created.status();
     atlas_ = std::move(*created);
@@ -95,19 +94,20 @@ LightBindings ViewLights::addPasses(FrameGraph& graph)
     bindings.lights = graph.importBuffer({"lights", kListBytes}, lightBuffer_.name());
     bindings.hasSky = list_.head().counts.y > 0;
     if (!list_.stacks().empty() && atlas_.name() != 0)
-        bindings.planes = graph.importTexture(
-            {"light slices", atlas_.width(), atlas_.height(), Format::R32F}, atlas_.name());
+        bindings.planes = graph.importTexture({"light slices", atlas_.width(), atlas_.height(), Format::R32F},
+                                              atlas_.name());
     if (!isKept_)
         graph.addPass("light list", [&](FrameGraph::Builder& builder) {
             bindings.lights = builder.write(bindings.lights);
-            return [buffer = bindings.lights, head = list_.head(), lights = list_.lights()](Backend& backend) {
-                std::array<std::byte, kListBytes> bytes;
-                const auto headBytes = std::as_bytes(std::span(&head, 1));
-                const auto lightBytes = std::as_bytes(lights);
-                std::copy(headBytes.begin(), headBytes.end(), bytes.begin());
-                std::copy(lightBytes.begin(), lightBytes.end(), bytes.begin() + headBytes.size());
-                backend.upload(buffer, std::span(bytes).first(headBytes.size() + lightBytes.size()));
-            };
+            return
+                [buffer = bindings.lights, head = list_.head(), lights = list_.lights()](Backend& backend) {
+                    std::array<std::byte, kListBytes> bytes;
+                    const auto headBytes = std::as_bytes(std::span(&head, 1));
+                    const auto lightBytes = std::as_bytes(lights);
+                    std::copy(headBytes.begin(), headBytes.end(), bytes.begin());
+                    std::copy(lightBytes.begin(), lightBytes.end(), bytes.begin() + headBytes.size());
+                    backend.upload(buffer, std::span(bytes).first(headBytes.size() + lightBytes.size()));
+                };
         });
     if (!bindings.planes.valid() || filled_ == wanted_)
         return bindings;

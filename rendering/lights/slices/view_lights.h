@@ -36,8 +36,8 @@ public:
     /// Imports list and planes, and adds the passes that fill them. @return what draws bind
     LightBindings addPasses(FrameGraph& graph);
 
-    void forget();      ///< what this frame was to write is not there
-    void release();     ///< gives back buffers and planes
+    void forget();  ///< what this frame was to write is not there
+    void release(); ///< gives back buffers and planes
     bool hasPlanes() const { return atlas_.name() != 0; }
     uint64_t bytes() const; ///< [byte] held on the GPU
     const LightList& list() const { return list_; }
@@ -57,9 +57,9 @@ private:
     std::pmr::vector<CasterBlock> casters_;
     GlBuffer lightBuffer_;
     GlTexture atlas_;
-    uint64_t filled_ = 0;      ///< key of what the planes hold; 0: nothing
-    uint64_t wanted_ = 0;      ///< key of this frame
-    bool isKept_ = false;      ///< the list on the GPU is that of the last frame
+    uint64_t filled_ = 0; ///< key of what the planes hold; 0: nothing
+    uint64_t wanted_ = 0; ///< key of this frame
+    bool isKept_ = false; ///< the list on the GPU is that of the last frame
 };
 
 } // namespace fx::render

@@ -13,12 +13,9 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {{"blob upload", "media"},
-                                {"media impostor upload", "media"},
-                                {"media impostor blobs", "media"},
-                                {"media impostors", "media"},
-                                {"impostor skies", "media"},
-                                {"blob sky", "media"}};
+constexpr TimedPass kTimed[] = {{"blob upload", "media"},          {"media impostor upload", "media"},
+                                {"media impostor blobs", "media"}, {"media impostors", "media"},
+                                {"impostor skies", "media"},       {"blob sky", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
@@ -27,9 +24,8 @@ std::span<const ProgramDesc* const> programs()
         for (size_t i = 0; i < kMediaPrograms; ++i)
             list[i] = &mediaProgramAt(i);
         size_t end = kMediaPrograms;
-        for (const ProgramDesc* program :
-             {&kOverdrawProgram, &kOverdrawSmallProgram, &kImpostorProgram, &kImpostorKeepProgram,
-              &kBlobSkyProgram})
+        for (const ProgramDesc* program : {&kOverdrawProgram, &kOverdrawSmallProgram, &kImpostorProgram,
+                                           &kImpostorKeepProgram, &kBlobSkyProgram})
             list[end++] = program;
         return list;
     }();

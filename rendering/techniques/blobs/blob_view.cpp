@@ -41,7 +41,8 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
     }
     if (base::Status status = makeRoom(blobBuffer_, builder_.blobs().size_bytes(), "blobs"); !status)
         return status;
-    if (base::Status status = makeRoom(skyBuffer_, builder_.blobs().size() * kBlobSkyBytes, "blob skies"); !status)
+    if (base::Status status = makeRoom(skyBuffer_, builder_.blobs().size() * kBlobSkyBytes, "blob skies");
+        !status)
         return status;
     return makeRoomForImpostors();
 }
@@ -160,8 +161,9 @@ void BlobView::takePictures(FrameGraph& graph, const PassFrame& frame)
     if (frame.lights.hasSky && frame.lights.planes.valid()) {
         ResourceId skies;
         graph.addPass("impostor skies", [&](FrameGraph::Builder& builder) {
-            skies = builder.write(builder.create(BufferDesc{
-                "impostor skies", std::bit_ceil(builder_.takenBlobs().size() * kBlobSkyBytes + kBlobSkyBytes)}));
+            skies = builder.write(builder.create(
+                BufferDesc{"impostor skies",
+                           std::bit_ceil(builder_.takenBlobs().size() * kBlobSkyBytes + kBlobSkyBytes)}));
             return [](Backend&) {};
         });
         takenBlobs_.skies = BlobSkyPass::addTo(graph, {takenBlobs_.blobs, skies, frame.lights,
@@ -170,8 +172,8 @@ void BlobView::takePictures(FrameGraph& graph, const PassFrame& frame)
     }
     takenBatch_ = {0, 0, uint32_t(builder_.takenBlobs().size()), &takenBlobs_};
     const ResourceId nothing = SceneDistancePass::addTo(graph, {{}, kSide, kSide, view}).distance;
-    const auto drawn =
-        MediaPass::addTo(graph, {{&takenBatch_, 1}, nothing, kSide, kSide, view, false, false, frame.lights}, {});
+    const auto drawn = MediaPass::addTo(
+        graph, {{&takenBatch_, 1}, nothing, kSide, kSide, view, false, false, frame.lights}, {});
     impostors_.atlas =
         ImpostorKeepPass::addTo(graph, {drawn.media, impostors_.atlas, tiles, uint32_t(kept.size())}).atlas;
     graph.keep(impostors_.atlas); // later frames show it
@@ -200,8 +202,8 @@ void BlobView::addSkies(FrameGraph& graph, const PassFrame& frame)
     blobs_.skies = {};
     if (!frame.lights.hasSky || !frame.lights.planes.valid())
         return;
-    blobs_.skies = graph.importBuffer(
-        {"blob skies", std::bit_ceil(builder_.blobs().size() * kBlobSkyBytes)}, skyBuffer_.name());
+    blobs_.skies = graph.importBuffer({"blob skies", std::bit_ceil(builder_.blobs().size() * kBlobSkyBytes)},
+                                      skyBuffer_.name());
     if (!isKept_)
         blobs_.skies = BlobSkyPass::addTo(graph, {blobs_.blobs, blobs_.skies, frame.lights,
                                                   uint32_t(builder_.blobs().size())})

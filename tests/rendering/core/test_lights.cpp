@@ -1,6 +1,5 @@
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/particle_kind.h"
-#include "rendering/lights/extinction_grid.h"
 #include "rendering/optics/black_body.h"
 #include "rendering/techniques/draw_techniques.h"
 
@@ -14,8 +13,6 @@ using namespace fx::render;
 namespace column = fx::base::blob_column;
 
 namespace {
-
-constexpr float kFar = std::numeric_limits<float>::infinity();
 
 /// A snapshot with one group of equal blobs on a line.
 fx::base::FrameSnapshot glowingLine(const fx::base::SnapshotSchema& schema, uint32_t count,
@@ -47,46 +44,6 @@ fx::base::SnapshotSchema blobSchema()
 
 } // namespace
 
-TEST(ExtinctionGrid, holdsTheCrossSectionOfItsBlobs)
-{
-    ExtinctionGrid grid(std::pmr::get_default_resource());
-    const std::array<GridBlob, 3> blobs{
-        {{{0, 0, 0}, 1.0f, 2.0f}, {{3, 1, 0}, 0.5f, 0.7f}, {{-2, 4, 1}, 2.0f, 5.0f}}};
-    grid.build(blobs);
-    EXPECT_NEAR(grid.totalCrossSection(), 7.7, 1e-5);
-}
-
-TEST(ExtinctionGrid, withoutBlobsLetsEverythingThrough)
-{
-    ExtinctionGrid grid(std::pmr::get_default_resource());
-    grid.build({});
-    EXPECT_EQ(grid.transmittance({0, 0, 0}, {0, 1, 0}, kFar), 1.0f);
-}
-
-TEST(ExtinctionGrid, shadowsWhatLiesBehindAndNotWhatLiesBeside)
-{
-    ExtinctionGrid grid(std::pmr::get_default_resource());
-    const std::array<GridBlob, 2> blobs{{{{0, 5, 0}, 2.0f, 12.0f}, {{0, -5, 0}, 2.0f, 0.0f}}};
-    grid.build(blobs);
-    EXPECT_LT(grid.transmittance({0, -5, 0}, {0, 1, 0}, kFar), 0.3f);
-    EXPECT_GT(grid.transmittance({0, -5, 0}, {0, -1, 0}, kFar), 0.999f);
-    EXPECT_GT(grid.transmittance({0, -5, 0}, {0, 1, 0}, 3.0f), 0.999f)
-        << "what is beyond the light casts no shadow";
-}
-
-TEST(ExtinctionGrid, throughAWideSlabMatchesBeersLaw)
-{
-    // 40 x 40 blobs in a plane: extinction per area is 1 m2 / (0.25 m)^2 * 0.05 = 0.8
-    std::vector<GridBlob> blobs;
-    for (int x = 0; x < 40; ++x)
-        for (int z = 0; z < 40; ++z)
-            blobs.push_back({{0.25f * float(x), 0.0f, 0.25f * float(z)}, 0.6f, 0.05f});
-    blobs.push_back({{5.0f, -8.0f, 5.0f}, 0.6f, 0.0f});
-    ExtinctionGrid grid(std::pmr::get_default_resource());
-    grid.build(blobs);
-    EXPECT_NEAR(grid.transmittance({5.0f, -8.0f, 5.0f}, {0, 1, 0}, kFar), std::exp(-0.8f), 0.08f);
-}
-
 TEST(EffectLights, thinGasSendsItsCrossSectionTimesItsLuminance)
 {
     const auto schema = blobSchema();
@@ -113,21 +70,6 @@ TEST(EffectLights, liesAtTheCenterOfTheEmission)
     ASSERT_EQ(effectLights(snapshot, lights), 1u);
     EXPECT_NEAR(lights[0].position.x, 150.0, 1e-3);
     EXPECT_GT(lights[0].radius, 30.0f);
-}
-
-TEST(BallLight, isFiniteAtItsCenterAndFallsWithTheSquareFarAway)
-{
-    const BallLight light({0, 0, 0}, {100, 100, 100}, 1.0f);
-    EXPECT_EQ(light.at({0, 0, 0}).illuminance.x, 100.0f);
-    EXPECT_NEAR(light.at({0, 100, 0}).illuminance.x / 0.01f, 1.0f, 1e-3f);
-    EXPECT_NEAR(light.at({0, 100, 0}).direction.y, -1.0f, 1e-6f);
-}
-
-TEST(BallLight, ofAnyRadiusIsAtItsSurfaceHalfAsBrightAsAtItsCenter)
-{
-    const BallLight light({0, 0, 0}, {100, 100, 100}, 2.0f);
-    EXPECT_FLOAT_EQ(light.at({0, 0, 0}).illuminance.x, 25.0f);
-    EXPECT_FLOAT_EQ(light.at({0, 2, 0}).illuminance.x, 12.5f);
 }
 
 TEST(EffectLights, thickGasShowsOnlyItsFace)

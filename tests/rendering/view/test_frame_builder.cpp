@@ -190,7 +190,7 @@ TEST_F(FrameBuilderTest, sortsFarthestFirstByDistanceFromTheEye)
     request.targets.height = 720;
     request.camera = render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f);
     render::LevelOfDetail lod(std::pmr::get_default_resource());
-    builder.build(pair, request, {}, render::cameraGeometry(request.camera), lod, {});
+    builder.build(pair, request, {}, render::cameraGeometry(request.camera), lod);
     ASSERT_EQ(builder.blobs().size(), 3u);
     EXPECT_FLOAT_EQ(builder.blobs()[0].centerRadius.x, -6.0f);
     EXPECT_FLOAT_EQ(builder.blobs()[2].centerRadius.x, 0.0f);
