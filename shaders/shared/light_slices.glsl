@@ -8,7 +8,8 @@ struct SliceLight
     vec4 tiles; // xy texel of the first plane in the atlas; z texels along a side; w planes, 0: media cast no shadow
     vec4 color; // rgb exposed illuminance of parallel light, exposed intensity of a point; w 0 parallel, 1 point
     vec4 place; // xyz unit vector towards parallel light, or the point [m] relative to the eye; w its radius [m]
-    vec4 cone;  // share of a spot: clamp(dot(direction of the light, xyz) + w, 0, 1)
+    vec4 cone;  // share of a spot: clamp(dot(direction of the light, xyz) + w, 0, 1); of parallel light x index of an entry
+                // with finer planes, 0: there is none
 };
 layout(std430, binding = 5) readonly buffer Lights
 {
@@ -35,30 +36,53 @@ float slicePlane(vec4 tiles, int plane, vec2 texel)
     return textureLod(lightSlices, (tile + texel) / vec2(textureSize(lightSlices, 0)), 0.0).r;
 }
 
+vec3 parallelPlace(SliceLight light, vec3 p)
+{
+    return vec3(dot(light.right.xyz, p) + light.right.w, dot(light.up.xyz, p) + light.up.w,
+                dot(light.along.xyz, p) + light.along.w);
+}
+
+// x: optical depth up to a place in planes, y: of all media on its line. place: texel, texel, plane
+vec2 depthAtPlace(vec4 tiles, vec3 place)
+{
+    vec2 texel = clamp(place.xy, vec2(0.5), vec2(tiles.z - 0.5));
+    int last = int(tiles.w) - 1;
+    float plane = clamp(place.z, 0.0, float(last));
+    int lower = min(int(plane), last - 1);
+    float before = slicePlane(tiles, lower, texel);
+    float behind = slicePlane(tiles, lower + 1, texel);
+    float total = lower + 1 == last ? behind : slicePlane(tiles, last, texel);
+    return vec2(mix(before, behind, plane - float(lower)), total);
+}
+
+// Whether a place is inside of planes, where they know the depth up to it.
+bool isInside(vec4 tiles, vec3 place)
+{
+    return all(greaterThan(place, vec3(1.0, 1.0, 0.0))) &&
+           all(lessThan(place, vec3(tiles.z - 1.0, tiles.z - 1.0, tiles.w - 1.0)));
+}
+
 // x: optical depth between the light and p [m, relative to the eye]; y: of all media on the line through both.
 vec2 sliceDepth(SliceLight light, vec3 p)
 {
     if (light.tiles.w < 0.5)
         return vec2(0.0);
-    vec2 texel;
-    float plane;
     if (light.color.w < 0.5) {
-        texel = vec2(dot(light.right.xyz, p) + light.right.w, dot(light.up.xyz, p) + light.up.w);
-        plane = dot(light.along.xyz, p) + light.along.w;
-    } else {
-        vec3 d = p - light.place.xyz;
-        float l = length(d);
-        texel = 1.0 + (0.5 + 0.5 * octahedralPlace(l > 0.0 ? d / l : vec3(0.0, 0.0, 1.0))) * (light.tiles.z - 2.0);
-        plane = l * light.along.w;
+        vec4 tiles = light.tiles;
+        vec3 place = parallelPlace(light, p);
+        for (int finer = int(light.cone.x); finer > 0; finer = int(lights[finer].cone.x)) {
+            vec3 finerPlace = parallelPlace(lights[finer], p);
+            if (!isInside(lights[finer].tiles, finerPlace))
+                break;
+            tiles = lights[finer].tiles;
+            place = finerPlace;
+        }
+        return depthAtPlace(tiles, place);
     }
-    texel = clamp(texel, vec2(0.5), vec2(light.tiles.z - 0.5));
-    int last = int(light.tiles.w) - 1;
-    plane = clamp(plane, 0.0, float(last));
-    int lower = min(int(plane), last - 1);
-    float before = slicePlane(light.tiles, lower, texel);
-    float behind = slicePlane(light.tiles, lower + 1, texel);
-    float total = lower + 1 == last ? behind : slicePlane(light.tiles, last, texel);
-    return vec2(mix(before, behind, plane - float(lower)), total);
+    vec3 d = p - light.place.xyz;
+    float l = length(d);
+    vec2 direction = octahedralPlace(l > 0.0 ? d / l : vec3(0.0, 0.0, 1.0));
+    return depthAtPlace(light.tiles, vec3(1.0 + (0.5 + 0.5 * direction) * (light.tiles.z - 2.0), l * light.along.w));
 }
 
 // Exposed illuminance of a light at p before media, and the unit vector towards it.

@@ -1,11 +1,13 @@
 #include "rendering/lights/slices/light_list.h"
 
+#include "foundation/math/hash.h"
 #include "rendering/frame/exposure.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +16,8 @@ namespace fx::render {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kWideScene = 40.0f;   ///< [m] side of planes above which what is near gets planes of its own
+constexpr float kCascadeRatio = 0.2f; ///< of the sides of a finer and the next coarser stack
 
 /// Planes of lights at points and of the axes of the sky, relative to those of the sun.
 SliceResolution pointResolution(const SliceResolution& sun)
@@ -51,6 +55,18 @@ glm::vec4 coneOf(const HostLight& light)
     return {light.axis * scale, -light.cosOuter * scale};
 }
 
+/// Everything that decides what a plane holds, but for the casters.
+uint64_t revisionOf(uint64_t revision, const SliceStack& stack, const glm::vec4& tiles)
+{
+    for (int i = 0; i < 3; ++i) {
+        revision = base::hashWord(revision, std::bit_cast<uint64_t>(stack.corner[i]));
+        revision = base::hashWord(revision, std::bit_cast<uint32_t>(stack.along[i]));
+    }
+    for (const float value : {stack.texel, stack.spacing, stack.begin, tiles.x, tiles.y, tiles.z, tiles.w})
+        revision = base::hashWord(revision, std::bit_cast<uint32_t>(value));
+    return base::hashWord(revision, uint64_t(stack.mapping));
+}
+
 glm::dvec3 middleOf(std::span<const MediumCaster> casters, const glm::dvec3& eye)
 {
     glm::dvec3 sum(0.0);
@@ -62,16 +78,11 @@ glm::dvec3 middleOf(std::span<const MediumCaster> casters, const glm::dvec3& eye
 } // namespace
 
 LightList::LightList(std::pmr::memory_resource* memory)
-    : lights_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory), kept_(memory)
+    : lights_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory), near_(memory)
 {}
 
-void LightList::build(const LightListInputs& in, bool keepsPlanes)
+void LightList::build(const LightListInputs& in)
 {
-    kept_.clear();
-    if (keepsPlanes)
-        kept_.swap(stacks_);
-    keptEye_ = eye_;
-    eye_ = in.eye;
     lights_.clear();
     stacks_.clear();
     stackLights_.clear();
@@ -86,6 +97,7 @@ void LightList::build(const LightListInputs& in, bool keepsPlanes)
     head_.counts = {int(lights_.size()), 0, in.settings->slices.samples, 0};
     addSky(in);
     head_.counts.y = int(lights_.size()) - head_.counts.x;
+    addCascades(in);
     placeTiles();
 }
 
@@ -100,10 +112,39 @@ void LightList::addSun(const LightListInputs& in)
     light.cone = {0.0f, 0.0f, 0.0f, 1.0f};
     SliceStack stack;
     if (in.settings->slices.enabled &&
-        (takeKept(in.eye, stack) ||
-         fitParallelSlices(lighting.sunDirection, in.casters, in.eye, in.settings->slices.resolution, stack)))
+        fitParallelSlices(lighting.sunDirection, in.casters, in.eye, in.settings->slices.resolution, stack))
         addStack(stack, light);
     lights_.push_back(light);
+}
+
+/// The sun's planes of a wide scene are coarse. What is near the eye gets finer ones; a light refers to the
+/// next finer entry of the list.
+void LightList::addCascades(const LightListInputs& in)
+{
+    const Lighting& lighting = in.settings->lighting;
+    if (stacks_.empty() || lighting.sunIlluminance == glm::vec3(0.0f))
+        return;
+    float side = stacks_.front().texel * float(stacks_.front().resolution.texels);
+    float coarserTexel = stacks_.front().texel;
+    size_t coarser = 0;
+    for (size_t i = 1; i < kMostCascades && side > kWideScene; ++i) {
+        side *= kCascadeRatio;
+        near_.clear();
+        for (const MediumCaster& caster : in.casters)
+            if (glm::length(caster.center) < 0.5f * side + caster.radius)
+                near_.push_back(caster);
+        SliceStack stack;
+        if (!fitParallelSlices(lighting.sunDirection, near_, in.eye, in.settings->slices.resolution, stack) ||
+            stack.texel >= coarserTexel)
+            return;
+        SliceLightBlock light{};
+        light.place = glm::vec4(lighting.sunDirection, 0.0f);
+        lights_[coarser].cone.x = float(lights_.size());
+        coarser = lights_.size();
+        coarserTexel = stack.texel;
+        addStack(stack, light);
+        lights_.push_back(light);
+    }
 }
 
 void LightList::addPoints(const LightListInputs& in)
@@ -127,9 +168,8 @@ void LightList::addPoints(const LightListInputs& in)
         light.cone = coneOf(points[i]);
         SliceStack stack;
         if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
-            (takeKept(in.eye, stack) ||
-             fitPointSlices(place, points[i].radius, in.casters,
-                            pointResolution(in.settings->slices.resolution), stack)))
+            fitPointSlices(place, points[i].radius, in.casters, in.eye,
+                           pointResolution(in.settings->slices.resolution), stack))
             addStack(stack, light);
         lights_.push_back(light);
     }
@@ -147,8 +187,7 @@ void LightList::addSky(const LightListInputs& in)
             i == 0 ? glm::vec3(0, 1, 0)
                    : glm::vec3(across * std::cos(turn), kSkyAxisElevation, across * std::sin(turn));
         SliceStack stack;
-        if (!takeKept(in.eye, stack) &&
-            !fitParallelSlices(axis, in.casters, in.eye, skyResolution(in.settings->slices.resolution),
+        if (!fitParallelSlices(axis, in.casters, in.eye, skyResolution(in.settings->slices.resolution),
                                stack))
             return;
         SliceLightBlock light{};
@@ -156,16 +195,6 @@ void LightList::addSky(const LightListInputs& in)
         addStack(stack, light);
         lights_.push_back(light);
     }
-}
-
-/// The planes that the next light had when the list was built last.
-bool LightList::takeKept(const glm::dvec3& eye, SliceStack& outStack) const
-{
-    if (stacks_.size() >= kept_.size())
-        return false;
-    outStack = kept_[stacks_.size()];
-    outStack.origin = glm::vec3(glm::dvec3(outStack.origin) + (keptEye_ - eye));
-    return true;
 }
 
 /// Its light is the next one of the list.
@@ -191,6 +220,7 @@ void LightList::placeTiles()
     for (const SliceStack& stack : stacks_)
         mostTexels_ = std::max(mostTexels_, stack.resolution.texels);
     atlasWidth_ = mostTexels_ * kSliceTileColumns;
+    placesRevision_ = 0;
     int x = 0, y = 0, rowHeight = 0;
     for (size_t i = 0; i < stacks_.size(); ++i) {
         const SliceStack& stack = stacks_[i];
@@ -208,6 +238,7 @@ void LightList::placeTiles()
                                 glm::vec4(stack.right * stack.texel, isParallel ? 0.0f : 1.0f),
                                 glm::vec4(stack.up * stack.texel, 0.0f), glm::vec4(stack.along, stack.begin),
                                 tiles});
+        placesRevision_ = revisionOf(placesRevision_, stack, tiles);
         x += width;
         rowHeight = std::max(rowHeight, height);
         atlasHeight_ = std::max(atlasHeight_, y + height);

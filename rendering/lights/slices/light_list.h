@@ -44,6 +44,7 @@ struct LightListHead
 static_assert(sizeof(LightListHead) == 3 * 16);
 
 constexpr int kSliceTileColumns = 8; ///< planes of a stack lie in rows of so many tiles
+constexpr size_t kMostCascades = 3;  ///< stacks of the sun, finer ones near the eye
 constexpr size_t kSkyAxes = 6;       ///< of an icosahedron: both ends of each are sampled, with equal weights
 constexpr size_t kMostLights = 1 + kMostEffectLights + kMostHostLights;
 
@@ -66,14 +67,16 @@ class LightList
 public:
     explicit LightList(std::pmr::memory_resource* memory);
 
-    /// @param keepsPlanes the planes stay where they were in the world when build() was called last; the
-    /// casters and lights are those of then
-    void build(const LightListInputs& in, bool keepsPlanes = false);
+    void build(const LightListInputs& in);
 
     const LightListHead& head() const { return head_; }
     std::span<const SliceLightBlock> lights() const { return lights_; } ///< those of the sky at the end
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
+    uint64_t placesRevision() const
+    {
+        return placesRevision_;
+    }                                                ///< differs where planes lie elsewhere in the world
     int atlasWidth() const { return atlasWidth_; }   ///< [texel] 0: nothing casts a shadow
     int atlasHeight() const { return atlasHeight_; } ///< [texel]
     int mostTexels() const { return mostTexels_; }   ///< [texel] side of the largest plane
@@ -82,7 +85,7 @@ private:
     void addSun(const LightListInputs& in);
     void addPoints(const LightListInputs& in);
     void addSky(const LightListInputs& in);
-    bool takeKept(const glm::dvec3& eye, SliceStack& outStack) const;
+    void addCascades(const LightListInputs& in);
     void addStack(const SliceStack& stack, SliceLightBlock& ioLight);
     void placeTiles();
 
@@ -91,9 +94,8 @@ private:
     std::pmr::vector<SliceStack> stacks_;
     std::pmr::vector<size_t> stackLights_; ///< the light of each stack
     std::pmr::vector<SliceStackBlock> stackBlocks_;
-    std::pmr::vector<SliceStack> kept_; ///< of the last call, in place of fitting new ones
-    glm::dvec3 eye_{0.0};               ///< [m] that stacks_ are relative to
-    glm::dvec3 keptEye_{0.0};           ///< [m] likewise of kept_
+    std::pmr::vector<MediumCaster> near_; ///< scratch: casters near the eye
+    uint64_t placesRevision_ = 0;
     int atlasWidth_ = 0, atlasHeight_ = 0;
     int mostTexels_ = 0;
 };

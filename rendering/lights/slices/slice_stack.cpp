@@ -69,11 +69,11 @@ Extent extentAlong(const glm::vec3& axis, std::span<const MediumCaster> casters)
     return extent;
 }
 
-/// [m] relative to the eye: the largest multiple of `side` in the world that is not above `low`.
-float snappedBelow(float low, float side, const glm::vec3& axis, const glm::dvec3& eye)
+/// The largest multiple of `side` in the world that is not above `low`, which is relative to the eye, as a
+/// number.
+double snappedBelow(float low, float side, const glm::vec3& axis, const glm::dvec3& eye)
 {
-    const double world = glm::dot(eye, glm::dvec3(axis));
-    return float(std::floor((world + double(low)) / double(side)) * double(side) - world);
+    return std::floor((glm::dot(eye, glm::dvec3(axis)) + double(low)) / double(side));
 }
 
 } // namespace
@@ -115,15 +115,22 @@ bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> c
     // a texel on each side stays free of media, and snapping moves the corner by up to another one
     stack.texel = quantizedSide(std::max(x.high - x.low, y.high - y.low) / float(resolution.texels - 3));
     stack.spacing = quantizedSide((z.high - z.low) / float(std::max(resolution.planes - 2, 1)));
-    stack.origin = (snappedBelow(x.low, stack.texel, stack.right, eye) - stack.texel) * stack.right +
-                   (snappedBelow(y.low, stack.texel, stack.up, eye) - stack.texel) * stack.up +
-                   snappedBelow(z.low, stack.spacing, stack.along, eye) * stack.along;
+    stack.corner = {snappedBelow(x.low, stack.texel, stack.right, eye) - 1.0,
+                    snappedBelow(y.low, stack.texel, stack.up, eye) - 1.0,
+                    snappedBelow(z.low, stack.spacing, stack.along, eye)};
+    const glm::dvec3 world = stack.corner.x * double(stack.texel) * glm::dvec3(stack.right) +
+                             stack.corner.y * double(stack.texel) * glm::dvec3(stack.up) +
+                             stack.corner.z * double(stack.spacing) * glm::dvec3(stack.along);
+    const auto across = [&](const glm::vec3& axis) {
+        return axis * float(glm::dot(world - eye, glm::dvec3(axis)));
+    };
+    stack.origin = across(stack.right) + across(stack.up) + across(stack.along);
     outStack = stack;
     return true;
 }
 
 bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,
-                    const SliceResolution& resolution, SliceStack& outStack)
+                    const glm::dvec3& eye, const SliceResolution& resolution, SliceStack& outStack)
 {
     if (casters.empty())
         return false;
@@ -134,6 +141,7 @@ bool fitPointSlices(const glm::vec3& light, float radius, std::span<const Medium
     stack.mapping = SliceMapping::Octahedral;
     stack.resolution = resolution;
     stack.origin = light;
+    stack.corner = eye + glm::dvec3(light);
     stack.spacing = quantizedSide(farthest / float(resolution.planes - 1));
     stack.begin = radius;
     outStack = stack;

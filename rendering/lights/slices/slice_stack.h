@@ -40,8 +40,10 @@ struct SliceStack
     SliceMapping mapping = SliceMapping::Parallel;
     SliceResolution resolution;
     glm::vec3 right{1, 0, 0}, up{0, 1, 0}, along{0, 0, 1}; ///< unit; `along` is where parallel light goes
-    glm::vec3 origin{0};  ///< [m] corner of the first plane, or the light's place
-    float texel = 1.0f;   ///< [m] side of a texel of flat planes
+    glm::vec3 origin{0}; ///< [m] corner of the first plane, or the light's place
+    glm::dvec3 corner{
+        0};             ///< `origin` in the world: in texels, texels and planes, or [m] of a light at a point
+    float texel = 1.0f; ///< [m] side of a texel of flat planes
     float spacing = 1.0f; ///< [m] between two planes
     float begin =
         0.0f; ///< [m] distance from a point up to which media cast no shadow: the radius of what glows
@@ -68,6 +70,6 @@ bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> c
 
 /// Fits shells around a glowing ball.  @param light [m] relative to the eye  @param radius [m] of the ball
 bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,
-                    const SliceResolution& resolution, SliceStack& outStack);
+                    const glm::dvec3& eye, const SliceResolution& resolution, SliceStack& outStack);
 
 } // namespace fx::render
