@@ -16,15 +16,18 @@ BlobSkyPass::Outputs BlobSkyPass::addTo(FrameGraph& graph, const Inputs& in)
         in.lights.read(builder);
         out.skies = builder.write(in.skies);
         return [in, skies = out.skies](Backend& backend) {
-            const glm::ivec4 count(int(in.count), 0, 0, 0);
+            struct
+            {
+                glm::ivec4 count;
+                LightListBlock lights;
+            } const uniforms{{int(in.count), 0, 0, 0}, *in.lights.block};
             const TextureBinding textures[] = {in.lights.textureBinding()};
-            const BufferBinding buffers[] = {
-                {0, in.blobs}, in.lights.bufferBinding(), {kBlobSkyBinding, skies}};
+            const BufferBinding buffers[] = {{0, in.blobs}, {kBlobSkyBinding, skies}};
             DispatchCall call;
             call.program = &kBlobSkyProgram;
             call.textures = textures;
             call.buffers = buffers;
-            call.uniforms = asUniforms(count);
+            call.uniforms = asUniforms(uniforms);
             call.groups[0] = (in.count + 63) / 64;
             backend.dispatch(call);
         };

@@ -1,28 +1,52 @@
 /// @file light_bindings.h
-/// Where draws find the lights of a view; shaders/shared/light_slices.glsl reads them.
+/// The lights of a view as draws get them: a block of uniforms, and a texture of optical depths.
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"
 
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+
 namespace fx::render {
 
-constexpr uint32_t kLightBufferBinding = 5; ///< storage buffer of lights
-constexpr uint32_t kLightSliceUnit = 7;     ///< texture unit of the planes
+/// Layout of SliceLight in shaders/shared/light_block.glsl, where each member is explained.
+struct SliceLightBlock
+{
+    glm::vec4 right, up, along;
+    glm::vec4 tiles;
+    glm::vec4 color;
+    glm::vec4 place;
+    glm::vec4 cone;
+};
+static_assert(sizeof(SliceLightBlock) == 7 * 16);
 
+constexpr size_t kMostLightEntries = 21; ///< lights, axes of the sky and finer planes of the sun
+
+/// Layout of FX_LIGHT_MEMBERS.
+struct LightListBlock
+{
+    glm::ivec4 counts;
+    glm::vec4 sky;
+    glm::vec4 ground;
+    SliceLightBlock lights[kMostLightEntries];
+};
+static_assert(sizeof(LightListBlock) == (3 + kMostLightEntries * 7) * 16);
+
+constexpr uint32_t kLightSliceUnit = 7; ///< texture unit of the planes
+
+/// What is in it stays as it is from when a pass is added until the graph has executed.
 struct LightBindings
 {
-    ResourceId lights;   ///< buffer; invalid: nothing is lit
-    ResourceId planes;   ///< R32F optical depths; invalid: media cast no shadow
-    bool hasSky = false; ///< there are planes for the light of the sky
+    const LightListBlock* block = nullptr; ///< null: nothing is lit
+    ResourceId planes = {};                ///< R32F optical depths; invalid: media cast no shadow
 
+    bool hasSky() const { return block && block->counts.y > 0 && planes.valid(); }
     void read(FrameGraph::Builder& builder) const
     {
-        if (lights.valid())
-            builder.read(lights);
         if (planes.valid())
             builder.read(planes);
     }
-    BufferBinding bufferBinding() const { return {kLightBufferBinding, lights}; }
     TextureBinding textureBinding() const { return {kLightSliceUnit, planes, Sampling::Linear}; }
 };
 

@@ -57,7 +57,8 @@ struct QuadInputs
 {
     ResourceId instances;     ///< buffer at binding 0
     TextureBinding picture{}; ///< bound when it is valid
-    const LightBindings* lights = nullptr;
+    const LightBindings* lights =
+        nullptr;        ///< not null: the program has FX_LIGHT_MEMBERS behind the ViewBlock
     ResourceId skies{}; ///< buffer at kBlobSkyBinding when it is valid
 };
 

@@ -88,7 +88,6 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
     const FrameKey wanted = frameKey(now, request, settings, assets);
     keptLists = key == wanted && !request.resetHistory;
     if (keptLists) {
-        lights.keep();
         for (const auto& part : parts)
             part->keep();
         return {};

@@ -4,6 +4,8 @@
 #include "formulas/detail_noise.fx.h"
 #include "formulas/henyey_greenstein.fx.h"
 #include "formulas/multiple_scattering.fx.h"
+#include "shared/light_block.glsl"
+#define FX_VIEW_EXTRA FX_LIGHT_MEMBERS
 #include "shared/view_block.glsl"
 #include "shared/light_slices.glsl"
 #include "shared/scattered_light.glsl"

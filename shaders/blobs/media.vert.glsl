@@ -1,7 +1,10 @@
+#ifdef FX_LAYERS // what is only counted needs no light
+#include "shared/light_block.glsl"
+#define FX_VIEW_EXTRA FX_LIGHT_MEMBERS
+#endif
 #include "shared/view_block.glsl"
 #include "shared/blob_instance.glsl"
 #include "shared/blob_quad.glsl"
-#include "shared/light_slices.glsl"
 
 // One covering rectangle a blob; the fragment gets the blob unchanged.
 flat out vec4 blobCenterRadius;
@@ -39,10 +42,12 @@ void main()
     blobScatter = blob.scatter;
     blobSky = blob.sky;
     blobSkySlope = vec3(0.0, 0.25, 0.0);
+#ifdef FX_LAYERS
     if (lightCounts.y > 0) {
         blobSky.rgb = blobSkies[2 * index].rgb;
         blobSkySlope = blobSkies[2 * index + 1].xyz;
     }
+#endif
     blobLit = blob.lit;
     blobEmission = blob.emission;
     blobDetailAxes = detailAxes(blob.medium.w, blob.lit.w < 0.0 ? -1.0 - blob.lit.w : blob.lit.w);

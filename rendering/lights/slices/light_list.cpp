@@ -78,43 +78,47 @@ glm::dvec3 middleOf(std::span<const MediumCaster> casters, const glm::dvec3& eye
 } // namespace
 
 LightList::LightList(std::pmr::memory_resource* memory)
-    : lights_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory), near_(memory)
+    : stacks_(memory), stackLights_(memory), stackBlocks_(memory), near_(memory)
 {}
 
 void LightList::build(const LightListInputs& in)
 {
-    lights_.clear();
+    block_ = {};
+    count_ = 0;
     stacks_.clear();
     stackLights_.clear();
     stackBlocks_.clear();
     const Lighting& lighting = in.settings->lighting;
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
     const glm::vec3 sunOnGround = lighting.sunIlluminance * (std::max(lighting.sunDirection.y, 0.0f) / kPi);
-    head_.sky = glm::vec4(lighting.skyLuminance * exposure, in.settings->slices.multiple ? 1.0f : 0.0f);
-    head_.ground = glm::vec4(lighting.groundAlbedo * (sunOnGround + lighting.skyLuminance) * exposure, 0.0f);
+    block_.sky = glm::vec4(lighting.skyLuminance * exposure, in.settings->slices.multiple ? 1.0f : 0.0f);
+    block_.ground = glm::vec4(lighting.groundAlbedo * (sunOnGround + lighting.skyLuminance) * exposure, 0.0f);
     addSun(in);
     addPoints(in);
-    head_.counts = {int(lights_.size()), 0, in.settings->slices.samples, 0};
+    block_.counts = {int(count_), 0, in.settings->slices.samples, 0};
     addSky(in);
-    head_.counts.y = int(lights_.size()) - head_.counts.x;
+    block_.counts.y = int(count_) - block_.counts.x;
     addCascades(in);
     placeTiles();
 }
 
+void LightList::add(const SliceLightBlock& light)
+{
+    block_.lights[count_++] = light;
+}
+
+/// The first entry, black without sun.
 void LightList::addSun(const LightListInputs& in)
 {
     const Lighting& lighting = in.settings->lighting;
-    if (lighting.sunIlluminance == glm::vec3(0.0f))
-        return;
     SliceLightBlock light{};
     light.color = glm::vec4(lighting.sunIlluminance * exposureFromEv100(in.settings->exposureEv100), 0.0f);
     light.place = glm::vec4(lighting.sunDirection, 0.0f);
-    light.cone = {0.0f, 0.0f, 0.0f, 1.0f};
     SliceStack stack;
-    if (in.settings->slices.enabled &&
+    if (in.settings->slices.enabled && lighting.sunIlluminance != glm::vec3(0.0f) &&
         fitParallelSlices(lighting.sunDirection, in.casters, in.eye, in.settings->slices.resolution, stack))
         addStack(stack, light);
-    lights_.push_back(light);
+    add(light);
 }
 
 /// The sun's planes of a wide scene are coarse. What is near the eye gets finer ones; a light refers to the
@@ -139,11 +143,11 @@ void LightList::addCascades(const LightListInputs& in)
             return;
         SliceLightBlock light{};
         light.place = glm::vec4(lighting.sunDirection, 0.0f);
-        lights_[coarser].cone.x = float(lights_.size());
-        coarser = lights_.size();
+        block_.lights[coarser].cone.x = float(count_);
+        coarser = count_;
         coarserTexel = stack.texel;
         addStack(stack, light);
-        lights_.push_back(light);
+        add(light);
     }
 }
 
@@ -171,13 +175,14 @@ void LightList::addPoints(const LightListInputs& in)
             fitPointSlices(place, points[i].radius, in.casters, in.eye,
                            pointResolution(in.settings->slices.resolution), stack))
             addStack(stack, light);
-        lights_.push_back(light);
+        add(light);
     }
 }
 
 void LightList::addSky(const LightListInputs& in)
 {
-    const bool isDark = glm::vec3(head_.sky) == glm::vec3(0.0f) && glm::vec3(head_.ground) == glm::vec3(0.0f);
+    const bool isDark =
+        glm::vec3(block_.sky) == glm::vec3(0.0f) && glm::vec3(block_.ground) == glm::vec3(0.0f);
     if (isDark || !in.settings->slices.enabled)
         return;
     for (size_t i = 0; i < kSkyAxes; ++i) {
@@ -193,7 +198,7 @@ void LightList::addSky(const LightListInputs& in)
         SliceLightBlock light{};
         light.place = glm::vec4(axis, 0.0f);
         addStack(stack, light);
-        lights_.push_back(light);
+        add(light);
     }
 }
 
@@ -210,7 +215,7 @@ void LightList::addStack(const SliceStack& stack, SliceLightBlock& ioLight)
         ioLight.along = {0.0f, 0.0f, 0.0f, 1.0f / stack.spacing};
     }
     stacks_.push_back(stack);
-    stackLights_.push_back(lights_.size());
+    stackLights_.push_back(count_);
 }
 
 /// Stacks lie side by side in rows; each row is as high as its first stack, the largest.
@@ -232,7 +237,7 @@ void LightList::placeTiles()
             x = rowHeight = 0;
         }
         const glm::vec4 tiles(float(x), float(y), float(size.texels), float(size.planes));
-        lights_[stackLights_[i]].tiles = tiles;
+        block_.lights[stackLights_[i]].tiles = tiles;
         const bool isParallel = stack.mapping == SliceMapping::Parallel;
         stackBlocks_.push_back({glm::vec4(stack.origin, stack.spacing),
                                 glm::vec4(stack.right * stack.texel, isParallel ? 0.0f : 1.0f),

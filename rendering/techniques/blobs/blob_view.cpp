@@ -158,7 +158,7 @@ void BlobView::takePictures(FrameGraph& graph, const PassFrame& frame)
     takenBlobs_.form = frame.settings->form;
     takenBlobs_.detail = frame.settings->detail && builder_.anyDetail();
     takenBlobs_.skies = {};
-    if (frame.lights.hasSky && frame.lights.planes.valid()) {
+    if (frame.lights.hasSky()) {
         ResourceId skies;
         graph.addPass("impostor skies", [&](FrameGraph::Builder& builder) {
             skies = builder.write(builder.create(
@@ -200,7 +200,7 @@ void BlobView::uploadBlobs(FrameGraph& graph, PassFrame& frame)
 void BlobView::addSkies(FrameGraph& graph, const PassFrame& frame)
 {
     blobs_.skies = {};
-    if (!frame.lights.hasSky || !frame.lights.planes.valid())
+    if (!frame.lights.hasSky())
         return;
     blobs_.skies = graph.importBuffer({"blob skies", std::bit_ceil(builder_.blobs().size() * kBlobSkyBytes)},
                                       skyBuffer_.name());
