@@ -1,11 +1,14 @@
 #include "rendering/lights/slices/light_list.h"
 
+#include "foundation/math/bits.h"
+#include "foundation/math/hash.h"
 #include "rendering/frame/exposure.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -16,14 +19,19 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 
 /// Planes of lights at points and of the axes of the sky, relative to those of the sun.
+SliceResolution partOf(const SliceResolution& sun, int part)
+{
+    return {sun.texels / part, (sun.planes + part - 1) / part};
+}
+
 SliceResolution pointResolution(const SliceResolution& sun)
 {
-    return {std::max(sun.texels / 2, 8), std::max(sun.planes / 2, 2)};
+    return partOf(sun, 2);
 }
 
 SliceResolution skyResolution(const SliceResolution& sun)
 {
-    return {std::max(sun.texels / 4, 8), std::max(sun.planes / 4, 2)};
+    return partOf(sun, 4);
 }
 
 /// What light arrives from a point at the middle of the casters decides which points cast shadows.
@@ -59,28 +67,103 @@ glm::dvec3 middleOf(std::span<const MediumCaster> casters, const glm::dvec3& eye
     return casters.empty() ? eye : eye + sum / double(casters.size());
 }
 
+/// Lights at points that give light, those that light the casters most first.
+struct SortedPoints
+{
+    std::array<HostLight, kMostEffectLights + kMostHostLights> points;
+    size_t count = 0;
+
+    void add(const HostLight& light)
+    {
+        const double numbers[] = {light.position.x,  light.position.y,  light.position.z, light.intensity.x,
+                                  light.intensity.y, light.intensity.z, light.radius};
+        if (std::ranges::all_of(numbers, [](double x) { return base::isFinite(x); }) &&
+            light.intensity != glm::vec3(0.0f))
+            points[count++] = light;
+    }
+    std::span<const HostLight> all() const { return std::span(points).first(count); }
+};
+
+SortedPoints sortedPoints(const LightListInputs& in)
+{
+    SortedPoints sorted;
+    for (const EffectLight& light : in.effects.first(std::min(in.effects.size(), kMostEffectLights)))
+        sorted.add(pointOf(light));
+    for (size_t i = 0; i < in.settings->hostLights.count; ++i)
+        sorted.add(in.settings->hostLights.lights[i]);
+    const glm::dvec3 middle = middleOf(in.casters, in.eye);
+    std::stable_sort(
+        sorted.points.begin(), sorted.points.begin() + ptrdiff_t(sorted.count),
+        [&](const HostLight& a, const HostLight& b) { return arriving(a, middle) > arriving(b, middle); });
+    return sorted;
+}
+
+size_t castingPoints(const SliceSettings& slices, const SortedPoints& sorted)
+{
+    return std::min(size_t(std::max(slices.castingPoints, 0)), sorted.count);
+}
+
+/// [cd/m2] of the ground, from below.
+glm::vec3 groundLuminance(const Lighting& lighting)
+{
+    const glm::vec3 sun = lighting.sunIlluminance * (std::max(lighting.sunDirection.y, 0.0f) / kPi);
+    return lighting.groundAlbedo * (sun + lighting.skyLuminance);
+}
+
+bool hasSky(const Lighting& lighting)
+{
+    return lighting.skyLuminance != glm::vec3(0.0f) || groundLuminance(lighting) != glm::vec3(0.0f);
+}
+
+uint64_t mixed(uint64_t hash, const glm::dvec3& v)
+{
+    for (int i = 0; i < 3; ++i)
+        hash = base::hashWord(hash, std::bit_cast<uint64_t>(v[i]));
+    return hash;
+}
+
 } // namespace
 
 LightList::LightList(std::pmr::memory_resource* memory)
-    : lights_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory), kept_(memory)
+    : lights_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory), origins_(memory),
+      kept_(memory), keptOrigins_(memory)
 {}
+
+uint64_t LightList::planesKey(const LightListInputs& in)
+{
+    const Lighting& lighting = in.settings->lighting;
+    const SliceSettings& slices = in.settings->slices;
+    if (!slices.enabled)
+        return 0;
+    const SortedPoints sorted = sortedPoints(in);
+    const size_t casting = castingPoints(slices, sorted);
+    uint64_t key =
+        base::hashWord(uint64_t(slices.resolution.texels) << 32 | uint64_t(slices.resolution.planes),
+                       uint64_t(casting) << 2 | uint64_t(hasSky(lighting)) << 1 |
+                           uint64_t(lighting.sunIlluminance != glm::vec3(0.0f)));
+    key = mixed(key, glm::dvec3(lighting.sunDirection));
+    for (const HostLight& light : sorted.all().first(casting))
+        key = base::hashWord(mixed(key, light.position), std::bit_cast<uint32_t>(light.radius));
+    return key;
+}
 
 void LightList::build(const LightListInputs& in, bool keepsPlanes)
 {
     kept_.clear();
-    if (keepsPlanes)
+    keptOrigins_.clear();
+    if (keepsPlanes) {
         kept_.swap(stacks_);
-    keptEye_ = eye_;
-    eye_ = in.eye;
+        keptOrigins_.swap(origins_);
+    }
     lights_.clear();
     stacks_.clear();
+    origins_.clear();
     stackLights_.clear();
     stackBlocks_.clear();
     const Lighting& lighting = in.settings->lighting;
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
-    const glm::vec3 sunOnGround = lighting.sunIlluminance * (std::max(lighting.sunDirection.y, 0.0f) / kPi);
     head_.sky = glm::vec4(lighting.skyLuminance * exposure, in.settings->slices.multiple ? 1.0f : 0.0f);
-    head_.ground = glm::vec4(lighting.groundAlbedo * (sunOnGround + lighting.skyLuminance) * exposure, 0.0f);
+    head_.ground = glm::vec4(groundLuminance(lighting) * exposure, 0.0f);
     addSun(in);
     addPoints(in);
     head_.counts = {int(lights_.size()), 0, in.settings->slices.samples, 0};
@@ -102,43 +185,35 @@ void LightList::addSun(const LightListInputs& in)
     if (in.settings->slices.enabled &&
         (takeKept(in.eye, stack) ||
          fitParallelSlices(lighting.sunDirection, in.casters, in.eye, in.settings->slices.resolution, stack)))
-        addStack(stack, light);
+        addStack(stack, in.eye, light);
     lights_.push_back(light);
 }
 
 void LightList::addPoints(const LightListInputs& in)
 {
-    std::array<HostLight, kMostEffectLights + kMostHostLights> points;
-    size_t count = 0;
-    for (const EffectLight& light : in.effects.first(std::min(in.effects.size(), kMostEffectLights)))
-        points[count++] = pointOf(light);
-    for (size_t i = 0; i < in.settings->hostLights.count; ++i)
-        points[count++] = in.settings->hostLights.lights[i];
-    const glm::dvec3 middle = middleOf(in.casters, in.eye);
-    std::stable_sort(
-        points.begin(), points.begin() + ptrdiff_t(count),
-        [&](const HostLight& a, const HostLight& b) { return arriving(a, middle) > arriving(b, middle); });
+    const SortedPoints sorted = sortedPoints(in);
+    const size_t casting = castingPoints(in.settings->slices, sorted);
+    const std::span<const HostLight> points = sorted.all();
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < points.size(); ++i) {
         const glm::vec3 place(points[i].position - in.eye);
         SliceLightBlock light{};
         light.color = glm::vec4(points[i].intensity * exposure, 1.0f);
         light.place = glm::vec4(place, points[i].radius);
         light.cone = coneOf(points[i]);
         SliceStack stack;
-        if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
+        if (in.settings->slices.enabled && i < casting &&
             (takeKept(in.eye, stack) ||
              fitPointSlices(place, points[i].radius, in.casters,
                             pointResolution(in.settings->slices.resolution), stack)))
-            addStack(stack, light);
+            addStack(stack, in.eye, light);
         lights_.push_back(light);
     }
 }
 
 void LightList::addSky(const LightListInputs& in)
 {
-    const bool isDark = glm::vec3(head_.sky) == glm::vec3(0.0f) && glm::vec3(head_.ground) == glm::vec3(0.0f);
-    if (isDark || !in.settings->slices.enabled)
+    if (!hasSky(in.settings->lighting) || !in.settings->slices.enabled)
         return;
     for (size_t i = 0; i < kSkyAxes; ++i) {
         const float turn = float(i) * (2.0f * kPi / 5.0f);
@@ -153,7 +228,7 @@ void LightList::addSky(const LightListInputs& in)
             return;
         SliceLightBlock light{};
         light.place = glm::vec4(axis, 0.0f);
-        addStack(stack, light);
+        addStack(stack, in.eye, light);
         lights_.push_back(light);
     }
 }
@@ -164,12 +239,19 @@ bool LightList::takeKept(const glm::dvec3& eye, SliceStack& outStack) const
     if (stacks_.size() >= kept_.size())
         return false;
     outStack = kept_[stacks_.size()];
-    outStack.origin = glm::vec3(glm::dvec3(outStack.origin) + (keptEye_ - eye));
+    outStack.origin = glm::vec3(keptOrigins_[stacks_.size()] - eye);
     return true;
 }
 
+/// A kept stack has the place that it was given first, so that rounding does not add up from frame to frame.
+glm::dvec3 LightList::originInWorld(const glm::dvec3& eye, const SliceStack& stack) const
+{
+    return stacks_.size() < keptOrigins_.size() ? keptOrigins_[stacks_.size()]
+                                                : eye + glm::dvec3(stack.origin);
+}
+
 /// Its light is the next one of the list.
-void LightList::addStack(const SliceStack& stack, SliceLightBlock& ioLight)
+void LightList::addStack(const SliceStack& stack, const glm::dvec3& eye, SliceLightBlock& ioLight)
 {
     if (stack.mapping == SliceMapping::Parallel) {
         const glm::vec3 right = stack.right / stack.texel, up = stack.up / stack.texel,
@@ -180,6 +262,7 @@ void LightList::addStack(const SliceStack& stack, SliceLightBlock& ioLight)
     } else {
         ioLight.along = {0.0f, 0.0f, 0.0f, 1.0f / stack.spacing};
     }
+    origins_.push_back(originInWorld(eye, stack));
     stacks_.push_back(stack);
     stackLights_.push_back(lights_.size());
 }

@@ -66,8 +66,11 @@ class LightList
 public:
     explicit LightList(std::pmr::memory_resource* memory);
 
+    /// Of everything but the casters that decides which planes there are and what they hold.
+    static uint64_t planesKey(const LightListInputs& in);
+
     /// @param keepsPlanes the planes stay where they were in the world when build() was called last; the
-    /// casters and lights are those of then
+    /// casters and planesKey() are those of then
     void build(const LightListInputs& in, bool keepsPlanes = false);
 
     const LightListHead& head() const { return head_; }
@@ -83,7 +86,8 @@ private:
     void addPoints(const LightListInputs& in);
     void addSky(const LightListInputs& in);
     bool takeKept(const glm::dvec3& eye, SliceStack& outStack) const;
-    void addStack(const SliceStack& stack, SliceLightBlock& ioLight);
+    glm::dvec3 originInWorld(const glm::dvec3& eye, const SliceStack& stack) const;
+    void addStack(const SliceStack& stack, const glm::dvec3& eye, SliceLightBlock& ioLight);
     void placeTiles();
 
     LightListHead head_{};
@@ -91,9 +95,9 @@ private:
     std::pmr::vector<SliceStack> stacks_;
     std::pmr::vector<size_t> stackLights_; ///< the light of each stack
     std::pmr::vector<SliceStackBlock> stackBlocks_;
-    std::pmr::vector<SliceStack> kept_; ///< of the last call, in place of fitting new ones
-    glm::dvec3 eye_{0.0};               ///< [m] that stacks_ are relative to
-    glm::dvec3 keptEye_{0.0};           ///< [m] likewise of kept_
+    std::pmr::vector<glm::dvec3> origins_;     ///< [m] world, of stacks_
+    std::pmr::vector<SliceStack> kept_;        ///< of the last call, in place of fitting new ones
+    std::pmr::vector<glm::dvec3> keptOrigins_; ///< [m] world, of kept_
     int atlasWidth_ = 0, atlasHeight_ = 0;
     int mostTexels_ = 0;
 };

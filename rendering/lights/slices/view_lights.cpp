@@ -4,6 +4,7 @@
 #include "rendering/lights/slices/light_slices_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace fx::render {
@@ -11,13 +12,6 @@ namespace fx::render {
 namespace {
 
 constexpr size_t kListBytes = sizeof(LightListHead) + (kMostLights + kSkyAxes) * sizeof(SliceLightBlock);
-
-uint64_t mixed(uint64_t hash, const glm::dvec3& v)
-{
-    for (int i = 0; i < 3; ++i)
-        hash = base::hashWord(hash, std::bit_cast<uint64_t>(v[i]));
-    return hash;
-}
 
 } // namespace
 
@@ -31,28 +25,11 @@ ViewLights::ViewLights(GlDevice* device, std::pmr::memory_resource* memory)
     : device_(*device), list_(memory), casters_(memory)
 {}
 
-/// Of everything that the planes depend on.
-uint64_t ViewLights::keyOf(const LightListInputs& in, uint64_t casters) const
-{
-    const ViewSettings& settings = *in.settings;
-    const SliceSettings& slices = settings.slices;
-    uint64_t key = base::hashWord(casters, in.casters.size());
-    key = base::hashWord(key, uint64_t(slices.resolution.texels) << 32 | uint64_t(slices.resolution.planes));
-    key = base::hashWord(key, uint64_t(slices.castingPoints) << 1 | uint64_t(slices.enabled));
-    key = mixed(key, glm::dvec3(settings.lighting.sunDirection));
-    key = base::hashWord(key, uint64_t(settings.lighting.sunIlluminance != glm::vec3(0.0f)) << 1 |
-                                  uint64_t(settings.lighting.skyLuminance != glm::vec3(0.0f)));
-    for (const EffectLight& light : in.effects)
-        key = mixed(key, light.position);
-    for (size_t i = 0; i < settings.hostLights.count; ++i)
-        key = mixed(key, settings.hostLights.lights[i].position);
-    return key | 1; // never "nothing"
-}
-
 base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters)
 {
     isKept_ = false;
-    wanted_ = keyOf(in, casters);
+    wanted_ =
+        base::hashWord(base::hashWord(casters, in.casters.size()), LightList::planesKey(in)) | 1; // not 0
     list_.build(in, wanted_ == filled_);
     if (wanted_ != filled_) {
         casters_.clear();

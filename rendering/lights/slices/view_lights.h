@@ -50,7 +50,6 @@ private:
         glm::vec4 medium;
     };
     base::Status makeRoom();
-    uint64_t keyOf(const LightListInputs& in, uint64_t casters) const;
 
     GlDevice& device_;
     LightList list_;
