@@ -92,9 +92,12 @@ SortedPoints sortedPoints(const LightListInputs& in)
     for (size_t i = 0; i < in.settings->hostLights.count; ++i)
         sorted.add(in.settings->hostLights.lights[i]);
     const glm::dvec3 middle = middleOf(in.casters, in.eye);
-    std::stable_sort(
-        sorted.points.begin(), sorted.points.begin() + ptrdiff_t(sorted.count),
-        [&](const HostLight& a, const HostLight& b) { return arriving(a, middle) > arriving(b, middle); });
+    const auto isBrighter = [&](const HostLight& a, const HostLight& b) {
+        return arriving(a, middle) > arriving(b, middle);
+    };
+    const auto first = sorted.points.begin(); // by insertion: std::stable_sort takes memory
+    for (auto light = first; light != first + ptrdiff_t(sorted.count); ++light)
+        std::rotate(std::upper_bound(first, light, *light, isBrighter), light, light + 1);
     return sorted;
 }
 
