@@ -1,5 +1,6 @@
 #include "rendering/lights/slices/light_list.h"
 
+#include "foundation/math/bits.h"
 #include "foundation/math/hash.h"
 #include "rendering/frame/exposure.h"
 
@@ -19,15 +20,10 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kWideScene = 40.0f;   ///< [m] side of planes above which what is near gets planes of its own
 constexpr float kCascadeRatio = 0.2f; ///< of the sides of a finer and the next coarser stack
 
-/// Planes of lights at points and of the axes of the sky, relative to those of the sun.
-SliceResolution pointResolution(const SliceResolution& sun)
+/// Planes of lights at points and of the axes of the sky have a part of the resolution of the sun's.
+SliceResolution partOf(const SliceResolution& sun, int part)
 {
-    return {std::max(sun.texels / 2, 8), std::max(sun.planes / 2, 2)};
-}
-
-SliceResolution skyResolution(const SliceResolution& sun)
-{
-    return {std::max(sun.texels / 4, 8), std::max(sun.planes / 4, 2)};
+    return {sun.texels / part, (sun.planes + part - 1) / part};
 }
 
 /// What light arrives from a point at the middle of the casters decides which points cast shadows.
@@ -55,6 +51,13 @@ glm::vec4 coneOf(const HostLight& light)
     return {light.axis * scale, -light.cosOuter * scale};
 }
 
+/// [cd/m2] of the ground, from below.
+glm::vec3 groundLuminance(const Lighting& lighting)
+{
+    const glm::vec3 sun = lighting.sunIlluminance * (std::max(lighting.sunDirection.y, 0.0f) / kPi);
+    return lighting.groundAlbedo * (sun + lighting.skyLuminance);
+}
+
 /// Everything that decides what a plane holds, but for the casters.
 uint64_t revisionOf(uint64_t revision, const SliceStack& stack, const glm::vec4& tiles)
 {
@@ -75,6 +78,42 @@ glm::dvec3 middleOf(std::span<const MediumCaster> casters, const glm::dvec3& eye
     return casters.empty() ? eye : eye + sum / double(casters.size());
 }
 
+/// Lights at points that give light, those that light the casters most first.
+struct SortedPoints
+{
+    std::array<HostLight, kMostEffectLights + kMostHostLights> points;
+    std::array<float, kMostEffectLights + kMostHostLights> arrivals;
+    size_t count = 0;
+
+    void add(const HostLight& light, const glm::dvec3& middle)
+    {
+        const double numbers[] = {light.position.x,  light.position.y,  light.position.z, light.intensity.x,
+                                  light.intensity.y, light.intensity.z, light.radius};
+        if (!std::ranges::all_of(numbers, [](double x) { return base::isFinite(x); }) ||
+            light.intensity == glm::vec3(0.0f))
+            return;
+        const float arrival = arriving(light, middle);
+        size_t at = count++;
+        for (; at > 0 && arrivals[at - 1] < arrival; --at) {
+            points[at] = points[at - 1];
+            arrivals[at] = arrivals[at - 1];
+        }
+        points[at] = light;
+        arrivals[at] = arrival;
+    }
+};
+
+SortedPoints sortedPoints(const LightListInputs& in)
+{
+    SortedPoints sorted;
+    const glm::dvec3 middle = middleOf(in.casters, in.eye);
+    for (const EffectLight& light : in.effects.first(std::min(in.effects.size(), kMostEffectLights)))
+        sorted.add(pointOf(light), middle);
+    for (size_t i = 0; i < in.settings->hostLights.count; ++i)
+        sorted.add(in.settings->hostLights.lights[i], middle);
+    return sorted;
+}
+
 } // namespace
 
 LightList::LightList(std::pmr::memory_resource* memory)
@@ -90,9 +129,8 @@ void LightList::build(const LightListInputs& in)
     stackBlocks_.clear();
     const Lighting& lighting = in.settings->lighting;
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
-    const glm::vec3 sunOnGround = lighting.sunIlluminance * (std::max(lighting.sunDirection.y, 0.0f) / kPi);
     block_.sky = glm::vec4(lighting.skyLuminance * exposure, in.settings->slices.multiple ? 1.0f : 0.0f);
-    block_.ground = glm::vec4(lighting.groundAlbedo * (sunOnGround + lighting.skyLuminance) * exposure, 0.0f);
+    block_.ground = glm::vec4(groundLuminance(lighting) * exposure, 0.0f);
     addSun(in);
     addPoints(in);
     block_.counts = {int(count_), 0, in.settings->slices.samples, 0};
@@ -153,27 +191,19 @@ void LightList::addCascades(const LightListInputs& in)
 
 void LightList::addPoints(const LightListInputs& in)
 {
-    std::array<HostLight, kMostEffectLights + kMostHostLights> points;
-    size_t count = 0;
-    for (const EffectLight& light : in.effects.first(std::min(in.effects.size(), kMostEffectLights)))
-        points[count++] = pointOf(light);
-    for (size_t i = 0; i < in.settings->hostLights.count; ++i)
-        points[count++] = in.settings->hostLights.lights[i];
-    const glm::dvec3 middle = middleOf(in.casters, in.eye);
-    std::stable_sort(
-        points.begin(), points.begin() + ptrdiff_t(count),
-        [&](const HostLight& a, const HostLight& b) { return arriving(a, middle) > arriving(b, middle); });
+    const SortedPoints sorted = sortedPoints(in);
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
-    for (size_t i = 0; i < count; ++i) {
-        const glm::vec3 place(points[i].position - in.eye);
+    for (size_t i = 0; i < sorted.count; ++i) {
+        const HostLight& point = sorted.points[i];
+        const glm::vec3 place(point.position - in.eye);
         SliceLightBlock light{};
-        light.color = glm::vec4(points[i].intensity * exposure, 1.0f);
-        light.place = glm::vec4(place, points[i].radius);
-        light.cone = coneOf(points[i]);
+        light.color = glm::vec4(point.intensity * exposure, 1.0f);
+        light.place = glm::vec4(place, point.radius);
+        light.cone = coneOf(point);
         SliceStack stack;
         if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
-            fitPointSlices(place, points[i].radius, in.casters, in.eye,
-                           pointResolution(in.settings->slices.resolution), stack))
+            fitPointSlices(place, point.radius, in.casters, in.eye, partOf(in.settings->slices.resolution, 2),
+                           stack))
             addStack(stack, light);
         add(light);
     }
@@ -192,8 +222,7 @@ void LightList::addSky(const LightListInputs& in)
             i == 0 ? glm::vec3(0, 1, 0)
                    : glm::vec3(across * std::cos(turn), kSkyAxisElevation, across * std::sin(turn));
         SliceStack stack;
-        if (!fitParallelSlices(axis, in.casters, in.eye, skyResolution(in.settings->slices.resolution),
-                               stack))
+        if (!fitParallelSlices(axis, in.casters, in.eye, partOf(in.settings->slices.resolution, 4), stack))
             return;
         SliceLightBlock light{};
         light.place = glm::vec4(axis, 0.0f);
