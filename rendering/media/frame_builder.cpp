@@ -16,14 +16,14 @@ FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,
                          const ViewSettings& settings, const CameraGeometry& camera, LevelOfDetail& lod,
-                         uint64_t content)
+                         uint64_t content, bool castsShadows)
 {
     gathered_.clear();
     casters_.clear();
     instances_.clear();
     beginImpostors(request, settings, camera, content);
     counts_ = gatherBlobs(snapshots, request.interpolation, camera, request.targets.height, gathered_,
-                          casters_, instances_, settings.particleShare, &lod, &impostors_);
+                          casters_, instances_, settings.particleShare, &lod, &impostors_, castsShadows);
     impostors_.end();
     shade(settings, camera);
     sort(camera);

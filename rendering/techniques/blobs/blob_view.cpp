@@ -26,7 +26,8 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
     isKept_ = false;
     restingFrames_ = 0;
     const HostTargets& targets = in.request->targets;
-    builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.content);
+    builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.content,
+                   in.castsShadows);
     io.blobs = builder_.blobs();
     io.casters->insert(io.casters->end(), builder_.casters().begin(), builder_.casters().end());
     io.anyHeat = builder_.anyHeat();
