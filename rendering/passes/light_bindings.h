@@ -23,7 +23,7 @@ static_assert(sizeof(SliceLightBlock) == 7 * 16);
 
 constexpr size_t kMostLightEntries = 21; ///< lights, axes of the sky and finer planes of the sun
 
-/// Layout of FX_LIGHT_MEMBERS.
+/// Layout of the block Lights in shaders/shared/light_block.glsl.
 struct LightListBlock
 {
     glm::ivec4 counts;
@@ -33,19 +33,24 @@ struct LightListBlock
 };
 static_assert(sizeof(LightListBlock) == (3 + kMostLightEntries * 7) * 16);
 
-constexpr uint32_t kLightSliceUnit = 7; ///< texture unit of the planes
+constexpr uint32_t kLightBlockBinding = 1; ///< uniform binding
+constexpr uint32_t kLightSliceUnit = 7;    ///< texture unit of the planes
 
-/// What is in it stays as it is from when a pass is added until the graph has executed.
 struct LightBindings
 {
-    const LightListBlock* block = nullptr; ///< null: nothing is lit
-    ResourceId planes = {};                ///< R32F optical depths; invalid: media cast no shadow
+    ResourceId lights = {}; ///< buffer with a LightListBlock; invalid: nothing is lit
+    ResourceId planes = {}; ///< R32F optical depths; invalid: media cast no shadow
 
-    bool hasSky() const { return block && block->counts.y > 0 && planes.valid(); }
     void read(FrameGraph::Builder& builder) const
     {
+        if (lights.valid())
+            builder.read(lights);
         if (planes.valid())
             builder.read(planes);
+    }
+    BufferBinding bufferBinding() const
+    {
+        return {kLightBlockBinding, lights, 0, sizeof(LightListBlock), true};
     }
     TextureBinding textureBinding() const { return {kLightSliceUnit, planes, Sampling::Linear}; }
 };

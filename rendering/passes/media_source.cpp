@@ -5,31 +5,25 @@ namespace fx::render {
 void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& inputs, const DrawBatch& batch,
                const MediaTarget& target)
 {
-    struct
-    {
-        ViewBlock view;
-        LightListBlock lights;
-    } uniforms;
-    uniforms.view = *target.view;
-    uniforms.view.pass.y = float(batch.first); // exact up to 2^24
-    const bool isLit = inputs.lights && inputs.lights->block;
-    if (isLit)
-        uniforms.lights = *inputs.lights->block;
+    ViewBlock view = *target.view;
+    view.pass.y = float(batch.first); // exact up to 2^24
     TextureBinding textures[3] = {{0, target.distance}};
-    BufferBinding buffers[2] = {{0, inputs.instances}};
+    BufferBinding buffers[3] = {{0, inputs.instances}};
     size_t textureCount = 1, bufferCount = 1;
     if (inputs.picture.texture.valid())
         textures[textureCount++] = inputs.picture;
+    if (inputs.lights && inputs.lights->lights.valid())
+        buffers[bufferCount++] = inputs.lights->bufferBinding();
     if (inputs.lights && inputs.lights->planes.valid())
         textures[textureCount++] = inputs.lights->textureBinding();
-    if (inputs.skies.valid())
-        buffers[bufferCount++] = {kBlobSkyBinding, inputs.skies};
+    if (inputs.blobLights.valid())
+        buffers[bufferCount++] = {kBlobLightBinding, inputs.blobLights};
     DrawCall call;
     call.program = &program;
     call.targets = target.targets;
     call.textures = {textures, textureCount};
     call.buffers = {buffers, bufferCount};
-    call.uniforms = isLit ? asUniforms(uniforms) : asUniforms(uniforms.view);
+    call.uniforms = asUniforms(view);
     call.blend = Blend::Premultiplied;
     call.vertices = 6;
     call.instances = batch.count;

@@ -1,5 +1,4 @@
-// The lights of a view, as members of a uniform block. Filled by rendering/lights/slices/light_list.cpp, whose
-// LightListBlock has this layout. The first light is parallel, the sun; without sun its color is 0. The others are points.
+// The lights of a view. Filled by rendering/lights/slices/light_list.cpp; LightListBlock has this layout. The first light is parallel, the sun; without sun its color is 0. The others are points.
 struct SliceLight
 {
     vec4 right; // parallel light: texel x = dot(right.xyz, p) + right.w
@@ -12,11 +11,10 @@ struct SliceLight
                 // with finer planes, 0: there is none
 };
 
-// lightCounts    x lights; y axes of the sky after them; z points of a ray through a ball
-// lightOfSky     rgb exposed luminance from above; w 1: light that is scattered again counts
-// lightOfGround  rgb exposed luminance from below
-#define FX_LIGHT_MEMBERS \
-    ivec4 lightCounts; \
-    vec4 lightOfSky; \
-    vec4 lightOfGround; \
+layout(std140, binding = 1) uniform Lights
+{
+    ivec4 lightCounts;  // x lights; y axes of the sky after them; z points of a ray through a ball
+    vec4 lightOfSky;    // rgb exposed luminance from above; w 1: light that is scattered again counts
+    vec4 lightOfGround; // rgb exposed luminance from below
     SliceLight lights[21];
+};

@@ -1,5 +1,5 @@
-// The optical depth of all media between the lights of a view and a point. Needs shared/light_block.glsl, whose members are
-// in a uniform block.
+// The optical depth of all media between the lights of a view and a point.
+#include "shared/light_block.glsl"
 layout(binding = 7) uniform sampler2D lightSlices; // optical depth
 
 const int kSliceTileColumns = 8;
@@ -72,6 +72,12 @@ vec2 pointDepth(SliceLight light, vec3 p)
     return depthAtPlace(light.tiles, vec3(1.0 + (0.5 + 0.5 * direction) * (light.tiles.z - 2.0), l * light.along.w));
 }
 
+// Of either kind.
+vec2 sliceDepth(SliceLight light, vec3 p)
+{
+    return light.color.w < 0.5 ? parallelDepth(light, p) : pointDepth(light, p);
+}
+
 // Exposed illuminance of a light at a point before media, and the unit vector towards it.
 vec3 pointLight(SliceLight light, vec3 p, out vec3 towards)
 {
@@ -80,4 +86,14 @@ vec3 pointLight(SliceLight light, vec3 p, out vec3 towards)
     towards = l2 > 0.0 ? d * inversesqrt(l2) : vec3(0.0, 1.0, 0.0);
     float share = clamp(light.cone.w - dot(towards, light.cone.xyz), 0.0, 1.0);
     return light.color.rgb * (share / max(l2 + light.place.w * light.place.w, 1e-12));
+}
+
+// Of either kind.
+vec3 unshadowedLight(SliceLight light, vec3 p, out vec3 towards)
+{
+    if (light.color.w < 0.5) {
+        towards = light.place.xyz;
+        return light.color.rgb;
+    }
+    return pointLight(light, p, towards);
 }

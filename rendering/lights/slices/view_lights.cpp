@@ -20,6 +20,7 @@ ViewLights::ViewLights(GlDevice* device, std::pmr::memory_resource* memory)
 
 base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters)
 {
+    isKept_ = false;
     list_.build(in);
     wanted_ = base::hashWord(base::hashWord(casters, in.casters.size()), list_.placesRevision()) | 1;
     if (wanted_ != filled_) {
@@ -33,6 +34,12 @@ base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters)
 
 base::Status ViewLights::makeRoom()
 {
+    if (lightBuffer_.bytes() == 0) {
+        auto created = GlBuffer::create(device_, sizeof(LightListBlock), "lights");
+        if (!created)
+            return created.status();
+        lightBuffer_ = std::move(*created);
+    }
     if (list_.stacks().empty())
         return {};
     const int width = std::max(atlas_.width(), list_.atlasWidth());
@@ -51,7 +58,16 @@ base::Status ViewLights::makeRoom()
 LightBindings ViewLights::addPasses(FrameGraph& graph)
 {
     LightBindings bindings;
-    bindings.block = &list_.block();
+    if (lightBuffer_.bytes() == 0)
+        return bindings;
+    bindings.lights = graph.importBuffer({"lights", sizeof(LightListBlock)}, lightBuffer_.name());
+    if (!isKept_)
+        graph.addPass("light list", [&](FrameGraph::Builder& builder) {
+            bindings.lights = builder.write(bindings.lights);
+            return [buffer = bindings.lights, block = &list_.block()](Backend& backend) {
+                backend.upload(buffer, asUniforms(*block));
+            };
+        });
     if (!list_.stacks().empty() && atlas_.name() != 0)
         bindings.planes = graph.importTexture({"light slices", atlas_.width(), atlas_.height(), Format::R32F},
                                               atlas_.name());
@@ -86,13 +102,14 @@ void ViewLights::forget()
 
 void ViewLights::release()
 {
+    lightBuffer_ = {};
     atlas_ = {};
     filled_ = 0;
 }
 
 uint64_t ViewLights::bytes() const
 {
-    return atlas_.bytes();
+    return lightBuffer_.bytes() + atlas_.bytes();
 }
 
 } // namespace fx::render

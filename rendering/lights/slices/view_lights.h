@@ -6,6 +6,7 @@
 
 #include "foundation/result/status.h"
 #include "rendering/frame_graph/frame_graph.h"
+#include "rendering/gl/gl_buffer.h"
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_texture.h"
 #include "rendering/lights/slices/light_list.h"
@@ -30,11 +31,14 @@ public:
     /// @return OutOfMemory
     base::Status gather(const LightListInputs& in, uint64_t casters);
 
-    /// Imports the planes, and adds the passes that fill them. @return what draws bind
+    /// Instead of gather(): the frame has the lights of the last one.
+    void keep() { isKept_ = true; }
+
+    /// Imports list and planes, and adds the passes that fill them. @return what draws bind
     LightBindings addPasses(FrameGraph& graph);
 
     void forget();  ///< what this frame was to write is not there
-    void release(); ///< gives back the planes
+    void release(); ///< gives back buffer and planes
     bool hasPlanes() const { return atlas_.name() != 0; }
     uint64_t bytes() const; ///< [byte] held on the GPU
     const LightList& list() const { return list_; }
@@ -51,9 +55,11 @@ private:
     GlDevice& device_;
     LightList list_;
     std::pmr::vector<CasterBlock> casters_;
+    GlBuffer lightBuffer_;
     GlTexture atlas_;
     uint64_t filled_ = 0; ///< key of what the planes hold; 0: nothing
     uint64_t wanted_ = 0; ///< key of this frame
+    bool isKept_ = false; ///< the list on the GPU is that of the last frame
 };
 
 } // namespace fx::render

@@ -75,7 +75,7 @@ protected:
     }
 };
 
-const char* const kPasses[] = {"light list", "light slice casters", "light slices", "blob sky"};
+const char* const kPasses[] = {"light list", "light slice casters", "light slices", "blob light"};
 
 } // namespace
 
@@ -175,7 +175,7 @@ TEST_F(LightSlicesView, withoutSlicesThereIsNoPassAndNoProgramForThem)
     const auto snapshot = snapshotOf({smoke({0, 0, 0})});
     (void)draw(snapshot);
     const uint32_t programs = view_->statistics().programsCompiled;
-    for (const char* pass : {"light slice casters", "light slices", "blob sky"})
+    for (const char* pass : {"light slice casters", "light slices", "blob light"})
         EXPECT_FALSE(has(pass)) << pass;
     view_->settings().slices.enabled = true;
     (void)draw(snapshot);
