@@ -39,7 +39,7 @@ constexpr uint32_t kLightSliceUnit = 7;    ///< texture unit of the planes
 struct LightBindings
 {
     ResourceId lights = {}; ///< buffer with a LightListBlock; invalid: nothing is lit
-    ResourceId planes = {}; ///< R32F optical depths; invalid: media cast no shadow
+    ResourceId planes = {}; ///< RG32F optical depths; invalid: media cast no shadow
 
     void read(FrameGraph::Builder& builder) const
     {
