@@ -28,7 +28,7 @@ void forEachCase(const Visit& visit)
 /// The fitted constants of multiple-scattering.
 struct Fitted
 {
-    double c1 = 3.19, c2 = 1.89, m = 0.643, n = 0.871, u = 0.458, w = 0.706;
+    double c1 = 3.67, c2 = 2.15, m = 0.704, n = 0.960, u = 1.44, w = 0.683;
 };
 
 /// Diffuse light along a line by finite differences: equations (3) to (5) of multiple-scattering, and its
@@ -38,7 +38,7 @@ class DiffuseLine
 public:
     DiffuseLine(double albedo, double g, double tauColumn)
     {
-        const double s = 1.0 - albedo * g, f = g * g;
+        const double s = 1.0 - albedo * g, f = std::pow(g, 1.5);
         depth_ = s * tauColumn;
         beam_ = (1.0 - albedo * f) / s;
         turned_ = albedo * (g - f) / s;
@@ -154,12 +154,11 @@ TEST(MultipleScattering, isTheSolutionOfTheDiffusionEquationAndOfTheBeam)
                 for (const int i : {1, 400, 2000, 3600, 3999}) {
                     const double tau = column * i / DiffuseLine::kCells;
                     const double along =
-                        fitted.w * (std::exp(-(1.0 - albedo * g * g) * tau) - std::exp(-tau));
+                        fitted.w * (std::exp(-(1.0 - albedo * std::pow(g, 1.5)) * tau) - std::exp(-tau));
                     for (const double cosine : {-0.3, 0.3}) {
-                        const double diffuse =
-                            fitted.n * line.density(i) + 3.0 * g * fitted.u * cosine * line.flux(i);
-                        const double beam =
-                            along * fx::formula64::fxHenyeyGreenstein(cosine, std::pow(g, 1.5));
+                        const double diffuse = fitted.n * line.density(i) +
+                                               3.0 * g * fitted.u * cosine * std::max(line.flux(i), 0.0);
+                        const double beam = along * fx::formula64::fxHenyeyGreenstein(cosine, g * g);
                         const double want = albedo * (std::max(diffuse, 0.0) / (4.0 * kPi) + beam);
                         EXPECT_NEAR(fx::formula64::fxMultipleScattering(albedo, g, cosine, tau, column), want,
                                     1e-5 + 1e-4 * want)
