@@ -161,6 +161,26 @@ TEST_F(RowShadows, whatHidesDoesNotShadeItselfButIsShaded)
     }
 }
 
+TEST_F(RowShadows, aSolidMeshIsMattInWhatABallLeavesOfTheSun)
+{
+    const glm::vec3 n(0, 0, 1);
+    const std::vector<base::MeshVertex> corners{
+        {{-1, -1, 0}, n, {0, 0}}, {{1, -1, 0}, n, {1, 0}}, {{1, 1, 0}, n, {1, 1}}, {{-1, 1, 0}, n, {0, 1}}};
+    const float mesh = float(*assets_.addMesh(corners, std::vector<uint32_t>{0, 1, 2, 0, 2, 3}));
+    view_->settings().lighting.sunDirection = {0.0f, 0.8f, 0.6f};
+    for (const float depth : {0.0f, 1.0f, 8.0f}) {
+        auto snapshot = emptySnapshot();
+        addBall(snapshot, {0, -2.0f + 0.8f * 4.0f, 0.6f * 4.0f}, 1.5f, std::max(depth, 1e-6f));
+        auto& group = addParticles(snapshot, {{{0, -2, 0}, 0.3f}});
+        light(group);
+        set(group, constant::Shape, float(base::ParticleShape::Mesh));
+        set(group, constant::Mesh, mesh);
+        set(group, constant::Blend, float(base::ParticleBlend::Opaque));
+        const float open = 0.6f / std::numbers::pi_v<float>;
+        EXPECT_NEAR(at(draw(snapshot), 0, -2), open * std::exp(-depth), 0.03f * open) << depth;
+    }
+}
+
 TEST_F(RowShadows, aThickSpriteHasABrightAndADarkSide)
 {
     auto snapshot = emptySnapshot();
