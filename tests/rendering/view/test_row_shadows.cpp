@@ -294,6 +294,19 @@ TEST_F(RowShadows, aStretchOfRowsKeepsItsCrossSectionAndItsVolume)
     EXPECT_NEAR(sectionOf(castersOf(strip)), area, 1e-3 * area);
 }
 
+TEST_F(RowShadows, manyGroupsShareTheMostCasters)
+{
+    auto snapshot = emptySnapshot();
+    const std::vector<TestParticle> particles(300, {{0, 0, 0}, 0.5f, {1, 1, 1, 0.5f}});
+    for (int i = 0; i < 100; ++i)
+        addParticles(snapshot, particles);
+    const auto casters = castersOf(snapshot);
+    EXPECT_LE(casters.size(), render::kMostRowCasters);
+    EXPECT_GE(casters.size(), 100u * render::kFewestCastersOfGroup);
+    const double section = 30000.0 * double(render::crossSectionOfDepth(std::log(2.0f), 0.5f));
+    EXPECT_NEAR(sectionOf(casters), section, 1e-4 * section);
+}
+
 TEST_F(RowShadows, castersMoveBetweenSnapshots)
 {
     TestParticle p{{0, 0, 0}, 0.5f, glm::vec4(1.0f), 10.0f, {60.0f, 0.0f, 0.0f}};
