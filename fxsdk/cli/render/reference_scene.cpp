@@ -18,6 +18,7 @@ render::OpaqueScene opaqueOf(const scene_file::SceneFile& file)
     const render::StageBackground& b = file.background;
     scene.background = {b.luminance, b.horizon, b.width, b.height, b.image, b.panorama};
     scene.lighting = file.view.lighting;
+    scene.lamps = file.lights;
     return scene;
 }
 

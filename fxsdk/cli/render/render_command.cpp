@@ -63,6 +63,7 @@ base::Result<scene_file::SceneFile> loadLitInput(const RenderArguments& argument
     if (!scene.ok() || !lights)
         return scene;
     scene->view.lighting = lights->view.lighting;
+    scene->lights = lights->lights;
     scene->view.exposureEv100 = lights->view.exposureEv100;
     scene->background = lights->background;
     return scene;
@@ -179,6 +180,11 @@ int runRender(const RenderArguments& arguments)
     for (const preset::Diagnostic& warning : scene->warnings)
         std::fprintf(stderr, "warning: %s\n", preset::toString(warning).c_str());
 
+    if (!scene->lights.empty())
+        std::fprintf(stderr,
+                     "warning: --renderer gl leaves out the %zu \"lights\" of the scene; --renderer "
+                     "reference and path have them\n",
+                     scene->lights.size());
     const std::string why = gpuObstacleOf(*scene);
     if (arguments.compute == "gpu" && !why.empty() && !showsDepthContacts(*scene))
         std::fprintf(stderr,

@@ -52,8 +52,10 @@ public:
         ReferenceFrame frame;
         frame.scene.blobs = std::move(*blobs);
         frame.scene.opaque.isEmpty = true;
-        if (lights_)
+        if (lights_) {
             frame.scene.opaque.lighting = lights_->view.lighting;
+            frame.scene.opaque.lamps = lights_->lights;
+        }
         for (const RenderPlan::Frame& moment : plan_.frames)
             if (base::Status status = renderFrame(moment, frame); !status)
                 return status;

@@ -2,10 +2,13 @@
 /// Lights of the path tracer: directions are drawn towards them; the sky is met by rays that escape.
 #pragma once
 
+#include "rendering/frame/scene_light.h"
+
 #include <glm/vec3.hpp>
 
 #include <array>
 #include <limits>
+#include <memory>
 
 namespace fx::render {
 
@@ -70,6 +73,9 @@ private:
     glm::dvec3 position_, direction_, intensity_;
     double cosInner_, cosOuter_;
 };
+
+/// A light of a scene. @param eye [m] world position that rays are relative to
+std::unique_ptr<PathLight> makePathLight(const SceneLight& light, const glm::dvec3& eye);
 
 /// Light from everywhere that is far away.
 class PathSky
