@@ -2,6 +2,7 @@
 /// fx render: scenes and presets to pictures.
 
 #include "fxsdk/cli/commands.h"
+#include "fxsdk/cli/render/blob_list_render.h"
 #include "fxsdk/cli/render/depth_contacts.h"
 #include "fxsdk/cli/render/frame_output.h"
 #include "fxsdk/cli/render/render_options.h"
@@ -152,6 +153,15 @@ int failed(const base::Status& status)
     return exitCodeOf(status);
 }
 
+void warnOfLights(const scene_file::SceneFile& scene)
+{
+    if (!scene.lights.empty())
+        std::fprintf(stderr,
+                     "warning: --renderer gl leaves out the %zu \"lights\" of the scene; --renderer "
+                     "reference and path have them\n",
+                     scene.lights.size());
+}
+
 int runRender(const RenderArguments& arguments)
 {
     auto plan = planRender(arguments);
@@ -170,9 +180,9 @@ int runRender(const RenderArguments& arguments)
     if (arguments.renderer != "gl")
         return runTiled(arguments, *plan, lights ? &*lights : nullptr, load);
     if (isBlobList(arguments.input)) {
-        failed({base::Code::InvalidArgument,
-                arguments.input + ": a list of blobs needs --renderer reference or path"});
-        return kUsage;
+        if (lights)
+            warnOfLights(*lights);
+        return runBlobList(arguments, *plan, lights ? &*lights : nullptr);
     }
     const auto scene = load();
     if (!scene.ok())
@@ -180,11 +190,7 @@ int runRender(const RenderArguments& arguments)
     for (const preset::Diagnostic& warning : scene->warnings)
         std::fprintf(stderr, "warning: %s\n", preset::toString(warning).c_str());
 
-    if (!scene->lights.empty())
-        std::fprintf(stderr,
-                     "warning: --renderer gl leaves out the %zu \"lights\" of the scene; --renderer "
-                     "reference and path have them\n",
-                     scene->lights.size());
+    warnOfLights(*scene);
     const std::string why = gpuObstacleOf(*scene);
     if (arguments.compute == "gpu" && !why.empty() && !showsDepthContacts(*scene))
         std::fprintf(stderr,
