@@ -2,6 +2,7 @@
 
 #include "rendering/optics/phase.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -15,11 +16,12 @@ constexpr double kCap = 0.5;        ///< [1] optical depth of a part
 constexpr double kMostParts = 64.0; ///< of an interval
 constexpr double kThin = 0.1;       ///< [1] optical depth below which intervals are joined
 constexpr double kLeastIntervals = 24.0;
-constexpr double kDarkest = 1e-6;                ///< transmittance below which nothing is seen any more
-constexpr double kNode = 0.774596669241483377;   ///< of Gauss-Legendre on [-1, 1]: sqrt(3/5)
-constexpr double kWidest = 0.4;                  ///< [rad] of a part as a lamp sees it
-constexpr double kGrowth = 3.0;                  ///< of the distance from a lamp within a piece
-constexpr double kGolden = 0.618033988749894848; ///< turns the directions of the sky evenly
+constexpr double kDarkest = 1e-6;              ///< transmittance below which nothing is seen any more
+constexpr double kNode = 0.774596669241483377; ///< of Gauss-Legendre on [-1, 1]: sqrt(3/5)
+constexpr double kWidest = 0.4;                ///< [rad] of a part as a lamp sees it
+constexpr double kGrowth = 3.0;                ///< of the distance from a lamp within a piece
+/// Shifts the directions of the sky from node to node: the powers of 1 / x with x^3 = x + 1.
+constexpr glm::dvec2 kLattice{0.754877666246692760, 0.569840290998053266};
 
 /// Calls add(place, weight) for the three nodes of [from, to].
 template <class Add>
@@ -141,16 +143,15 @@ glm::dvec3 ScatteredLight::inflow(const glm::dvec3& look, float anisotropy) cons
 void ScatteredLight::addNode(const Ray& ray, double t, double length, size_t lamp, Layers& io)
 {
     const glm::dvec3 point = ray.ray.origin + ray.ray.direction * t;
-    const double turn = node_ * kGolden - std::floor(node_ * kGolden);
-    ++node_;
+    const glm::dvec2 shift = glm::fract(double(node_++) * kLattice);
     arriving_.clear();
     if (lamp != kDistant)
-        lights_.appendLamp(lamp, point, turn, arriving_);
+        lights_.appendLamp(lamp, point, shift.x, arriving_);
     else if (lights_.hasSun())
         arriving_.push_back(lights_.sun());
     firstOfSky_ = arriving_.size();
     if (lamp == kDistant && lights_.hasSky())
-        lights_.appendSky(turn, arriving_);
+        lights_.appendSky(shift, 1, arriving_);
     const double weight = length * std::exp(-opticalDepthOf(medium_, ray.hits, ray.begin, t));
     for (ArrivingLight& light : arriving_)
         if (light.illuminance != glm::dvec3(0.0))

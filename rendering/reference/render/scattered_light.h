@@ -34,10 +34,10 @@ namespace fx::render {
 ///   which the lamp sees the ray
 /// @deviation glowing groups are balls: what is inside their radius is taken as already counted in their
 ///   light. (2) is divided by its own sum of weights, so that an even sky around thin media is exact. The
-///   directions turn about the vertical from node to node.
+///   directions of sky-quadrature and cone-quadrature are shifted from node to node.
 /// @valid     single scattering only: bright smoke looks too dark, and surfaces light no medium
 /// @accuracy  |error of S| <= 2e-3 S for optical depths up to 10 along ray and shadow rays, of sun,
-///   points and spots. Of the sky with 16, 64, 256 directions within 5e-2, 1e-2, 2e-3 S around 60 blobs
+///   points and spots. Of the sky with 16, 36, 64 directions within 2e-2, 1e-2, 5e-3 S around 60 blobs
 /// @tests     tests/rendering/reference/render/test_scattered_light.cpp
 ///
 /// One for each thread.

@@ -150,14 +150,22 @@ void SceneLights::course(size_t index, const TraceRay& ray, Course& out) const
     std::sort(out.cuts.begin(), out.cuts.end());
 }
 
-void SceneLights::appendSky(double turn, std::vector<ArrivingLight>& out) const
+void SceneLights::appendSky(const glm::dvec2& shift, int density, std::vector<ArrivingLight>& out) const
 {
-    for (const double side : {1.0, -1.0}) {
-        const size_t first = out.size();
-        appendCone({0.0, side, 0.0}, 1.0, skyRings_, 2 * skyRings_, turn, out);
-        for (size_t i = first; i < out.size(); ++i)
-            out[i].illuminance = (side > 0.0 ? sky_ : ground_) * out[i].solidAngle;
-    }
+    const int rings = density * skyRings_, sectors = 2 * rings;
+    for (const double side : {1.0, -1.0})
+        for (int ring = 0; ring < rings; ++ring) {
+            const double height = (ring + shift.y) / rings; // (1)
+            const double across = std::sqrt(1.0 - height * height);
+            for (int j = 0; j < sectors; ++j) {
+                const double angle = 2.0 * kPi * (j + shift.x) / sectors;
+                ArrivingLight light;
+                light.direction = {across * std::cos(angle), side * height, across * std::sin(angle)};
+                light.solidAngle = 2.0 * kPi / (rings * sectors);
+                light.illuminance = (side > 0.0 ? sky_ : ground_) * light.solidAngle;
+                out.push_back(light);
+            }
+        }
 }
 
 } // namespace fx::render

@@ -5,6 +5,7 @@
 #include "rendering/reference/render/opaque_view.h"
 #include "rendering/reference/trace/ray_grid.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
@@ -72,9 +73,29 @@ public:
     };
     void course(size_t lamp, const TraceRay& ray, Course& out) const;
 
-    /// Appends the sky and, below the horizon, the light of the ground: 4 skyRings^2 directions over the
-    /// whole sphere, black ones too.
-    void appendSky(double turn, std::vector<ArrivingLight>& out) const;
+    /// @formula sky-quadrature
+    /// Directions and weights that integrate a function over the sphere, each half by itself.
+    ///
+    /// symbol   unit   meaning
+    ///   n             rings of a half
+    ///   h      1      cosine of the angle to the vertical
+    ///   f      rad    angle about the vertical
+    ///   x, y   1      shift, 0..1
+    ///   dw     sr     weight
+    /// @derivation
+    ///   h = (i + y) / n and f = 2 pi (j + x) / (2 n) for 0 <= i < n, 0 <= j < 2 n: equal weights
+    ///   dw = 2 pi / (2 n^2)                                                                   (1)
+    /// @source    elementary; shifts by a lattice are textbook
+    /// @deviation none
+    /// @valid     n >= 1
+    /// @accuracy  with a shift of 1/2 the second order of the midpoint rule. A mean over k shifts of a
+    /// lattice is
+    ///   about that of k times as many directions
+    /// @tests     tests/rendering/reference/render/test_scene_lights.cpp
+    ///
+    /// Appends the sky and, below the horizon, the light of the ground: 4 n^2 directions, black ones too.
+    /// @param density n is so many times the rings given to build()
+    void appendSky(const glm::dvec2& shift, int density, std::vector<ArrivingLight>& out) const;
     bool hasSky() const { return sky_ != glm::dvec3(0.0) || ground_ != glm::dvec3(0.0); }
     const glm::dvec3& sky() const { return sky_; }       ///< [cd/m2] above the horizon
     const glm::dvec3& ground() const { return ground_; } ///< [cd/m2] below it

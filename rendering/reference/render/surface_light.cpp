@@ -8,7 +8,8 @@ namespace fx::render {
 
 namespace {
 constexpr double kTurn = 0.5; ///< of directions about the vertical
-}
+constexpr int kDensity = 2;   ///< of directions of the sky: no mean is taken along a ray
+} // namespace
 
 glm::dvec3 SurfaceLight::at(const glm::dvec3& position, const glm::dvec3& normal)
 {
@@ -30,7 +31,7 @@ glm::dvec3 SurfaceLight::at(const glm::dvec3& position, const glm::dvec3& normal
 glm::dvec3 SurfaceLight::skyAt(const glm::dvec3& position, const glm::dvec3& normal)
 {
     arriving_.clear();
-    lights_.appendSky(kTurn, arriving_);
+    lights_.appendSky(glm::dvec2(kTurn), kDensity, arriving_);
     double seen[2] = {}, all[2] = {}; // above, below
     for (const ArrivingLight& light : arriving_) {
         const double weight = light.solidAngle * glm::dot(normal, light.direction);

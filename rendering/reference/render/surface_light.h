@@ -26,7 +26,9 @@ namespace fx::render {
 /// @deviation (2) is divided by its own sum of weights, so that an open sky is exact whatever the number of
 ///   directions
 /// @valid     light that other surfaces reflect is left out
-/// @accuracy  exact for points, spots and the sun; sky and balls by cone-quadrature
+/// @accuracy  exact for points, spots and the sun; balls by cone-quadrature, sky by sky-quadrature with twice
+/// the
+///   rings
 /// @tests     tests/rendering/reference/render/test_surface_light.cpp
 ///
 /// One for each thread.

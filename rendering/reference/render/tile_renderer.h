@@ -32,7 +32,7 @@ struct ReferenceSettings
     double exposure = 1.0; ///< [m2/cd] written value per luminance
     bool isSingle = false; ///< integrates in float instead of double
     ScatteringMode scattering = ScatteringMode::None;
-    int skyRings = 4; ///< 1..64: ScatteringMode::Single takes light of the sky from 4 skyRings^2 directions
+    int skyRings = 3; ///< 1..64: ScatteringMode::Single takes light of the sky from 4 skyRings^2 directions
     IntegralSettings integral;
 };
 

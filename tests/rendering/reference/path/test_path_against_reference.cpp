@@ -159,7 +159,7 @@ TEST(PathAgainstReference, allLightsWithSurfacesThatShadeAndAreShaded)
     scene.opaque.lamps[2].outerAngle = 0.5f;
     scene.camera = ReferenceCamera::lookAt({0.5, 2.5, 4.0}, {0.0, -0.6, 0.0}, {0.0, 1.0, 0.0});
     scene.camera.halfHeight = 0.4;
-    expectSame(scene, 256, 3, 8);
+    expectSame(scene, 256, 3, 5);
 }
 
 } // namespace

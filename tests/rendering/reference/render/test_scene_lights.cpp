@@ -140,7 +140,7 @@ TEST(SceneLights, theSkyIsWhatASurfaceUnderItSees)
     for (const int rings : {1, 2, 5}) {
         const SceneLights lights = lightsOf(scene, rings);
         std::vector<ArrivingLight> sky;
-        lights.appendSky(0.1, sky);
+        lights.appendSky({0.1, 0.5}, 1, sky);
         EXPECT_EQ(sky.size(), size_t(4 * rings * rings));
         double up = 0.0, down = 0.0, all = 0.0;
         for (const ArrivingLight& light : sky) {
