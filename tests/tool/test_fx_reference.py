@@ -167,6 +167,15 @@ class FxReference(FxTest):
         self.assertGreater(sums[1], 0.0)
         self.assertAlmostEqual(sums[0], sums[1], delta=0.02 * sums[1])
 
+    def test_particles_that_shine_light_the_ground_in_both_renderers(self):
+        sums = []
+        for arguments in (("--renderer", "path", "--bounces", 1, "--spp", 16, "--sun-angle", 0),
+                          ("--renderer", "reference", "--scattering", "single", "--samples", 4)):
+            outcome = fx("render", "library:magic-trail", "-o", self.folder / "a.exr", "--size", "48x32", "--time", 1, *arguments)
+            self.assertEqual(outcome.code, 0, outcome.err)
+            sums.append(sum(read_planes(self.folder / "a.exr")[2]["G"]))
+        self.assertAlmostEqual(sums[0], sums[1], delta=0.01 * sums[1])
+
     def test_paths_write_light_variance_and_samples(self):
         path = self.write("a.blobs.csv", HEADER.strip() + ",g\n0,0,0,1,6,0.9,0,0,0,0.5\n")
         lights = self.folder / "lights.scene.json"

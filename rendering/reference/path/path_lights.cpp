@@ -61,6 +61,20 @@ LightSample BallPathLight::sample(const glm::dvec3& position, const std::array<d
     return sample;
 }
 
+LightSample GlowPathLight::sample(const glm::dvec3& position, const std::array<double, 2>&) const
+{
+    LightSample sample;
+    const glm::dvec3 toCenter = center_ - position;
+    const double distance2 = glm::dot(toCenter, toCenter);
+    if (!(distance2 > 0.0))
+        return sample;
+    const double distance = std::sqrt(distance2);
+    sample.direction = toCenter / distance;
+    sample.distance = std::max(0.0, distance - radius_);
+    sample.illuminance = intensity_ / (distance2 + radius_ * radius_);
+    return sample;
+}
+
 std::unique_ptr<PathLight> makePathLight(const SceneLight& light, const glm::dvec3& eye)
 {
     const glm::dvec3 position = light.position - eye;

@@ -111,10 +111,13 @@ struct PathRenderer::Shared
         background.build(behind, camera.eye, tasks);
         if (scene.opaque.lighting.sunIlluminance != glm::vec3(0.0f))
             lights.push_back(&sun);
-        for (const SceneLight& lamp : scene.opaque.lamps) {
+        for (const SceneLight& lamp : scene.opaque.lamps)
             lamps.push_back(makePathLight(lamp, camera.eye));
-            lights.push_back(lamps.back().get());
-        }
+        for (const EffectLight& glow : scene.opaque.particleLights)
+            lamps.push_back(std::make_unique<GlowPathLight>(glow.position - camera.eye,
+                                                            glm::dvec3(glow.intensity), double(glow.radius)));
+        for (const auto& lamp : lamps)
+            lights.push_back(lamp.get());
         paths.medium = &medium;
         paths.triangles = &triangles;
         paths.mesh = scene.opaque.mesh;

@@ -72,10 +72,13 @@ void addOpaque(KeyHash& hash, const OpaqueScene& scene)
     for (const double number : {double(b.width), double(b.height), double(b.panorama),
                                 double(scene.lighting.groundAlbedo), double(scene.isEmpty)})
         hash.add(number);
-    for (const EffectLight& light : scene.lights) {
-        hash.add(light.position);
-        hash.add(glm::dvec3(light.intensity));
-        hash.add(double(light.radius));
+    for (const auto& lights : {std::span(scene.lights), std::span(scene.particleLights)}) {
+        hash.add(double(lights.size()));
+        for (const EffectLight& light : lights) {
+            hash.add(light.position);
+            hash.add(glm::dvec3(light.intensity));
+            hash.add(double(light.radius));
+        }
     }
     for (const SceneLight& lamp : scene.lamps) {
         hash.add(lamp.position);

@@ -128,6 +128,15 @@ TEST(PathAgainstReference, aBallInsideMedia)
     expectSame(scene, 1024, 5);
 }
 
+TEST(PathAgainstReference, shiningParticlesInsideMedia)
+{
+    ReferenceScene scene = darkSmoke();
+    scene.opaque.lights = {{{0.1, -0.1, 0.0}, {3.0f, 2.0f, 1.0f}, 0.25f},
+                           {{1.4, 1.0, 0.0}, {4.0f, 4.0f, 9.0f}, 0.1f}};
+    scene.opaque.particleLights = scene.opaque.lights;
+    expectSame(scene, 1024);
+}
+
 TEST(PathAgainstReference, aSpotThroughMedia)
 {
     ReferenceScene scene = darkSmoke();
