@@ -85,6 +85,25 @@ glm::dvec3 OpaqueView::surfaceAt(const TraceRay& ray, const SurfaceHit& hit, Ray
     return reflectance * illuminance(point + seen * lift, seen);
 }
 
+/// [lx] A ball above the horizon lights as a point in its middle.
+glm::dvec3 OpaqueView::lampLight(const SceneLight& lamp, const glm::dvec3& point, const glm::dvec3& n,
+                                 double lift, RayHits& scratch) const
+{
+    const glm::dvec3 way = lamp.position - eye_ - point;
+    const double distance = glm::length(way);
+    const double facing = glm::dot(n, way);
+    if (!(distance > 0.0 && facing > 0.0))
+        return glm::dvec3(0.0);
+    const double cosine = -glm::dot(way, glm::normalize(glm::dvec3(lamp.direction))) / distance;
+    const double share = lamp.isSpot() ? spotFalloff(cosine, std::cos(double(lamp.innerAngle)),
+                                                     std::cos(double(lamp.outerAngle)))
+                                       : 1.0;
+    const double open = std::max(0.0, distance - double(lamp.radius));
+    if (!(share > 0.0) || blocks({point + n * lift, way / distance}, open, scratch))
+        return glm::dvec3(0.0);
+    return glm::dvec3(lamp.intensity) * (share * facing / (distance * distance * distance));
+}
+
 /// [lx]
 glm::dvec3 OpaqueView::stageLight(const glm::dvec3& point, const glm::dvec3& n, double lift,
                                   RayHits& scratch) const
@@ -109,6 +128,8 @@ glm::dvec3 OpaqueView::stageLight(const glm::dvec3& point, const glm::dvec3& n, 
         illuminance +=
             glm::dvec3(fire.intensity) * (std::max(facing * 0.8 + 0.2, 0.0) / d2); // a wide light wraps
     }
+    for (const SceneLight& lamp : scene_.lamps)
+        illuminance += lampLight(lamp, point, n, lift, scratch);
     return illuminance;
 }
 

@@ -52,7 +52,8 @@ struct OpaqueSample
 using Illuminance = std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)>;
 
 /// Shades as rendering/stage does, but with exact shadow rays in place of a shadow map. The medium casts no
-/// shadow on surfaces there, and none here; lamps are left out. An Illuminance replaces all of that.
+/// shadow on surfaces there, and none here. Lamps light from their middle. An Illuminance replaces all of
+/// that.
 class OpaqueView
 {
 public:
@@ -91,6 +92,8 @@ private:
     glm::dvec3 imageAt(double x, double y, bool wraps) const;
     glm::dvec3 surfaceAt(const TraceRay& ray, const SurfaceHit& hit, RayHits& scratch,
                          const Illuminance& illuminance) const;
+    glm::dvec3 lampLight(const SceneLight& lamp, const glm::dvec3& point, const glm::dvec3& normal,
+                         double lift, RayHits& scratch) const;
     glm::dvec3 stageLight(const glm::dvec3& point, const glm::dvec3& normal, double lift,
                           RayHits& scratch) const;
 
