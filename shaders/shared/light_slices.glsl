@@ -4,7 +4,7 @@ struct SliceLight
 {
     vec4 right; // parallel light: texel x = dot(right.xyz, p) + right.w
     vec4 up;    // texel y likewise
-    vec4 along; // plane likewise; of a point: w planes per metre of distance
+    vec4 along; // plane likewise; of a point: w planes per metre of distance, x what is taken from it
     vec4 tiles; // xy texel of the first plane in the atlas; z texels along a side; w planes, 0: media cast no shadow
     vec4 color; // rgb exposed illuminance of parallel light, exposed intensity of a point; w 0 parallel, 1 point
     vec4 place; // xyz unit vector towards parallel light, or the point [m] relative to the eye; w its radius [m]
@@ -49,7 +49,7 @@ vec2 sliceDepth(SliceLight light, vec3 p)
         vec3 d = p - light.place.xyz;
         float l = length(d);
         texel = 1.0 + (0.5 + 0.5 * octahedralPlace(l > 0.0 ? d / l : vec3(0.0, 0.0, 1.0))) * (light.tiles.z - 2.0);
-        plane = l * light.along.w;
+        plane = l * light.along.w - light.along.x;
     }
     texel = clamp(texel, vec2(0.5), vec2(light.tiles.z - 0.5));
     int last = int(light.tiles.w) - 1;

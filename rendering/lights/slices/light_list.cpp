@@ -263,7 +263,7 @@ void LightList::addStack(const SliceStack& stack, const glm::dvec3& eye, SliceLi
         ioLight.up = glm::vec4(up, -glm::dot(up, stack.origin));
         ioLight.along = glm::vec4(along, -glm::dot(along, stack.origin));
     } else {
-        ioLight.along = {0.0f, 0.0f, 0.0f, 1.0f / stack.spacing};
+        ioLight.along = {stack.first / stack.spacing, 0.0f, 0.0f, 1.0f / stack.spacing};
     }
     origins_.push_back(originInWorld(eye, stack));
     stacks_.push_back(stack);
@@ -292,8 +292,8 @@ void LightList::placeTiles()
         const bool isParallel = stack.mapping == SliceMapping::Parallel;
         stackBlocks_.push_back({glm::vec4(stack.origin, stack.spacing),
                                 glm::vec4(stack.right * stack.texel, isParallel ? 0.0f : 1.0f),
-                                glm::vec4(stack.up * stack.texel, 0.0f), glm::vec4(stack.along, stack.begin),
-                                tiles});
+                                glm::vec4(stack.up * stack.texel, stack.first),
+                                glm::vec4(stack.along, stack.begin), tiles});
         x += width;
         rowHeight = std::max(rowHeight, height);
         atlasHeight_ = std::max(atlasHeight_, y + height);
