@@ -75,7 +75,7 @@ vec2 pointDepth(SliceLight light, vec3 p)
     vec3 d = p - light.place.xyz;
     float l = length(d);
     vec2 direction = octahedralPlace(l > 0.0 ? d / l : vec3(0.0, 0.0, 1.0));
-    return depthAtPlace(light.tiles, vec3(1.0 + (0.5 + 0.5 * direction) * (light.tiles.z - 2.0), l * light.along.w));
+    return depthAtPlace(light.tiles, vec3(1.0 + (0.5 + 0.5 * direction) * (light.tiles.z - 2.0), l * light.along.w - light.along.x));
 }
 
 // Of either kind.
