@@ -78,10 +78,12 @@ vec2 pointDepth(SliceLight light, vec3 p)
     return depthAtPlace(light.tiles, vec3(1.0 + (0.5 + 0.5 * direction) * (light.tiles.z - 2.0), l * light.along.w - light.along.x));
 }
 
-// Of either kind.
+// Of any light.
 vec2 sliceDepth(SliceLight light, vec3 p)
 {
-    return light.color.w < 0.5 ? parallelDepth(light, p) : pointDepth(light, p);
+    if (light.color.w > 0.5)
+        return pointDepth(light, p);
+    return light.place == lights[0].place ? sunDepth(p) : parallelDepth(light, p);
 }
 
 // Exposed illuminance of a light at a point before media, and the unit vector towards it.
@@ -94,7 +96,7 @@ vec3 pointLight(SliceLight light, vec3 p, out vec3 towards)
     return light.color.rgb * (share / max(l2 + light.place.w * light.place.w, 1e-12));
 }
 
-// Of either kind.
+// Of any light.
 vec3 unshadowedLight(SliceLight light, vec3 p, out vec3 towards)
 {
     if (light.color.w < 0.5) {
