@@ -48,7 +48,7 @@ SliceStack stackOf(Light light, std::span<const render::MediumCaster> casters, c
     else
         render::fitPointSlices(light == Light::Outside ? glm::vec3(1.5f, 1.2f, 0.9f)
                                                        : glm::vec3(0.2f, 0.1f, -0.3f),
-                               0.0f, casters, size, stack);
+                               0.0f, casters, glm::dvec3(0.0), size, stack);
     return stack;
 }
 

@@ -133,17 +133,18 @@ double radialError(const SliceStack& stack, const glm::vec3& light, double depth
 std::vector<StabilitySweep> lightInside(bool isQuick)
 {
     const glm::vec3 towards = glm::normalize(glm::vec3(0.6f, 0.5f, -0.3f));
-    const StabilitySweep sweep{"radial integral, 64 texels and shells",
-                               evenSteps("place of the light [radius]", 0.0, 1.2, 12, isQuick),
-                               powersOfTen("tau", -1, 0.7, 3, isQuick),
-                               1e-3,
-                               false,
-                               [towards](double place, double depth) {
-                                   const glm::vec3 light = float(place) * towards;
-                                   SliceStack stack;
-                                   render::fitPointSlices(light, 0.0f, ball(depth), {64, 64}, stack);
-                                   return radialError(stack, light, depth);
-                               }};
+    const StabilitySweep sweep{
+        "radial integral, 64 texels and shells",
+        evenSteps("place of the light [radius]", 0.0, 1.2, 12, isQuick),
+        powersOfTen("tau", -1, 0.7, 3, isQuick),
+        1e-3,
+        false,
+        [towards](double place, double depth) {
+            const glm::vec3 light = float(place) * towards;
+            SliceStack stack;
+            render::fitPointSlices(light, 0.0f, ball(depth), glm::dvec3(0.0), {64, 64}, stack);
+            return radialError(stack, light, depth);
+        }};
     return {sweep, controlOf(sweep, "flat planes through the light", [towards](double place, double depth) {
                 SliceStack stack;
                 render::fitParallelSlices(towards, ball(depth), glm::dvec3(0.0), {64, 64}, stack);
@@ -274,38 +275,39 @@ std::vector<StabilitySweep> placesOfLights(bool isQuick)
     const auto placed = [](double distance, double side) {
         return glm::vec3(direction(int(side), 8) * distance);
     };
-    const StabilitySweep sweep{"64 shells, fine texels",
-                               powersOfTen("distance [m]", -6, 3, 4, isQuick),
-                               evenSteps("side", 0, 7, 7, false),
-                               0.02,
-                               false,
-                               [placed](double distance, double side) {
-                                   const auto casters = lightCloud(30, 2.0);
-                                   const glm::vec3 light = placed(distance, side);
-                                   SliceStack stack;
-                                   render::fitPointSlices(light, 0.0f, casters, {512, 64}, stack);
-                                   stack.resolution.texels =
-                                       int(4.0 * (distance + 1.5) / (double(stack.spacing) / 8.0));
-                                   return errorAt(light, stack, casters);
-                               }};
-    const StabilitySweep atCenters{"at the center of each ball",
-                                   evenSteps("ball", 0, 29, 29, isQuick),
-                                   powersOfTen("tau", -1, 1, 2, isQuick),
-                                   0.02,
-                                   false,
-                                   [](double which, double depth) {
-                                       const auto casters = lightCloud(30, depth);
-                                       const glm::vec3 light = casters[size_t(which)].center;
-                                       SliceStack stack;
-                                       render::fitPointSlices(light, 0.0f, casters, {512, 64}, stack);
-                                       return errorAt(light, stack, casters);
-                                   }};
+    const StabilitySweep sweep{
+        "64 shells, fine texels",
+        powersOfTen("distance [m]", -6, 3, 4, isQuick),
+        evenSteps("side", 0, 7, 7, false),
+        0.02,
+        false,
+        [placed](double distance, double side) {
+            const auto casters = lightCloud(30, 2.0);
+            const glm::vec3 light = placed(distance, side);
+            SliceStack stack;
+            render::fitPointSlices(light, 0.0f, casters, glm::dvec3(0.0), {512, 64}, stack);
+            stack.resolution.texels = int(4.0 * (distance + 1.5) / (double(stack.spacing) / 8.0));
+            return errorAt(light, stack, casters);
+        }};
+    const StabilitySweep atCenters{
+        "at the center of each ball",
+        evenSteps("ball", 0, 29, 29, isQuick),
+        powersOfTen("tau", -1, 1, 2, isQuick),
+        0.02,
+        false,
+        [](double which, double depth) {
+            const auto casters = lightCloud(30, depth);
+            const glm::vec3 light = casters[size_t(which)].center;
+            SliceStack stack;
+            render::fitPointSlices(light, 0.0f, casters, glm::dvec3(0.0), {512, 64}, stack);
+            return errorAt(light, stack, casters);
+        }};
     return {sweep, atCenters, controlOf(sweep, "flat planes", [placed](double distance, double side) {
                 const auto casters = lightCloud(30, 2.0);
                 const glm::vec3 light = placed(distance, side);
                 SliceStack flat, shells;
                 render::fitParallelSlices(glm::normalize(light), casters, glm::dvec3(0.0), {512, 64}, flat);
-                render::fitPointSlices(light, 0.0f, casters, {512, 64}, shells);
+                render::fitPointSlices(light, 0.0f, casters, glm::dvec3(0.0), {512, 64}, shells);
                 const render::BlobMedium medium = mediumOf(casters);
                 SliceField field({SliceForm::Kind::Planes, 64}, flat, casters);
                 double worst = 0.0;

@@ -52,10 +52,11 @@ public:
     void build(const LightListInputs& in);
 
     const LightListBlock& block() const { return block_; }
-    size_t count() const
+    /// The sun, points, axes of the sky; without finer planes of the sun.
+    std::span<const SliceLightBlock> lights() const
     {
-        return count_;
-    } ///< of all entries: lights, axes of the sky, finer planes of the sun
+        return std::span(block_.lights).first(size_t(block_.counts.x + block_.counts.y));
+    }
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
     uint64_t placesRevision() const

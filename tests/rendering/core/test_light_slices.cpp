@@ -87,7 +87,7 @@ SliceStack pointStack(std::span<const MediumCaster> casters, const glm::vec3& li
                       const SliceResolution& resolution, float radius = 0.0f)
 {
     SliceStack stack;
-    EXPECT_TRUE(fitPointSlices(light, radius, casters, resolution, stack));
+    EXPECT_TRUE(fitPointSlices(light, radius, casters, glm::dvec3(0.0), resolution, stack));
     return stack;
 }
 
@@ -329,9 +329,9 @@ TEST(SliceStack, noPlanesNoShadowAndOnePlaneIsDefined)
     const auto casters = cloud(10, 2.0f);
     SliceStack stack;
     EXPECT_FALSE(fitParallelSlices(kTowards, casters, glm::dvec3(0.0), {64, 0}, stack));
-    EXPECT_FALSE(fitPointSlices(glm::vec3(0.0f), 0.1f, casters, {64, 0}, stack));
+    EXPECT_FALSE(fitPointSlices(glm::vec3(0.0f), 0.1f, casters, glm::dvec3(0.0), {64, 0}, stack));
     EXPECT_FALSE(fitParallelSlices(kTowards, {}, glm::dvec3(0.0), {64, 32}, stack));
-    EXPECT_FALSE(fitPointSlices(glm::vec3(0.0f), 0.1f, {}, {64, 32}, stack));
+    EXPECT_FALSE(fitPointSlices(glm::vec3(0.0f), 0.1f, {}, glm::dvec3(0.0), {64, 32}, stack));
     for (const bool isParallel : {true, false}) {
         const SliceStack one =
             isParallel ? parallelStack(casters, {16, 1}) : pointStack(casters, {0.0f, 4.0f, 0.0f}, {16, 1});
