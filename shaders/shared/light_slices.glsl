@@ -8,7 +8,7 @@ struct SliceLight
     vec4 tiles; // xy texel of the first plane in the atlas; z texels along a side; w planes, 0: media cast no shadow
     vec4 color; // rgb exposed illuminance of parallel light, exposed intensity of a point; w 0 parallel, 1 point
     vec4 place; // xyz unit vector towards parallel light, or the point [m] relative to the eye; w its radius [m]
-    vec4 cone;  // share of a spot: clamp(dot(direction of the light, xyz) + w, 0, 1); of parallel light x index of an entry
+    vec4 cone;  // share of a spot: s^2 (3 - 2 s), s = clamp(dot(direction of the light, xyz) + w, 0, 1); of parallel light x index of an entry
                 // with finer planes, 0: there is none
 };
 layout(std430, binding = 5) readonly buffer Lights
@@ -95,5 +95,6 @@ vec3 unshadowedLight(SliceLight light, vec3 p, out vec3 towards)
     float l2 = dot(d, d);
     towards = l2 > 0.0 ? d * inversesqrt(l2) : vec3(0.0, 1.0, 0.0);
     float share = clamp(light.cone.w - dot(towards, light.cone.xyz), 0.0, 1.0);
+    share *= share * (3.0 - 2.0 * share);
     return light.color.rgb * (share / max(l2 + light.place.w * light.place.w, 1e-12));
 }

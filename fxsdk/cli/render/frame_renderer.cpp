@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <memory_resource>
 
@@ -146,8 +148,13 @@ base::Status FrameRenderer::render(base::Ticks tick)
     return count();
 }
 
+/// Surfaces are lit by the lights of the effects, and media darken them.
 base::Status FrameRenderer::drawStage(const render::CameraView& camera)
 {
+    FxFrameDef frame = frameOf(camera, 0.0);
+    frame.colorTexture = frame.depthTexture = 0; // the stage has none before its first picture
+    if (base::Status status = toStatus(fxView_PrepareLights(view_, &frame)); !status)
+        return status;
     std::array<render::EffectLight, kMaxLights> lights;
     size_t count = 0;
     if (!staysOnGpu_) { // what the GPU computes sheds no light, and a snapshot would end that
@@ -156,11 +163,44 @@ base::Status FrameRenderer::drawStage(const render::CameraView& camera)
             return snapshot.status();
         count = render::effectLights(**snapshot, lights);
     }
-    return stage_->render(camera, options_.settings.lighting, std::span(lights).first(count),
-                          options_.settings.exposureEv100, options_.width, options_.height);
+    std::array<render::StageLight, kMaxLights> lit;
+    for (size_t i = 0; i < count; ++i)
+        lit[i] = render::effectStageLight(lights[i]);
+    render::StageLighting lighting;
+    lighting.lighting = options_.settings.lighting;
+    lighting.lights = std::span(lit).first(count);
+    if (base::Status status = readShadows(std::span(lit).first(count), lighting); !status)
+        return status;
+    return stage_->render(camera, lighting, options_.settings.exposureEv100, options_.width, options_.height);
 }
 
-base::Status FrameRenderer::drawEffects(const render::CameraView& camera, double passed)
+/// @param ioLights of the effects, brightest first, as the view numbers them too
+base::Status FrameRenderer::readShadows(std::span<render::StageLight> ioLights, render::StageLighting& io)
+{
+    const auto read = [&](uint32_t kind, uint32_t index, render::MediaShadowBlock& out) {
+        FxMediaShadow shadow = {};
+        shadow.structSize = sizeof shadow;
+        base::Status status = toStatus(fxView_GetMediaShadow(view_, kind, index, &shadow));
+        static_assert(sizeof shadow == 2 * sizeof(uint32_t) + sizeof out);
+        std::memcpy(static_cast<void*>(&out),
+                    reinterpret_cast<const char*>(&shadow) + offsetof(FxMediaShadow, right), sizeof out);
+        if (shadow.texture != 0)
+            io.shadowTexture = shadow.texture;
+        return status;
+    };
+    if (base::Status status = read(FX_LIGHT_SUN, 0, io.sunShadow); !status)
+        return status;
+    for (size_t i = 0; i < ioLights.size(); ++i) {
+        render::MediaShadowBlock shadow;
+        if (base::Status status = read(FX_LIGHT_EFFECT, uint32_t(i), shadow); !status)
+            return status;
+        if (shadow.tiles[0].w > 0.5f)
+            ioLights[i].shadow = shadow;
+    }
+    return {};
+}
+
+FxFrameDef FrameRenderer::frameOf(const render::CameraView& camera, double passed) const
 {
     FxFrameDef frame = fxDefaultFrameDef();
     frame.resetHistory = lastTick_ < 0 ? 1 : 0;
@@ -173,6 +213,12 @@ base::Status FrameRenderer::drawEffects(const render::CameraView& camera, double
     frame.width = options_.width;
     frame.height = options_.height;
     frame.deltaTime = passed;
+    return frame;
+}
+
+base::Status FrameRenderer::drawEffects(const render::CameraView& camera, double passed)
+{
+    const FxFrameDef frame = frameOf(camera, passed);
     return toStatus(fxView_Render(view_, &frame));
 }
 

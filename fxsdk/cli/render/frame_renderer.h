@@ -14,6 +14,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,8 @@ private:
     base::Status keepOnGpu(base::Ticks tick);
     base::Status lookThrough(const render::CameraView& camera);
     base::Status drawStage(const render::CameraView& camera);
+    base::Status readShadows(std::span<render::StageLight> ioLights, render::StageLighting& io);
+    FxFrameDef frameOf(const render::CameraView& camera, double passed) const;
     /// @param passed [s] since the picture before, which eyes have adapted in
     base::Status drawEffects(const render::CameraView& camera, double passed);
     base::Status count();

@@ -38,6 +38,14 @@ float arriving(const HostLight& light, const glm::dvec3& middle)
     return brightness / float(glm::dot(d, d) + double(light.radius) * double(light.radius) + 1e-6);
 }
 
+/// A light at a point that may get planes.
+struct Candidate
+{
+    HostLight light;
+    LightOrigin origin;
+    float arriving; ///< see arriving()
+};
+
 HostLight pointOf(const EffectLight& light)
 {
     HostLight point;
@@ -78,12 +86,14 @@ glm::dvec3 middleOf(std::span<const MediumCaster> casters, const glm::dvec3& eye
 } // namespace
 
 LightList::LightList(std::pmr::memory_resource* memory)
-    : lights_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory), near_(memory)
+    : lights_(memory), origins_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory),
+      near_(memory)
 {}
 
 void LightList::build(const LightListInputs& in)
 {
     lights_.clear();
+    origins_.clear();
     stacks_.clear();
     stackLights_.clear();
     stackBlocks_.clear();
@@ -115,6 +125,7 @@ void LightList::addSun(const LightListInputs& in)
         fitParallelSlices(lighting.sunDirection, in.casters, in.eye, in.settings->slices.resolution, stack))
         addStack(stack, light);
     lights_.push_back(light);
+    origins_.push_back({LightKind::Sun, 0});
 }
 
 /// The sun's planes of a wide scene are coarse. What is near the eye gets finer ones; a light refers to the
@@ -149,29 +160,33 @@ void LightList::addCascades(const LightListInputs& in)
 
 void LightList::addPoints(const LightListInputs& in)
 {
-    std::array<HostLight, kMostEffectLights + kMostHostLights> points;
+    std::array<Candidate, kMostEffectLights + kMostHostLights> points;
     size_t count = 0;
-    for (const EffectLight& light : in.effects.first(std::min(in.effects.size(), kMostEffectLights)))
-        points[count++] = pointOf(light);
-    for (size_t i = 0; i < in.settings->hostLights.count; ++i)
-        points[count++] = in.settings->hostLights.lights[i];
     const glm::dvec3 middle = middleOf(in.casters, in.eye);
-    std::stable_sort(
-        points.begin(), points.begin() + ptrdiff_t(count),
-        [&](const HostLight& a, const HostLight& b) { return arriving(a, middle) > arriving(b, middle); });
+    const auto add = [&](const HostLight& light, LightKind kind, size_t index) {
+        points[count++] = {light, {kind, uint32_t(index)}, arriving(light, middle)};
+    };
+    for (size_t i = 0; i < std::min(in.effects.size(), kMostEffectLights); ++i)
+        add(pointOf(in.effects[i]), LightKind::Effect, i);
+    for (size_t i = 0; i < in.settings->hostLights.count; ++i)
+        add(in.settings->hostLights.lights[i], LightKind::Host, i);
+    std::stable_sort(points.begin(), points.begin() + ptrdiff_t(count),
+                     [](const Candidate& a, const Candidate& b) { return a.arriving > b.arriving; });
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
     for (size_t i = 0; i < count; ++i) {
-        const glm::vec3 place(points[i].position - in.eye);
+        const HostLight& point = points[i].light;
+        const glm::vec3 place(point.position - in.eye);
         SliceLightBlock light{};
-        light.color = glm::vec4(points[i].intensity * exposure, 1.0f);
-        light.place = glm::vec4(place, points[i].radius);
-        light.cone = coneOf(points[i]);
+        light.color = glm::vec4(point.intensity * exposure, 1.0f);
+        light.place = glm::vec4(place, point.radius);
+        light.cone = coneOf(point);
         SliceStack stack;
         if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
-            fitPointSlices(place, points[i].radius, in.casters, in.eye,
+            fitPointSlices(place, point.radius, in.casters, in.eye,
                            pointResolution(in.settings->slices.resolution), stack))
             addStack(stack, light);
         lights_.push_back(light);
+        origins_.push_back(points[i].origin);
     }
 }
 

@@ -51,6 +51,20 @@ constexpr size_t kMostLights = 1 + kMostEffectLights + kMostHostLights;
 /// [1] sine of the elevation of all axes but the first, which is vertical.
 constexpr float kSkyAxisElevation = 0.4472135955f; // 1 / sqrt(5)
 
+enum class LightKind : uint8_t
+{
+    Sun,
+    Host,   ///< ViewSettings::hostLights
+    Effect, ///< of what the snapshot holds
+};
+
+/// Where a light of the list comes from.
+struct LightOrigin
+{
+    LightKind kind = LightKind::Sun;
+    uint32_t index = 0; ///< of ViewSettings::hostLights, or of the effects' lights, brightest first
+};
+
 /// What the lights of a frame are made from.
 struct LightListInputs
 {
@@ -71,6 +85,7 @@ public:
 
     const LightListHead& head() const { return head_; }
     std::span<const SliceLightBlock> lights() const { return lights_; } ///< those of the sky at the end
+    std::span<const LightOrigin> origins() const { return origins_; } ///< of the first head().counts.x lights
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
     uint64_t placesRevision() const
@@ -91,6 +106,7 @@ private:
 
     LightListHead head_{};
     std::pmr::vector<SliceLightBlock> lights_;
+    std::pmr::vector<LightOrigin> origins_;
     std::pmr::vector<SliceStack> stacks_;
     std::pmr::vector<size_t> stackLights_; ///< the light of each stack
     std::pmr::vector<SliceStackBlock> stackBlocks_;

@@ -30,6 +30,7 @@ base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters)
 {
     isKept_ = false;
     list_.build(in);
+    eye_ = in.eye;
     wanted_ = base::hashWord(base::hashWord(casters, in.casters.size()), list_.placesRevision()) | 1;
     if (wanted_ != filled_) {
         casters_.clear();
@@ -59,7 +60,18 @@ base::Status ViewLights::makeRoom()
     if (!created)
         return created.status();
     atlas_ = std::move(*created);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) // hosts sample it as it is
+        device_.gl.TextureParameteri(atlas_.name(), filter, GL_LINEAR);
     filled_ = 0;
+    return {};
+}
+
+MediaShadowBlock ViewLights::shadow(LightKind kind, uint32_t index, const glm::dvec3& origin) const
+{
+    const std::span<const LightOrigin> origins = list_.origins();
+    for (size_t i = 0; i < origins.size() && isFilled(); ++i)
+        if (origins[i].kind == kind && origins[i].index == index)
+            return mediaShadow(list_, i, eye_, origin);
     return {};
 }
 

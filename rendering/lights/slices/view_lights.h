@@ -10,6 +10,7 @@
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_texture.h"
 #include "rendering/lights/slices/light_list.h"
+#include "rendering/lights/slices/media_shadow.h"
 #include "rendering/passes/light_bindings.h"
 
 #include <memory_resource>
@@ -42,6 +43,11 @@ public:
     uint64_t bytes() const; ///< [byte] held on the GPU
     const LightList& list() const { return list_; }
     uint32_t atlasTexture() const { return atlas_.name(); } ///< GL name; 0: no planes
+    /// Whether the planes hold what the last list says.
+    bool isFilled() const { return atlas_.name() != 0 && filled_ == wanted_; }
+    /// Of the last list; all light passes where there are no planes, or they are not filled.
+    /// @param origin [m] world position that the places of lookups are relative to
+    MediaShadowBlock shadow(LightKind kind, uint32_t index, const glm::dvec3& origin) const;
 
 private:
     struct CasterBlock
@@ -53,6 +59,7 @@ private:
 
     GlDevice& device_;
     LightList list_;
+    glm::dvec3 eye_{0.0}; ///< [m] world position that the list is relative to
     std::pmr::vector<CasterBlock> casters_;
     GlBuffer lightBuffer_;
     GlTexture atlas_;
