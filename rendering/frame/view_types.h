@@ -80,7 +80,7 @@ struct HostLights
 struct SliceResolution
 {
     int texels = 128; ///< along a side of a plane of the sun, 8..512, a multiple of 8; points have half of it
-    int planes = 32;  ///< 2..128
+    int planes = 32;  ///< 3..128; fewer become 3, 0: media cast no shadow
 
     bool operator==(const SliceResolution&) const = default;
 };

@@ -97,8 +97,9 @@ struct BufferBinding
 {
     uint32_t binding;
     ResourceId buffer;
-    uint64_t offset = 0; ///< [byte] a multiple of the context's alignment for storage buffers
-    uint64_t bytes = 0;  ///< 0: up to the end
+    uint64_t offset = 0;    ///< [byte] a multiple of the context's alignment for storage buffers
+    uint64_t bytes = 0;     ///< 0: up to the end
+    bool isUniform = false; ///< a std140 block at uniform binding 1 instead of a storage buffer
 };
 
 /// One draw of `vertices` x `instances` without vertex attributes (the shader fetches), triangles.

@@ -192,7 +192,8 @@ bool GlBackend::bindInputs(std::span<const TextureBinding> textures, std::span<c
     }
     for (const BufferBinding& binding : buffers) {
         const uint32_t name = nameOrFail(binding.buffer, false, "bound as storage");
-        if (!name || !inRange(binding.binding, kStorageBindings, "storage binding"))
+        if (!name || !inRange(binding.binding, binding.isUniform ? kUniformBindings : kStorageBindings,
+                              binding.isUniform ? "uniform binding" : "storage binding"))
             return false;
         const uint64_t held = graph_->resource(binding.buffer).bytes;
         const uint64_t bytes = binding.bytes ? binding.bytes : held - std::min(held, binding.offset);
@@ -201,8 +202,9 @@ bool GlBackend::bindInputs(std::span<const TextureBinding> textures, std::span<c
                  {"'", graph_->resource(binding.buffer).name, "' is bound beyond its end"});
             return false;
         }
-        device_.gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding.binding, name,
-                                   static_cast<GLintptr>(binding.offset), static_cast<GLsizeiptr>(bytes));
+        device_.gl.BindBufferRange(binding.isUniform ? GL_UNIFORM_BUFFER : GL_SHADER_STORAGE_BUFFER,
+                                   binding.binding, name, static_cast<GLintptr>(binding.offset),
+                                   static_cast<GLsizeiptr>(bytes));
     }
     if (!uniforms.empty()) {
         if (base::Status status = uniforms_.bind(uniforms); !status) {

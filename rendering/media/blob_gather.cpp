@@ -22,6 +22,7 @@ namespace column = base::blob_column;
 namespace constant = base::blob_constant;
 
 constexpr uint32_t kFewestOfAnImpostor = 16; ///< blobs; fewer are cheaper than their picture
+constexpr size_t kMostFarCasters = 16;       ///< of an effect that is drawn as a picture
 
 float mix(float a, float b, float t)
 {
@@ -90,6 +91,27 @@ bool finite(const GatheredBlob& b, const glm::vec3& velocity)
     return base::allFinite(values, int(std::size(values)));
 }
 
+/// Which blobs of an effect that is drawn as a picture cast its shadow.
+struct FarCasters
+{
+    size_t stride = 1;  ///< one of so many
+    float share = 1.0f; ///< [1] blobs that each stands for
+    size_t next = 0;    ///< number of the next, counted from the next group on
+};
+
+FarCasters farCasters(const base::FrameSnapshot& newer, size_t first)
+{
+    const base::GroupName name = newer.name(first);
+    size_t count = 0;
+    for (size_t g = first; g < newer.groupCount() && newer.name(g).instance == name.instance; ++g)
+        count += newer.name(g).kind == name.kind ? newer.group(g).count() : 0;
+    FarCasters far;
+    far.stride = std::max<size_t>((count + kMostFarCasters - 1) / kMostFarCasters, 1);
+    const size_t taken = (count + far.stride - 1) / far.stride;
+    far.share = taken > 0 ? float(count) / float(taken) : 1.0f;
+    return far;
+}
+
 /// Collects one group.
 class GroupGather
 {
@@ -138,6 +160,30 @@ public:
             blob.crossSection *= shownWeight / share_;
             add(blob, velocity * constants[constant::Shutter]);
         }
+    }
+
+    /// Casters alone, of the next group of an effect that is drawn as a picture.
+    void runFar(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
+                float stepSeconds, FarCasters& ioFar)
+    {
+        const base::Placement place = placementAt(newer, older, t, camera_.eye);
+        const float back = older ? (1.0f - t) * stepSeconds : 0.0f;
+        size_t i = ioFar.next;
+        for (; i < newer.count(); i += ioFar.stride) {
+            const auto value = [&](size_t c) { return newer.column(c)[i]; };
+            const glm::vec3 position(value(column::PositionX), value(column::PositionY),
+                                     value(column::PositionZ));
+            const glm::vec3 velocity(value(column::VelocityX), value(column::VelocityY),
+                                     value(column::VelocityZ));
+            const glm::vec3 center =
+                glm::vec3(place.position) + place.rotation * ((position - back * velocity) * place.scale);
+            const float radius = value(column::Radius) * place.scale * std::cbrt(ioFar.share);
+            const float section = value(column::CrossSection) * place.scale * place.scale * ioFar.share;
+            const float values[] = {center.x, center.y, center.z, radius, section};
+            if (base::allFinite(values, int(std::size(values))) && radius > 0.0f && section > 0.0f)
+                medium_.push_back({center, radius, section});
+        }
+        ioFar.next = i - newer.count();
     }
 
 private:
@@ -241,7 +287,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<MediumCaster>& outMedium,
                          std::pmr::vector<InstanceBlobs>& outInstances, float share, LevelOfDetail* lod,
-                         ImpostorField* impostors)
+                         ImpostorField* impostors, bool castsShadows)
 {
     GatherCounts counts;
     if (!snapshots.newer)
@@ -252,6 +298,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
     const float stepSeconds =
         snapshots.older ? float(base::toSeconds(newer.tick() - snapshots.older->tick())) : 0.0f;
     GroupGather gather(camera, height, share, lod, outVisible, outMedium, counts);
+    FarCasters far;
     for (size_t g = 0; g < newer.groupCount(); ++g) {
         if (newer.name(g).kind != kind)
             continue;
@@ -262,12 +309,16 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
             outInstances.push_back({group.info().instance, outVisible.size(), outVisible.size(),
                                     outMedium.size(), outMedium.size(), plan});
             gather.cullToView(!plan.isTaken);
+            if (plan.blobShare <= 0.0f && !plan.isTaken)
+                far = farCasters(newer, g);
         }
         const ImpostorPlan& plan = outInstances.back().plan;
-        if (plan.blobShare <= 0.0f && !plan.isTaken)
-            continue;
         const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
-        gather.run(group, same == kNoGroup ? nullptr : &snapshots.older->group(same), t, stepSeconds);
+        const base::SnapshotGroup* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
+        if (plan.blobShare > 0.0f || plan.isTaken)
+            gather.run(group, older, t, stepSeconds);
+        else if (castsShadows)
+            gather.runFar(group, older, t, stepSeconds, far);
         outInstances.back().visibleEnd = outVisible.size();
         outInstances.back().mediumEnd = outMedium.size();
     }

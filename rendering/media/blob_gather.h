@@ -65,12 +65,15 @@ struct GatherCounts
 /// @param share of the particles that is appended to `outVisible`, (0, 1]: their ids decide which, so that a
 /// particle does not come and go; they take over the cross section of the others. All cast shadows.
 /// @param impostors decides which effects are pictures of themselves; null: none. What is drawn by a picture
-/// alone is not gathered, what is taken for one is gathered with all that is beside the view.
+/// alone is not gathered, but at most 16 of its blobs cast the shadow of all; what is taken for one is
+/// gathered with all that is beside the view.
 /// @param lod thins out groups that are small on the picture, for shadows too; null: none
+/// @param castsShadows whether what is drawn by a picture alone casts a shadow
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<MediumCaster>& outMedium,
                          std::pmr::vector<InstanceBlobs>& outInstances, float share = 1.0f,
-                         LevelOfDetail* lod = nullptr, ImpostorField* impostors = nullptr);
+                         LevelOfDetail* lod = nullptr, ImpostorField* impostors = nullptr,
+                         bool castsShadows = true);
 
 } // namespace fx::render

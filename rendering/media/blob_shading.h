@@ -3,20 +3,12 @@
 /// is drawn.
 #pragma once
 
-#include "rendering/frame/exposure.h"
-#include "rendering/frame/view_types.h"
 #include "rendering/media/blob_gather.h"
 #include "rendering/passes/blob_instance.h"
 
 namespace fx::render {
 
-/// What the shading of one frame needs.
-struct ShadingContext
-{
-    const Lighting* lighting;
-    float exposure; ///< [m2/cd] exposed value per luminance
-};
-
-BlobInstance shadeBlob(const GatheredBlob& blob, const ShadingContext& context);
+/// @param exposure [m2/cd] exposed value per luminance
+BlobInstance shadeBlob(const GatheredBlob& blob, float exposure);
 
 } // namespace fx::render

@@ -1,5 +1,6 @@
 #include "rendering/media/frame_builder.h"
 
+#include "rendering/frame/exposure.h"
 #include "rendering/media/blob_shading.h"
 
 #include <glm/common.hpp>
@@ -16,14 +17,14 @@ FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,
                          const ViewSettings& settings, const CameraGeometry& camera, LevelOfDetail& lod,
-                         uint64_t content)
+                         uint64_t content, bool castsShadows)
 {
     gathered_.clear();
     casters_.clear();
     instances_.clear();
     beginImpostors(request, settings, camera, content);
     counts_ = gatherBlobs(snapshots, request.interpolation, camera, request.targets.height, gathered_,
-                          casters_, instances_, settings.particleShare, &lod, &impostors_);
+                          casters_, instances_, settings.particleShare, &lod, &impostors_, castsShadows);
     impostors_.end();
     shade(settings, camera);
     sort(camera);
@@ -46,7 +47,7 @@ void FrameBuilder::beginImpostors(const FrameRequest& request, const ViewSetting
 
 void FrameBuilder::shade(const ViewSettings& settings, const CameraGeometry& camera)
 {
-    const ShadingContext context{&settings.lighting, exposureFromEv100(settings.exposureEv100)};
+    const float exposure = exposureFromEv100(settings.exposureEv100);
     anyHeat_ = false;
     anyDetail_ = false;
     shaded_.clear();
@@ -54,7 +55,7 @@ void FrameBuilder::shade(const ViewSettings& settings, const CameraGeometry& cam
     for (const InstanceBlobs& instance : instances_)
         for (size_t i = instance.visibleBegin; i < instance.visibleEnd; ++i) {
             const GatheredBlob& blob = gathered_[i];
-            add(shadeBlob(blob, context), instance.plan, camera);
+            add(shadeBlob(blob, exposure), instance.plan, camera);
             anyHeat_ = anyHeat_ || (blob.heat > 0.0f && instance.plan.blobShare > 0.0f);
             anyDetail_ = anyDetail_ || blob.detailAmount > 0.0f;
         }

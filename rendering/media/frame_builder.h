@@ -24,8 +24,10 @@ public:
     /// Builds the list for one frame. Equal input gives equal bits. [GL thread, but no GL]
     /// @param lod begun for this frame
     /// @param content differs where what is shown differs, for pictures that are kept
+    /// @param castsShadows as of gatherBlobs()
     void build(const base::SnapshotPair& snapshots, const FrameRequest& request, const ViewSettings& settings,
-               const CameraGeometry& camera, LevelOfDetail& lod, uint64_t content = 0);
+               const CameraGeometry& camera, LevelOfDetail& lod, uint64_t content = 0,
+               bool castsShadows = true);
 
     std::span<const BlobInstance> blobs() const { return sorted_; } ///< farthest first
     bool anyHeat() const { return anyHeat_; }                       ///< some blob bends light

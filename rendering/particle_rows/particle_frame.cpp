@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace fx::render {
 
@@ -21,7 +20,6 @@ namespace {
 namespace column = base::particle_column;
 namespace constant = base::particle_constant;
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kLeastHalfSide = 0.5f; ///< [pixel] half the side of the smallest square: it covers one pixel
 constexpr uint64_t kFramesKept = 120;
 
@@ -250,23 +248,6 @@ void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placeme
     b.atlas = {float(group.columns * group.rows), c[constant::FrameBlend], c[constant::MotionScale],
                group.texture ? 1.0f : 0.0f};
     b.strip = {group.motion ? 1.0f : 0.0f, c[constant::ArcPerTile], 0.0f, c[constant::Edge]};
-    fillLights(in, b);
-}
-
-void ParticleFrame::fillLights(const ParticleFrameInputs& in, ParticleBlock& block)
-{
-    const Lighting& light = in.settings->lighting;
-    const float exposure = exposureFromEv100(in.settings->exposureEv100);
-    const glm::vec3 ground =
-        light.groundAlbedo *
-        (light.sunIlluminance * (std::max(light.sunDirection.y, 0.0f) / kPi) + light.skyLuminance);
-    block.skyAbove = {light.skyLuminance * exposure, 0.0f};
-    block.skyBelow = {ground * exposure, 0.0f};
-    block.sunLight = {light.sunIlluminance * exposure, 0.0f};
-    for (size_t i = 0; i < std::min(in.lights.size(), block.lightPosition.size()); ++i) {
-        block.lightPosition[i] = {glm::vec3(in.lights[i].position - in.camera->eye), in.lights[i].radius};
-        block.lightIntensity[i] = {in.lights[i].intensity * exposure, 0.0f};
-    }
 }
 
 ParticleFrame::Orderer& ParticleFrame::ordererOf(const base::GroupInfo& info)

@@ -9,7 +9,6 @@
 #include "rendering/frame/fragment_counts.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/gpu_particles/gpu_order_pass.h"
-#include "rendering/lights/effect_lights.h"
 #include "rendering/lod/level_of_detail.h"
 #include "rendering/particle_rows/group_merger.h"
 #include "rendering/particle_rows/row_technique.h"
@@ -52,7 +51,6 @@ struct ParticleFrameInputs
     const FrameRequest* request;
     const ViewSettings* settings;
     const CameraGeometry* camera;
-    std::span<const EffectLight> lights; ///< at most four are used
     std::span<const uint8_t> left = {};  ///< by group of the newer snapshot: 1 where it is left out
     LevelOfDetail* lod = nullptr;        ///< begun for this frame; null: everything is drawn
     const GroupMerger* merger = nullptr; ///< that made the snapshots; null: they are the scene's
@@ -97,7 +95,6 @@ private:
     void addGroup(const ParticleFrameInputs& in, size_t index, const RowTechnique& technique);
     void fillBlock(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
                    ParticleBatch& batch);
-    void fillLights(const ParticleFrameInputs& in, ParticleBlock& block);
     void arrangeRows(const ParticleFrameInputs& in, const base::Placement& place, ParticleGroup& group,
                      ParticleBatch& batch, DrawStream& stream, uint32_t& shownRows);
     static OrderForm formOf(const ParticleGroup& group, base::ParticleOrder mode, uint32_t rows);

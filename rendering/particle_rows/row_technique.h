@@ -19,6 +19,16 @@ struct RowCard
     float area;       ///< [m2]; 0: nothing is drawn
 };
 
+/// Some rows as one ball of medium, in the group's axes.
+struct RowBall
+{
+    uint32_t row = 0;          ///< that stands for all
+    glm::vec3 center{0.0f};    ///< [m] of that row
+    float radius = 0.0f;       ///< [m] of that row
+    float ownSection = 0.0f;   ///< [m2] extinction cross section of that row; 0: none takes light
+    float crossSection = 0.0f; ///< [m2] of all
+};
+
 /// How rows of several groups come into one group, which has an origin and axes of its own.
 struct RowMerge
 {
@@ -48,6 +58,8 @@ struct RowTechnique
     base::Bounds (*bounds)(const base::SnapshotGroup& group); ///< of rows whose writer has given none
     /// Places are the first three columns. Null: groups of the kind are not merged.
     const RowMerge* merge = nullptr;
+    /// `count` of the instances, from number `first`, as what casts their shadow. Null: they cast none.
+    RowBall (*ball)(const base::SnapshotGroup& group, uint32_t first, uint32_t count) = nullptr;
 
     /// What is drawn of a group: rows, or what lies between them.
     uint32_t instances(const base::SnapshotGroup& group) const { return rows(group) - (isStrip ? 1u : 0u); }

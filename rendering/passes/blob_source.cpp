@@ -53,15 +53,15 @@ const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bo
 void BlobSource::read(FrameGraph::Builder& builder) const
 {
     builder.read(blobs);
-    if (skies.valid())
-        builder.read(skies);
+    if (blobLights.valid())
+        builder.read(blobLights);
 }
 
 void BlobSource::draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const
 {
     QuadInputs inputs{blobs};
     inputs.lights = &target.lights;
-    inputs.skies = skies;
+    inputs.blobLights = blobLights;
     drawQuads(backend, mediaProgram(form, detail, target.layers, target.isSmall), inputs, batch, target);
 }
 

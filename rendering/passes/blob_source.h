@@ -21,7 +21,8 @@ public:
     void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const override;
 
     ResourceId blobs; ///< buffer of BlobInstance
-    ResourceId skies; ///< buffer of what BlobSkyPass writes for each; invalid without planes for the sky
+    ResourceId
+        blobLights; ///< buffer of what BlobLightPass writes for each; invalid without planes for the sky
     BillboardForm form = BillboardForm::Kernel;
     bool detail = false; ///< some have procedural detail, and it is drawn
 };

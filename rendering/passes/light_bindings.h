@@ -1,19 +1,45 @@
 /// @file light_bindings.h
-/// Where draws find the lights of a view; shaders/shared/light_slices.glsl reads them.
+/// The lights of a view as draws get them: a block of uniforms, and a texture of optical depths.
 #pragma once
 
 #include "rendering/frame_graph/frame_graph.h"
 
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+
 namespace fx::render {
 
-constexpr uint32_t kLightBufferBinding = 5; ///< storage buffer of lights
-constexpr uint32_t kLightSliceUnit = 7;     ///< texture unit of the planes
+/// Layout of SliceLight in shaders/shared/light_block.glsl, where each member is explained.
+struct SliceLightBlock
+{
+    glm::vec4 right, up, along;
+    glm::vec4 tiles;
+    glm::vec4 color;
+    glm::vec4 place;
+    glm::vec4 cone;
+};
+static_assert(sizeof(SliceLightBlock) == 7 * 16);
+
+constexpr size_t kMostLightEntries = 21; ///< lights, axes of the sky and finer planes of the sun
+
+/// Layout of the block Lights in shaders/shared/light_block.glsl.
+struct LightListBlock
+{
+    glm::ivec4 counts;
+    glm::vec4 sky;
+    glm::vec4 ground;
+    SliceLightBlock lights[kMostLightEntries];
+};
+static_assert(sizeof(LightListBlock) == (3 + kMostLightEntries * 7) * 16);
+
+constexpr uint32_t kLightBlockBinding = 1; ///< uniform binding
+constexpr uint32_t kLightSliceUnit = 7;    ///< texture unit of the planes
 
 struct LightBindings
 {
-    ResourceId lights;   ///< buffer; invalid: nothing is lit
-    ResourceId planes;   ///< R32F optical depths; invalid: media cast no shadow
-    bool hasSky = false; ///< there are planes for the light of the sky
+    ResourceId lights = {}; ///< buffer with a LightListBlock; invalid: nothing is lit
+    ResourceId planes = {}; ///< R32F optical depths; invalid: media cast no shadow
 
     void read(FrameGraph::Builder& builder) const
     {
@@ -22,7 +48,10 @@ struct LightBindings
         if (planes.valid())
             builder.read(planes);
     }
-    BufferBinding bufferBinding() const { return {kLightBufferBinding, lights}; }
+    BufferBinding bufferBinding() const
+    {
+        return {kLightBlockBinding, lights, 0, sizeof(LightListBlock), true};
+    }
     TextureBinding textureBinding() const { return {kLightSliceUnit, planes, Sampling::Linear}; }
 };
 

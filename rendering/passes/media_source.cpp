@@ -16,8 +16,8 @@ void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& i
         buffers[bufferCount++] = inputs.lights->bufferBinding();
     if (inputs.lights && inputs.lights->planes.valid())
         textures[textureCount++] = inputs.lights->textureBinding();
-    if (inputs.skies.valid())
-        buffers[bufferCount++] = {kBlobSkyBinding, inputs.skies};
+    if (inputs.blobLights.valid())
+        buffers[bufferCount++] = {kBlobLightBinding, inputs.blobLights};
     DrawCall call;
     call.program = &program;
     call.targets = target.targets;

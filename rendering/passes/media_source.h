@@ -57,11 +57,12 @@ struct QuadInputs
 {
     ResourceId instances;     ///< buffer at binding 0
     TextureBinding picture{}; ///< bound when it is valid
-    const LightBindings* lights = nullptr;
-    ResourceId skies{}; ///< buffer at kBlobSkyBinding when it is valid
+    const LightBindings* lights =
+        nullptr;             ///< not null: the program has FX_LIGHT_MEMBERS behind the ViewBlock
+    ResourceId blobLights{}; ///< buffer at kBlobLightBinding when it is valid
 };
 
-constexpr uint32_t kBlobSkyBinding = 6;
+constexpr uint32_t kBlobLightBinding = 6;
 
 /// Draws the instances of a batch as quads of 6 vertices, premultiplied "over" what is there. The program has
 /// the ViewBlock, with batch.first in pass.y, and the target's distance at texture unit 0.

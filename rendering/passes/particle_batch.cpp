@@ -49,21 +49,29 @@ void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uin
     ParticleBlock block = batch.block;
     block.view = *target.view;
     block.rows[2] = int32_t(first);
-    const TextureBinding textures[] = {
+    TextureBinding textures[] = {
         {0, target.distance},
         {1, batch.textureId, batch.repeats ? Sampling::TrilinearRepeat : Sampling::Trilinear},
-        {2, batch.motionId, Sampling::Trilinear}};
+        {2, batch.motionId, Sampling::Trilinear},
+        {}};
+    size_t textureCount = 3, bufferCount = 4;
     const BufferPart* parts[] = {&batch.newer, &batch.older, &batch.order, &batch.mesh};
-    std::array<BufferBinding, 4> buffers;
+    std::array<BufferBinding, 5> buffers;
     for (uint32_t i = 0; i < 4; ++i) { // what is not there is never read, but something has to be bound
         const BufferPart& part = parts[i]->bytes > 0 ? *parts[i] : batch.newer;
         buffers[i] = {i, part.id, part.offset, part.bytes};
     }
+    if (target.lights.lights.valid())
+        buffers[bufferCount++] = target.lights.bufferBinding();
+    else
+        block.shine.y = 0.0f; // nothing is lit
+    if (target.lights.planes.valid())
+        textures[textureCount++] = target.lights.textureBinding();
     DrawCall call;
     call.program = &particleProgram(batch.shape, batch.isSolid, target.layers);
     call.targets = target.targets;
-    call.textures = textures;
-    call.buffers = buffers;
+    call.textures = {textures, textureCount};
+    call.buffers = {buffers.data(), bufferCount};
     call.uniforms = asUniforms(block);
     call.blend = batch.isSolid ? Blend::None : Blend::Premultiplied;
     call.vertices = batch.vertices;

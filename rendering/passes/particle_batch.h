@@ -27,16 +27,11 @@ struct ParticleBlock
     glm::vec4 moment;
     glm::vec4 atlas;
     glm::vec4 strip;
-    glm::vec4 skyAbove;
-    glm::vec4 skyBelow;
-    glm::vec4 sunLight;
-    std::array<glm::vec4, 4> lightPosition;
-    std::array<glm::vec4, 4> lightIntensity;
     std::array<int32_t, 16> newerAt;
     std::array<int32_t, 16> olderAt;
     std::array<int32_t, 4> rows;
 };
-static_assert(sizeof(ParticleBlock) == sizeof(ViewBlock) + 11 * 16 + 8 * 16 + 9 * 16);
+static_assert(sizeof(ParticleBlock) == sizeof(ViewBlock) + 8 * 16 + 9 * 16);
 
 /// What is drawn for each row.
 enum class BatchShape : uint8_t

@@ -16,6 +16,7 @@ SolidPass::Outputs SolidPass::addTo(FrameGraph& graph, const Inputs& in)
         const size_t mediaTargets = in.layers ? size_t(MediaPass::LayerTargets) : 1;
         std::array<ResourceId, kMost> targets;
         builder.read(in.distance);
+        in.lights.read(builder);
         for (const MediaSource* source : in.sources)
             source->read(builder);
         for (size_t i = 0; i < mediaTargets; ++i)
@@ -34,8 +35,8 @@ SolidPass::Outputs SolidPass::addTo(FrameGraph& graph, const Inputs& in)
                 backend.clear(targets[i], {0.0f, 0.0f, 0.0f, 0.0f});
             backend.copyTexture(in.distance, targets[mediaTargets]);
             backend.clear(depth, {0.0f, 0.0f, 0.0f, 0.0f});
-            const MediaTarget target{
-                &in.view, in.distance, {targets.data(), mediaTargets + 1}, in.layers, false};
+            const MediaTarget target{&in.view,  in.distance, {targets.data(), mediaTargets + 1},
+                                     in.layers, false,       in.lights};
             for (const MediaSource* source : in.sources)
                 source->drawSolids(backend, target, depth);
         };

@@ -22,6 +22,7 @@ public:
         int width, height;
         ViewBlock view;
         bool layers;
+        LightBindings lights{};
     };
     struct Outputs
     {

@@ -52,6 +52,7 @@ struct GatherInputs
     std::span<const EffectLight> lights; ///< the brightest of all effects, brightest first
     LevelOfDetail* lod;                  ///< begun for this frame
     uint64_t content;                    ///< differs where what is shown differs
+    bool castsShadows = true;            ///< there are lights, and media cast shadows
 };
 
 /// What techniques have gathered so far, in the order of their list.

@@ -117,7 +117,7 @@ private:
             SceneDistancePass::addTo(graph_, {depth, frame_.width, frame_.height, frame_.view}).distance;
         addStage(PassStage::Upload);
         const auto solid = SolidPass::addTo(graph_, {in_.solids, frame_.distance, frame_.width, frame_.height,
-                                                     frame_.view, settings_.layerOutputs});
+                                                     frame_.view, settings_.layerOutputs, frame_.lights});
         frame_.distance = solid.distance;
         frame_.layerDistance = solid.distance;
         const auto drawn =

@@ -36,6 +36,16 @@ uint64_t casterRevision(const GatherInputs& in)
     return revision;
 }
 
+/// Whether any light has planes that casters are needed for.
+bool castsShadows(const ViewSettings& settings, size_t glows)
+{
+    const SliceSettings& slices = settings.slices;
+    const Lighting& lighting = settings.lighting;
+    return slices.enabled &&
+           (lighting.sunIlluminance != glm::vec3(0.0f) || lighting.skyLuminance != glm::vec3(0.0f) ||
+            (slices.castingPoints > 0 && glows + settings.hostLights.count > 0));
+}
+
 base::Status invalid(std::string message)
 {
     return {base::Code::InvalidArgument, std::move(message)};
@@ -128,7 +138,8 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
                               assets,
                               std::span(glows).first(glowCount),
                               &lod,
-                              contentOf(now, request.interpolation)};
+                              contentOf(now, request.interpolation),
+                              castsShadows(settings, glowCount)};
     streams.clear();
     solids.clear();
     mediaBatches = {};

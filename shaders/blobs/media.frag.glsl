@@ -3,10 +3,8 @@
 #include "formulas/kernel_quantile.fx.h"
 #include "formulas/detail_noise.fx.h"
 #include "formulas/henyey_greenstein.fx.h"
-#include "formulas/multiple_scattering.fx.h"
 #include "shared/view_block.glsl"
 #include "shared/light_slices.glsl"
-#include "shared/scattered_light.glsl"
 #include "shared/blob_chord.glsl"
 #include "blobs/blob_ray.glsl"
 
@@ -15,8 +13,8 @@
 // instead of into one target.
 
 flat in vec4 blobScatter;
-flat in vec4 blobSky;
-flat in vec3 blobSkySlope;
+flat in vec4 blobLight;
+flat in vec3 blobSlope;
 flat in vec4 blobLit;
 flat in vec4 blobEmission;
 flat in mat3 blobDetailAxes;
@@ -38,23 +36,13 @@ vec3 pointOfBlob(BlobRay ray, float passed)
     return ray.across + along * ray.direction;
 }
 
-// Light scattered to the eye at a point of the ray [m, relative to the blob's center].
-vec3 scatteredAt(vec3 toPoint, vec3 toEye)
+// Mean transmittance of the media between the sun and the ray, weighted by how much of each point is seen: Gauss quadrature
+// in the opacity that has been passed, so that all points count whatever the optical depth.
+float sunTransmittance(BlobRay ray, float opticalDepth)
 {
-    vec3 relative = toPoint / blobCenterRadius.w;
-    vec3 sum = blobSky.rgb * max(1.0 + dot(blobSkySlope, relative), 0.0);
-    vec3 place = blobLit.xyz + (blobLit.w < 0.0 ? vec3(0.0) : toPoint);
-    return sum + scatteredLight(place, toEye, blobScatter.rgb, blobScatter.w);
-}
-
-// Mean of the light scattered along the ray, weighted by how much of each point is seen: Gauss quadrature in the opacity
-// that has been passed, so that all points count whatever the optical depth.
-vec3 scatteredAlong(BlobRay ray, float opticalDepth)
-{
-    vec3 toEye = blobLit.w < 0.0 ? -normalize(blobLit.xyz) : -ray.direction;
     int points = blobLit.w < 0.0 ? 1 : lightCounts.z;
     float opacity = 1.0 - exp(-opticalDepth);
-    vec3 sum = vec3(0.0);
+    float sum = 0.0;
     for (int i = 0; i < points; ++i) {
         float node = 0.5, weight = 1.0;
         if (points == 2) {
@@ -68,9 +56,18 @@ vec3 scatteredAlong(BlobRay ray, float opticalDepth)
             weight = i == 0 || i == 3 ? 0.1739274 : 0.3260726;
         }
         float passed = opacity < 1e-3 ? node : -log(1.0 - node * opacity) / opticalDepth; // [1] of the optical depth
-        sum += weight * scatteredAt(pointOfBlob(ray, passed), toEye);
+        vec3 place = blobLit.xyz + (blobLit.w < 0.0 ? vec3(0.0) : pointOfBlob(ray, passed));
+        sum += weight * exp(-parallelDepth(lights[0], place).x);
     }
     return sum;
+}
+
+vec3 scatteredAlong(BlobRay ray, float opticalDepth)
+{
+    vec3 toEye = blobLit.w < 0.0 ? -normalize(blobLit.xyz) : -ray.direction;
+    float phase = fxHenyeyGreenstein(-dot(lights[0].place.xyz, toEye), blobScatter.w);
+    vec3 smoothPart = blobLight.rgb * max(1.0 + dot(blobSlope, ray.toPoint) / blobCenterRadius.w, 0.0);
+    return smoothPart + lights[0].color.rgb * blobScatter.rgb * (phase * sunTransmittance(ray, opticalDepth));
 }
 
 void main()
@@ -97,8 +94,8 @@ void main()
         scattered = scatteredAlong(ray, max(opticalDepth, 1e-6));
 
 #if FX_LAYERS
-    float layer = floor(blobSky.w * 0.5);
-    float share = layer < 0.5 ? 1.0 : blobSky.w - 2.0 * layer;
+    float layer = floor(blobLight.w * 0.5);
+    float share = layer < 0.5 ? 1.0 : blobLight.w - 2.0 * layer;
     vec3 ofLayer = vec3(layer < 0.5, layer > 0.5 && layer < 1.5, layer > 1.5);
     vec3 part = share * vec3(1.0, 0.0, 0.0) + (1.0 - share) * ofLayer;
     vec3 scatteredPart = alpha * scattered;

@@ -1,19 +1,18 @@
 #include "shared/view_block.glsl"
 #include "shared/blob_instance.glsl"
 #include "shared/blob_quad.glsl"
-#include "shared/light_slices.glsl"
 
 // One covering rectangle a blob; the fragment gets the blob unchanged.
 flat out vec4 blobCenterRadius;
 flat out vec4 blobMedium;
 flat out vec4 blobScatter;
-flat out vec4 blobSky;
-flat out vec3 blobSkySlope; // relative change of the sky's light across a radius
+flat out vec4 blobLight; // rgb light that changes little within the blob; w layer * 2 + share of fire
+flat out vec3 blobSlope; // relative change of it across a radius
 flat out vec4 blobLit;
 flat out vec4 blobEmission;
 flat out mat3 blobDetailAxes; // noise periods along each axis, turned by the seed so that no two blobs share a lattice
 
-layout(std430, binding = 6) readonly buffer BlobSkies { vec4 blobSkies[]; }; // two a blob, see lights/blob_sky.comp.glsl
+layout(std430, binding = 6) readonly buffer BlobLights { vec4 blobLights[]; }; // two a blob, see lights/blob_light.comp.glsl
 
 mat3 detailAxes(float seed, float periods)
 {
@@ -37,12 +36,12 @@ void main()
     if (rayOrigin.w < 0.5) // one sample of the detail stands for a whole path: from inside it would darken all at once
         blobMedium.z *= smoothstep(0.3, 1.3, length(blob.centerRadius.xyz) / blob.centerRadius.w);
     blobScatter = blob.scatter;
-    blobSky = blob.sky;
-    blobSkySlope = vec3(0.0, 0.25, 0.0);
-    if (lightCounts.y > 0) {
-        blobSky.rgb = blobSkies[2 * index].rgb;
-        blobSkySlope = blobSkies[2 * index + 1].xyz;
-    }
+    blobLight = vec4(0.0, 0.0, 0.0, blob.layer.x);
+    blobSlope = vec3(0.0);
+#ifdef FX_LAYERS // what is only counted needs no light
+    blobLight.rgb = blobLights[2 * index].rgb;
+    blobSlope = blobLights[2 * index + 1].xyz;
+#endif
     blobLit = blob.lit;
     blobEmission = blob.emission;
     blobDetailAxes = detailAxes(blob.medium.w, blob.lit.w < 0.0 ? -1.0 - blob.lit.w : blob.lit.w);

@@ -12,7 +12,7 @@
 /// @source    own; (1) is the normalized integral of kernel-optical-depth
 /// @deviation none
 /// @valid     any f; it is clamped to [0, 1]
-/// @accuracy  |F(u) - f| <= 1e-3
+/// @accuracy  |F(u) - f| <= 1e-6 (double)
 /// @tests     tests/rendering/core/test_formulas.cpp
 FX_FORMULA(fxKernelPassed)(FX_REAL u)
 {

@@ -2,6 +2,7 @@
 #include "shared/view_block.glsl"
 #include "shared/particle_fetch.glsl"
 #include "shared/particle_place.glsl"
+#include "shared/particle_light.glsl"
 
 // One piece of a strip between two rows that follow each other; pieces of one strip share their corners.
 out vec3 fragmentPlace;
@@ -67,12 +68,13 @@ void main()
     float halfWidth = mix(newerValue(3, from), newerValue(3, row + 1), later) * placePosition.w * levelFactors.x;
     float shown = max(halfWidth, moment.w * pixelSize(center));
     vec4 color = mix(colorAt(from), colorAt(row + 1), later);
-    fragmentPlace = center + acrossAt(at) * (side * shown);
+    vec3 across = acrossAt(at) * (side * shown);
+    fragmentPlace = center + across;
     float arc = mix(newerValue(4, from), newerValue(4, row + 1), later);
     fragmentTexture = vec2(0.5 + 0.5 * side, strip.y > 0.0 ? arc / strip.y : arc);
-    vec3 white = vec3(shine.x);
+    vec3 light = shine.x * color.rgb;
     if (shine.y > 0.0)
-        white += shine.y * scatteredByBall(center);
-    fragmentColor = vec4(color.rgb * white, opacityOf(color.a * halfWidth / max(shown, 1e-30), levelFactors));
+        light += scatteredByCard(center, across, shown, color);
+    fragmentColor = vec4(light, opacityOf(color.a * halfWidth / max(shown, 1e-30), levelFactors));
     gl_Position = clipOf(fragmentPlace);
 }

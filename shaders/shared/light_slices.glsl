@@ -1,23 +1,5 @@
-// The lights of a view, and the optical depth of all media between them and a point. Filled by
-// rendering/lights/slices/light_list.cpp.
-struct SliceLight
-{
-    vec4 right; // parallel light: texel x = dot(right.xyz, p) + right.w
-    vec4 up;    // texel y likewise
-    vec4 along; // plane likewise; of a point: w planes per metre of distance
-    vec4 tiles; // xy texel of the first plane in the atlas; z texels along a side; w planes, 0: media cast no shadow
-    vec4 color; // rgb exposed illuminance of parallel light, exposed intensity of a point; w 0 parallel, 1 point
-    vec4 place; // xyz unit vector towards parallel light, or the point [m] relative to the eye; w its radius [m]
-    vec4 cone;  // share of a spot: s^2 (3 - 2 s), s = clamp(dot(direction of the light, xyz) + w, 0, 1); of parallel light x index of an entry
-                // with finer planes, 0: there is none
-};
-layout(std430, binding = 5) readonly buffer Lights
-{
-    ivec4 lightCounts; // x lights; y axes of the sky after them; z points of a ray through a ball
-    vec4 lightOfSky;   // rgb exposed luminance from above; w 1: light that is scattered again counts
-    vec4 lightOfGround;
-    SliceLight lights[];
-};
+// The optical depth of all media between the lights of a view and a point.
+#include "shared/light_block.glsl"
 layout(binding = 7) uniform sampler2D lightSlices; // optical depth
 
 const int kSliceTileColumns = 8;
@@ -62,39 +44,57 @@ bool isInside(vec4 tiles, vec3 place)
            all(lessThan(place, vec3(tiles.z - 1.0, tiles.z - 1.0, tiles.w - 1.0)));
 }
 
-// x: optical depth between the light and p [m, relative to the eye]; y: of all media on the line through both.
-vec2 sliceDepth(SliceLight light, vec3 p)
+// Optical depth between parallel light and p [m, relative to the eye], and of all media on its line through p.
+vec2 parallelDepth(SliceLight light, vec3 p)
 {
     if (light.tiles.w < 0.5)
         return vec2(0.0);
-    if (light.color.w < 0.5) {
-        vec4 tiles = light.tiles;
-        vec3 place = parallelPlace(light, p);
-        for (int finer = int(light.cone.x); finer > 0; finer = int(lights[finer].cone.x)) {
-            vec3 finerPlace = parallelPlace(lights[finer], p);
-            if (!isInside(lights[finer].tiles, finerPlace))
-                break;
-            tiles = lights[finer].tiles;
-            place = finerPlace;
-        }
-        return depthAtPlace(tiles, place);
+    vec4 tiles = light.tiles;
+    vec3 place = parallelPlace(light, p);
+    for (int finer = int(light.cone.x); finer > 0; finer = int(lights[finer].cone.x)) {
+        vec3 finerPlace = parallelPlace(lights[finer], p);
+        if (!isInside(lights[finer].tiles, finerPlace))
+            break;
+        tiles = lights[finer].tiles;
+        place = finerPlace;
     }
+    return depthAtPlace(tiles, place);
+}
+
+// The same of a light at a point.
+vec2 pointDepth(SliceLight light, vec3 p)
+{
+    if (light.tiles.w < 0.5)
+        return vec2(0.0);
     vec3 d = p - light.place.xyz;
     float l = length(d);
     vec2 direction = octahedralPlace(l > 0.0 ? d / l : vec3(0.0, 0.0, 1.0));
     return depthAtPlace(light.tiles, vec3(1.0 + (0.5 + 0.5 * direction) * (light.tiles.z - 2.0), l * light.along.w));
 }
 
-// Exposed illuminance of a light at p before media, and the unit vector towards it.
-vec3 unshadowedLight(SliceLight light, vec3 p, out vec3 towards)
+// Of either kind.
+vec2 sliceDepth(SliceLight light, vec3 p)
 {
-    towards = light.place.xyz;
-    if (light.color.w < 0.5)
-        return light.color.rgb;
+    return light.color.w < 0.5 ? parallelDepth(light, p) : pointDepth(light, p);
+}
+
+// Exposed illuminance of a light at a point before media, and the unit vector towards it.
+vec3 pointLight(SliceLight light, vec3 p, out vec3 towards)
+{
     vec3 d = light.place.xyz - p;
     float l2 = dot(d, d);
     towards = l2 > 0.0 ? d * inversesqrt(l2) : vec3(0.0, 1.0, 0.0);
     float share = clamp(light.cone.w - dot(towards, light.cone.xyz), 0.0, 1.0);
     share *= share * (3.0 - 2.0 * share);
     return light.color.rgb * (share / max(l2 + light.place.w * light.place.w, 1e-12));
+}
+
+// Of either kind.
+vec3 unshadowedLight(SliceLight light, vec3 p, out vec3 towards)
+{
+    if (light.color.w < 0.5) {
+        towards = light.place.xyz;
+        return light.color.rgb;
+    }
+    return pointLight(light, p, towards);
 }

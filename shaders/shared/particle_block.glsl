@@ -4,16 +4,12 @@
 // placeRotation   quaternion x, y, z, w from the group's axes to the world's
 // alignAxis       xyz world unit axis; w SpriteAlignment
 // look            x aspect, of ribbons the age at which they end [s]; y stretch [s]; z softness [m]; w ParticleBlend
-// shine           x exposed luminance of color 1; y share of light scattered; z MediaLayer; w 1 when the first index of a mesh
+// shine           x exposed luminance of color 1; y share of the view's light scattered; z MediaLayer; w 1 when the first index of a mesh
 //                 is at meshPlace.x
 // moment          x share of the newer snapshot; y seconds between both; z 1 when there is an older one; w least radius [pixel]
 // atlas           x frames; y 1 to mix frames; z motion of a vector of 1 [frame]; w 1 with texture
 // strip           x 1 with motion vectors; y length of a ribbon for one width of texture [m], 0: its own;
 //                 z OrderForm: which rows are drawn, and how; w share of a ribbon's half width that is soft
-// skyAbove        rgb exposed radiance that comes from above on average; skyBelow from below
-// sunLight        rgb exposed illuminance
-// lightPosition   xyz [m] relative to the eye; w radius [m]
-// lightIntensity  rgb exposed [cd]
 // newerAt         places of the columns in the newer rows, in words of 4 bytes; -1: not there. olderAt the same in the older
 // rows            x rows of the newer; y of the older; z first of this draw; w first index of the mesh in words
 #define FX_VIEW_EXTRA \
@@ -25,11 +21,6 @@
     vec4 moment; \
     vec4 atlas; \
     vec4 strip; \
-    vec4 skyAbove; \
-    vec4 skyBelow; \
-    vec4 sunLight; \
-    vec4 lightPosition[4]; \
-    vec4 lightIntensity[4]; \
     ivec4 newerAt[4]; \
     ivec4 olderAt[4]; \
     ivec4 rows;

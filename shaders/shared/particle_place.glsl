@@ -24,30 +24,3 @@ float pixelSize(vec3 place)
 {
     return (rayOrigin.w > 0.5 ? 1.0 : max(dot(place, forward.xyz), 1e-20)) / abs(sunDirection.w);
 }
-
-// Light that a small ball of white scatters to every side, per steradian: its surface receives a quarter of what passes it.
-vec3 scatteredByBall(vec3 place)
-{
-    const float kPerBall = 1.0 / (4.0 * 3.14159265);
-    vec3 sum = 0.5 * (skyAbove.rgb + skyBelow.rgb) + sunLight.rgb * kPerBall;
-    for (int i = 0; i < 4; ++i) {
-        vec3 d = lightPosition[i].xyz - place;
-        sum += lightIntensity[i].rgb * (kPerBall / max(dot(d, d) + lightPosition[i].w * lightPosition[i].w, 1e-20));
-    }
-    return sum;
-}
-
-// The same of a matt white surface.
-vec3 scatteredBySurface(vec3 place, vec3 normal)
-{
-    const float kPerSurface = 1.0 / 3.14159265;
-    vec3 sum = mix(skyBelow.rgb, skyAbove.rgb, 0.5 + 0.5 * normal.y);
-    sum += sunLight.rgb * (kPerSurface * max(dot(normal, sunDirection.xyz), 0.0));
-    for (int i = 0; i < 4; ++i) {
-        vec3 d = lightPosition[i].xyz - place;
-        float l2 = max(dot(d, d), 1e-20);
-        float facing = max(dot(normal, d) * inversesqrt(l2), 0.0);
-        sum += lightIntensity[i].rgb * (kPerSurface * facing / (l2 + lightPosition[i].w * lightPosition[i].w));
-    }
-    return sum;
-}

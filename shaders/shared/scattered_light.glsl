@@ -11,21 +11,37 @@ vec3 scatteredAgain(vec3 albedo, float g, float cosine, vec2 depth)
     return source;
 }
 
-// p [m] relative to the eye; toEye unit; g mean cosine of the phase function
-vec3 scatteredLight(vec3 p, vec3 toEye, vec3 albedo, float g)
+// The sun's light that is scattered to the eye. p [m] relative to the eye; toEye unit; g mean cosine of the phase function
+vec3 sunScatteredOnce(vec3 p, vec3 toEye, vec3 albedo, float g)
+{
+    float cosine = -dot(lights[0].place.xyz, toEye); // 1: light goes straight on to the eye
+    return lights[0].color.rgb * albedo * (fxHenyeyGreenstein(cosine, g) * exp(-parallelDepth(lights[0], p).x));
+}
+
+vec3 sunScatteredAgain(vec3 p, vec3 toEye, vec3 albedo, float g)
+{
+    return lights[0].color.rgb * scatteredAgain(albedo, g, -dot(lights[0].place.xyz, toEye), parallelDepth(lights[0], p));
+}
+
+vec3 scatteredOfPoints(vec3 p, vec3 toEye, vec3 albedo, float g)
 {
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < lightCounts.x; ++i) {
+    for (int i = 1; i < lightCounts.x; ++i) {
+        SliceLight light = lights[i];
         vec3 towards;
-        vec3 arriving = unshadowedLight(lights[i], p, towards);
-        if (!(arriving.r + arriving.g + arriving.b > 0.0))
-            continue;
-        float cosine = -dot(towards, toEye); // 1: light goes straight on to the eye
-        vec2 depth = sliceDepth(lights[i], p);
+        vec3 arriving = pointLight(light, p, towards);
+        float cosine = -dot(towards, toEye);
+        vec2 depth = pointDepth(light, p);
         vec3 source = albedo * (fxHenyeyGreenstein(cosine, g) * exp(-depth.x));
         if (lightOfSky.w > 0.5)
             source += scatteredAgain(albedo, g, cosine, depth);
         sum += arriving * source;
     }
     return sum;
+}
+
+vec3 scatteredLight(vec3 p, vec3 toEye, vec3 albedo, float g)
+{
+    vec3 sum = sunScatteredOnce(p, toEye, albedo, g) + scatteredOfPoints(p, toEye, albedo, g);
+    return lightOfSky.w > 0.5 ? sum + sunScatteredAgain(p, toEye, albedo, g) : sum;
 }

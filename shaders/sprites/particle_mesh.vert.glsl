@@ -10,6 +10,7 @@ out vec3 fragmentPlace;
 out vec3 fragmentNormal;
 out vec2 fragmentTexture;
 flat out vec4 fragmentColor;
+flat out vec4 fragmentBall; // xyz center; w radius [m] of the ball that stands for it in light
 flat out float fragmentFrame;
 
 void main()
@@ -28,6 +29,7 @@ void main()
     fragmentNormal = rotated(placeRotation, rotated(p.orientation, spin * normal));
     fragmentTexture = vec2(meshWords[at + 6], meshWords[at + 7]);
     fragmentColor = vec4(p.color.rgb, opacityOf(p.color.a, levelFactors));
+    fragmentBall = vec4(p.center, p.radius);
     fragmentFrame = p.frame;
     gl_Position = p.alive && levelFactors.x > 0.0 ? clipOf(fragmentPlace) : clippedAway();
 }

@@ -6,6 +6,7 @@
 in vec3 fragmentPlace;
 in vec2 fragmentTexture;
 flat in vec4 fragmentColor;
+in vec3 fragmentScattered;
 flat in float fragmentFrame;
 
 void main()
@@ -18,5 +19,5 @@ void main()
         float inside = max(1.0 - dot(fromCenter, fromCenter), 0.0);
         texel = vec4(1.0, 1.0, 1.0, inside * inside);
     }
-    writeParticle(fragmentColor.rgb * texel.rgb, fragmentColor.a * texel.a, fragmentPlace);
+    writeParticle((fragmentColor.rgb + fragmentScattered) * texel.rgb, fragmentColor.a * texel.a, fragmentPlace);
 }

@@ -2,11 +2,13 @@
 #include "shared/view_block.glsl"
 #include "shared/particle_fetch.glsl"
 #include "shared/particle_place.glsl"
+#include "shared/particle_light.glsl"
 
 // One square a particle.
 out vec3 fragmentPlace;      // [m] relative to the eye
 out vec2 fragmentTexture;    // [0, 1] from the lower left of the frame
-flat out vec4 fragmentColor; // rgb exposed light of a white texel; a opacity
+flat out vec4 fragmentColor; // rgb exposed light that a white texel emits; a opacity
+out vec3 fragmentScattered;  // exposed light that it scatters
 flat out float fragmentFrame;
 
 // Vertical and horizontal of the square, unit. Returns whether the vertical lies along the velocity, before it is turned.
@@ -54,6 +56,7 @@ void main()
     fragmentPlace = vec3(0.0);
     fragmentTexture = vec2(0.0);
     fragmentColor = vec4(0.0);
+    fragmentScattered = vec3(0.0);
     fragmentFrame = p.frame;
     gl_Position = clippedAway();
     vec2 levelFactors = factorsOfRank(rows.z + gl_InstanceID);
@@ -71,11 +74,11 @@ void main()
     float thinned = extent.x * extent.y / max(shown.x * shown.y, 1e-30);
     vec2 corner = vec2(gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4 ? 1.0 : -1.0,
                        gl_VertexID == 2 || gl_VertexID == 4 || gl_VertexID == 5 ? 1.0 : -1.0);
-    fragmentPlace = p.center + horizontal * (corner.x * shown.x) + vertical * (corner.y * shown.y);
+    vec3 across = horizontal * (corner.x * shown.x) + vertical * (corner.y * shown.y);
+    fragmentPlace = p.center + across;
     fragmentTexture = 0.5 + 0.5 * corner;
-    vec3 white = vec3(shine.x);
     if (shine.y > 0.0)
-        white += shine.y * scatteredByBall(p.center);
-    fragmentColor = vec4(p.color.rgb * white, opacityOf(p.color.a * thinned, levelFactors));
+        fragmentScattered = scatteredByCard(p.center, across, sqrt(shown.x * shown.y), p.color);
+    fragmentColor = vec4(p.color.rgb * shine.x, opacityOf(p.color.a * thinned, levelFactors));
     gl_Position = clipOf(fragmentPlace);
 }

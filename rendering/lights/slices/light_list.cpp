@@ -1,5 +1,6 @@
 #include "rendering/lights/slices/light_list.h"
 
+#include "foundation/math/bits.h"
 #include "foundation/math/hash.h"
 #include "rendering/frame/exposure.h"
 
@@ -19,15 +20,10 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kWideScene = 40.0f;   ///< [m] side of planes above which what is near gets planes of its own
 constexpr float kCascadeRatio = 0.2f; ///< of the sides of a finer and the next coarser stack
 
-/// Planes of lights at points and of the axes of the sky, relative to those of the sun.
-SliceResolution pointResolution(const SliceResolution& sun)
+/// Planes of lights at points and of the axes of the sky have a part of the resolution of the sun's.
+SliceResolution partOf(const SliceResolution& sun, int part)
 {
-    return {std::max(sun.texels / 2, 8), std::max(sun.planes / 2, 2)};
-}
-
-SliceResolution skyResolution(const SliceResolution& sun)
-{
-    return {std::max(sun.texels / 4, 8), std::max(sun.planes / 4, 2)};
+    return {sun.texels / part, (sun.planes + part - 1) / part};
 }
 
 /// What light arrives from a point at the middle of the casters decides which points cast shadows.
@@ -43,7 +39,7 @@ struct Candidate
 {
     HostLight light;
     LightOrigin origin;
-    float arriving; ///< see arriving()
+    float arrival; ///< see arriving()
 };
 
 HostLight pointOf(const EffectLight& light)
@@ -61,6 +57,13 @@ glm::vec4 coneOf(const HostLight& light)
         return {0.0f, 0.0f, 0.0f, 1.0f};
     const float scale = 1.0f / std::max(light.cosInner - light.cosOuter, 1e-4f);
     return {light.axis * scale, -light.cosOuter * scale};
+}
+
+/// [cd/m2] of the ground, from below.
+glm::vec3 groundLuminance(const Lighting& lighting)
+{
+    const glm::vec3 sun = lighting.sunIlluminance * (std::max(lighting.sunDirection.y, 0.0f) / kPi);
+    return lighting.groundAlbedo * (sun + lighting.skyLuminance);
 }
 
 /// Everything that decides what a plane holds, but for the casters.
@@ -83,48 +86,82 @@ glm::dvec3 middleOf(std::span<const MediumCaster> casters, const glm::dvec3& eye
     return casters.empty() ? eye : eye + sum / double(casters.size());
 }
 
+/// Lights at points that give light, those that light the casters most first.
+struct SortedPoints
+{
+    std::array<Candidate, kMostEffectLights + kMostHostLights> points;
+    size_t count = 0;
+
+    void add(const HostLight& light, const LightOrigin& origin, const glm::dvec3& middle)
+    {
+        const double numbers[] = {light.position.x,  light.position.y,  light.position.z, light.intensity.x,
+                                  light.intensity.y, light.intensity.z, light.radius};
+        if (!std::ranges::all_of(numbers, [](double x) { return base::isFinite(x); }) ||
+            light.intensity == glm::vec3(0.0f))
+            return;
+        const float arrival = arriving(light, middle);
+        size_t at = count++;
+        for (; at > 0 && points[at - 1].arrival < arrival; --at)
+            points[at] = points[at - 1];
+        points[at] = {light, origin, arrival};
+    }
+};
+
+SortedPoints sortedPoints(const LightListInputs& in)
+{
+    SortedPoints sorted;
+    const glm::dvec3 middle = middleOf(in.casters, in.eye);
+    for (size_t i = 0; i < std::min(in.effects.size(), kMostEffectLights); ++i)
+        sorted.add(pointOf(in.effects[i]), {LightKind::Effect, uint32_t(i)}, middle);
+    for (size_t i = 0; i < in.settings->hostLights.count; ++i)
+        sorted.add(in.settings->hostLights.lights[i], {LightKind::Host, uint32_t(i)}, middle);
+    return sorted;
+}
+
 } // namespace
 
 LightList::LightList(std::pmr::memory_resource* memory)
-    : lights_(memory), origins_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory),
-      near_(memory)
+    : origins_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory), near_(memory)
 {}
 
 void LightList::build(const LightListInputs& in)
 {
-    lights_.clear();
+    block_ = {};
+    count_ = 0;
     origins_.clear();
     stacks_.clear();
     stackLights_.clear();
     stackBlocks_.clear();
     const Lighting& lighting = in.settings->lighting;
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
-    const glm::vec3 sunOnGround = lighting.sunIlluminance * (std::max(lighting.sunDirection.y, 0.0f) / kPi);
-    head_.sky = glm::vec4(lighting.skyLuminance * exposure, in.settings->slices.multiple ? 1.0f : 0.0f);
-    head_.ground = glm::vec4(lighting.groundAlbedo * (sunOnGround + lighting.skyLuminance) * exposure, 0.0f);
+    block_.sky = glm::vec4(lighting.skyLuminance * exposure, in.settings->slices.multiple ? 1.0f : 0.0f);
+    block_.ground = glm::vec4(groundLuminance(lighting) * exposure, 0.0f);
     addSun(in);
     addPoints(in);
-    head_.counts = {int(lights_.size()), 0, in.settings->slices.samples, 0};
+    block_.counts = {int(count_), 0, in.settings->slices.samples, 0};
     addSky(in);
-    head_.counts.y = int(lights_.size()) - head_.counts.x;
+    block_.counts.y = int(count_) - block_.counts.x;
     addCascades(in);
     placeTiles();
 }
 
+void LightList::add(const SliceLightBlock& light)
+{
+    block_.lights[count_++] = light;
+}
+
+/// The first entry, black without sun.
 void LightList::addSun(const LightListInputs& in)
 {
     const Lighting& lighting = in.settings->lighting;
-    if (lighting.sunIlluminance == glm::vec3(0.0f))
-        return;
     SliceLightBlock light{};
     light.color = glm::vec4(lighting.sunIlluminance * exposureFromEv100(in.settings->exposureEv100), 0.0f);
     light.place = glm::vec4(lighting.sunDirection, 0.0f);
-    light.cone = {0.0f, 0.0f, 0.0f, 1.0f};
     SliceStack stack;
-    if (in.settings->slices.enabled &&
+    if (in.settings->slices.enabled && lighting.sunIlluminance != glm::vec3(0.0f) &&
         fitParallelSlices(lighting.sunDirection, in.casters, in.eye, in.settings->slices.resolution, stack))
         addStack(stack, light);
-    lights_.push_back(light);
+    add(light);
     origins_.push_back({LightKind::Sun, 0});
 }
 
@@ -150,31 +187,20 @@ void LightList::addCascades(const LightListInputs& in)
             return;
         SliceLightBlock light{};
         light.place = glm::vec4(lighting.sunDirection, 0.0f);
-        lights_[coarser].cone.x = float(lights_.size());
-        coarser = lights_.size();
+        block_.lights[coarser].cone.x = float(count_);
+        coarser = count_;
         coarserTexel = stack.texel;
         addStack(stack, light);
-        lights_.push_back(light);
+        add(light);
     }
 }
 
 void LightList::addPoints(const LightListInputs& in)
 {
-    std::array<Candidate, kMostEffectLights + kMostHostLights> points;
-    size_t count = 0;
-    const glm::dvec3 middle = middleOf(in.casters, in.eye);
-    const auto add = [&](const HostLight& light, LightKind kind, size_t index) {
-        points[count++] = {light, {kind, uint32_t(index)}, arriving(light, middle)};
-    };
-    for (size_t i = 0; i < std::min(in.effects.size(), kMostEffectLights); ++i)
-        add(pointOf(in.effects[i]), LightKind::Effect, i);
-    for (size_t i = 0; i < in.settings->hostLights.count; ++i)
-        add(in.settings->hostLights.lights[i], LightKind::Host, i);
-    std::stable_sort(points.begin(), points.begin() + ptrdiff_t(count),
-                     [](const Candidate& a, const Candidate& b) { return a.arriving > b.arriving; });
+    const SortedPoints sorted = sortedPoints(in);
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
-    for (size_t i = 0; i < count; ++i) {
-        const HostLight& point = points[i].light;
+    for (size_t i = 0; i < sorted.count; ++i) {
+        const HostLight& point = sorted.points[i].light;
         const glm::vec3 place(point.position - in.eye);
         SliceLightBlock light{};
         light.color = glm::vec4(point.intensity * exposure, 1.0f);
@@ -182,17 +208,18 @@ void LightList::addPoints(const LightListInputs& in)
         light.cone = coneOf(point);
         SliceStack stack;
         if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
-            fitPointSlices(place, point.radius, in.casters, in.eye,
-                           pointResolution(in.settings->slices.resolution), stack))
+            fitPointSlices(place, point.radius, in.casters, in.eye, partOf(in.settings->slices.resolution, 2),
+                            stack))
             addStack(stack, light);
-        lights_.push_back(light);
-        origins_.push_back(points[i].origin);
+        add(light);
+        origins_.push_back(sorted.points[i].origin);
     }
 }
 
 void LightList::addSky(const LightListInputs& in)
 {
-    const bool isDark = glm::vec3(head_.sky) == glm::vec3(0.0f) && glm::vec3(head_.ground) == glm::vec3(0.0f);
+    const bool isDark =
+        glm::vec3(block_.sky) == glm::vec3(0.0f) && glm::vec3(block_.ground) == glm::vec3(0.0f);
     if (isDark || !in.settings->slices.enabled)
         return;
     for (size_t i = 0; i < kSkyAxes; ++i) {
@@ -202,13 +229,12 @@ void LightList::addSky(const LightListInputs& in)
             i == 0 ? glm::vec3(0, 1, 0)
                    : glm::vec3(across * std::cos(turn), kSkyAxisElevation, across * std::sin(turn));
         SliceStack stack;
-        if (!fitParallelSlices(axis, in.casters, in.eye, skyResolution(in.settings->slices.resolution),
-                               stack))
+        if (!fitParallelSlices(axis, in.casters, in.eye, partOf(in.settings->slices.resolution, 4), stack))
             return;
         SliceLightBlock light{};
         light.place = glm::vec4(axis, 0.0f);
         addStack(stack, light);
-        lights_.push_back(light);
+        add(light);
     }
 }
 
@@ -225,7 +251,7 @@ void LightList::addStack(const SliceStack& stack, SliceLightBlock& ioLight)
         ioLight.along = {0.0f, 0.0f, 0.0f, 1.0f / stack.spacing};
     }
     stacks_.push_back(stack);
-    stackLights_.push_back(lights_.size());
+    stackLights_.push_back(count_);
 }
 
 /// Stacks lie side by side in rows; each row is as high as its first stack, the largest.
@@ -247,7 +273,7 @@ void LightList::placeTiles()
             x = rowHeight = 0;
         }
         const glm::vec4 tiles(float(x), float(y), float(size.texels), float(size.planes));
-        lights_[stackLights_[i]].tiles = tiles;
+        block_.lights[stackLights_[i]].tiles = tiles;
         const bool isParallel = stack.mapping == SliceMapping::Parallel;
         stackBlocks_.push_back({glm::vec4(stack.origin, stack.spacing),
                                 glm::vec4(stack.right * stack.texel, isParallel ? 0.0f : 1.0f),

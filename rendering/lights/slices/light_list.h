@@ -5,6 +5,7 @@
 #include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
 #include "rendering/lights/slices/slice_stack.h"
+#include "rendering/passes/light_bindings.h"
 
 #include <glm/vec4.hpp>
 
@@ -13,17 +14,6 @@
 #include <vector>
 
 namespace fx::render {
-
-/// Layout of SliceLight in shaders/shared/light_slices.glsl, where each member is explained.
-struct SliceLightBlock
-{
-    glm::vec4 right, up, along;
-    glm::vec4 tiles;
-    glm::vec4 color;
-    glm::vec4 place;
-    glm::vec4 cone;
-};
-static_assert(sizeof(SliceLightBlock) == 7 * 16);
 
 /// Layout of SliceStack in shaders/lights/light_slices.comp.glsl.
 struct SliceStackBlock
@@ -34,19 +24,10 @@ struct SliceStackBlock
 };
 static_assert(sizeof(SliceStackBlock) == 5 * 16);
 
-/// Head of the buffer of lights, before its SliceLightBlocks.
-struct LightListHead
-{
-    glm::ivec4 counts; ///< x lights; y axes of the sky after them; z points of a ray through a ball; w unused
-    glm::vec4 sky;     ///< rgb exposed luminance from above; w 1: light that is scattered again counts
-    glm::vec4 ground;  ///< rgb exposed luminance from below
-};
-static_assert(sizeof(LightListHead) == 3 * 16);
-
 constexpr int kSliceTileColumns = 8; ///< planes of a stack lie in rows of so many tiles
 constexpr size_t kMostCascades = 3;  ///< stacks of the sun, finer ones near the eye
 constexpr size_t kSkyAxes = 6;       ///< of an icosahedron: both ends of each are sampled, with equal weights
-constexpr size_t kMostLights = 1 + kMostEffectLights + kMostHostLights;
+static_assert(1 + kMostEffectLights + kMostHostLights + kSkyAxes + kMostCascades - 1 <= kMostLightEntries);
 
 /// [1] sine of the elevation of all axes but the first, which is vertical.
 constexpr float kSkyAxisElevation = 0.4472135955f; // 1 / sqrt(5)
@@ -83,9 +64,12 @@ public:
 
     void build(const LightListInputs& in);
 
-    const LightListHead& head() const { return head_; }
-    std::span<const SliceLightBlock> lights() const { return lights_; } ///< those of the sky at the end
-    std::span<const LightOrigin> origins() const { return origins_; } ///< of the first head().counts.x lights
+    const LightListBlock& block() const { return block_; }
+    size_t count() const
+    {
+        return count_;
+    } ///< of all entries: lights, axes of the sky, finer planes of the sun
+    std::span<const LightOrigin> origins() const { return origins_; } ///< of the first block().counts.x entries
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
     uint64_t placesRevision() const
@@ -104,8 +88,10 @@ private:
     void addStack(const SliceStack& stack, SliceLightBlock& ioLight);
     void placeTiles();
 
-    LightListHead head_{};
-    std::pmr::vector<SliceLightBlock> lights_;
+    void add(const SliceLightBlock& light);
+
+    LightListBlock block_{};
+    size_t count_ = 0;
     std::pmr::vector<LightOrigin> origins_;
     std::pmr::vector<SliceStack> stacks_;
     std::pmr::vector<size_t> stackLights_; ///< the light of each stack

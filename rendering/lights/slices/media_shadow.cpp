@@ -18,7 +18,7 @@ MediaShadowBlock mediaShadow(const LightList& list, size_t light, const glm::dve
                              const glm::dvec3& origin)
 {
     MediaShadowBlock block;
-    const std::span<const SliceLightBlock> lights = list.lights();
+    const std::span<const SliceLightBlock> lights(list.block().lights, list.count());
     if (light >= lights.size() || lights[light].tiles.w < 0.5f)
         return block;
     const glm::dvec3 shift = origin - eye;

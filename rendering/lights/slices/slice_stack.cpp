@@ -78,6 +78,12 @@ double snappedBelow(float low, float side, const glm::vec3& axis, const glm::dve
 
 } // namespace
 
+SliceResolution usableResolution(const SliceResolution& asked)
+{
+    return {std::clamp((asked.texels + 7) / 8 * 8, 8, kMostSliceTexels),
+            std::clamp(asked.planes, kFewestSlicePlanes, kMostSlicePlanes)};
+}
+
 SlicePlace SliceStack::placeOf(const glm::vec3& position) const
 {
     const glm::vec3 d = position - origin;
@@ -99,10 +105,11 @@ SliceRay sliceRay(const SliceStack& stack, float x, float y)
 }
 
 bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters, const glm::dvec3& eye,
-                       const SliceResolution& resolution, SliceStack& outStack)
+                       const SliceResolution& asked, SliceStack& outStack)
 {
-    if (casters.empty())
+    if (casters.empty() || asked.planes <= 0)
         return false;
+    const SliceResolution resolution = usableResolution(asked);
     SliceStack stack;
     stack.mapping = SliceMapping::Parallel;
     stack.resolution = resolution;
@@ -114,7 +121,8 @@ bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> c
     const Extent z = extentAlong(stack.along, casters);
     // a texel on each side stays free of media, and snapping moves the corner by up to another one
     stack.texel = quantizedSide(std::max(x.high - x.low, y.high - y.low) / float(resolution.texels - 3));
-    stack.spacing = quantizedSide((z.high - z.low) / float(std::max(resolution.planes - 2, 1)));
+    // likewise snapping moves the first plane by up to one distance
+    stack.spacing = quantizedSide((z.high - z.low) / float(resolution.planes - 2));
     stack.corner = {snappedBelow(x.low, stack.texel, stack.right, eye) - 1.0,
                     snappedBelow(y.low, stack.texel, stack.up, eye) - 1.0,
                     snappedBelow(z.low, stack.spacing, stack.along, eye)};
@@ -130,10 +138,11 @@ bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> c
 }
 
 bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,
-                    const glm::dvec3& eye, const SliceResolution& resolution, SliceStack& outStack)
+                    const glm::dvec3& eye, const SliceResolution& asked, SliceStack& outStack)
 {
-    if (casters.empty())
+    if (casters.empty() || asked.planes <= 0)
         return false;
+    const SliceResolution resolution = usableResolution(asked);
     float farthest = 0.0f;
     for (const MediumCaster& caster : casters)
         farthest = std::max(farthest, glm::length(caster.center - light) + caster.radius);

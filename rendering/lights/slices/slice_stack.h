@@ -25,7 +25,12 @@ enum class SliceMapping : uint8_t
     Octahedral, ///< shells around a point
 };
 
+constexpr int kFewestSlicePlanes = 3; ///< before, within and behind the media, wherever snapping moves them
 constexpr int kMostSlicePlanes = 128;
+constexpr int kMostSliceTexels = 512; ///< along a side
+
+/// What is made of a resolution that was asked for: within the limits, texels a multiple of 8.
+SliceResolution usableResolution(const SliceResolution& asked);
 
 /// A place in a stack. Texel centers are at x, y = 0.5, 1.5, ...; plane number k is at plane = k.
 struct SlicePlace
@@ -64,12 +69,13 @@ SliceRay sliceRay(const SliceStack& stack, float x, float y);
 /// Fits planes to all casters. Texels and planes keep their places in the world while the casters move: the
 /// sides are powers of 2^(1/4), the corner is a multiple of them.
 /// @param towards unit, to the light  @param eye [m] world position that casters are relative to
-/// @return whether there are casters
+/// @param asked brought to a usable resolution; no planes: no stack
+/// @return whether there are casters and planes
 bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters, const glm::dvec3& eye,
-                       const SliceResolution& resolution, SliceStack& outStack);
+                       const SliceResolution& asked, SliceStack& outStack);
 
 /// Fits shells around a glowing ball.  @param light [m] relative to the eye  @param radius [m] of the ball
 bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,
-                    const glm::dvec3& eye, const SliceResolution& resolution, SliceStack& outStack);
+                    const glm::dvec3& eye, const SliceResolution& asked, SliceStack& outStack);
 
 } // namespace fx::render

@@ -4,17 +4,9 @@
 #include "rendering/lights/slices/light_slices_pass.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 namespace fx::render {
-
-namespace {
-
-constexpr size_t kListBytes =
-    sizeof(LightListHead) + (kMostLights + kSkyAxes + kMostCascades) * sizeof(SliceLightBlock);
-
-} // namespace
 
 std::span<const ProgramDesc* const> lightPrograms()
 {
@@ -44,7 +36,7 @@ base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters)
 base::Status ViewLights::makeRoom()
 {
     if (lightBuffer_.bytes() == 0) {
-        auto created = GlBuffer::create(device_, kListBytes, "lights");
+        auto created = GlBuffer::create(device_, sizeof(LightListBlock), "lights");
         if (!created)
             return created.status();
         lightBuffer_ = std::move(*created);
@@ -80,24 +72,17 @@ LightBindings ViewLights::addPasses(FrameGraph& graph)
     LightBindings bindings;
     if (lightBuffer_.bytes() == 0)
         return bindings;
-    bindings.lights = graph.importBuffer({"lights", kListBytes}, lightBuffer_.name());
-    bindings.hasSky = list_.head().counts.y > 0;
-    if (!list_.stacks().empty() && atlas_.name() != 0)
-        bindings.planes = graph.importTexture({"light slices", atlas_.width(), atlas_.height(), Format::R32F},
-                                              atlas_.name());
+    bindings.lights = graph.importBuffer({"lights", sizeof(LightListBlock)}, lightBuffer_.name());
     if (!isKept_)
         graph.addPass("light list", [&](FrameGraph::Builder& builder) {
             bindings.lights = builder.write(bindings.lights);
-            return
-                [buffer = bindings.lights, head = list_.head(), lights = list_.lights()](Backend& backend) {
-                    std::array<std::byte, kListBytes> bytes;
-                    const auto headBytes = std::as_bytes(std::span(&head, 1));
-                    const auto lightBytes = std::as_bytes(lights);
-                    std::copy(headBytes.begin(), headBytes.end(), bytes.begin());
-                    std::copy(lightBytes.begin(), lightBytes.end(), bytes.begin() + headBytes.size());
-                    backend.upload(buffer, std::span(bytes).first(headBytes.size() + lightBytes.size()));
-                };
+            return [buffer = bindings.lights, block = &list_.block()](Backend& backend) {
+                backend.upload(buffer, asUniforms(*block));
+            };
         });
+    if (!list_.stacks().empty() && atlas_.name() != 0)
+        bindings.planes = graph.importTexture({"light slices", atlas_.width(), atlas_.height(), Format::R32F},
+                                              atlas_.name());
     if (!bindings.planes.valid() || filled_ == wanted_)
         return bindings;
     ResourceId casters, stacks;

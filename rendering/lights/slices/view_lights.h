@@ -31,6 +31,7 @@ public:
     /// @param casters revision: differs where `in.casters` differ in the world
     /// @return OutOfMemory
     base::Status gather(const LightListInputs& in, uint64_t casters);
+
     /// Instead of gather(): the frame has the lights of the last one.
     void keep() { isKept_ = true; }
 
@@ -38,7 +39,7 @@ public:
     LightBindings addPasses(FrameGraph& graph);
 
     void forget();  ///< what this frame was to write is not there
-    void release(); ///< gives back buffers and planes
+    void release(); ///< gives back buffer and planes
     bool hasPlanes() const { return atlas_.name() != 0; }
     uint64_t bytes() const; ///< [byte] held on the GPU
     const LightList& list() const { return list_; }

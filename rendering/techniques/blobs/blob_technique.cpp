@@ -1,7 +1,7 @@
 #include "rendering/techniques/blobs/blob_technique.h"
 
 #include "foundation/snapshot/blob_kind.h"
-#include "rendering/passes/blob_sky_pass.h"
+#include "rendering/passes/blob_light_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/techniques/blobs/blob_lights.h"
 #include "rendering/techniques/blobs/blob_quality.h"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr TimedPass kTimed[] = {{"blob upload", "media"},          {"media impostor upload", "media"},
                                 {"media impostor blobs", "media"}, {"media impostors", "media"},
-                                {"impostor skies", "media"},       {"blob sky", "media"}};
+                                {"impostor lights", "media"},      {"blob light", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
@@ -25,7 +25,7 @@ std::span<const ProgramDesc* const> programs()
             list[i] = &mediaProgramAt(i);
         size_t end = kMediaPrograms;
         for (const ProgramDesc* program : {&kOverdrawProgram, &kOverdrawSmallProgram, &kImpostorProgram,
-                                           &kImpostorKeepProgram, &kBlobSkyProgram})
+                                           &kImpostorKeepProgram, &kBlobLightProgram})
             list[end++] = program;
         return list;
     }();

@@ -3,7 +3,7 @@
 #include "rendering/gl/gl_backend.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/media/blob_estimate.h"
-#include "rendering/passes/blob_sky_pass.h"
+#include "rendering/passes/blob_light_pass.h"
 #include "rendering/passes/media_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/passes/scene_distance_pass.h"
@@ -26,7 +26,8 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
     isKept_ = false;
     restingFrames_ = 0;
     const HostTargets& targets = in.request->targets;
-    builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.content);
+    builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.content,
+                   in.castsShadows);
     io.blobs = builder_.blobs();
     io.casters->insert(io.casters->end(), builder_.casters().begin(), builder_.casters().end());
     io.anyHeat = builder_.anyHeat();
@@ -41,7 +42,8 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
     }
     if (base::Status status = makeRoom(blobBuffer_, builder_.blobs().size_bytes(), "blobs"); !status)
         return status;
-    if (base::Status status = makeRoom(skyBuffer_, builder_.blobs().size() * kBlobSkyBytes, "blob skies");
+    if (base::Status status =
+            makeRoom(lightBuffer_, builder_.blobs().size() * kBlobLightBytes, "blob lights");
         !status)
         return status;
     return makeRoomForImpostors();
@@ -157,19 +159,16 @@ void BlobView::takePictures(FrameGraph& graph, const PassFrame& frame)
     });
     takenBlobs_.form = frame.settings->form;
     takenBlobs_.detail = frame.settings->detail && builder_.anyDetail();
-    takenBlobs_.skies = {};
-    if (frame.lights.hasSky && frame.lights.planes.valid()) {
-        ResourceId skies;
-        graph.addPass("impostor skies", [&](FrameGraph::Builder& builder) {
-            skies = builder.write(builder.create(
-                BufferDesc{"impostor skies",
-                           std::bit_ceil(builder_.takenBlobs().size() * kBlobSkyBytes + kBlobSkyBytes)}));
-            return [](Backend&) {};
-        });
-        takenBlobs_.skies = BlobSkyPass::addTo(graph, {takenBlobs_.blobs, skies, frame.lights,
-                                                       uint32_t(builder_.takenBlobs().size())})
-                                .skies;
-    }
+    const size_t lightBytes = std::max<size_t>(builder_.takenBlobs().size(), 1) * kBlobLightBytes;
+    graph.addPass("impostor lights", [&](FrameGraph::Builder& builder) {
+        takenBlobs_.blobLights =
+            builder.write(builder.create(BufferDesc{"impostor lights", std::bit_ceil(lightBytes)}));
+        return [](Backend&) {};
+    });
+    takenBlobs_.blobLights =
+        BlobLightPass::addTo(graph, {takenBlobs_.blobs, takenBlobs_.blobLights, frame.lights, &frame.view,
+                                     uint32_t(builder_.takenBlobs().size())})
+            .blobLights;
     takenBatch_ = {0, 0, uint32_t(builder_.takenBlobs().size()), &takenBlobs_};
     const ResourceId nothing = SceneDistancePass::addTo(graph, {{}, kSide, kSide, view}).distance;
     const auto drawn = MediaPass::addTo(
@@ -194,20 +193,17 @@ void BlobView::uploadBlobs(FrameGraph& graph, PassFrame& frame)
             };
         });
     frame.blobs = blobs_.blobs;
-    addSkies(graph, frame);
+    addLights(graph, frame);
 }
 
-void BlobView::addSkies(FrameGraph& graph, const PassFrame& frame)
+void BlobView::addLights(FrameGraph& graph, const PassFrame& frame)
 {
-    blobs_.skies = {};
-    if (!frame.lights.hasSky || !frame.lights.planes.valid())
-        return;
-    blobs_.skies = graph.importBuffer({"blob skies", std::bit_ceil(builder_.blobs().size() * kBlobSkyBytes)},
-                                      skyBuffer_.name());
+    blobs_.blobLights = graph.importBuffer(
+        {"blob lights", std::bit_ceil(builder_.blobs().size() * kBlobLightBytes)}, lightBuffer_.name());
     if (!isKept_)
-        blobs_.skies = BlobSkyPass::addTo(graph, {blobs_.blobs, blobs_.skies, frame.lights,
-                                                  uint32_t(builder_.blobs().size())})
-                           .skies;
+        blobs_.blobLights = BlobLightPass::addTo(graph, {blobs_.blobs, blobs_.blobLights, frame.lights,
+                                                         &frame.view, uint32_t(builder_.blobs().size())})
+                                .blobLights;
 }
 
 void BlobView::countOverdraw(FrameGraph& graph, const PassFrame& frame)
@@ -250,7 +246,7 @@ void BlobView::rest()
 void BlobView::releaseBlobs()
 {
     blobBuffer_ = {};
-    skyBuffer_ = {};
+    lightBuffer_ = {};
 }
 
 void BlobView::releaseImpostors()
@@ -293,7 +289,7 @@ void BlobView::cover(const CameraGeometry& camera, ScreenShare& share) const
 
 uint64_t BlobView::bytes() const
 {
-    return blobBuffer_.bytes() + skyBuffer_.bytes() + impostorBuffer_.bytes() + impostorAtlas_.bytes();
+    return blobBuffer_.bytes() + lightBuffer_.bytes() + impostorBuffer_.bytes() + impostorAtlas_.bytes();
 }
 
 } // namespace fx::render

@@ -37,7 +37,7 @@ private:
     void takePictures(FrameGraph& graph, const PassFrame& frame);
     void uploadImpostors(FrameGraph& graph);
     void uploadBlobs(FrameGraph& graph, PassFrame& frame);
-    void addSkies(FrameGraph& graph, const PassFrame& frame);
+    void addLights(FrameGraph& graph, const PassFrame& frame);
     void countOverdraw(FrameGraph& graph, const PassFrame& frame);
 
     GlDevice& device_;
@@ -46,8 +46,8 @@ private:
     BlobSource takenBlobs_; ///< of pictures that are taken
     DrawBatch takenBatch_;
     ImpostorSource impostors_;
-    GlBuffer blobBuffer_; ///< lasts, so that what is in it is still there in the next frame
-    GlBuffer skyBuffer_;  ///< likewise
+    GlBuffer blobBuffer_;  ///< lasts, so that what is in it is still there in the next frame
+    GlBuffer lightBuffer_; ///< likewise
     GlBuffer impostorBuffer_;
     GlTexture impostorAtlas_;      ///< pictures of effects; nothing before the first
     bool isKept_ = false;          ///< lists and buffers are those of the last frame

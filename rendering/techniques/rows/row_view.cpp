@@ -2,6 +2,7 @@
 
 #include "rendering/gpu_particles/gpu_order_pass.h"
 #include "rendering/gpu_particles/gpu_rows_pass.h"
+#include "rendering/particle_rows/row_casters.h"
 
 namespace fx::render {
 
@@ -39,7 +40,7 @@ base::Status RowView::gather(const GatherInputs& in, GatheredFrame& io)
     source_.batches = {};
     merger_.build(*in.snapshots, in.revisions, in.newerRows, in.olderRows);
     const base::SnapshotPair merged = merger_.merged();
-    ParticleFrameInputs inputs{in.snapshots, in.request, in.settings, in.camera, in.lights};
+    ParticleFrameInputs inputs{in.snapshots, in.request, in.settings, in.camera};
     inputs.techniques = techniques_;
     inputs.lod = in.lod;
     inputs.left = merger_.taken();
@@ -54,7 +55,22 @@ base::Status RowView::gather(const GatherInputs& in, GatheredFrame& io)
         !status)
         return status;
     source_.batches = batches_;
+    if (in.castsShadows)
+        addCasters(in, *io.casters);
     return {};
+}
+
+void RowView::addCasters(const GatherInputs& in, std::pmr::vector<MediumCaster>& io) const
+{
+    const size_t begin = io.size();
+    const base::SnapshotPair merged = merger_.merged();
+    RowCasterInputs inputs{in.snapshots, techniques_, in.request->interpolation, in.camera->eye,
+                           merger_.taken()};
+    gatherRowCasters(inputs, io);
+    inputs.snapshots = &merged;
+    inputs.left = {};
+    gatherRowCasters(inputs, io);
+    widenCasters(std::span(io).subspan(begin), io, in.settings->slices.resolution.texels);
 }
 
 base::Status RowView::add(Rows& rows, const ParticleFrameInputs& inputs, const UploadRevisions& of,

@@ -37,6 +37,7 @@ private:
     };
     base::Status add(Rows& rows, const ParticleFrameInputs& inputs, const UploadRevisions& of,
                      const base::AssetTable* assets, GatheredFrame& io);
+    void addCasters(const GatherInputs& in, std::pmr::vector<MediumCaster>& io) const;
 
     std::pmr::vector<const RowTechnique*> techniques_;
     GroupMerger merger_;

@@ -1,12 +1,15 @@
 #include "rendering/techniques/sprites/sprite_technique.h"
 
 #include "foundation/snapshot/particle_bounds.h"
+#include "rendering/particle_rows/row_casters.h"
 #include "rendering/particle_rows/row_technique.h"
 #include "rendering/techniques/rows/row_view.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
 
 #include <array>
+#include <cmath>
 
 namespace fx::render {
 
@@ -45,6 +48,43 @@ RowCard cardAt(const base::SnapshotGroup& group, size_t i)
     return {center, radius > 0.0f ? 4.0f * radius * c[constant::Aspect] * high : 0.0f};
 }
 
+/// Rows as balls of their own sizes; streaks and wide sprites as balls of the same area.
+RowBall ballOf(const base::SnapshotGroup& group, uint32_t first, uint32_t count)
+{
+    RowBall ball;
+    const auto c = group.constants();
+    const float blend = c[constant::Blend];
+    if (blend == float(base::ParticleBlend::Additive))
+        return ball;
+    const bool isSolid = blend == float(base::ParticleBlend::Opaque);
+    const bool isMesh = c[constant::Shape] == float(base::ParticleShape::Mesh);
+    const bool isAlong = !isMesh && c[constant::Alignment] == float(base::SpriteAlignment::Velocity) &&
+                         group.has(column::VelocityX);
+    const float wide = isMesh ? 1.0f : c[constant::Aspect];
+    const auto radius = group.column(column::Radius);
+    const auto color = group.column64(column::Color);
+    const auto vectorOf = [&](size_t k, uint32_t row) {
+        return glm::vec3(group.column(k)[row], group.column(k + 1)[row], group.column(k + 2)[row]);
+    };
+    for (uint32_t row = first; row < first + count; ++row) {
+        if (!(radius[row] > 0.0f))
+            continue;
+        const float alpha = glm::unpackHalf1x16(uint16_t(color[row] >> 48));
+        const float depth = depthOfOpacity(isSolid ? (alpha >= 0.5f ? 1.0f : 0.0f) : alpha);
+        const float high = isAlong ? radius[row] + 0.5f * c[constant::Stretch] *
+                                                       glm::length(vectorOf(column::VelocityX, row))
+                                   : radius[row];
+        const float reach = std::sqrt(wide * radius[row] * high);
+        const float section = crossSectionOfDepth(depth, reach);
+        if (!(section > 0.0f))
+            continue;
+        if (ball.ownSection == 0.0f)
+            ball = {row, vectorOf(column::PositionX, row), reach, section, 0.0f};
+        ball.crossSection += section;
+    }
+    return ball;
+}
+
 base::Bounds boundsOf(const base::SnapshotGroup& group)
 {
     return base::particleBounds(group, 1.0f, 0.0f);
@@ -72,7 +112,8 @@ constexpr RowTechnique kRows{&base::kParticleKind,
                              rowsOf,
                              cardAt,
                              boundsOf,
-                             &kMerge};
+                             &kMerge,
+                             ballOf};
 
 std::span<const ProgramDesc* const> programs()
 {

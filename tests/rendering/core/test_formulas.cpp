@@ -152,6 +152,35 @@ TEST(KernelOpticalDepth, cuttingTheRayAnywhereLeavesTheSum)
     }
 }
 
+TEST(KernelQuantile, isWhereTheGivenShareOfTheChordHasBeenPassed)
+{
+    for (int i = 0; i <= 2000; ++i) {
+        const double f = i / 2000.0;
+        const double u = fx::formula64::fxKernelQuantile(f);
+        EXPECT_LE(std::abs(u), 1.0);
+        // the ball of radius 1 cut at u, as the optical depth has it
+        const double passed =
+            quadrature(1.0, 1.0, 0.0, 0.0, -1.0, u) / quadrature(1.0, 1.0, 0.0, 0.0, -1.0, 1.0);
+        EXPECT_NEAR(passed, f, 2e-6);
+        EXPECT_NEAR(double(fx::formula::fxKernelPassed(float(u))), passed, 1e-5);
+        EXPECT_NEAR(double(fx::formula::fxKernelQuantile(float(f))), u, 2e-4);
+    }
+}
+
+TEST(KernelQuantile, isOddAboutTheMiddleAndNeverTurnsBack)
+{
+    double last = -1.0;
+    for (int i = 0; i <= 1000; ++i) {
+        const double u = fx::formula64::fxKernelQuantile(i / 1000.0);
+        EXPECT_GE(u, last);
+        EXPECT_NEAR(u, -fx::formula64::fxKernelQuantile(1.0 - i / 1000.0), 1e-9);
+        last = u;
+    }
+    EXPECT_EQ(fx::formula64::fxKernelQuantile(0.5), 0.0);
+    EXPECT_NEAR(fx::formula64::fxKernelQuantile(-3.0), fx::formula64::fxKernelQuantile(0.0), 0.0);
+    EXPECT_NEAR(fx::formula64::fxKernelQuantile(7.0), fx::formula64::fxKernelQuantile(1.0), 0.0);
+}
+
 TEST(KernelOpticalDepth, growsWithTheLengthOfTheRay)
 {
     double before = 0.0;

@@ -246,17 +246,21 @@ TEST_F(SpriteTest, aFlatWhiteSpriteInAFurnaceIsAsBrightAsTheFurnace)
     EXPECT_NEAR(draw(snapshot).at(50, 50)[0], 0.7f, 1e-5f);
 }
 
-TEST_F(SpriteTest, theSunLightsASpriteLikeTheMeanOfABall)
+TEST_F(SpriteTest, theSunLightsASpriteThatDoesNotShadeItselfLikeTheMeanOfABall)
 {
     const float exposure = render::exposureFromEv100(kEv100);
     view_->settings().lighting.sunIlluminance = glm::vec3(1.0f / exposure);
     view_->settings().lighting.groundAlbedo = 0.0f;
-    auto snapshot = emptySnapshot();
-    auto& group = addParticles(snapshot, {{{0, 0, 0}, 1.0f}});
-    set(group, constant::Texture, white_);
-    set(group, constant::Luminance, 0.0f);
-    set(group, constant::Lit, 1.0f);
-    EXPECT_NEAR(draw(snapshot).at(50, 50)[0], 0.25 / std::numbers::pi, 1e-5);
+    for (const auto blend : {base::ParticleBlend::Additive, base::ParticleBlend::Opaque}) {
+        clearPicture();
+        auto snapshot = emptySnapshot();
+        auto& group = addParticles(snapshot, {{{0, 0, 0}, 1.0f}});
+        set(group, constant::Texture, white_);
+        set(group, constant::Luminance, 0.0f);
+        set(group, constant::Lit, 1.0f);
+        set(group, constant::Blend, float(blend));
+        EXPECT_NEAR(draw(snapshot).at(50, 50)[0], 0.25 / std::numbers::pi, 1e-5) << int(blend);
+    }
 }
 
 TEST_F(SpriteTest, theBareSpotFadesToItsEdge)

@@ -1,0 +1,49 @@
+/// @file row_casters.h
+/// Rows of particles and ribbons as balls of medium that take light from what lies behind them.
+#pragma once
+
+#include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/lights/medium_caster.h"
+#include "rendering/particle_rows/row_technique.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+struct RowCasterInputs
+{
+    const base::SnapshotPair* snapshots;
+    std::span<const RowTechnique* const> techniques;
+    double interpolation;               ///< [0, 1] between the older and the newer snapshot
+    glm::dvec3 eye;                     ///< [m] world
+    std::span<const uint8_t> left = {}; ///< by group of the newer snapshot: 1 where it is left out
+};
+
+/// Appends the balls of all groups, seen or not. Rows of a group with more than kMostCastersOfGroup come in
+/// stretches of as many rows; the first of a stretch that casts a shadow stands for all of it: it has their
+/// cross section, and as many times its own volume. Where there are many groups, each has less.
+/// Rows that the GPU computes cast no shadow.
+void gatherRowCasters(const RowCasterInputs& in, std::pmr::vector<MediumCaster>& ioCasters);
+
+constexpr uint32_t kMostCastersOfGroup = 256;
+constexpr uint32_t kMostRowCasters = 4096; ///< of one call, but at least kFewestCastersOfGroup of each group
+constexpr uint32_t kFewestCastersOfGroup = 8;
+
+/// Widens those that the texels of planes fitted to `all` could miss; cross sections stay.
+/// @param texels along a side of a plane
+void widenCasters(std::span<MediumCaster> ioCasters, std::span<const MediumCaster> all, int texels);
+
+/// [m2] cross section of a ball with the optical depth `depth` through its middle, the inverse of the formula
+/// kernel-optical-depth there.  @param radius [m]
+float crossSectionOfDepth(float depth, float radius);
+
+/// [1] optical depth of what covers with `opacity` [0, 1]; solid things have that of kMostOpacity.
+float depthOfOpacity(float opacity);
+constexpr float kMostOpacity = 0.999f;
+
+} // namespace fx::render

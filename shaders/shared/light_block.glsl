@@ -1,0 +1,20 @@
+// The lights of a view. Filled by rendering/lights/slices/light_list.cpp; LightListBlock has this layout. The first light is parallel, the sun; without sun its color is 0. The others are points.
+struct SliceLight
+{
+    vec4 right; // parallel light: texel x = dot(right.xyz, p) + right.w
+    vec4 up;    // texel y likewise
+    vec4 along; // plane likewise; of a point: w planes per metre of distance
+    vec4 tiles; // xy texel of the first plane in the atlas; z texels along a side; w planes, 0: media cast no shadow
+    vec4 color; // rgb exposed illuminance of parallel light, exposed intensity of a point; w 0 parallel, 1 point
+    vec4 place; // xyz unit vector towards parallel light, or the point [m] relative to the eye; w its radius [m]
+    vec4 cone;  // share of a spot: smooth step of dot(direction of the light, xyz) + w; of parallel light x index of an entry with
+                // finer planes, 0: there is none
+};
+
+layout(std140, binding = 1) uniform Lights
+{
+    ivec4 lightCounts;  // x lights; y axes of the sky after them; z points of a ray through a ball
+    vec4 lightOfSky;    // rgb exposed luminance from above; w 1: light that is scattered again counts
+    vec4 lightOfGround; // rgb exposed luminance from below
+    SliceLight lights[21];
+};
