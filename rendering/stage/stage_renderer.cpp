@@ -20,7 +20,8 @@ namespace fx::render {
 
 namespace {
 
-constexpr int kShadowSize = 2048; // [pixel]
+constexpr int kShadowSize = 2048;    // [pixel]
+constexpr float kShadowBias = 3e-4f; // of the depth of the map
 
 constexpr ProgramDesc kMeshProgram{"stage mesh", "stage/stage_mesh.vert.glsl", "stage/stage_mesh.frag.glsl",
                                    nullptr, nullptr};
@@ -132,6 +133,21 @@ uint32_t StageRenderer::colorTexture() const
 uint32_t StageRenderer::depthTexture() const
 {
     return impl_->depth.name();
+}
+
+HostShadowMap StageRenderer::sunShadow(const glm::dvec3& origin) const
+{
+    const Impl& s = *impl_;
+    HostShadowMap map;
+    if (s.vertices == 0 || s.shadowDirection == glm::vec3(0.0f))
+        return map;
+    map.texture = s.shadowDepth.name();
+    const glm::mat4 half = glm::translate(glm::mat4(1.0f), glm::vec3(0.5f, 0.5f, 0.5f - kShadowBias)) *
+                           glm::scale(glm::mat4(1.0f), glm::vec3(0.5f));
+    map.fromWorld = half * sunClip(s.ball, s.shadowDirection) *
+                    glm::translate(glm::mat4(1.0f), glm::vec3(origin - s.meshOrigin));
+    map.edge = std::max(0.05f, 2.0f * (2.0f * s.ball.radius / float(kShadowSize)));
+    return map;
 }
 
 base::Status StageRenderer::setMesh(const StageMesh& mesh)

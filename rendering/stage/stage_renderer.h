@@ -81,6 +81,9 @@ public:
     base::Status render(const CameraView& camera, const StageLighting& lighting, float exposureEv100,
                         int width, int height);
 
+    /// The shadow map of the last picture, for media. @param origin [m] CameraView::origin of their frame
+    HostShadowMap sunShadow(const glm::dvec3& origin) const;
+
     uint32_t colorTexture() const;
     uint32_t depthTexture() const;
 

@@ -274,6 +274,7 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     if (!wasPrepared)
         if (base::Status status = s.begin(snapshots, asked, settings_); !status)
             return status;
+    s.lights.setSunShadow(asked.sunShadow, asked.camera.origin);
     s.timer.beginFrame(s.clock, s.tag);
     s.backend.setTimer(s.clock == TimingClock::Off ? nullptr : &s.timer);
     const int divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,

@@ -16,5 +16,7 @@ layout(std140, binding = 1) uniform Lights
     ivec4 lightCounts;  // x lights; y axes of the sky after them; z points of a ray through a ball
     vec4 lightOfSky;    // rgb exposed luminance from above; w 1: light that is scattered again counts
     vec4 lightOfGround; // rgb exposed luminance from below
+    vec4 hostShadowRows[3]; // texture coordinates and depth of p in the host's shadow map: dot(row.xyz, p) + row.w
+    vec4 hostShadowEdge;    // xy radius of the soft edge in texture coordinates; z 1 nearer is smaller, -1 larger, 0 no map
     SliceLight lights[21];
 };

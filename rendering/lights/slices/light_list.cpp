@@ -126,7 +126,7 @@ LightList::LightList(std::pmr::memory_resource* memory)
 
 void LightList::build(const LightListInputs& in)
 {
-    block_ = {};
+    block_ = {}; // without a shadow map until setSunShadow()
     count_ = 0;
     origins_.clear();
     stacks_.clear();
@@ -151,6 +151,23 @@ void LightList::add(const SliceLightBlock& light)
 }
 
 /// The first entry, black without sun.
+bool LightList::setSunShadow(const HostShadowMap& map, const glm::dvec3& shift)
+{
+    const std::array<glm::vec4, 4> before{block_.hostShadow[0], block_.hostShadow[1], block_.hostShadow[2],
+                                          block_.hostShadowEdge};
+    for (int row = 0; row < 3; ++row) {
+        const glm::vec3 across(map.fromWorld[0][row], map.fromWorld[1][row], map.fromWorld[2][row]);
+        const double at = double(map.fromWorld[3][row]) + glm::dot(glm::dvec3(across), shift);
+        block_.hostShadow[row] = map.texture != 0 ? glm::vec4(across, float(at)) : glm::vec4(0.0f);
+    }
+    const float nearer = map.depth == DepthConvention::Reversed ? -1.0f : 1.0f;
+    block_.hostShadowEdge = {map.edge * glm::length(glm::vec3(block_.hostShadow[0])),
+                             map.edge * glm::length(glm::vec3(block_.hostShadow[1])),
+                             map.texture != 0 ? nearer : 0.0f, 0.0f};
+    return before != std::array<glm::vec4, 4>{block_.hostShadow[0], block_.hostShadow[1],
+                                              block_.hostShadow[2], block_.hostShadowEdge};
+}
+
 void LightList::addSun(const LightListInputs& in)
 {
     const Lighting& lighting = in.settings->lighting;
@@ -209,7 +226,7 @@ void LightList::addPoints(const LightListInputs& in)
         SliceStack stack;
         if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
             fitPointSlices(place, point.radius, in.casters, in.eye, partOf(in.settings->slices.resolution, 2),
-                            stack))
+                           stack))
             addStack(stack, light);
         add(light);
         origins_.push_back(sorted.points[i].origin);

@@ -63,13 +63,19 @@ public:
     explicit LightList(std::pmr::memory_resource* memory);
 
     void build(const LightListInputs& in);
+    /// Opaque surfaces shade media from then on. @param shift [m] eye minus what the map's places are
+    /// relative to  @return whether the block has changed
+    bool setSunShadow(const HostShadowMap& map, const glm::dvec3& shift);
 
     const LightListBlock& block() const { return block_; }
     size_t count() const
     {
         return count_;
     } ///< of all entries: lights, axes of the sky, finer planes of the sun
-    std::span<const LightOrigin> origins() const { return origins_; } ///< of the first block().counts.x entries
+    std::span<const LightOrigin> origins() const
+    {
+        return origins_;
+    } ///< of the first block().counts.x entries
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
     uint64_t placesRevision() const

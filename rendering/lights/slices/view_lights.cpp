@@ -67,12 +67,21 @@ MediaShadowBlock ViewLights::shadow(LightKind kind, uint32_t index, const glm::d
     return {};
 }
 
+void ViewLights::setSunShadow(const HostShadowMap& map, const glm::dvec3& origin)
+{
+    sunShadow_ = map.texture;
+    if (list_.setSunShadow(map, eye_ - origin))
+        isKept_ = false; // the list goes to the GPU again, the planes stay
+}
+
 LightBindings ViewLights::addPasses(FrameGraph& graph)
 {
     LightBindings bindings;
     if (lightBuffer_.bytes() == 0)
         return bindings;
     bindings.lights = graph.importBuffer({"lights", sizeof(LightListBlock)}, lightBuffer_.name());
+    if (sunShadow_ != 0)
+        bindings.hostShadow = graph.importTexture({"host shadow map", 1, 1, Format::R32F}, sunShadow_);
     if (!isKept_)
         graph.addPass("light list", [&](FrameGraph::Builder& builder) {
             bindings.lights = builder.write(bindings.lights);

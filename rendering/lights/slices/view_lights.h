@@ -35,6 +35,9 @@ public:
     /// Instead of gather(): the frame has the lights of the last one.
     void keep() { isKept_ = true; }
 
+    /// The host's shadow map of this frame.  @param origin [m] world position that its places are relative to
+    void setSunShadow(const HostShadowMap& map, const glm::dvec3& origin);
+
     /// Imports list and planes, and adds the passes that fill them. @return what draws bind
     LightBindings addPasses(FrameGraph& graph);
 
@@ -64,9 +67,10 @@ private:
     std::pmr::vector<CasterBlock> casters_;
     GlBuffer lightBuffer_;
     GlTexture atlas_;
-    uint64_t filled_ = 0; ///< key of what the planes hold; 0: nothing
-    uint64_t wanted_ = 0; ///< key of this frame
-    bool isKept_ = false; ///< the list on the GPU is that of the last frame
+    uint64_t filled_ = 0;    ///< key of what the planes hold; 0: nothing
+    uint64_t wanted_ = 0;    ///< key of this frame
+    uint32_t sunShadow_ = 0; ///< GL name of the host's
+    bool isKept_ = false;    ///< the list on the GPU is that of the last frame
 };
 
 } // namespace fx::render
