@@ -42,7 +42,7 @@ constexpr uint32_t kHostShadowUnit = 6;    ///< texture unit of the host's shado
 struct LightBindings
 {
     ResourceId lights = {};     ///< buffer with a LightListBlock; invalid: nothing is lit
-    ResourceId planes = {};     ///< R32F optical depths; invalid: media cast no shadow
+    ResourceId planes = {};     ///< RG32F optical depths; invalid: media cast no shadow
     ResourceId hostShadow = {}; ///< depth; invalid: the host's surfaces cast no shadow on media
 
     void read(FrameGraph::Builder& builder) const

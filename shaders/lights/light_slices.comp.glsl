@@ -20,7 +20,7 @@ struct SliceStack
 };
 layout(std430, binding = 0) readonly buffer Casters { MediumCaster casters[]; };
 layout(std430, binding = 1) readonly buffer Stacks { SliceStack stacks[]; };
-layout(r32f, binding = 0) uniform writeonly image2D slices;
+layout(rg32f, binding = 0) uniform writeonly image2D slices; // r optical depth up to a plane; g from it to the next
 layout(std140, binding = 0) uniform SliceBlock { ivec4 casterCount; };
 
 const int kMostPlanes = 128;
@@ -122,6 +122,7 @@ void main()
     int side = int(stack.tiles.z);
     for (int k = 0; k < planes; ++k) {
         depth += between[k];
-        imageStore(slices, tile + side * ivec2(k % kTileColumns, k / kTileColumns), vec4(depth));
+        float next = k + 1 < planes ? between[k + 1] : 0.0;
+        imageStore(slices, tile + side * ivec2(k % kTileColumns, k / kTileColumns), vec4(depth, next, 0.0, 0.0));
     }
 }

@@ -7,8 +7,7 @@ struct SliceLight
     vec4 tiles; // xy texel of the first plane in the atlas; z texels along a side; w planes, 0: media cast no shadow
     vec4 color; // rgb exposed illuminance of parallel light, exposed intensity of a point; w 0 parallel, 1 point
     vec4 place; // xyz unit vector towards parallel light, or the point [m] relative to the eye; w its radius [m]
-    vec4 cone;  // share of a spot: smooth step of dot(direction of the light, xyz) + w; of parallel light x index of an entry with
-                // finer planes, 0: there is none
+    vec4 cone;  // share of a spot: smooth step of dot(direction of the light, xyz) + w from 0 to 1
 };
 
 layout(std140, binding = 1) uniform Lights

@@ -1,9 +1,10 @@
 // The optical depth of all media between the lights of a view and a point.
 #include "shared/light_block.glsl"
-layout(binding = 7) uniform sampler2D lightSlices;   // optical depth
+layout(binding = 7) uniform sampler2D lightSlices;   // r optical depth up to a plane; g between it and the next plane
 layout(binding = 6) uniform sampler2D hostShadowMap; // depth of the host's surfaces as the sun sees them
 
 const int kSliceTileColumns = 8;
+const int kFinerPlanes = 19; // entries of the list with finer planes of the sun near the eye, and with the finest
 
 vec2 octahedralPlace(vec3 d)
 {
@@ -13,10 +14,10 @@ vec2 octahedralPlace(vec3 d)
     return p;
 }
 
-float slicePlane(vec4 tiles, int plane, vec2 texel)
+vec2 slicePlane(vec4 tiles, int plane, vec2 texel)
 {
     vec2 tile = tiles.xy + tiles.z * vec2(plane % kSliceTileColumns, plane / kSliceTileColumns);
-    return textureLod(lightSlices, (tile + texel) / vec2(textureSize(lightSlices, 0)), 0.0).r;
+    return textureLod(lightSlices, (tile + texel) / vec2(textureSize(lightSlices, 0)), 0.0).rg;
 }
 
 vec3 parallelPlace(SliceLight light, vec3 p)
@@ -32,10 +33,8 @@ vec2 depthAtPlace(vec4 tiles, vec3 place)
     int last = int(tiles.w) - 1;
     float plane = clamp(place.z, 0.0, float(last));
     int lower = min(int(plane), last - 1);
-    float before = slicePlane(tiles, lower, texel);
-    float behind = slicePlane(tiles, lower + 1, texel);
-    float total = lower + 1 == last ? behind : slicePlane(tiles, last, texel);
-    return vec2(mix(before, behind, plane - float(lower)), total);
+    vec2 before = slicePlane(tiles, lower, texel);
+    return vec2(before.r + (plane - float(lower)) * before.g, slicePlane(tiles, last, texel).r);
 }
 
 // Whether a place is inside of planes, where they know the depth up to it.
@@ -50,15 +49,22 @@ vec2 parallelDepth(SliceLight light, vec3 p)
 {
     if (light.tiles.w < 0.5)
         return vec2(0.0);
-    vec4 tiles = light.tiles;
-    vec3 place = parallelPlace(light, p);
-    for (int finer = int(light.cone.x); finer > 0; finer = int(lights[finer].cone.x)) {
-        vec3 finerPlace = parallelPlace(lights[finer], p);
-        if (!isInside(lights[finer].tiles, finerPlace))
-            break;
-        tiles = lights[finer].tiles;
-        place = finerPlace;
-    }
+    return depthAtPlace(light.tiles, parallelPlace(light, p));
+}
+
+// The same of the sun, with the finest planes that know the place. Constant indices: software renderers read those at once.
+vec2 sunDepth(vec3 p)
+{
+    if (lights[0].tiles.w < 0.5)
+        return vec2(0.0);
+    vec4 tiles = lights[0].tiles;
+    vec3 place = parallelPlace(lights[0], p);
+    vec3 finer = parallelPlace(lights[kFinerPlanes], p);
+    vec3 finest = parallelPlace(lights[kFinerPlanes + 1], p);
+    bool isInFiner = isInside(lights[kFinerPlanes].tiles, finer);
+    bool isInFinest = isInside(lights[kFinerPlanes + 1].tiles, finest);
+    place = isInFinest ? finest : isInFiner ? finer : place;
+    tiles = isInFinest ? lights[kFinerPlanes + 1].tiles : isInFiner ? lights[kFinerPlanes].tiles : tiles;
     return depthAtPlace(tiles, place);
 }
 

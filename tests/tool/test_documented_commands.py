@@ -28,6 +28,9 @@ EXCEPTIONS = {
     "cmake --preset tsan": "configures another build",
     "cmake --build build/tsan --target test_api_threads": "builds",
     "build/tsan/tests/test_api_threads": "of that build",
+    "scripts/fit_multiple_scattering.py": "takes minutes",
+    "scripts/fit_multiple_scattering.py --fit": "takes minutes",
+    "scripts/fit_multiple_scattering.py --check": "tool.multiple_scattering",
 }
 
 # Of which only the options are looked at, because a program of their own runs them.

@@ -71,7 +71,7 @@ typedef struct FxMediaShadow
     /// Set by the caller.
     uint32_t structSize;
 
-    /// GL name of a GL_TEXTURE_2D, R32F, with linear filters, valid until the next frame of the view; 0:
+    /// GL name of a GL_TEXTURE_2D, RG32F, with linear filters, valid until the next frame of the view; 0:
     /// media cast no shadow in this light, and all members below are 0, with which the GLSL reads no texture.
     uint32_t texture;
 

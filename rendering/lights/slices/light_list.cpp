@@ -182,8 +182,7 @@ void LightList::addSun(const LightListInputs& in)
     origins_.push_back({LightKind::Sun, 0});
 }
 
-/// The sun's planes of a wide scene are coarse. What is near the eye gets finer ones; a light refers to the
-/// next finer entry of the list.
+/// The sun's planes of a wide scene are coarse. What is near the eye gets finer ones, in the last entries.
 void LightList::addCascades(const LightListInputs& in)
 {
     const Lighting& lighting = in.settings->lighting;
@@ -191,8 +190,7 @@ void LightList::addCascades(const LightListInputs& in)
         return;
     float side = stacks_.front().texel * float(stacks_.front().resolution.texels);
     float coarserTexel = stacks_.front().texel;
-    size_t coarser = 0;
-    for (size_t i = 1; i < kMostCascades && side > kWideScene; ++i) {
+    for (count_ = kFinerPlanes; count_ < kMostLightEntries && side > kWideScene; ++count_) {
         side *= kCascadeRatio;
         near_.clear();
         for (const MediumCaster& caster : in.casters)
@@ -202,13 +200,8 @@ void LightList::addCascades(const LightListInputs& in)
         if (!fitParallelSlices(lighting.sunDirection, near_, in.eye, in.settings->slices.resolution, stack) ||
             stack.texel >= coarserTexel)
             return;
-        SliceLightBlock light{};
-        light.place = glm::vec4(lighting.sunDirection, 0.0f);
-        block_.lights[coarser].cone.x = float(count_);
-        coarser = count_;
         coarserTexel = stack.texel;
-        addStack(stack, light);
-        add(light);
+        addStack(stack, block_.lights[count_]);
     }
 }
 

@@ -12,8 +12,8 @@ extern const ProgramDesc kLightSlicesProgram;
 ///
 /// reads   casters  buffer of casters, two vec4 each: center and radius; cross section
 ///         stacks   buffer of SliceStackBlock
-/// writes  atlas    R32F, optical depth; each texel is written by one invocation, in the order of the
-/// casters,
+/// writes  atlas    RG32F, optical depth up to a plane, and from it to the next; each texel is written by one
+/// invocation, in the order of the casters,
 ///                  so that equal inputs give equal bits
 class LightSlicesPass
 {

@@ -18,8 +18,8 @@ MediaShadowBlock mediaShadow(const LightList& list, size_t light, const glm::dve
                              const glm::dvec3& origin)
 {
     MediaShadowBlock block;
-    const std::span<const SliceLightBlock> lights(list.block().lights, list.count());
-    if (light >= lights.size() || lights[light].tiles.w < 0.5f)
+    const std::span<const SliceLightBlock> lights(list.block().lights);
+    if (light >= size_t(list.block().counts.x) || lights[light].tiles.w < 0.5f)
         return block;
     const glm::dvec3 shift = origin - eye;
     if (lights[light].color.w > 0.5f) {
@@ -29,15 +29,14 @@ MediaShadowBlock mediaShadow(const LightList& list, size_t light, const glm::dve
         return block;
     }
     size_t level = 0;
-    for (size_t entry = light; level < kMostCascades; ++level) {
+    for (const size_t entry : {light, kFinerPlanes, kFinerPlanes + 1}) {
         const SliceLightBlock& planes = lights[entry];
+        if (level > 0 && (light > 0 || planes.tiles.w < 0.5f))
+            break;
         block.right[level] = shifted(planes.right, shift);
         block.up[level] = shifted(planes.up, shift);
         block.along[level] = shifted(planes.along, shift);
-        block.tiles[level] = planes.tiles;
-        entry = size_t(planes.cone.x);
-        if (entry == 0)
-            break;
+        block.tiles[level++] = planes.tiles;
     }
     return block;
 }

@@ -13,12 +13,14 @@ namespace fx::render {
 /// planes everything is 0, and all light passes.
 struct MediaShadowBlock
 {
-    std::array<glm::vec4, kMostCascades> right{}, up{}, along{}, tiles{};
+    static constexpr size_t kLevels = 3; ///< of the sun, finer ones near the eye; other lights have one
+
+    std::array<glm::vec4, kLevels> right{}, up{}, along{}, tiles{};
     glm::vec4 place{0.0f};
 };
 static_assert(sizeof(MediaShadowBlock) == 13 * 16);
 
-/// @param light index in the list  @param eye [m] world position that the list is relative to
+/// @param light entry of the list, 0 is the sun  @param eye [m] world position that the list is relative to
 /// @param origin [m] world position that the places of lookups are relative to
 MediaShadowBlock mediaShadow(const LightList& list, size_t light, const glm::dvec3& eye,
                              const glm::dvec3& origin);

@@ -48,7 +48,7 @@ base::Status ViewLights::makeRoom()
     if (width == atlas_.width() && height == atlas_.height())
         return {};
     atlas_ = {};
-    auto created = GlTexture::create(device_, width, height, glInternalFormat(Format::R32F), "light slices");
+    auto created = GlTexture::create(device_, width, height, glInternalFormat(Format::RG32F), "light slices");
     if (!created)
         return created.status();
     atlas_ = std::move(*created);
@@ -90,8 +90,8 @@ LightBindings ViewLights::addPasses(FrameGraph& graph)
             };
         });
     if (!list_.stacks().empty() && atlas_.name() != 0)
-        bindings.planes = graph.importTexture({"light slices", atlas_.width(), atlas_.height(), Format::R32F},
-                                              atlas_.name());
+        bindings.planes = graph.importTexture(
+            {"light slices", atlas_.width(), atlas_.height(), Format::RG32F}, atlas_.name());
     if (!bindings.planes.valid() || filled_ == wanted_)
         return bindings;
     ResourceId casters, stacks;

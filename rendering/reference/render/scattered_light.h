@@ -36,9 +36,9 @@ namespace fx::render {
 ///   light. (2) is divided by its own sum of weights, so that an even sky around thin media is exact. The
 ///   directions of sky-quadrature and cone-quadrature are shifted from node to node.
 /// @valid     single scattering only: bright smoke looks too dark, and surfaces light no medium
-/// @accuracy  of sun, points and spots |error of S| <= 2e-3 S for optical depths up to 10 along ray and shadow
-///   rays. Of the sky root mean square over rays through 60 blobs: 3e-2, 1.5e-2, 1.25e-2, 5e-3 S with 16,
-///   36, 64, 144 directions
+/// @accuracy  of sun, points and spots |error of S| <= 2e-3 S for optical depths up to 10 along ray and
+///   shadow rays. Of the sky root mean square over rays through 60 blobs: 3e-2, 1.5e-2, 1.25e-2, 5e-3 S with
+///   16, 36, 64, 144 directions
 /// @tests     tests/rendering/reference/render/test_scattered_light.cpp
 ///
 /// One for each thread.

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 using namespace fx;
@@ -223,4 +224,43 @@ TEST_F(FrameBuilderTest, aMirroredProjectionSeesTheSameBlobs)
     render::gatherBlobs(pair, 1.0, render::cameraGeometry(view), 720, blobs, medium, instances);
     ASSERT_EQ(blobs.size(), 2u);
     EXPECT_FLOAT_EQ(blobs[0].radius, 0.5f);
+}
+
+TEST_F(FrameBuilderTest, aFarEffectThatIsDrawnAsAPictureAloneCastsTheSameShadowByFewerBalls)
+{
+    std::vector<Element> elements;
+    for (uint64_t i = 0; i < 100; ++i)
+        elements.push_back({i, 0.01f * float(i)});
+    auto newer = snapshot(0, elements);
+    newer.editGroup(0).editInfo().bounds.add(glm::vec3(0.5f, 0.0f, 0.0f), 1.0f);
+    base::SnapshotPair pair;
+    pair.newer = &newer;
+    render::FrameRequest request;
+    request.targets.height = 720;
+    request.deltaTime = 0.5; // longer than a fade
+    request.camera = render::perspectiveView({{0, 0, 200}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f);
+    const auto camera = render::cameraGeometry(request.camera);
+    render::ViewSettings settings;
+    settings.lod.impostorPixels = render::LodSettings::kMostImpostorPixels;
+    render::FrameBuilder builder(std::pmr::get_default_resource());
+    render::LevelOfDetail lod(std::pmr::get_default_resource());
+    for (const bool castsShadows : {true, false}) {
+        for (int frame = 0; frame < 4; ++frame) {
+            lod.begin(settings.lod, camera, 720, false);
+            builder.build(pair, request, settings, camera, lod, 1, castsShadows);
+        }
+        ASSERT_TRUE(builder.blobs().empty());
+        ASSERT_TRUE(builder.takenBlobs().empty());
+        EXPECT_EQ(builder.casters().empty(), !castsShadows);
+        double section = 0.0, volume = 0.0;
+        for (const render::MediumCaster& caster : builder.casters()) {
+            section += double(caster.crossSection);
+            volume += std::pow(double(caster.radius), 3.0);
+        }
+        if (!castsShadows)
+            continue;
+        EXPECT_LE(builder.casters().size(), 16u);
+        EXPECT_NEAR(section, 100.0, 1e-3);
+        EXPECT_NEAR(volume, 100.0 * 0.125, 1e-3);
+    }
 }

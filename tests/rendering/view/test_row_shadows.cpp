@@ -161,6 +161,26 @@ TEST_F(RowShadows, whatHidesDoesNotShadeItselfButIsShaded)
     }
 }
 
+TEST_F(RowShadows, aSolidMeshIsMattInWhatABallLeavesOfTheSun)
+{
+    const glm::vec3 n(0, 0, 1);
+    const std::vector<base::MeshVertex> corners{
+        {{-1, -1, 0}, n, {0, 0}}, {{1, -1, 0}, n, {1, 0}}, {{1, 1, 0}, n, {1, 1}}, {{-1, 1, 0}, n, {0, 1}}};
+    const float mesh = float(*assets_.addMesh(corners, std::vector<uint32_t>{0, 1, 2, 0, 2, 3}));
+    view_->settings().lighting.sunDirection = {0.0f, 0.8f, 0.6f};
+    for (const float depth : {0.0f, 1.0f, 8.0f}) {
+        auto snapshot = emptySnapshot();
+        addBall(snapshot, {0, -2.0f + 0.8f * 4.0f, 0.6f * 4.0f}, 1.5f, std::max(depth, 1e-6f));
+        auto& group = addParticles(snapshot, {{{0, -2, 0}, 0.3f}});
+        light(group);
+        set(group, constant::Shape, float(base::ParticleShape::Mesh));
+        set(group, constant::Mesh, mesh);
+        set(group, constant::Blend, float(base::ParticleBlend::Opaque));
+        const float open = 0.6f / std::numbers::pi_v<float>;
+        EXPECT_NEAR(at(draw(snapshot), 0, -2), open * std::exp(-depth), 0.03f * open) << depth;
+    }
+}
+
 TEST_F(RowShadows, aThickSpriteHasABrightAndADarkSide)
 {
     auto snapshot = emptySnapshot();
@@ -272,6 +292,19 @@ TEST_F(RowShadows, aStretchOfRowsKeepsItsCrossSectionAndItsVolume)
     const double area = 0.05 * 3.0 * 32.0 / 35.0 * std::log(2.0);
     EXPECT_LE(castersOf(strip).size(), render::kMostCastersOfGroup);
     EXPECT_NEAR(sectionOf(castersOf(strip)), area, 1e-3 * area);
+}
+
+TEST_F(RowShadows, manyGroupsShareTheMostCasters)
+{
+    auto snapshot = emptySnapshot();
+    const std::vector<TestParticle> particles(300, {{0, 0, 0}, 0.5f, {1, 1, 1, 0.5f}});
+    for (int i = 0; i < 100; ++i)
+        addParticles(snapshot, particles);
+    const auto casters = castersOf(snapshot);
+    EXPECT_LE(casters.size(), render::kMostRowCasters);
+    EXPECT_GE(casters.size(), 100u * render::kFewestCastersOfGroup);
+    const double section = 30000.0 * double(render::crossSectionOfDepth(std::log(2.0f), 0.5f));
+    EXPECT_NEAR(sectionOf(casters), section, 1e-4 * section);
 }
 
 TEST_F(RowShadows, castersMoveBetweenSnapshots)
