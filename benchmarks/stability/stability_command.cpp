@@ -61,7 +61,7 @@ base::Result<std::vector<StabilityRow>> chosenRows(const std::vector<std::string
             }
             return base::Status(base::Code::InvalidArgument,
                                 "there is no row " + name + base::didYouMean(name, known) + "; there are" +
-                                    list + ", and all of a kind as R, B, L, H, DZ");
+                                    list + ", and all of a kind as R, B, L, LS, H, DZ");
         }
     }
     std::vector<StabilityRow> rows;
@@ -133,7 +133,8 @@ void addStabilityCommand(CLI::App& app, int& outExitCode)
     auto arguments = std::make_shared<StabilityArguments>();
     CLI::App* command =
         app.add_subcommand("stability", "Hard numerical cases, swept: the largest error of each, and maps");
-    command->add_option("ROW", arguments->rows, "Rows such as R-03, or all of a kind: R B L H DZ; none: all");
+    command->add_option("ROW", arguments->rows,
+                        "Rows such as R-03, or all of a kind: R B L LS H DZ; none: all");
     command->add_option("-o,--output", arguments->folder, "Folder for the maps, CSV and PNG")->required();
     command->add_flag("--quick", arguments->isQuick, "A fifth of the steps on every axis");
     command->add_flag("--sweeps", arguments->showsSweeps, "A line for each sweep of a row too");

@@ -57,8 +57,7 @@ struct QuadInputs
 {
     ResourceId instances;     ///< buffer at binding 0
     TextureBinding picture{}; ///< bound when it is valid
-    const LightBindings* lights =
-        nullptr;             ///< not null: the program has FX_LIGHT_MEMBERS behind the ViewBlock
+    const LightBindings* lights = nullptr;
     ResourceId blobLights{}; ///< buffer at kBlobLightBinding when it is valid
 };
 

@@ -14,7 +14,7 @@ struct SliceStack
 {
     vec4 origin; // xyz [m] corner of the first plane, or the light's place; w distance of two planes [m]
     vec4 right;  // xyz [m] one texel to the right; w 0 flat planes, 1 shells around `origin`
-    vec4 up;     // xyz [m] one texel up
+    vec4 up;     // xyz [m] one texel up; w distance of the first shell from `origin` [m]
     vec4 along;  // xyz direction in which parallel light goes; w distance from a point up to which media do not count [m]
     vec4 tiles;  // xy texel of the first plane in the atlas; z texels along a side; w planes
 };
@@ -103,13 +103,13 @@ void main()
                 float tc = dot(toCenter, direction);
                 float h = length(toCenter - tc * direction);
                 if (h < radius) {
-                    float spacing = stack.origin.w;
+                    float spacing = stack.origin.w, before = stack.up.w;
                     float halfChord = sqrt((radius - h) * (radius + h));
-                    int first = clamp(int(floor((tc - halfChord) / spacing)) + 1, 0, planes - 1);
-                    int last = clamp(int(floor((tc + halfChord) / spacing)) + 1, 0, planes - 1);
+                    int first = clamp(int(floor((tc - halfChord - before) / spacing)) + 1, 0, planes - 1);
+                    int last = clamp(int(floor((tc + halfChord - before) / spacing)) + 1, 0, planes - 1);
                     for (int k = first; k <= last; ++k) {
-                        float begin = k > 0 ? max(float(k - 1) * spacing, stack.along.w) : isParallel ? -1e30 : stack.along.w;
-                        between[k] += fxKernelOpticalDepth(ball.medium.x, radius, h, tc, begin, float(k) * spacing);
+                        float begin = k > 0 ? max(before + float(k - 1) * spacing, stack.along.w) : isParallel ? -1e30 : stack.along.w;
+                        between[k] += fxKernelOpticalDepth(ball.medium.x, radius, h, tc, begin, before + float(k) * spacing);
                     }
                 }
             }

@@ -76,13 +76,15 @@ vec2 pointDepth(SliceLight light, vec3 p)
     vec3 d = p - light.place.xyz;
     float l = length(d);
     vec2 direction = octahedralPlace(l > 0.0 ? d / l : vec3(0.0, 0.0, 1.0));
-    return depthAtPlace(light.tiles, vec3(1.0 + (0.5 + 0.5 * direction) * (light.tiles.z - 2.0), l * light.along.w));
+    return depthAtPlace(light.tiles, vec3(1.0 + (0.5 + 0.5 * direction) * (light.tiles.z - 2.0), l * light.along.w - light.along.x));
 }
 
-// Of either kind.
+// Of any light.
 vec2 sliceDepth(SliceLight light, vec3 p)
 {
-    return light.color.w < 0.5 ? parallelDepth(light, p) : pointDepth(light, p);
+    if (light.color.w > 0.5)
+        return pointDepth(light, p);
+    return light.place == lights[0].place ? sunDepth(p) : parallelDepth(light, p);
 }
 
 // Share of the sun that the host's surfaces let through to p: 3 x 3 places within the soft edge, each between four texels.
@@ -119,7 +121,7 @@ vec3 pointLight(SliceLight light, vec3 p, out vec3 towards)
     return light.color.rgb * (share / max(l2 + light.place.w * light.place.w, 1e-12));
 }
 
-// Of either kind.
+// Of any light.
 vec3 unshadowedLight(SliceLight light, vec3 p, out vec3 towards)
 {
     if (light.color.w < 0.5) {

@@ -22,6 +22,37 @@ def by_setting(lines):
     return {line["setting"]: line for line in lines}
 
 
+class FxAccuracyOfLightSlices(FxTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.lines = lines_of("light-slices", *QUICK)
+
+    def test_parameters_name_light_depth_and_planes(self):
+        planes = [line for line in self.lines if line["setting"].startswith("planes-")]
+        self.assertEqual(len(planes), 6 * 6)
+        for line in planes:
+            parameters = line["parameters"]
+            self.assertEqual(line["setting"], "planes-%d" % parameters["planes"])
+            self.assertEqual(line["scene"], "%s-tau-%g" % (parameters["light"], parameters["tau"]))
+            self.assertLessEqual(line["error_p50"], line["error_max"])
+
+    def test_32_planes_are_exact_enough(self):
+        for line in self.lines:
+            if line["setting"] == "planes-32":
+                self.assertLessEqual(line["error_mean"], {1: 1e-3, 10: 1e-2}[line["parameters"]["tau"]], line["scene"])
+
+    def test_errors_fall_with_the_square_of_the_number_of_planes(self):
+        for line in self.lines:
+            if line["setting"] == "planes-32":
+                self.assertAlmostEqual(line["work"]["order_mean"], 2.0, delta=0.2, msg=line["scene"])
+                self.assertAlmostEqual(line["work"]["order_max"], 2.0, delta=0.2, msg=line["scene"])
+
+    def test_texels_have_no_part_in_the_error_of_planes(self):
+        for line in self.lines:
+            if line["setting"].startswith("planes-"):
+                self.assertLess(line["work"]["change_with_half_texels"], 0.1, line["scene"] + " " + line["setting"])
+
+
 class FxAccuracyOfLight(FxTest):
     @classmethod
     def setUpClass(cls):

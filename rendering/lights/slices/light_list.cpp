@@ -73,7 +73,7 @@ uint64_t revisionOf(uint64_t revision, const SliceStack& stack, const glm::vec4&
         revision = base::hashWord(revision, std::bit_cast<uint64_t>(stack.corner[i]));
         revision = base::hashWord(revision, std::bit_cast<uint32_t>(stack.along[i]));
     }
-    for (const float value : {stack.texel, stack.spacing, stack.begin, tiles.x, tiles.y, tiles.z, tiles.w})
+    for (const float value : {stack.texel, stack.spacing, stack.first, stack.begin, tiles.x, tiles.y, tiles.z, tiles.w})
         revision = base::hashWord(revision, std::bit_cast<uint32_t>(value));
     return base::hashWord(revision, uint64_t(stack.mapping));
 }
@@ -258,7 +258,7 @@ void LightList::addStack(const SliceStack& stack, SliceLightBlock& ioLight)
         ioLight.up = glm::vec4(up, -glm::dot(up, stack.origin));
         ioLight.along = glm::vec4(along, -glm::dot(along, stack.origin));
     } else {
-        ioLight.along = {0.0f, 0.0f, 0.0f, 1.0f / stack.spacing};
+        ioLight.along = {stack.first / stack.spacing, 0.0f, 0.0f, 1.0f / stack.spacing};
     }
     stacks_.push_back(stack);
     stackLights_.push_back(count_);
@@ -287,8 +287,8 @@ void LightList::placeTiles()
         const bool isParallel = stack.mapping == SliceMapping::Parallel;
         stackBlocks_.push_back({glm::vec4(stack.origin, stack.spacing),
                                 glm::vec4(stack.right * stack.texel, isParallel ? 0.0f : 1.0f),
-                                glm::vec4(stack.up * stack.texel, 0.0f), glm::vec4(stack.along, stack.begin),
-                                tiles});
+                                glm::vec4(stack.up * stack.texel, stack.first),
+                                glm::vec4(stack.along, stack.begin), tiles});
         placesRevision_ = revisionOf(placesRevision_, stack, tiles);
         x += width;
         rowHeight = std::max(rowHeight, height);

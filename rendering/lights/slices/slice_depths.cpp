@@ -25,14 +25,16 @@ void addCaster(const SliceStack& stack, const SliceRay& ray, const MediumCaster&
     const bool isParallel = stack.mapping == SliceMapping::Parallel;
     const int last = stack.resolution.planes - 1;
     const float half = std::sqrt((caster.radius - h) * (caster.radius + h));
-    const int first = std::clamp(int(std::floor((tc - half) / stack.spacing)) + 1, 0, last);
-    const int end = std::clamp(int(std::floor((tc + half) / stack.spacing)) + 1, 0, last);
-    for (int k = first; k <= end; ++k) {
-        const float begin = k > 0        ? std::max(float(k - 1) * stack.spacing, stack.begin)
+    const auto planeAfter = [&](float t) {
+        return std::clamp(int(std::floor((t - stack.first) / stack.spacing)) + 1, 0, last);
+    };
+    const int end = planeAfter(tc + half);
+    for (int k = planeAfter(tc - half); k <= end; ++k) {
+        const float begin = k > 0        ? std::max(stack.distanceOf(k - 1), stack.begin)
                             : isParallel ? -1e30f
                                          : stack.begin;
         ioBetween[size_t(k)] += formula::fxKernelOpticalDepth(caster.crossSection, caster.radius, h, tc,
-                                                              begin, float(k) * stack.spacing);
+                                                              begin, stack.distanceOf(k));
     }
 }
 

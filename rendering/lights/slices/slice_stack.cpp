@@ -92,7 +92,8 @@ SlicePlace SliceStack::placeOf(const glm::vec3& position) const
     const float distance = glm::length(d);
     const glm::vec2 p = distance > 0.0f ? octahedral(d / distance) : glm::vec2(0.0f);
     const float inner = float(resolution.texels - 2); // a border of one texel lets neighbors be interpolated
-    return {1.0f + (0.5f + 0.5f * p.x) * inner, 1.0f + (0.5f + 0.5f * p.y) * inner, distance / spacing};
+    return {1.0f + (0.5f + 0.5f * p.x) * inner, 1.0f + (0.5f + 0.5f * p.y) * inner,
+            (distance - first) / spacing};
 }
 
 SliceRay sliceRay(const SliceStack& stack, float x, float y)
@@ -143,15 +144,23 @@ bool fitPointSlices(const glm::vec3& light, float radius, std::span<const Medium
     if (casters.empty() || asked.planes <= 0)
         return false;
     const SliceResolution resolution = usableResolution(asked);
-    float farthest = 0.0f;
-    for (const MediumCaster& caster : casters)
-        farthest = std::max(farthest, glm::length(caster.center - light) + caster.radius);
+    float nearest = INFINITY, farthest = 0.0f;
+    for (const MediumCaster& caster : casters) {
+        const float distance = glm::length(caster.center - light);
+        nearest = std::min(nearest, distance - caster.radius);
+        farthest = std::max(farthest, distance + caster.radius);
+    }
     SliceStack stack;
     stack.mapping = SliceMapping::Octahedral;
     stack.resolution = resolution;
     stack.origin = light;
     stack.corner = eye + glm::dvec3(light);
     stack.spacing = quantizedSide(farthest / float(resolution.planes - 1));
+    const float closer = quantizedSide((farthest - nearest) / float(resolution.planes - 2));
+    if (nearest > 0.0f && closer < stack.spacing) { // the light is outside: no shells before the media
+        stack.spacing = closer;
+        stack.first = std::floor(nearest / closer) * closer;
+    }
     stack.begin = radius;
     outStack = stack;
     return true;

@@ -50,13 +50,18 @@ struct SliceStack
         0};             ///< `origin` in the world: in texels, texels and planes, or [m] of a light at a point
     float texel = 1.0f; ///< [m] side of a texel of flat planes
     float spacing = 1.0f; ///< [m] between two planes
+    float first = 0.0f;   ///< [m] distance of the first shell from a point; 0 for flat planes
     float begin =
         0.0f; ///< [m] distance from a point up to which media cast no shadow: the radius of what glows
 
     SlicePlace placeOf(const glm::vec3& position) const;
+    float distanceOf(int plane) const
+    {
+        return first + float(plane) * spacing;
+    } ///< [m] along the ray of a texel
 };
 
-/// The ray of a texel: it passes plane k at distance k * spacing from `start`.
+/// The ray of a texel: it passes plane k at the distance distanceOf(k) from `start`.
 struct SliceRay
 {
     glm::vec3 start;
@@ -74,7 +79,8 @@ SliceRay sliceRay(const SliceStack& stack, float x, float y);
 bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters, const glm::dvec3& eye,
                        const SliceResolution& asked, SliceStack& outStack);
 
-/// Fits shells around a glowing ball.  @param light [m] relative to the eye  @param radius [m] of the ball
+/// Fits shells around a glowing ball, from the nearest to the farthest caster. Their distances are multiples
+/// of a power of 2^(1/4).  @param light [m] relative to the eye  @param radius [m] of the ball
 bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,
                     const glm::dvec3& eye, const SliceResolution& asked, SliceStack& outStack);
 

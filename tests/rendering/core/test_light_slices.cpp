@@ -61,7 +61,8 @@ double exactDepth(std::span<const MediumCaster> casters, const glm::dvec3& from,
 glm::dvec3 pointOf(const SliceStack& stack, float x, float y, double plane)
 {
     const SliceRay ray = sliceRay(stack, x, y);
-    return glm::dvec3(ray.start) + glm::dvec3(ray.direction) * (plane * double(stack.spacing));
+    return glm::dvec3(ray.start) +
+           glm::dvec3(ray.direction) * (double(stack.first) + plane * double(stack.spacing));
 }
 
 double exactAt(const SliceStack& stack, std::span<const MediumCaster> casters, float x, float y, double plane)
@@ -69,7 +70,7 @@ double exactAt(const SliceStack& stack, std::span<const MediumCaster> casters, f
     const glm::dvec3 to = pointOf(stack, x, y, plane);
     if (stack.mapping == SliceMapping::Parallel)
         return exactDepth(casters, to - glm::dvec3(stack.along) * kFar, to);
-    return plane > 0.0 ? exactDepth(casters, glm::dvec3(stack.origin), to) : 0.0;
+    return to != glm::dvec3(stack.origin) ? exactDepth(casters, glm::dvec3(stack.origin), to) : 0.0;
 }
 
 const glm::vec3 kTowards = glm::normalize(glm::vec3(0.3f, 0.8f, -0.4f));
@@ -275,15 +276,17 @@ TEST(SliceStack, allMediaLieWithinItsPlanes)
 {
     for (const SliceResolution& size : {SliceResolution{8, 2}, {16, 3}, {24, 5}, {64, 32}, {512, 128}}) {
         const auto casters = cloud(50, 1.0f, {3.0f, -2.0f, 8.0f});
+        const glm::vec3 light(3.0f, -2.0f, 8.1f); // within the media
         for (const SliceStack& stack :
-             {parallelStack(casters, size, {10.3, 20.7, -4.1}), pointStack(casters, {3, 0, 8}, size)})
+             {parallelStack(casters, size, {10.3, 20.7, -4.1}), pointStack(casters, light, size),
+              pointStack(casters, {3, 2, 8}, size), pointStack(casters, {9, 0, 8}, size)})
             for (const MediumCaster& caster : casters) {
                 const SlicePlace place = stack.placeOf(caster.center);
                 const float deep = caster.radius / stack.spacing;
                 EXPECT_LE(place.plane + deep, float(stack.resolution.planes - 1) * 1.00001f);
+                EXPECT_GE(place.plane - (stack.origin == light ? 0.0f : deep), -1e-4f);
                 if (stack.mapping != SliceMapping::Parallel)
                     continue;
-                EXPECT_GE(place.plane - deep, -1e-4f);
                 const float wide = caster.radius / stack.texel;
                 EXPECT_GE(std::min(place.x, place.y) - wide, 0.999f);
                 EXPECT_LE(std::max(place.x, place.y) + wide, float(size.texels) - 0.999f + 1e-3f);

@@ -1,0 +1,76 @@
+/// @file slice_forms.h
+/// Ways to store the optical depth between a light and every point of a cloud, texel by texel: planes, planes
+/// between the first and the last depth of the medium, and Fourier coefficients. For measurements; drawing
+/// uses planes.
+#pragma once
+
+#include "rendering/lights/slices/slice_stack.h"
+#include "rendering/reference/blob_medium/blob_medium.h"
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace fx::cli {
+
+/// `count` balls evenly in a ball of radius 1 around the origin.
+/// @param depth [1] mean optical depth through the middle, over all directions
+std::vector<render::MediumCaster> lightCloud(uint32_t count, double depth);
+
+/// Points within the balls, where light is looked up. [m]
+std::vector<glm::vec3> pointsWithin(std::span<const render::MediumCaster> casters, uint32_t count);
+
+render::BlobMedium mediumOf(std::span<const render::MediumCaster> casters);
+
+/// [1] by a shadow ray: exact, in double. @param stack whose light is meant
+double shadowRayDepth(const render::BlobMedium& medium, const render::SliceStack& stack,
+                      const glm::vec3& point);
+
+struct SliceForm
+{
+    enum class Kind
+    {
+        Planes,  ///< at the places of the stack
+        Deep,    ///< from the first to the last depth of the medium on the ray
+        Fourier, ///< of the density over the depth of the stack
+    };
+    Kind kind = Kind::Planes;
+    int values = 32; ///< stored a texel: planes; coefficients, odd
+};
+
+/// What a texel stores.
+struct SliceColumn
+{
+    float first = 0.0f; ///< [m] distance along the ray of the first plane
+    float step = 1.0f;  ///< [m] between planes; Fourier: length of the period
+    std::vector<float> values;
+};
+
+SliceColumn makeColumn(const SliceForm& form, const render::SliceStack& stack, const render::SliceRay& ray,
+                       std::span<const render::MediumCaster> casters);
+
+/// [1] @param distance [m] along the ray
+float columnDepth(const SliceForm& form, const SliceColumn& column, float distance);
+
+/// Columns where they are needed, interpolated between four texels as drawing does.
+class SliceField
+{
+public:
+    SliceField(const SliceForm& form, const render::SliceStack& stack,
+               std::span<const render::MediumCaster> casters)
+        : form_(form), stack_(stack), casters_(casters)
+    {}
+
+    double depthAt(const glm::vec3& point);
+
+private:
+    float columnAt(int x, int y, float distance);
+
+    SliceForm form_;
+    render::SliceStack stack_;
+    std::span<const render::MediumCaster> casters_;
+    std::unordered_map<uint64_t, SliceColumn> columns_;
+};
+
+} // namespace fx::cli
