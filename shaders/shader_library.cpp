@@ -85,4 +85,10 @@ std::optional<std::string> assemble(std::string_view name, std::string_view defi
     return out;
 }
 
+std::string_view text(std::string_view name)
+{
+    const base::EmbeddedText* const found = find(name);
+    return found ? found->text : std::string_view();
+}
+
 } // namespace fx::shaders

@@ -84,6 +84,7 @@ FxResult fxView_SetQualityCalibration(FxView* view, const char* text, size_t len
                  : fx::quality::builtInCalibration();
         if (!calibration)
             return calibration.status();
+        view->prepared.reset();
         view->quality.setCalibration(std::move(*calibration));
         return {};
     });

@@ -61,6 +61,31 @@ void checkSwitches(fx::api::Checks& check, const FxViewSettings& given)
                 "settings.lodImpostorPixels");
 }
 
+void checkSlices(fx::api::Checks& check, const FxViewSettings& given)
+{
+    check.flag(given.lightSlices, "settings.lightSlices");
+    check.range(given.lightSlicePlanes, 2u, 128u, "settings.lightSlicePlanes");
+    check.range(given.lightSliceTexels, 8u, 512u, "settings.lightSliceTexels");
+    check.that(given.lightSliceTexels % 8 == 0,
+               "settings.lightSliceTexels is not a multiple of 8: round it up");
+    check.range(given.castingLights, 0u, 4u, "settings.castingLights");
+    check.range(given.lightSamples, 1u, 4u, "settings.lightSamples");
+    check.flag(given.multipleScattering, "settings.multipleScattering");
+}
+
+void checkSunShadow(fx::api::Checks& check, const FxFrameDef& given)
+{
+    check.range(given.sunShadowConvention, 0u, uint32_t(FX_DEPTH_REVERSED), "frame.sunShadowConvention");
+    check.range(given.sunShadowEdge, 0.0f, 100.0f, "frame.sunShadowEdge");
+    check.range(given.reserved, 0u, 0u, "frame.reserved");
+    const float* m = given.sunShadowMatrix;
+    check.that(fx::base::allFinite(m, 16), "frame.sunShadowMatrix is not finite");
+    check.that(
+        m[3] == 0.0f && m[7] == 0.0f && m[11] == 0.0f && m[15] == 1.0f,
+        "frame.sunShadowMatrix is not affine: its elements 3, 7, 11 and 15 must be 0, 0, 0 and 1, as of "
+        "parallel light");
+}
+
 void checkTarget(fx::api::Checks& check, const FxFrameDef& given)
 {
     check.flag(given.resetHistory, "frame.resetHistory");
@@ -83,6 +108,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     checkLight(check, given);
     checkDazzle(check, given);
     checkSwitches(check, given);
+    checkSlices(check, given);
     if (!check.status())
         return check.status();
 
@@ -106,6 +132,12 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     settings.fragmentBudget = given.fragmentBudget;
     settings.lod.bias = given.lodBias;
     settings.lod.impostorPixels = given.lodImpostorPixels;
+    render::SliceSettings& slices = settings.slices;
+    slices.enabled = given.lightSlices != 0;
+    slices.resolution = {int(given.lightSliceTexels), int(given.lightSlicePlanes)};
+    slices.castingPoints = int(given.castingLights);
+    slices.samples = int(given.lightSamples);
+    slices.multiple = given.multipleScattering != 0;
     outSettings = settings;
     return {};
 }
@@ -131,6 +163,7 @@ fx::base::Status fx::api::convertFrame(const FxFrameDef& given, render::FrameReq
     check.noFault(viewFault(given.view), "frame.view");
     check.noFault(projectionFault(given.projection), "frame.projection");
     checkTarget(check, given);
+    checkSunShadow(check, given);
     check.noFault(frameProjectionFault(given.projection, given.depthConvention == FX_DEPTH_REVERSED),
                   "frame.projection");
     if (!check.status())
@@ -150,6 +183,8 @@ fx::base::Status fx::api::convertFrame(const FxFrameDef& given, render::FrameReq
     targets.framebuffer = given.framebuffer;
     targets.width = given.width;
     targets.height = given.height;
+    outRequest.sunShadow = {given.sunShadowTexture, render::DepthConvention(given.sunShadowConvention),
+                            glm::make_mat4(given.sunShadowMatrix), given.sunShadowEdge};
     outRequest.deltaTime = given.deltaTime;
     outRequest.resetHistory = given.resetHistory != 0;
     return {};

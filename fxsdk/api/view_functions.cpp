@@ -14,21 +14,6 @@ namespace {
 using fx::base::Code;
 using fx::base::Status;
 
-/// Holds on to what a frame shows while it is drawn.
-class ShownSnapshots
-{
-public:
-    explicit ShownSnapshots(fx::scene::Scene& scene) : scene_(scene), shown_(scene.acquire()) {}
-    ~ShownSnapshots() { scene_.release(shown_.snapshots); }
-    ShownSnapshots(const ShownSnapshots&) = delete;
-    ShownSnapshots& operator=(const ShownSnapshots&) = delete;
-    const fx::scene::Presentation* operator->() const { return &shown_; }
-
-private:
-    fx::scene::Scene& scene_;
-    fx::scene::Presentation shown_;
-};
-
 Status checkCreate(const FxContext* context, const FxScene* scene, FxView** outView)
 {
     fx::api::Checks check;
@@ -58,18 +43,14 @@ Status readSettings(const FxViewSettings* given, fx::render::ViewSettings& outSe
     return {};
 }
 
-/// Settings of one frame by the budget, and the host's again afterwards.
-class FrameQuality
+/// Lets go of what a frame shows when it has been drawn, or has failed.
+class FrameEnd
 {
 public:
-    FrameQuality(FxView& view, const FxFrameDef& frame) : view_(view)
-    {
-        view_.quality.begin(view_.renderer, frame.deltaTime,
-                            frame.holdQuality != 0 || view_.scene->catchingUp.load());
-    }
-    ~FrameQuality() { view_.quality.end(view_.renderer); }
-    FrameQuality(const FrameQuality&) = delete;
-    FrameQuality& operator=(const FrameQuality&) = delete;
+    explicit FrameEnd(FxView& view) : view_(view) {}
+    ~FrameEnd() { view_.prepared.reset(); }
+    FrameEnd(const FrameEnd&) = delete;
+    FrameEnd& operator=(const FrameEnd&) = delete;
 
 private:
     FxView& view_;
@@ -115,7 +96,7 @@ FxViewStatistics gatherStatistics(const FxView& view)
 /// Whether a frame draws nothing and needs no look at its camera. Every frame of a scene at rest comes here.
 bool sleepsThrough(const FxView& view, const FxFrameDef* frame)
 {
-    return view.sleeps && frame && view.scene->scene.showsNothing() &&
+    return view.sleeps && !view.prepared && frame && view.scene->scene.showsNothing() &&
            frame->structSize == sizeof view.sleptFrame &&
            std::memcmp(frame, &view.sleptFrame, sizeof view.sleptFrame) == 0;
 }
@@ -128,7 +109,8 @@ Status renderFrame(FxView& view, const FxFrameDef* frame)
     fx::render::FrameRequest request;
     if (Status status = fx::api::convertFrame(known, request); !status)
         return status;
-    if (view.sleeps && !request.targets.useFramebuffer && view.scene->scene.showsNothing()) {
+    if (!view.prepared && view.sleeps && !request.targets.useFramebuffer && view.scene->scene.showsNothing())
+    {
         // only the camera is another; into a framebuffer the picture has to be carried over
         view.sleptFrame = known;
         Status status = fx::render::ViewRenderer::check(request);
@@ -136,18 +118,20 @@ Status renderFrame(FxView& view, const FxFrameDef* frame)
         return status;
     }
     const uint64_t before = view.context->memory.allocationCount();
-    const ShownSnapshots shown(view.scene->scene);
-    request.interpolation = shown->interpolation;
-    request.time = shown->time;
+    const FrameEnd end(view);
+    if (!view.prepared || !view.prepared->isSameAs(known))
+        fx::api::showFrame(view, known);
+    const fx::scene::Presentation& shown = view.prepared->shown();
+    request.interpolation = shown.interpolation;
+    request.time = shown.time;
     const bool marks = view.renderer.settings().overlay;
     if (marks) {
         view.scene->scene.copyMarks(view.marks);
         fx::api::makeOverlay(view.marks, request.camera.origin, view.overlay);
         request.overlay = view.overlay;
     }
-    const FrameQuality quality(view, known);
-    Status status = view.renderer.render(shown->snapshots, request);
-    view.allocations = view.context->memory.allocationCount() - before;
+    Status status = view.renderer.render(shown.snapshots, request);
+    view.allocations = view.context->memory.allocationCount() - before + view.prepared->allocations;
     view.sleeps = status.ok() && !marks && view.renderer.isAsleep() && !view.quality.isControlled();
     view.sleptFrame = known;
     return status;

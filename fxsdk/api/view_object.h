@@ -4,11 +4,13 @@
 
 #include "fxsdk/api/context.h"
 #include "fxsdk/api/scene_object.h"
+#include "fxsdk/api/shown_frame.h"
 #include "fxsdk/fx_view.h"
 #include "fxsdk/quality/view_quality.h"
 #include "rendering/view/view_renderer.h"
 
 #include <memory_resource>
+#include <optional>
 #include <vector>
 
 struct FxView
@@ -29,12 +31,15 @@ struct FxView
     FxView(const FxView&) = delete;
     FxView& operator=(const FxView&) = delete;
 
-    /// The scene leaves marks while a view shows them.
+    /// The scene leaves marks while a view shows them. The host's lights stay.
     void setSettings(const fx::render::ViewSettings& settings)
     {
+        prepared.reset();
         if (settings.overlay != renderer.settings().overlay)
             scene->scene.wantMarks(settings.overlay);
+        const fx::render::HostLights lights = renderer.settings().hostLights;
         renderer.settings() = settings;
+        renderer.settings().hostLights = lights;
         sleeps = false;
     }
 
@@ -47,6 +52,8 @@ struct FxView
     uint64_t allocations = 0; ///< during the last frame
     bool sleeps = false; ///< the last frame drew nothing, and neither does the next while the scene is empty
     FxFrameDef sleptFrame = fxDefaultFrameDef(); ///< known to be valid; only while the view sleeps
+    glm::dvec3 origin{0.0}; ///< [m] FxFrameDef::origin of the frame that was prepared or rendered last
+    std::optional<fx::api::ShownFrame> prepared; ///< by fxView_PrepareLights(), until it is rendered
 };
 
 namespace fx::api {
@@ -63,6 +70,15 @@ void destroyView(FxView* view);
 base::Status convertSettings(const FxViewSettings& given, render::ViewSettings& outSettings);
 base::Status convertBudget(const FxViewSettings& given, quality::BudgetOptions& outOptions);
 base::Status convertFrame(const FxFrameDef& given, render::FrameRequest& outRequest);
+
+/// Shows the present moment with the settings that the budget allows.
+inline ShownFrame& showFrame(FxView& view, const FxFrameDef& frame)
+{
+    view.prepared.reset();
+    view.origin = {frame.origin[0], frame.origin[1], frame.origin[2]};
+    return view.prepared.emplace(view.scene->scene, view.quality, view.renderer, frame,
+                                 frame.holdQuality != 0 || view.scene->catchingUp.load());
+}
 
 /// Runs `body` as a call inside the view, if the thread rules allow it. One at a time in a context, as in GL.
 template <class F>

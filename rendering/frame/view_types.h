@@ -158,6 +158,16 @@ struct ViewSettings
     uint64_t fragmentBudget = 0; ///< estimated fragments a frame above which they are drawn smaller; 0: never
 };
 
+/// The host's shadow map of the sun: depth of its opaque surfaces as the sun sees them.
+struct HostShadowMap
+{
+    uint32_t texture = 0; ///< GL name of a 2-D depth texture; 0: the sun reaches all media
+    DepthConvention depth = DepthConvention::Standard;
+    /// World minus CameraView::origin [m] to texture coordinates and stored depth, each 0..1; affine.
+    glm::mat4 fromWorld{1.0f};
+    float edge = 0.1f; ///< [m] radius of the soft edge
+};
+
 /// GL names of the host's targets for one frame; 0 means absent.
 struct HostTargets
 {
@@ -183,6 +193,7 @@ struct FrameRequest
 {
     CameraView camera;
     HostTargets targets;
+    HostShadowMap sunShadow;
     double deltaTime = 0.0;                ///< [s] since this view's last frame, for adaptation only
     double interpolation = 1.0;            ///< [0, 1] between the older and the newer snapshot
     double time = 0.0;                     ///< [s] scene time, drives moving noise

@@ -70,6 +70,12 @@ base::Status HostTargetCheck::check(const FrameRequest& request)
         if (base::Status status = checkDepth(targets, drawn); !status)
             return status;
     }
+    HostTexture map;
+    if (request.sunShadow.texture != 0)
+        if (base::Status status =
+                textures_.check(request.sunShadow.texture, HostUse::ReadDepth, "frame.sunShadowTexture", map);
+            !status)
+            return status;
     return checkContext(request.camera);
 }
 

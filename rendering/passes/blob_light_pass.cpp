@@ -24,12 +24,17 @@ BlobLightPass::Outputs BlobLightPass::addTo(FrameGraph& graph, const Inputs& in)
         const Uniforms uniforms{{int(in.count), 0, 0, 0},
                                 glm::vec4(glm::vec3(in.view->forward), in.view->rayOrigin.w)};
         return [in, uniforms, blobLights = out.blobLights](Backend& backend) {
-            const TextureBinding planes = in.lights.textureBinding();
+            TextureBinding textures[2];
+            size_t textureCount = 0;
+            if (in.lights.planes.valid())
+                textures[textureCount++] = in.lights.textureBinding();
+            if (in.lights.hostShadow.valid())
+                textures[textureCount++] = in.lights.hostShadowBinding();
             const BufferBinding buffers[] = {
                 {0, in.blobs}, in.lights.bufferBinding(), {kBlobLightBinding, blobLights}};
             DispatchCall call;
             call.program = &kBlobLightProgram;
-            call.textures = {&planes, in.lights.planes.valid() ? 1u : 0u};
+            call.textures = {textures, textureCount};
             call.buffers = buffers;
             call.uniforms = asUniforms(uniforms);
             call.groups[0] = (in.count + 63) / 64;

@@ -29,17 +29,21 @@ struct LightListBlock
     glm::ivec4 counts;
     glm::vec4 sky;
     glm::vec4 ground;
+    glm::vec4 hostShadow[3];
+    glm::vec4 hostShadowEdge;
     SliceLightBlock lights[kMostLightEntries];
 };
-static_assert(sizeof(LightListBlock) == (3 + kMostLightEntries * 7) * 16);
+static_assert(sizeof(LightListBlock) == (7 + kMostLightEntries * 7) * 16);
 
 constexpr uint32_t kLightBlockBinding = 1; ///< uniform binding
 constexpr uint32_t kLightSliceUnit = 7;    ///< texture unit of the planes
+constexpr uint32_t kHostShadowUnit = 6;    ///< texture unit of the host's shadow map of the sun
 
 struct LightBindings
 {
-    ResourceId lights = {}; ///< buffer with a LightListBlock; invalid: nothing is lit
-    ResourceId planes = {}; ///< RG32F optical depths; invalid: media cast no shadow
+    ResourceId lights = {};     ///< buffer with a LightListBlock; invalid: nothing is lit
+    ResourceId planes = {};     ///< RG32F optical depths; invalid: media cast no shadow
+    ResourceId hostShadow = {}; ///< depth; invalid: the host's surfaces cast no shadow on media
 
     void read(FrameGraph::Builder& builder) const
     {
@@ -47,12 +51,15 @@ struct LightBindings
             builder.read(lights);
         if (planes.valid())
             builder.read(planes);
+        if (hostShadow.valid())
+            builder.read(hostShadow);
     }
     BufferBinding bufferBinding() const
     {
         return {kLightBlockBinding, lights, 0, sizeof(LightListBlock), true};
     }
     TextureBinding textureBinding() const { return {kLightSliceUnit, planes, Sampling::Linear}; }
+    TextureBinding hostShadowBinding() const { return {kHostShadowUnit, hostShadow}; }
 };
 
 } // namespace fx::render

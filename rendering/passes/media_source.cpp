@@ -7,7 +7,7 @@ void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& i
 {
     ViewBlock view = *target.view;
     view.pass.y = float(batch.first); // exact up to 2^24
-    TextureBinding textures[3] = {{0, target.distance}};
+    TextureBinding textures[4] = {{0, target.distance}};
     BufferBinding buffers[3] = {{0, inputs.instances}};
     size_t textureCount = 1, bufferCount = 1;
     if (inputs.picture.texture.valid())
@@ -16,6 +16,8 @@ void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& i
         buffers[bufferCount++] = inputs.lights->bufferBinding();
     if (inputs.lights && inputs.lights->planes.valid())
         textures[textureCount++] = inputs.lights->textureBinding();
+    if (inputs.lights && inputs.lights->hostShadow.valid())
+        textures[textureCount++] = inputs.lights->hostShadowBinding();
     if (inputs.blobLights.valid())
         buffers[bufferCount++] = {kBlobLightBinding, inputs.blobLights};
     DrawCall call;

@@ -53,6 +53,7 @@ void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uin
         {0, target.distance},
         {1, batch.textureId, batch.repeats ? Sampling::TrilinearRepeat : Sampling::Trilinear},
         {2, batch.motionId, Sampling::Trilinear},
+        {},
         {}};
     size_t textureCount = 3, bufferCount = 4;
     const BufferPart* parts[] = {&batch.newer, &batch.older, &batch.order, &batch.mesh};
@@ -67,6 +68,8 @@ void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uin
         block.shine.y = 0.0f; // nothing is lit
     if (target.lights.planes.valid())
         textures[textureCount++] = target.lights.textureBinding();
+    if (target.lights.hostShadow.valid())
+        textures[textureCount++] = target.lights.hostShadowBinding();
     DrawCall call;
     call.program = &particleProgram(batch.shape, batch.isSolid, target.layers);
     call.targets = target.targets;

@@ -20,8 +20,8 @@ namespace fx::render {
 
 namespace {
 
-constexpr size_t kMostLights = 8;
-constexpr int kShadowSize = 2048; // [pixel]
+constexpr int kShadowSize = 2048;    // [pixel]
+constexpr float kShadowBias = 3e-4f; // of the depth of the map
 
 constexpr ProgramDesc kMeshProgram{"stage mesh", "stage/stage_mesh.vert.glsl", "stage/stage_mesh.frag.glsl",
                                    nullptr, nullptr};
@@ -29,6 +29,12 @@ constexpr ProgramDesc kShadowProgram{"stage shadow", "stage/stage_shadow.vert.gl
                                      "stage/stage_shadow.frag.glsl", nullptr, nullptr};
 constexpr ProgramDesc kBackgroundProgram{"stage background", "shared/fullscreen.vert.glsl",
                                          "stage/stage_background.frag.glsl", nullptr, nullptr};
+
+/// Layout of StageLight in shaders/stage/stage_block.glsl.
+struct StageLightBlock
+{
+    glm::vec4 position, intensity, cone, traits;
+};
 
 /// Layout of StageBlock in shaders/stage/stage_block.glsl.
 struct StageBlock
@@ -38,10 +44,20 @@ struct StageBlock
     glm::vec4 rayDirection, rayDirectionX, rayDirectionY;
     glm::vec4 sunDirection, sunLight, skyLight;
     glm::vec4 meshOffset, background, horizon;
-    std::array<glm::vec4, kMostLights> lightPosition;
-    std::array<glm::vec4, kMostLights> lightIntensity;
+    std::array<StageLightBlock, kMostStageLights> lights;
+    std::array<MediaShadowBlock, kMostStageShadows> mediaShadows;
 };
-static_assert(sizeof(StageBlock) == 128 + 9 * 16 + 2 * 16 * kMostLights);
+static_assert(sizeof(StageBlock) == 128 + 9 * 16 + sizeof(StageLightBlock) * kMostStageLights +
+                                        sizeof(MediaShadowBlock) * kMostStageShadows);
+
+/// Cone of a spot, as in shaders/shared/light_slices.glsl.
+glm::vec4 coneOf(const HostLight& light)
+{
+    if (light.cosOuter <= -1.0f)
+        return {0.0f, 0.0f, 0.0f, 1.0f};
+    const float scale = 1.0f / std::max(light.cosInner - light.cosOuter, 1e-4f);
+    return {light.axis * scale, -light.cosOuter * scale};
+}
 
 struct BoundingBall
 {
@@ -77,10 +93,13 @@ struct StageRenderer::Impl
 
     base::Status prepareTargets(int width, int height);
     base::Status prepareShadow();
-    StageBlock makeBlock(const CameraView& camera, const Lighting& lighting,
-                         std::span<const EffectLight> lights, float exposure, int width, int height) const;
+    StageBlock makeBlock(const CameraView& camera, const StageLighting& lit, float exposure, int width,
+                         int height) const;
+    void setLights(const CameraView& camera, const StageLighting& lit, float exposure,
+                   StageBlock& ioBlock) const;
     void addShadowPass(ResourceId meshBuffer, const StageBlock& block);
-    void addPicturePass(ResourceId meshBuffer, const StageBlock& block, DepthConvention depth);
+    void addPicturePass(ResourceId meshBuffer, const StageBlock& block, DepthConvention depth,
+                        uint32_t mediaShadows);
 
     GlDevice* device;
     FrameGraph graph;
@@ -95,6 +114,16 @@ struct StageRenderer::Impl
     ResourceId shadowMap;            ///< in the graph being built
 };
 
+StageLight effectStageLight(const EffectLight& light)
+{
+    StageLight result;
+    result.light.position = light.position;
+    result.light.intensity = light.intensity;
+    result.light.radius = light.radius;
+    result.wrap = 0.2f;
+    return result;
+}
+
 StageRenderer::StageRenderer(GlDevice* device) : impl_(std::make_unique<Impl>(device)) {}
 StageRenderer::~StageRenderer() = default;
 uint32_t StageRenderer::colorTexture() const
@@ -104,6 +133,21 @@ uint32_t StageRenderer::colorTexture() const
 uint32_t StageRenderer::depthTexture() const
 {
     return impl_->depth.name();
+}
+
+HostShadowMap StageRenderer::sunShadow(const glm::dvec3& origin) const
+{
+    const Impl& s = *impl_;
+    HostShadowMap map;
+    if (s.vertices == 0 || s.shadowDirection == glm::vec3(0.0f))
+        return map;
+    map.texture = s.shadowDepth.name();
+    const glm::mat4 half = glm::translate(glm::mat4(1.0f), glm::vec3(0.5f, 0.5f, 0.5f - kShadowBias)) *
+                           glm::scale(glm::mat4(1.0f), glm::vec3(0.5f));
+    map.fromWorld = half * sunClip(s.ball, s.shadowDirection) *
+                    glm::translate(glm::mat4(1.0f), glm::vec3(origin - s.meshOrigin));
+    map.edge = std::max(0.05f, 2.0f * (2.0f * s.ball.radius / float(kShadowSize)));
+    return map;
 }
 
 base::Status StageRenderer::setMesh(const StageMesh& mesh)
@@ -185,10 +229,10 @@ base::Status StageRenderer::Impl::prepareShadow()
     return {};
 }
 
-StageBlock StageRenderer::Impl::makeBlock(const CameraView& camera, const Lighting& lighting,
-                                          std::span<const EffectLight> lights, float exposure, int width,
-                                          int height) const
+StageBlock StageRenderer::Impl::makeBlock(const CameraView& camera, const StageLighting& lit, float exposure,
+                                          int width, int height) const
 {
+    const Lighting& lighting = lit.lighting;
     const ViewBlock view = makeViewBlock(camera, width, height);
     StageBlock block{};
     block.clipFromWorld = camera.projection * camera.view;
@@ -197,17 +241,35 @@ StageBlock StageRenderer::Impl::makeBlock(const CameraView& camera, const Lighti
     block.rayDirectionX = view.rayDirectionX;
     block.rayDirectionY = view.rayDirectionY;
     block.sunDirection = {lighting.sunDirection, 1.0f / float(kShadowSize)};
-    block.sunLight = {lighting.sunIlluminance * exposure, float(std::min(lights.size(), kMostLights))};
+    block.sunLight = {lighting.sunIlluminance * exposure,
+                      float(std::min(lit.lights.size(), kMostStageLights))};
     block.skyLight = {lighting.skyLuminance * exposure, lighting.groundAlbedo};
     const float kind = picture.name() == 0 ? 0.0f : (background.panorama ? 2.0f : 1.0f);
     block.meshOffset = {glm::vec3(meshOrigin - camera.origin), kind};
     block.background = {background.luminance * exposure, exposure};
     block.horizon = {background.horizon * exposure, 0.0f};
-    for (size_t i = 0; i < std::min(lights.size(), kMostLights); ++i) {
-        block.lightPosition[i] = {glm::vec3(lights[i].position - camera.origin), lights[i].radius};
-        block.lightIntensity[i] = {lights[i].intensity * exposure, 0.0f};
-    }
+    setLights(camera, lit, exposure, block);
     return block;
+}
+
+void StageRenderer::Impl::setLights(const CameraView& camera, const StageLighting& lit, float exposure,
+                                    StageBlock& ioBlock) const
+{
+    if (lit.shadowTexture != 0)
+        ioBlock.mediaShadows[0] = lit.sunShadow;
+    size_t shadows = 1;
+    for (size_t i = 0; i < std::min(lit.lights.size(), kMostStageLights); ++i) {
+        const StageLight& given = lit.lights[i];
+        float index = -1.0f;
+        if (given.shadow && lit.shadowTexture != 0 && shadows < kMostStageShadows) {
+            index = float(shadows);
+            ioBlock.mediaShadows[shadows++] = *given.shadow;
+        }
+        ioBlock.lights[i] = {{glm::vec3(given.light.position - camera.origin), given.light.radius},
+                             {given.light.intensity * exposure, 0.0f},
+                             coneOf(given.light),
+                             {given.wrap, index, 0.0f, 0.0f}};
+    }
 }
 
 void StageRenderer::Impl::addShadowPass(ResourceId meshBuffer, const StageBlock& block)
@@ -237,7 +299,7 @@ void StageRenderer::Impl::addShadowPass(ResourceId meshBuffer, const StageBlock&
 }
 
 void StageRenderer::Impl::addPicturePass(ResourceId meshBuffer, const StageBlock& block,
-                                         DepthConvention convention)
+                                         DepthConvention convention, uint32_t mediaShadows)
 {
     const int width = color.width();
     const int height = color.height();
@@ -248,6 +310,9 @@ void StageRenderer::Impl::addPicturePass(ResourceId meshBuffer, const StageBlock
     if (picture.name() != 0)
         sky = graph.importTexture({"background", picture.width(), picture.height(), Format::RGBA32F},
                                   picture.name());
+    ResourceId planes;
+    if (mediaShadows != 0)
+        planes = graph.importTexture({"media shadows", 1, 1, Format::R32F}, mediaShadows);
     const bool reversed = convention == DepthConvention::Reversed;
     const float farthest = reversed ? 0.0f : 1.0f;
     device->gl.ClearTexImage(depth.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &farthest);
@@ -258,6 +323,8 @@ void StageRenderer::Impl::addPicturePass(ResourceId meshBuffer, const StageBlock
         if (vertices > 0) {
             builder.read(meshBuffer);
             builder.read(shadowMap);
+            if (planes.valid())
+                builder.read(planes);
         }
         colorTarget = builder.write(colorTarget);
         depthTarget = builder.write(depthTarget);
@@ -271,10 +338,10 @@ void StageRenderer::Impl::addPicturePass(ResourceId meshBuffer, const StageBlock
             gpu.draw(call);
             if (count == 0)
                 return;
-            const TextureBinding shadowBinding[] = {{0, shadowTexture}};
+            const TextureBinding shadowBindings[] = {{0, shadowTexture}, {1, planes, Sampling::Linear}};
             const BufferBinding buffers[] = {{0, meshBuffer}};
             call.program = &kMeshProgram;
-            call.textures = shadowBinding;
+            call.textures = {shadowBindings, planes.valid() ? size_t(2) : size_t(1)};
             call.buffers = buffers;
             call.vertices = count;
             call.depthTarget = depthTarget;
@@ -290,13 +357,26 @@ base::Status StageRenderer::render(const CameraView& camera, const Lighting& lig
                                    std::span<const EffectLight> lights, float exposureEv100, int width,
                                    int height)
 {
+    std::array<StageLight, kMostStageLights> given;
+    const size_t count = std::min(lights.size(), given.size());
+    for (size_t i = 0; i < count; ++i)
+        given[i] = effectStageLight(lights[i]);
+    StageLighting lit;
+    lit.lighting = lighting;
+    lit.lights = std::span(given).first(count);
+    return render(camera, lit, exposureEv100, width, height);
+}
+
+base::Status StageRenderer::render(const CameraView& camera, const StageLighting& lit, float exposureEv100,
+                                   int width, int height)
+{
+    const Lighting& lighting = lit.lighting;
     Impl& s = *impl_;
     if (base::Status status = s.prepareTargets(width, height); !status)
         return status;
     if (base::Status status = s.prepareShadow(); !status)
         return status;
-    const StageBlock block =
-        s.makeBlock(camera, lighting, lights, exposureFromEv100(exposureEv100), width, height);
+    const StageBlock block = s.makeBlock(camera, lit, exposureFromEv100(exposureEv100), width, height);
 
     s.graph.begin();
     ResourceId meshBuffer;
@@ -308,7 +388,7 @@ base::Status StageRenderer::render(const CameraView& camera, const Lighting& lig
             s.addShadowPass(meshBuffer, block);
         s.shadowDirection = lighting.sunDirection;
     }
-    s.addPicturePass(meshBuffer, block, camera.depth);
+    s.addPicturePass(meshBuffer, block, camera.depth, lit.shadowTexture);
     s.graph.compile();
 
     GlStateGuard guard(*s.device);

@@ -8,11 +8,13 @@
 #include "foundation/result/status.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
+#include "rendering/lights/slices/media_shadow.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,7 +42,29 @@ struct StageBackground
     bool panorama = false;        ///< true: equirectangular around the eye; false: fills the view
 };
 
-/// Diffuse surfaces under a sun with a shadow map, a sky and up to eight effect lights.
+/// A light besides sun and sky.
+struct StageLight
+{
+    HostLight light;
+    float wrap = 0.0f; ///< [1] 0..1 share of it that lights what faces aside: a fireball is wide
+    std::optional<MediaShadowBlock> shadow = {}; ///< that media cast in it; none: they cast none
+};
+
+StageLight effectStageLight(const EffectLight& light);
+
+/// How the picture of a stage is lit.
+struct StageLighting
+{
+    Lighting lighting;
+    std::span<const StageLight> lights{}; ///< up to kMostStageLights, of which kMostStageShadows have shadows
+    MediaShadowBlock sunShadow;           ///< that media cast in the sun; without planes they cast none
+    uint32_t shadowTexture = 0; ///< GL name of the planes of all shadows, filtered linearly; 0: none
+};
+
+constexpr size_t kMostStageLights = 16;
+constexpr size_t kMostStageShadows = 5; ///< that of the sun is one
+
+/// Diffuse surfaces under a sun with a shadow map, a sky and lights, in the shadow of media.
 class StageRenderer
 {
 public:
@@ -54,6 +78,11 @@ public:
     /// 32-bit float depth texture.
     base::Status render(const CameraView& camera, const Lighting& lighting,
                         std::span<const EffectLight> lights, float exposureEv100, int width, int height);
+    base::Status render(const CameraView& camera, const StageLighting& lighting, float exposureEv100,
+                        int width, int height);
+
+    /// The shadow map of the last picture, for media. @param origin [m] CameraView::origin of their frame
+    HostShadowMap sunShadow(const glm::dvec3& origin) const;
 
     uint32_t colorTexture() const;
     uint32_t depthTexture() const;

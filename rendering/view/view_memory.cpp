@@ -9,9 +9,10 @@ namespace fx::render {
 
 ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
                          DrawTechniques list)
-    : device(d), graph(memory), backend(*d, memory), techniques(list), parts(memory), lod(memory),
-      lights(d, memory), casters(memory), batcher(memory), streams(memory), solids(memory), revisions(memory),
-      targetCheck(*d), timer(*d, render::passGroups(list))
+    : device(d), graph(memory), backend(*d, memory), lightGraph(memory), lightBackend(*d, memory),
+      techniques(list), parts(memory), lod(memory), lights(d, memory), casters(memory), batcher(memory),
+      streams(memory), solids(memory), revisions(memory), passNames(memory), targetCheck(*d),
+      timer(*d, render::passGroups(list))
 {
     const TechniqueSetup setup{d, schema, memory, list};
     for (size_t i = 0; i < list.size(); ++i) {
@@ -27,7 +28,7 @@ ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::p
 
 uint64_t ViewRenderer::Impl::bytes() const
 {
-    uint64_t sum = backend.pooledBytes() + lights.bytes();
+    uint64_t sum = backend.pooledBytes() + lightBackend.pooledBytes() + lights.bytes();
     for (const auto& part : parts)
         sum += part->bytes();
     return sum;
@@ -37,10 +38,15 @@ uint64_t ViewRenderer::Impl::bytes() const
 FrameStatistics ViewRenderer::Impl::rest()
 {
     outputs = {};
+    dropPrepared();
+    hasLights = false;
+    passNames.clear();
     FrameStatistics statistics;
     const uint64_t before = device->callCount();
-    if (++idleFrames >= kIdleFrames && backend.pooledBytes() > 0)
-        backend.releasePool();
+    ++idleFrames;
+    for (GlBackend* one : {&backend, &lightBackend})
+        if (idleFrames >= kIdleFrames && one->pooledBytes() > 0)
+            one->releasePool();
     if (idleFrames == kIdleFrames)
         lights.release();
     for (const auto& part : parts)
@@ -65,7 +71,7 @@ FrameStatistics ViewRenderer::Impl::count(int divisor)
         part->count(statistics);
     std::copy(lod.counts().begin(), lod.counts().end(), statistics.lodGroups);
     statistics.keptLists = keptLists;
-    statistics.passes = outputs.anyPass ? uint32_t(graph.executedPasses().size()) : 0;
+    statistics.passes = uint32_t(passNames.size());
     statistics.drawCalls = outputs.anyPass ? backend.drawCalls() : 0;
     statistics.textureBytes = bytes();
     if (outputs.anyPass) {
@@ -75,6 +81,20 @@ FrameStatistics ViewRenderer::Impl::count(int divisor)
     statistics.estimatedFragments = fragments[layerDivisorIndex(divisor)];
     statistics.layerDivisor = divisor;
     return statistics;
+}
+
+/// Of the frame that was drawn, with those that had prepared it.
+void ViewRenderer::Impl::namePasses(bool wasPrepared)
+{
+    passNames.clear();
+    const auto add = [&](const FrameGraph& from) {
+        const auto names = from.executedPasses();
+        passNames.insert(passNames.end(), names.begin(), names.end());
+    };
+    if (wasPrepared)
+        add(lightGraph);
+    if (outputs.anyPass)
+        add(graph);
 }
 
 } // namespace fx::render

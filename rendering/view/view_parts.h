@@ -19,6 +19,16 @@
 
 namespace fx::render {
 
+/// A frame that has been gathered for its lights and is still to be drawn.
+struct PreparedFrame
+{
+    FrameKey key;
+    bool resetHistory;
+    bool isSettled; ///< the key may become that of the lists
+    uint64_t glCalls;
+    uint32_t programsCompiled;
+};
+
 struct ViewRenderer::Impl
 {
     Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
@@ -31,6 +41,14 @@ struct ViewRenderer::Impl
                         const ViewSettings& settings); ///< everything that is to be drawn
     base::Status gatherAnew(const base::SnapshotPair& snapshots, const RevisionPair& revisions,
                             const FrameRequest& request, const ViewSettings& settings);
+    base::Status begin(const base::SnapshotPair& snapshots, const FrameRequest& request,
+                       const ViewSettings& settings); ///< the parts, then gather()
+    base::Status fillLights(const ViewSettings& settings);
+    void dropPrepared(); ///< lists that were gathered and not drawn
+    /// Whether the lists are those of prepareLights() for this frame; then they are drawn as they are.
+    bool takePrepared(const base::SnapshotPair& snapshots, const FrameRequest& request,
+                      const ViewSettings& settings);
+    void namePasses(bool wasPrepared);
     SnapshotRowRevisions rowsOf(const base::FrameSnapshot* snapshot) const;
     base::Status draw(const FrameRequest& request, const ViewSettings& settings, int divisor);
     void forget(); ///< what this frame was to write
@@ -43,11 +61,15 @@ struct ViewRenderer::Impl
     GlDevice* device;
     FrameGraph graph;
     GlBackend backend;
+    FrameGraph lightGraph; ///< of prepareLights(); that of the last frame stays as it is
+    GlBackend lightBackend;
     DrawTechniques techniques;
     std::pmr::vector<std::unique_ptr<TechniqueView>> parts; ///< of techniques, in their order
     LevelOfDetail lod;
     ViewLights lights;
     std::pmr::vector<MediumCaster> casters;
+    std::array<EffectLight, kMostEffectLights> glows; ///< of the effects, brightest first
+    size_t glowCount = 0;
     DrawBatcher batcher;
     std::pmr::vector<DrawStream> streams;
     std::span<const DrawBatch> mediaBatches;
@@ -55,6 +77,9 @@ struct ViewRenderer::Impl
     SnapshotRevisions revisions;
     std::optional<FrameKey> key; ///< of the lists above and of what is on the GPU; nothing: not to be used
     bool keptLists = false;      ///< they were not made for this frame
+    std::optional<PreparedFrame> prepared;
+    bool hasLights = false;                       ///< `lights` are those of the last frame
+    std::pmr::vector<std::string_view> passNames; ///< that the last frame executed
     const base::AssetTable* assets = nullptr;
     FragmentCounts fragments{}; ///< of this frame
     LayerScaleControl layerScale;

@@ -127,8 +127,7 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
 {
     const CameraGeometry camera = cameraGeometry(request.camera);
     lod.begin(settings.lod, camera, request.targets.height, request.resetHistory);
-    std::array<EffectLight, kMostEffectLights> glows;
-    const size_t glowCount = snapshots.newer ? effectLights(*snapshots.newer, glows, techniques) : 0;
+    glowCount = snapshots.newer ? render::effectLights(*snapshots.newer, glows, techniques) : 0;
     const GatherInputs inputs{&snapshots,
                               now,
                               rowsOf(snapshots.newer),
@@ -243,14 +242,21 @@ base::Status ViewRenderer::Impl::draw(const FrameRequest& request, const ViewSet
     return status;
 }
 
+base::Status ViewRenderer::checkAll(const FrameRequest& request) const
+{
+    if (base::Status status = check(request); !status)
+        return status;
+    for (const DrawTechnique* technique : impl_->techniques)
+        if (base::Status status = technique->check ? technique->check(settings_) : base::Status(); !status)
+            return status;
+    return {};
+}
+
 base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const FrameRequest& asked)
 {
     Impl& s = *impl_;
-    if (base::Status status = check(asked); !status)
+    if (base::Status status = checkAll(asked); !status)
         return status;
-    for (const DrawTechnique* technique : s.techniques)
-        if (base::Status status = technique->check ? technique->check(settings_) : base::Status(); !status)
-            return status;
     asleep_ = false;
     if (s.leavesPictureAlone(snapshots, asked, settings_)) {
         statistics_ = s.rest();
@@ -260,13 +266,15 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     const uint64_t callsBefore = s.device->callCount();
     if (base::Status status = s.checkTargets(asked); !status)
         return status;
-    s.idleFrames = 0;
     const uint32_t compiledBefore = s.device->programsCompiled();
-    for (const auto& part : s.parts)
-        if (base::Status status = part->begin(settings_); !status)
+    const bool wasPrepared = s.takePrepared(snapshots, asked, settings_);
+    const uint64_t callsThen = wasPrepared ? s.prepared->glCalls : 0;
+    const uint32_t compiledThen = wasPrepared ? s.prepared->programsCompiled : 0;
+    s.prepared.reset();
+    if (!wasPrepared)
+        if (base::Status status = s.begin(snapshots, asked, settings_); !status)
             return status;
-    if (base::Status status = s.gather(snapshots, asked, settings_); !status)
-        return status;
+    s.lights.setSunShadow(asked.sunShadow, asked.camera.origin);
     s.timer.beginFrame(s.clock, s.tag);
     s.backend.setTimer(s.clock == TimingClock::Off ? nullptr : &s.timer);
     const int divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,
@@ -284,10 +292,14 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     if (!status) {
         s.outputs = {}; // nothing of this frame can be handed out
         s.key.reset();
+        s.hasLights = false;
     }
+    s.namePasses(wasPrepared);
     statistics_ = s.count(divisor);
-    statistics_.glCalls = s.device->callCount() - callsBefore;
-    statistics_.programsCompiled = s.device->programsCompiled() - compiledBefore;
+    statistics_.glCalls = s.device->callCount() - callsBefore + callsThen;
+    statistics_.programsCompiled = s.device->programsCompiled() - compiledBefore + compiledThen;
+    if (wasPrepared && !s.lightGraph.executedPasses().empty())
+        statistics_.drawCalls += s.lightBackend.drawCalls();
     if (status && settings_.countOverdraw)
         for (const auto& part : s.parts)
             part->readBack(s.backend, statistics_);
@@ -335,7 +347,7 @@ LayerTextures ViewRenderer::layers() const
 
 std::span<const std::string_view> ViewRenderer::executedPasses() const
 {
-    return impl_->outputs.anyPass ? impl_->graph.executedPasses() : std::span<const std::string_view>();
+    return impl_->passNames;
 }
 
 } // namespace fx::render

@@ -10,6 +10,8 @@
 #include "rendering/frame/screen_share.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/gl/gl_pass_timer.h"
+#include "rendering/lights/effect_lights.h"
+#include "rendering/lights/slices/media_shadow.h"
 #include "rendering/techniques/draw_techniques.h"
 
 #include <cstdint>
@@ -57,6 +59,20 @@ public:
     /// it was.
     base::Status render(const base::SnapshotPair& snapshots, const FrameRequest& request);
 
+    /// Gathers a frame and fills the planes of its lights, so that the host's surfaces can be darkened by
+    /// media before render() draws these. render() goes on from there when its frame is the same but for
+    /// targets and times; it does nothing twice. `snapshots` must stay until then, or until another call.
+    /// Targets may be absent. On failure GL is as it was.
+    base::Status prepareLights(const base::SnapshotPair& snapshots, const FrameRequest& request);
+
+    /// The shadow that media cast in a light of the frame that was prepared or drawn last. All light passes
+    /// where there is none.  @param origin [m] world position that places of lookups are relative to
+    MediaShadowBlock mediaShadow(LightKind kind, uint32_t index, const glm::dvec3& origin) const;
+    /// Planes of those shadows, filtered linearly; 0 where no light has any. Valid until the next frame.
+    uint32_t mediaShadowTexture() const;
+    /// Lights of the effects of that frame, brightest first.
+    std::span<const EffectLight> effectLights() const;
+
     /// Measures the next frames; Off is the default and costs nothing. With Gpu where GL has no clock nothing
     /// is measured.
     /// @param tag comes back with the times of a frame
@@ -88,6 +104,8 @@ public:
 
 private:
     struct Impl;
+    base::Status checkAll(const FrameRequest& request) const;
+
     ViewSettings settings_;
     FrameStatistics statistics_;
     ScreenShare covered_;

@@ -57,7 +57,7 @@ float sunTransmittance(BlobRay ray, float opticalDepth)
         }
         float passed = opacity < 1e-3 ? node : -log(1.0 - node * opacity) / opticalDepth; // [1] of the optical depth
         vec3 place = blobLit.xyz + (blobLit.w < 0.0 ? vec3(0.0) : pointOfBlob(ray, passed));
-        sum += weight * exp(-sunDepth(place).x);
+        sum += weight * exp(-sunDepth(place).x) * hostShadow(place);
     }
     return sum;
 }

@@ -1,6 +1,7 @@
 // The optical depth of all media between the lights of a view and a point.
 #include "shared/light_block.glsl"
-layout(binding = 7) uniform sampler2D lightSlices; // r optical depth up to a plane; g between it and the next plane
+layout(binding = 7) uniform sampler2D lightSlices;   // r optical depth up to a plane; g between it and the next plane
+layout(binding = 6) uniform sampler2D hostShadowMap; // depth of the host's surfaces as the sun sees them
 
 const int kSliceTileColumns = 8;
 const int kFinerPlanes = 19; // entries of the list with finer planes of the sun near the eye, and with the finest
@@ -86,6 +87,29 @@ vec2 sliceDepth(SliceLight light, vec3 p)
     return light.place == lights[0].place ? sunDepth(p) : parallelDepth(light, p);
 }
 
+// Share of the sun that the host's surfaces let through to p: 3 x 3 places within the soft edge, each between four texels.
+float hostShadow(vec3 p)
+{
+    if (hostShadowEdge.z == 0.0)
+        return 1.0;
+    vec3 place = vec3(dot(hostShadowRows[0].xyz, p) + hostShadowRows[0].w,
+                      dot(hostShadowRows[1].xyz, p) + hostShadowRows[1].w,
+                      dot(hostShadowRows[2].xyz, p) + hostShadowRows[2].w);
+    vec2 size = vec2(textureSize(hostShadowMap, 0));
+    float depth = hostShadowEdge.z * clamp(place.z, 0.0, 1.0); // behind the far plane nothing is known
+    float lit = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        vec2 uv = place.xy + hostShadowEdge.xy * vec2(i % 3 - 1, i / 3 - 1);
+        vec4 stored = textureGather(hostShadowMap, uv);
+        vec4 passes = vec4(greaterThanEqual(hostShadowEdge.z * stored, vec4(depth)));
+        vec2 between = fract(uv * size - 0.5);
+        float share = mix(mix(passes.w, passes.z, between.x), mix(passes.x, passes.y, between.x), between.y);
+        bool isOutside = any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)));
+        lit += isOutside ? 1.0 : share;
+    }
+    return lit / 9.0;
+}
+
 // Exposed illuminance of a light at a point before media, and the unit vector towards it.
 vec3 pointLight(SliceLight light, vec3 p, out vec3 towards)
 {
@@ -93,6 +117,7 @@ vec3 pointLight(SliceLight light, vec3 p, out vec3 towards)
     float l2 = dot(d, d);
     towards = l2 > 0.0 ? d * inversesqrt(l2) : vec3(0.0, 1.0, 0.0);
     float share = clamp(light.cone.w - dot(towards, light.cone.xyz), 0.0, 1.0);
+    share *= share * (3.0 - 2.0 * share);
     return light.color.rgb * (share / max(l2 + light.place.w * light.place.w, 1e-12));
 }
 
@@ -101,7 +126,7 @@ vec3 unshadowedLight(SliceLight light, vec3 p, out vec3 towards)
 {
     if (light.color.w < 0.5) {
         towards = light.place.xyz;
-        return light.color.rgb;
+        return light.color.rgb * hostShadow(p);
     }
     return pointLight(light, p, towards);
 }

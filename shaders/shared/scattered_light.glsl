@@ -15,12 +15,13 @@ vec3 scatteredAgain(vec3 albedo, float g, float cosine, vec2 depth)
 vec3 sunScatteredOnce(vec3 p, vec3 toEye, vec3 albedo, float g)
 {
     float cosine = -dot(lights[0].place.xyz, toEye); // 1: light goes straight on to the eye
-    return lights[0].color.rgb * albedo * (fxHenyeyGreenstein(cosine, g) * exp(-sunDepth(p).x));
+    return lights[0].color.rgb * albedo * (fxHenyeyGreenstein(cosine, g) * exp(-sunDepth(p).x) * hostShadow(p));
 }
 
 vec3 sunScatteredAgain(vec3 p, vec3 toEye, vec3 albedo, float g)
 {
-    return lights[0].color.rgb * scatteredAgain(albedo, g, -dot(lights[0].place.xyz, toEye), sunDepth(p));
+    float cosine = -dot(lights[0].place.xyz, toEye);
+    return lights[0].color.rgb * hostShadow(p) * scatteredAgain(albedo, g, cosine, sunDepth(p));
 }
 
 vec3 scatteredOfPoints(vec3 p, vec3 toEye, vec3 albedo, float g)

@@ -1,3 +1,13 @@
+#include "shared/media_shadow.glsl"
+
+struct StageLight
+{
+    vec4 position;  // xyz relative to the view's origin; w radius [m]
+    vec4 intensity; // rgb [cd, exposed]
+    vec4 cone;      // share of a spot: smooth step of dot(direction of the light, xyz) + w
+    vec4 traits;    // x share that lights what faces aside; y index of the shadow that media cast, -1: none
+};
+
 // Block of the stage's programs; layout asserted in rendering/stage/stage_renderer.cpp.
 layout(std140, binding = 0) uniform StageBlock
 {
@@ -12,6 +22,6 @@ layout(std140, binding = 0) uniform StageBlock
     vec4 meshOffset;      // xyz mesh origin relative to the view's origin; w background: 0 color, 1 picture, 2 panorama
     vec4 background;      // rgb overhead [exposed]; w exposure of the picture
     vec4 horizon;         // rgb at eye height [exposed]
-    vec4 lightPosition[8];  // xyz relative to the view's origin; w radius [m]
-    vec4 lightIntensity[8]; // rgb [cd, exposed]
+    StageLight stageLights[16];
+    FxMediaShadow mediaShadows[5]; // the first is that of the sun
 };

@@ -2,6 +2,7 @@
 
 // Diffuse surfaces under the sun with soft-edged shadows, the sky, and the light of the effects.
 layout(binding = 0) uniform sampler2D shadowMap;
+layout(binding = 1) uniform sampler2D mediaPlanes;
 
 in vec3 worldPosition;
 in vec3 worldNormal;
@@ -24,20 +25,30 @@ float sunVisibility(vec3 n, float cosine)
     return lit / 9.0;
 }
 
+vec3 stageLightAt(StageLight light, vec3 n)
+{
+    vec3 toLight = light.position.xyz - worldPosition;
+    float l2 = dot(toLight, toLight);
+    float d2 = l2 + light.position.w * light.position.w;
+    float facing = mix(dot(n, toLight) * inversesqrt(d2), 1.0, light.traits.x); // a fireball is wide: its light wraps
+    float share = clamp(light.cone.w - dot(toLight, light.cone.xyz) * inversesqrt(max(l2, 1e-12)), 0.0, 1.0);
+    vec3 arriving = light.intensity.rgb * (max(facing, 0.0) * share * share * (3.0 - 2.0 * share) / d2);
+    if (light.traits.y > 0.5 && arriving.r + arriving.g + arriving.b > 0.0)
+        arriving *= fxMediaTransmittance(mediaPlanes, mediaShadows[int(light.traits.y)], worldPosition);
+    return arriving;
+}
+
 void main()
 {
     vec3 n = normalize(worldNormal);
     float cosine = max(dot(n, sunDirection.xyz), 0.0);
     vec3 illuminance = vec3(0.0);
     if (cosine > 0.0)
-        illuminance += sunLight.rgb * cosine * sunVisibility(n, min(cosine, 1.0));
+        illuminance += sunLight.rgb * cosine * sunVisibility(n, min(cosine, 1.0)) *
+                       fxMediaTransmittance(mediaPlanes, mediaShadows[0], worldPosition);
     vec3 fromGround = skyLight.w * (sunLight.rgb * max(sunDirection.y, 0.0) * kInvPi + skyLight.rgb);
     illuminance += 3.14159265 * mix(fromGround, skyLight.rgb, 0.5 + 0.5 * n.y);
-    for (int i = 0; i < int(sunLight.w); ++i) {
-        vec3 toLight = lightPosition[i].xyz - worldPosition;
-        float d2 = dot(toLight, toLight) + lightPosition[i].w * lightPosition[i].w;
-        float facing = dot(n, toLight) * inversesqrt(d2);
-        illuminance += lightIntensity[i].rgb * max(facing * 0.8 + 0.2, 0.0) / d2; // a fireball is wide: its light wraps
-    }
+    for (int i = 0; i < int(sunLight.w); ++i)
+        illuminance += stageLightAt(stageLights[i], n);
     color = vec4(albedo * kInvPi * illuminance, 1.0);
 }

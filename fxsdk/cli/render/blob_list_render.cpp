@@ -4,12 +4,14 @@
 #include "fxsdk/cli/render/blob_list_renderer.h"
 #include "fxsdk/cli/render/camera_choice.h"
 #include "fxsdk/cli/render/frame_output.h"
+#include "fxsdk/cli/scene/view_settings.h"
 #include "fxsdk/cli/support/atomic_file.h"
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/cli/support/progress.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -25,6 +27,9 @@ render::ViewSettings settingsOf(const RenderArguments& arguments, OutputKind kin
     if (lights) {
         settings.lighting = lights->view.lighting;
         settings.exposureEv100 = lights->view.exposureEv100;
+        render::HostLights& host = settings.hostLights;
+        for (; host.count < std::min(lights->lights.size(), render::kMostHostLights); ++host.count)
+            host.lights[host.count] = toHostLight(lights->lights[host.count]);
     }
     applyArguments(arguments, kind, settings);
     return settings;

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <memory_resource>
 
@@ -18,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr size_t kMaxLights = 8;
+constexpr size_t kMostEffects = render::kMostStageLights - FX_MOST_LIGHTS; // whose light surfaces get
 
 double millisecondsSince(Clock::time_point start)
 {
@@ -82,7 +84,20 @@ base::Status FrameRenderer::start(const FrameRendererOptions& options)
     if (base::Status status = stage_->setBackground(file_.background); !status)
         return status;
     const FxViewSettings settings = toApi(options_.settings);
-    return toStatus(fxCreateView(effects_->context(), effects_->scene(), &settings, &view_));
+    if (base::Status status =
+            toStatus(fxCreateView(effects_->context(), effects_->scene(), &settings, &view_));
+        !status)
+        return status;
+    std::vector<FxLight> lights;
+    for (const render::SceneLight& light : shownLights())
+        lights.push_back(toApi(light));
+    return toStatus(fxView_SetLights(view_, lights.data(), uint32_t(lights.size())));
+}
+
+/// As many as a view takes.
+std::span<const render::SceneLight> FrameRenderer::shownLights() const
+{
+    return std::span(file_.lights).first(std::min(file_.lights.size(), size_t(FX_MOST_LIGHTS)));
 }
 
 /// Particles go to the GPU with the first picture, and come back when there was none for 240 steps: where
@@ -146,9 +161,14 @@ base::Status FrameRenderer::render(base::Ticks tick)
     return count();
 }
 
+/// Surfaces are lit by the lights of the effects, and media darken them.
 base::Status FrameRenderer::drawStage(const render::CameraView& camera)
 {
-    std::array<render::EffectLight, kMaxLights> lights;
+    FxFrameDef frame = frameOf(camera, 0.0);
+    frame.colorTexture = frame.depthTexture = 0; // the stage has none before its first picture
+    if (base::Status status = toStatus(fxView_PrepareLights(view_, &frame)); !status)
+        return status;
+    std::array<render::EffectLight, kMostEffects> lights;
     size_t count = 0;
     if (!staysOnGpu_) { // what the GPU computes sheds no light, and a snapshot would end that
         const auto snapshot = effects_->snapshot();
@@ -156,11 +176,52 @@ base::Status FrameRenderer::drawStage(const render::CameraView& camera)
             return snapshot.status();
         count = render::effectLights(**snapshot, lights);
     }
-    return stage_->render(camera, options_.settings.lighting, std::span(lights).first(count),
-                          options_.settings.exposureEv100, options_.width, options_.height);
+    std::array<render::StageLight, render::kMostStageLights> lit;
+    for (size_t i = 0; i < count; ++i)
+        lit[i] = render::effectStageLight(lights[i]);
+    const std::span<const render::SceneLight> shown = shownLights();
+    for (size_t i = 0; i < shown.size(); ++i)
+        lit[count + i].light = toHostLight(shown[i]);
+    render::StageLighting lighting;
+    lighting.lighting = options_.settings.lighting;
+    lighting.lights = std::span(lit).first(count + shown.size());
+    if (base::Status status = readShadows(std::span(lit).first(count + shown.size()), count, lighting);
+        !status)
+        return status;
+    return stage_->render(camera, lighting, options_.settings.exposureEv100, options_.width, options_.height);
 }
 
-base::Status FrameRenderer::drawEffects(const render::CameraView& camera, double passed)
+/// @param ioLights `effects` lights of effects, brightest first, as the view numbers them too; then the
+/// scene's
+base::Status FrameRenderer::readShadows(std::span<render::StageLight> ioLights, size_t effects,
+                                        render::StageLighting& io)
+{
+    const auto read = [&](uint32_t kind, uint32_t index, render::MediaShadowBlock& out) {
+        FxMediaShadow shadow = {};
+        shadow.structSize = sizeof shadow;
+        base::Status status = toStatus(fxView_GetMediaShadow(view_, kind, index, &shadow));
+        static_assert(sizeof shadow == 2 * sizeof(uint32_t) + sizeof out);
+        std::memcpy(static_cast<void*>(&out),
+                    reinterpret_cast<const char*>(&shadow) + offsetof(FxMediaShadow, right), sizeof out);
+        if (shadow.texture != 0)
+            io.shadowTexture = shadow.texture;
+        return status;
+    };
+    if (base::Status status = read(FX_LIGHT_SUN, 0, io.sunShadow); !status)
+        return status;
+    for (size_t i = 0; i < ioLights.size(); ++i) {
+        render::MediaShadowBlock shadow;
+        const bool isEffect = i < effects;
+        const auto kind = uint32_t(isEffect ? FX_LIGHT_EFFECT : FX_LIGHT_HOST);
+        if (base::Status status = read(kind, uint32_t(isEffect ? i : i - effects), shadow); !status)
+            return status;
+        if (shadow.tiles[0].w > 0.5f)
+            ioLights[i].shadow = shadow;
+    }
+    return {};
+}
+
+FxFrameDef FrameRenderer::frameOf(const render::CameraView& camera, double passed) const
 {
     FxFrameDef frame = fxDefaultFrameDef();
     frame.resetHistory = lastTick_ < 0 ? 1 : 0;
@@ -173,6 +234,16 @@ base::Status FrameRenderer::drawEffects(const render::CameraView& camera, double
     frame.width = options_.width;
     frame.height = options_.height;
     frame.deltaTime = passed;
+    const render::HostShadowMap map = stage_->sunShadow(camera.origin);
+    frame.sunShadowTexture = map.texture;
+    std::copy_n(glm::value_ptr(map.fromWorld), 16, frame.sunShadowMatrix);
+    frame.sunShadowEdge = map.edge;
+    return frame;
+}
+
+base::Status FrameRenderer::drawEffects(const render::CameraView& camera, double passed)
+{
+    const FxFrameDef frame = frameOf(camera, passed);
     return toStatus(fxView_Render(view_, &frame));
 }
 

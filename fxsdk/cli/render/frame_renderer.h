@@ -14,6 +14,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,10 @@ private:
     base::Status keepOnGpu(base::Ticks tick);
     base::Status lookThrough(const render::CameraView& camera);
     base::Status drawStage(const render::CameraView& camera);
+    std::span<const render::SceneLight> shownLights() const;
+    base::Status readShadows(std::span<render::StageLight> ioLights, size_t effects,
+                             render::StageLighting& io);
+    FxFrameDef frameOf(const render::CameraView& camera, double passed) const;
     /// @param passed [s] since the picture before, which eyes have adapted in
     base::Status drawEffects(const render::CameraView& camera, double passed);
     base::Status count();

@@ -67,8 +67,10 @@ void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments)
         .add_option(
             "--scattering", arguments.scattering,
             "Light of the scene that is scattered once. centers: as it arrives at the centers of the blobs; "
-            "single: by shadow rays to all lights all along each ray and from surfaces, slow")
-        ->check(oneOf({"none", "centers", "single"}))
+            "single: by shadow rays to all lights all along each ray and from surfaces, slow. With "
+            "--renderer "
+            "gl: single, or multiple, light that is scattered any number of times (its default)")
+        ->check(oneOf({"none", "centers", "single", "multiple"}))
         ->capture_default_str()
         ->group(group);
     command

@@ -155,11 +155,12 @@ int failed(const base::Status& status)
 
 void warnOfLights(const scene_file::SceneFile& scene)
 {
-    if (!scene.lights.empty())
-        std::fprintf(stderr,
-                     "warning: --renderer gl leaves out the %zu \"lights\" of the scene; --renderer "
-                     "reference and path have them\n",
-                     scene.lights.size());
+    if (scene.lights.size() > FX_MOST_LIGHTS)
+        std::fprintf(
+            stderr,
+            "warning: --renderer gl takes the first %d of the %zu \"lights\" of the scene; --renderer "
+            "reference and path take all\n",
+            FX_MOST_LIGHTS, scene.lights.size());
 }
 
 int runRender(const RenderArguments& arguments)

@@ -167,9 +167,26 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
         "their state: green active, red hidden, blue resting");
 }
 
+std::string checkLightSlices(const std::string& text)
+{
+    if (text == "off")
+        return "";
+    char* end = nullptr;
+    const long planes = std::strtol(text.c_str(), &end, 10);
+    return end != text.c_str() && *end == '\0' && planes >= 2 && planes <= 128
+               ? ""
+               : "expected off, or a number of planes from 2 to 128, found " + text;
+}
+
 /// What may be saved in drawing.
 void addEconomyOptions(CLI::App& command, RenderArguments& arguments)
 {
+    command
+        .add_option(
+            "--light-slices", arguments.lightSlices,
+            "Planes across the sun that hold the shadow of media, 2 to 128 (default: 32); off: media cast "
+            "no shadows")
+        ->check(CLI::Validator(checkLightSlices, "N|off"));
     command
         .add_option("--layer-scale", arguments.layerScale,
                     "Width and height at which particles are drawn, over those of the picture")
@@ -236,6 +253,10 @@ base::Result<RenderPlan> planRender(const RenderArguments& arguments)
     const ReferenceArguments& tiled = arguments.reference;
     if (arguments.renderer != "path" && (tiled.paths || tiled.error || tiled.bounces))
         return usage("--spp, --error and --bounces need --renderer path");
+    if (arguments.renderer == "gl" && tiled.scattering == "none")
+        return usage("--scattering none needs --renderer reference; with gl it is single or multiple");
+    if (arguments.renderer == "reference" && tiled.scattering == "multiple")
+        return usage("--scattering multiple needs --renderer gl or path");
     plan.framesPerSecond = arguments.framesPerSecond;
     plan.stepsPerSecond = arguments.quality == "reference" ? 120 : 60;
     if (arguments.quality == "reference" || arguments.quality == "low")
@@ -271,6 +292,10 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
     settings.layerDivisor = int(std::lround(1.0 / std::stod(arguments.layerScale)));
     settings.lod = {arguments.lodBias, arguments.impostorPixels};
     settings.fragmentBudget = arguments.fragmentBudget;
+    settings.slices.enabled = arguments.lightSlices != "off";
+    if (settings.slices.enabled && !arguments.lightSlices.empty())
+        settings.slices.resolution.planes = std::stoi(arguments.lightSlices);
+    settings.slices.multiple = arguments.reference.scattering != "single";
     settings.exposureEv100 = arguments.exposureEv100.value_or(settings.exposureEv100);
 }
 

@@ -42,6 +42,7 @@ struct RenderArguments
     float lodBias = 0.0f;
     float impostorPixels = 0.0f; ///< [pixel]
     uint32_t fragmentBudget = 0; ///< 0: none
+    std::string lightSlices;     ///< "off" or planes of the sun; empty: as the settings say
     bool noDazzle = false;
     bool noShimmer = false;
     bool overdraw = false;

@@ -1,5 +1,7 @@
 #include "fxsdk/cli/scene/view_settings.h"
 
+#include <cmath>
+
 namespace fx::cli {
 
 FxViewSettings toApi(const render::ViewSettings& settings)
@@ -32,7 +34,41 @@ FxViewSettings toApi(const render::ViewSettings& settings)
     api.fragmentBudget = uint32_t(settings.fragmentBudget);
     api.lodBias = settings.lod.bias;
     api.lodImpostorPixels = settings.lod.impostorPixels;
+    api.lightSlices = settings.slices.enabled ? 1 : 0;
+    api.lightSlicePlanes = uint32_t(settings.slices.resolution.planes);
+    api.lightSliceTexels = uint32_t(settings.slices.resolution.texels);
+    api.castingLights = uint32_t(settings.slices.castingPoints);
+    api.lightSamples = uint32_t(settings.slices.samples);
+    api.multipleScattering = settings.slices.multiple ? 1 : 0;
     return api;
+}
+
+FxLight toApi(const render::SceneLight& light)
+{
+    FxLight api = fxDefaultLight();
+    for (int i = 0; i < 3; ++i) {
+        api.position[i] = light.position[i];
+        api.intensity[i] = light.intensity[i];
+        api.axis[i] = light.direction[i];
+    }
+    api.radius = light.radius;
+    api.innerConeAngle = light.innerAngle;
+    api.outerConeAngle = light.outerAngle;
+    return api;
+}
+
+render::HostLight toHostLight(const render::SceneLight& light)
+{
+    render::HostLight host;
+    host.position = light.position;
+    host.intensity = light.intensity;
+    host.radius = light.radius;
+    host.axis = light.direction;
+    if (light.isSpot()) {
+        host.cosInner = std::cos(light.innerAngle);
+        host.cosOuter = std::cos(light.outerAngle);
+    }
+    return host;
 }
 
 } // namespace fx::cli

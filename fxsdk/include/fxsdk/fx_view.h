@@ -156,6 +156,25 @@ typedef struct FxViewSettings
     /// small), orange occluded, magenta beyond the budget. A box of unknown extent is 1 m wide. For
     /// debugging: each update then visits all instances. Default 0.
     uint32_t activationOverlay;
+
+    /// 1 (default): light slices, planes of optical depth across each light, by which media cast shadows on
+    /// themselves, on each other and on the host's surfaces (fx_view_lights.h); 0: media cast no shadows.
+    uint32_t lightSlices;
+
+    /// 2..128 planes of the sun; lights at points have half of them; default 32.
+    uint32_t lightSlicePlanes;
+
+    /// [texel] 8..512, a multiple of 8, side of a plane of the sun; lights at points have half; default 128.
+    uint32_t lightSliceTexels;
+
+    /// 0..4 lights at points that cast shadows through media, those that light them most; default 2.
+    uint32_t castingLights;
+
+    /// 1..4 samples of the sun's light on the way of a ray through a particle of media; default 2.
+    uint32_t lightSamples;
+
+    /// 1 (default): light is scattered any number of times, by a closed form; 0: single scattering.
+    uint32_t multipleScattering;
 } FxViewSettings;
 
 /// Daylight exposure, no lights, all effects enabled.
@@ -180,6 +199,12 @@ static inline FxViewSettings fxDefaultViewSettings(void)
     settings.saveState = 1;
     settings.detail = 1;
     settings.layerScale = 1.0f;
+    settings.lightSlices = 1;
+    settings.lightSlicePlanes = 32;
+    settings.lightSliceTexels = 128;
+    settings.castingLights = 2;
+    settings.lightSamples = 2;
+    settings.multipleScattering = 1;
     return settings;
 }
 
@@ -240,6 +265,23 @@ typedef struct FxFrameDef
 
     /// [s] 0..1e6 since the last frame of this view, used only for adaptation; default 1/60.
     double deltaTime;
+
+    /// GL name of a GL_TEXTURE_2D with depth, the host's shadow map of the sun: what it hides from the sun is
+    /// in shadow in media too; 0 (default): the sun reaches all media.
+    uint32_t sunShadowTexture;
+
+    /// FX_DEPTH_... of sunShadowTexture; default FX_DEPTH_STANDARD.
+    uint32_t sunShadowConvention;
+
+    /// World minus origin to texture coordinates and stored depth, each 0..1, of sunShadowTexture,
+    /// column-major, affine; a bias against self-shadowing belongs into it; default identity.
+    float sunShadowMatrix[16];
+
+    /// [m] 0..100, radius of the soft edge of that shadow on media; default 0.1.
+    float sunShadowEdge;
+
+    /// Reserved; 0.
+    uint32_t reserved;
 } FxFrameDef;
 
 /// A frame with its camera at the origin; the target has to be set.
@@ -248,8 +290,9 @@ static inline FxFrameDef fxDefaultFrameDef(void)
     FxFrameDef def = FX_ZEROED;
     def.structSize = sizeof(FxFrameDef);
     for (int i = 0; i < 16; i += 5)
-        def.view[i] = def.projection[i] = 1.0f;
+        def.view[i] = def.projection[i] = def.sunShadowMatrix[i] = 1.0f;
     def.deltaTime = 1.0 / 60.0;
+    def.sunShadowEdge = 0.1f;
     return def;
 }
 

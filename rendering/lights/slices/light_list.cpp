@@ -34,6 +34,14 @@ float arriving(const HostLight& light, const glm::dvec3& middle)
     return brightness / float(glm::dot(d, d) + double(light.radius) * double(light.radius) + 1e-6);
 }
 
+/// A light at a point that may get planes.
+struct Candidate
+{
+    HostLight light;
+    LightOrigin origin;
+    float arrival; ///< see arriving()
+};
+
 HostLight pointOf(const EffectLight& light)
 {
     HostLight point;
@@ -81,11 +89,10 @@ glm::dvec3 middleOf(std::span<const MediumCaster> casters, const glm::dvec3& eye
 /// Lights at points that give light, those that light the casters most first.
 struct SortedPoints
 {
-    std::array<HostLight, kMostEffectLights + kMostHostLights> points;
-    std::array<float, kMostEffectLights + kMostHostLights> arrivals;
+    std::array<Candidate, kMostEffectLights + kMostHostLights> points;
     size_t count = 0;
 
-    void add(const HostLight& light, const glm::dvec3& middle)
+    void add(const HostLight& light, const LightOrigin& origin, const glm::dvec3& middle)
     {
         const double numbers[] = {light.position.x,  light.position.y,  light.position.z, light.intensity.x,
                                   light.intensity.y, light.intensity.z, light.radius};
@@ -94,12 +101,9 @@ struct SortedPoints
             return;
         const float arrival = arriving(light, middle);
         size_t at = count++;
-        for (; at > 0 && arrivals[at - 1] < arrival; --at) {
+        for (; at > 0 && points[at - 1].arrival < arrival; --at)
             points[at] = points[at - 1];
-            arrivals[at] = arrivals[at - 1];
-        }
-        points[at] = light;
-        arrivals[at] = arrival;
+        points[at] = {light, origin, arrival};
     }
 };
 
@@ -107,23 +111,24 @@ SortedPoints sortedPoints(const LightListInputs& in)
 {
     SortedPoints sorted;
     const glm::dvec3 middle = middleOf(in.casters, in.eye);
-    for (const EffectLight& light : in.effects.first(std::min(in.effects.size(), kMostEffectLights)))
-        sorted.add(pointOf(light), middle);
+    for (size_t i = 0; i < std::min(in.effects.size(), kMostEffectLights); ++i)
+        sorted.add(pointOf(in.effects[i]), {LightKind::Effect, uint32_t(i)}, middle);
     for (size_t i = 0; i < in.settings->hostLights.count; ++i)
-        sorted.add(in.settings->hostLights.lights[i], middle);
+        sorted.add(in.settings->hostLights.lights[i], {LightKind::Host, uint32_t(i)}, middle);
     return sorted;
 }
 
 } // namespace
 
 LightList::LightList(std::pmr::memory_resource* memory)
-    : stacks_(memory), stackLights_(memory), stackBlocks_(memory), near_(memory)
+    : origins_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory), near_(memory)
 {}
 
 void LightList::build(const LightListInputs& in)
 {
-    block_ = {};
+    block_ = {}; // without a shadow map until setSunShadow()
     count_ = 0;
+    origins_.clear();
     stacks_.clear();
     stackLights_.clear();
     stackBlocks_.clear();
@@ -146,6 +151,23 @@ void LightList::add(const SliceLightBlock& light)
 }
 
 /// The first entry, black without sun.
+bool LightList::setSunShadow(const HostShadowMap& map, const glm::dvec3& shift)
+{
+    const std::array<glm::vec4, 4> before{block_.hostShadow[0], block_.hostShadow[1], block_.hostShadow[2],
+                                          block_.hostShadowEdge};
+    for (int row = 0; row < 3; ++row) {
+        const glm::vec3 across(map.fromWorld[0][row], map.fromWorld[1][row], map.fromWorld[2][row]);
+        const double at = double(map.fromWorld[3][row]) + glm::dot(glm::dvec3(across), shift);
+        block_.hostShadow[row] = map.texture != 0 ? glm::vec4(across, float(at)) : glm::vec4(0.0f);
+    }
+    const float nearer = map.depth == DepthConvention::Reversed ? -1.0f : 1.0f;
+    block_.hostShadowEdge = {map.edge * glm::length(glm::vec3(block_.hostShadow[0])),
+                             map.edge * glm::length(glm::vec3(block_.hostShadow[1])),
+                             map.texture != 0 ? nearer : 0.0f, 0.0f};
+    return before != std::array<glm::vec4, 4>{block_.hostShadow[0], block_.hostShadow[1],
+                                              block_.hostShadow[2], block_.hostShadowEdge};
+}
+
 void LightList::addSun(const LightListInputs& in)
 {
     const Lighting& lighting = in.settings->lighting;
@@ -157,6 +179,7 @@ void LightList::addSun(const LightListInputs& in)
         fitParallelSlices(lighting.sunDirection, in.casters, in.eye, in.settings->slices.resolution, stack))
         addStack(stack, light);
     add(light);
+    origins_.push_back({LightKind::Sun, 0});
 }
 
 /// The sun's planes of a wide scene are coarse. What is near the eye gets finer ones, in the last entries.
@@ -187,7 +210,7 @@ void LightList::addPoints(const LightListInputs& in)
     const SortedPoints sorted = sortedPoints(in);
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
     for (size_t i = 0; i < sorted.count; ++i) {
-        const HostLight& point = sorted.points[i];
+        const HostLight& point = sorted.points[i].light;
         const glm::vec3 place(point.position - in.eye);
         SliceLightBlock light{};
         light.color = glm::vec4(point.intensity * exposure, 1.0f);
@@ -199,6 +222,7 @@ void LightList::addPoints(const LightListInputs& in)
                            stack))
             addStack(stack, light);
         add(light);
+        origins_.push_back(sorted.points[i].origin);
     }
 }
 

@@ -33,6 +33,20 @@ static_assert(1 + kMostEffectLights + kMostHostLights + kSkyAxes <= kFinerPlanes
 /// [1] sine of the elevation of all axes but the first, which is vertical.
 constexpr float kSkyAxisElevation = 0.4472135955f; // 1 / sqrt(5)
 
+enum class LightKind : uint8_t
+{
+    Sun,
+    Host,   ///< ViewSettings::hostLights
+    Effect, ///< of what the snapshot holds
+};
+
+/// Where a light of the list comes from.
+struct LightOrigin
+{
+    LightKind kind = LightKind::Sun;
+    uint32_t index = 0; ///< of ViewSettings::hostLights, or of the effects' lights, brightest first
+};
+
 /// What the lights of a frame are made from.
 struct LightListInputs
 {
@@ -50,6 +64,9 @@ public:
     explicit LightList(std::pmr::memory_resource* memory);
 
     void build(const LightListInputs& in);
+    /// Opaque surfaces shade media from then on. @param shift [m] eye minus what the map's places are
+    /// relative to  @return whether the block has changed
+    bool setSunShadow(const HostShadowMap& map, const glm::dvec3& shift);
 
     const LightListBlock& block() const { return block_; }
     /// The sun, points, axes of the sky; without finer planes of the sun.
@@ -57,6 +74,8 @@ public:
     {
         return std::span(block_.lights).first(size_t(block_.counts.x + block_.counts.y));
     }
+    /// Of the first block().counts.x entries.
+    std::span<const LightOrigin> origins() const { return origins_; }
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
     uint64_t placesRevision() const
@@ -79,6 +98,7 @@ private:
 
     LightListBlock block_{};
     size_t count_ = 0;
+    std::pmr::vector<LightOrigin> origins_;
     std::pmr::vector<SliceStack> stacks_;
     std::pmr::vector<size_t> stackLights_; ///< the light of each stack
     std::pmr::vector<SliceStackBlock> stackBlocks_;

@@ -22,6 +22,7 @@ base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters)
 {
     isKept_ = false;
     list_.build(in);
+    eye_ = in.eye;
     wanted_ = base::hashWord(base::hashWord(casters, in.casters.size()), list_.placesRevision()) | 1;
     if (wanted_ != filled_) {
         casters_.clear();
@@ -51,8 +52,26 @@ base::Status ViewLights::makeRoom()
     if (!created)
         return created.status();
     atlas_ = std::move(*created);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) // hosts sample it as it is
+        device_.gl.TextureParameteri(atlas_.name(), filter, GL_LINEAR);
     filled_ = 0;
     return {};
+}
+
+MediaShadowBlock ViewLights::shadow(LightKind kind, uint32_t index, const glm::dvec3& origin) const
+{
+    const std::span<const LightOrigin> origins = list_.origins();
+    for (size_t i = 0; i < origins.size() && isFilled(); ++i)
+        if (origins[i].kind == kind && origins[i].index == index)
+            return mediaShadow(list_, i, eye_, origin);
+    return {};
+}
+
+void ViewLights::setSunShadow(const HostShadowMap& map, const glm::dvec3& origin)
+{
+    sunShadow_ = map.texture;
+    if (list_.setSunShadow(map, eye_ - origin))
+        isKept_ = false; // the list goes to the GPU again, the planes stay
 }
 
 LightBindings ViewLights::addPasses(FrameGraph& graph)
@@ -61,6 +80,8 @@ LightBindings ViewLights::addPasses(FrameGraph& graph)
     if (lightBuffer_.bytes() == 0)
         return bindings;
     bindings.lights = graph.importBuffer({"lights", sizeof(LightListBlock)}, lightBuffer_.name());
+    if (sunShadow_ != 0)
+        bindings.hostShadow = graph.importTexture({"host shadow map", 1, 1, Format::R32F}, sunShadow_);
     if (!isKept_)
         graph.addPass("light list", [&](FrameGraph::Builder& builder) {
             bindings.lights = builder.write(bindings.lights);

@@ -10,6 +10,7 @@
 #include "rendering/gl/gl_device.h"
 #include "rendering/gl/gl_texture.h"
 #include "rendering/lights/slices/light_list.h"
+#include "rendering/lights/slices/media_shadow.h"
 #include "rendering/passes/light_bindings.h"
 
 #include <memory_resource>
@@ -34,6 +35,9 @@ public:
     /// Instead of gather(): the frame has the lights of the last one.
     void keep() { isKept_ = true; }
 
+    /// The host's shadow map of this frame.  @param origin [m] world position that its places are relative to
+    void setSunShadow(const HostShadowMap& map, const glm::dvec3& origin);
+
     /// Imports list and planes, and adds the passes that fill them. @return what draws bind
     LightBindings addPasses(FrameGraph& graph);
 
@@ -43,6 +47,11 @@ public:
     uint64_t bytes() const; ///< [byte] held on the GPU
     const LightList& list() const { return list_; }
     uint32_t atlasTexture() const { return atlas_.name(); } ///< GL name; 0: no planes
+    /// Whether the planes hold what the last list says.
+    bool isFilled() const { return atlas_.name() != 0 && filled_ == wanted_; }
+    /// Of the last list; all light passes where there are no planes, or they are not filled.
+    /// @param origin [m] world position that the places of lookups are relative to
+    MediaShadowBlock shadow(LightKind kind, uint32_t index, const glm::dvec3& origin) const;
 
 private:
     struct CasterBlock
@@ -54,12 +63,14 @@ private:
 
     GlDevice& device_;
     LightList list_;
+    glm::dvec3 eye_{0.0}; ///< [m] world position that the list is relative to
     std::pmr::vector<CasterBlock> casters_;
     GlBuffer lightBuffer_;
     GlTexture atlas_;
-    uint64_t filled_ = 0; ///< key of what the planes hold; 0: nothing
-    uint64_t wanted_ = 0; ///< key of this frame
-    bool isKept_ = false; ///< the list on the GPU is that of the last frame
+    uint64_t filled_ = 0;    ///< key of what the planes hold; 0: nothing
+    uint64_t wanted_ = 0;    ///< key of this frame
+    uint32_t sunShadow_ = 0; ///< GL name of the host's
+    bool isKept_ = false;    ///< the list on the GPU is that of the last frame
 };
 
 } // namespace fx::render

@@ -1,0 +1,47 @@
+/// @file shown_frame.h
+/// What a frame holds on to from its preparation until it is drawn.
+#pragma once
+
+#include "fxsdk/fx_view.h"
+#include "fxsdk/quality/view_quality.h"
+#include "fxsdk/scene/scene.h"
+#include "rendering/view/view_renderer.h"
+
+#include <cstdint>
+
+namespace fx::api {
+
+/// Holds the snapshots of a moment of a scene, and the settings of one frame by the budget; the host's are
+/// back afterwards. Threads: [GL thread].
+class ShownFrame
+{
+public:
+    ShownFrame(scene::Scene& scene, quality::ViewQuality& quality, render::ViewRenderer& renderer,
+               const FxFrameDef& frame, bool holdsQuality)
+        : def(frame), scene_(scene), quality_(quality), renderer_(renderer), shown_(scene.acquire())
+    {
+        quality_.begin(renderer_, frame.deltaTime, holdsQuality);
+    }
+    ~ShownFrame()
+    {
+        quality_.end(renderer_);
+        scene_.release(shown_.snapshots);
+    }
+    ShownFrame(const ShownFrame&) = delete;
+    ShownFrame& operator=(const ShownFrame&) = delete;
+
+    const scene::Presentation& shown() const { return shown_; }
+    /// Whether both show the same, as far as gathering is concerned.
+    bool isSameAs(const FxFrameDef& frame) const;
+
+    const FxFrameDef def;
+    uint64_t allocations = 0; ///< of its preparation
+
+private:
+    scene::Scene& scene_;
+    quality::ViewQuality& quality_;
+    render::ViewRenderer& renderer_;
+    scene::Presentation shown_;
+};
+
+} // namespace fx::api

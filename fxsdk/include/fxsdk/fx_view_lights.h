@@ -1,0 +1,145 @@
+/// @file fx_view_lights.h
+/// Lights of a view: those of the host that light media, those of the effects for the host's level, and the
+/// shadows that media cast on the host's surfaces. Include this to connect effects and the light of a game;
+/// docs/howto/light-slices.md shows how.
+///
+/// Threads: [GL thread] for all functions. Ownership: the library copies all arguments; textures belong to
+/// the view.
+#ifndef FXSDK_FX_VIEW_LIGHTS_H
+#define FXSDK_FX_VIEW_LIGHTS_H
+
+#include "fxsdk/fx_view.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Number of lights that fxView_SetLights() takes at most.
+#define FX_MOST_LIGHTS 8
+
+/// Values of the argument `kind` of fxView_GetMediaShadow().
+enum
+{
+    FX_LIGHT_SUN = 0,   ///< FxViewSettings::sunDirection; index 0
+    FX_LIGHT_HOST = 1,  ///< index in the array of fxView_SetLights()
+    FX_LIGHT_EFFECT = 2 ///< index of fxView_GetEffectLight()
+};
+
+/// A point, a ball or a spot. Fill with fxDefaultLight(), then set position and intensity.
+/// Illuminance at distance d in the direction of the light: intensity / (d^2 + radius^2).
+typedef struct FxLight
+{
+    /// Set by fxDefaultLight(); do not touch.
+    uint32_t structSize;
+
+    /// [m] 0..1e4, of a ball that glows; 0: a point; default 0.05.
+    float radius;
+
+    /// [m] world position, each within +-1e9; default 0.
+    double position[3];
+
+    /// [cd] 0..1e9 in the direction in which it is largest, linear Rec. 709; default 0.
+    float intensity[3];
+
+    /// The direction in which a spot shines, unit (length within 1e-3 of 1); default 0, -1, 0.
+    float axis[3];
+
+    /// [rad] 0..pi, angle to the axis up to which a spot has its full intensity; default pi.
+    float innerConeAngle;
+
+    /// [rad] innerConeAngle..pi, angle from which on it has none, with a smooth step between the two; pi
+    /// (default): light in all directions.
+    float outerConeAngle;
+} FxLight;
+
+/// A point at the origin without light.
+static inline FxLight fxDefaultLight(void)
+{
+    FxLight light = FX_ZEROED;
+    light.structSize = sizeof(FxLight);
+    light.radius = 0.05f;
+    light.axis[1] = -1.0f;
+    light.innerConeAngle = light.outerConeAngle = 3.14159265f;
+    return light;
+}
+
+/// What a shader needs to know of the shadow that media cast in one light. Fill structSize with sizeof before
+/// the call. The members from `right` on are a std140 uniform block of 13 vec4 for the GLSL of
+/// fxGetMediaShadowGlsl(), which explains each. Places are relative to FxFrameDef::origin.
+typedef struct FxMediaShadow
+{
+    /// Set by the caller.
+    uint32_t structSize;
+
+    /// GL name of a GL_TEXTURE_2D, RG32F, with linear filters, valid until the next frame of the view; 0:
+    /// media cast no shadow in this light, and all members below are 0, with which the GLSL reads no texture.
+    uint32_t texture;
+
+    /// Rows that give the texel along x. See the GLSL.
+    float right[3][4];
+
+    /// Rows that give the texel along y.
+    float up[3][4];
+
+    /// Rows that give the plane.
+    float along[3][4];
+
+    /// [texel] where the planes lie in the texture.
+    float tiles[3][4];
+
+    /// Place of a light that is not the sun.
+    float place[4];
+} FxMediaShadow;
+
+/// Replaces the host's lights that light media, from the next frame on. Those that light the media most cast
+/// shadows through them (FxViewSettings::castingLights), the others do not. [GL thread]
+/// @param lights `count` lights one after the other; may be null when count is 0: there are none
+/// @param count  0..FX_MOST_LIGHTS
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member, the value and the remedy),
+///         FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT. A failure changes
+///         nothing.
+FX_API FxResult fxView_SetLights(FxView* view, const FxLight* lights, uint32_t count);
+
+/// Gathers a frame and fills the planes of its lights, before the host draws its level: call it, then
+/// fxView_GetMediaShadow(), draw the level, then fxView_Render() with the same frame, which does no work
+/// twice and shows the same moment although the scene may have been updated in between. The target members of
+/// the frame may be 0 here; a frame with another camera or size is gathered again. Scenes without effects in
+/// them make no GL call. The time of this call is not part of FxViewSettings::budgetMilliseconds. [GL thread]
+/// @return as fxView_Render(). A failure changes nothing, and the next frame is drawn without preparation.
+FX_API FxResult fxView_PrepareLights(FxView* view, const FxFrameDef* frame);
+
+/// Reads the shadow that media cast in a light of the frame that was prepared or rendered last. A frame that
+/// was only rendered has shadows where media are in view. [GL thread]
+/// @param kind     FX_LIGHT_...
+/// @param index    of the light; one that does not exist has no shadow
+/// @param ioShadow structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
+/// FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetMediaShadow(FxView* view, uint32_t kind, uint32_t index, FxMediaShadow* ioShadow);
+
+/// GLSL 4.20 with the struct FxMediaShadow and the function
+/// `vec3 fxMediaTransmittance(sampler2D planes, FxMediaShadow shadow, vec3 p)`, the share of a light that
+/// media let through to a place p [m] relative to the frame's origin. For shaders of the host; it has no
+/// #version. [any]
+/// @return a constant string
+FX_API const char* fxGetMediaShadowGlsl(void);
+
+/// Reads the number of lights of the effects (fire, hot gas, particles that shine), brightest first, of the
+/// frame that was prepared or rendered last. At most 4. [GL thread]
+/// @param outCount receives the number; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetEffectLightCount(FxView* view, uint32_t* outCount);
+
+/// Reads a light of the effects, with which the host lights its level. The effects light each other
+/// themselves: do not pass it to fxView_SetLights(). [GL thread]
+/// @param index   0..fxView_GetEffectLightCount() - 1
+/// @param ioLight structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
+/// FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetEffectLight(FxView* view, uint32_t index, FxLight* ioLight);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
