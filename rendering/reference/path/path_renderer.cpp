@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kEdge = 8; ///< [pixel] of a tile
 constexpr uint32_t kMostSamples = 1u << 24;
-constexpr uint64_t kVersion = 1; ///< of the arithmetic
+constexpr uint64_t kVersion = 2; ///< of the arithmetic
 /// Numbers of samples from which pilot paths are counted, so that no path is drawn twice.
 constexpr uint32_t kPilotBegin = 1u << 31;
 
@@ -88,8 +88,9 @@ uint64_t keyOf(const ReferenceScene& scene, const PathPictureSettings& s, base::
     for (const double number :
          {double(s.width), double(s.height), s.error, s.exposure, s.sunRadius, s.path.roulette})
         hash.add(number);
-    for (const uint64_t word : {uint64_t(s.samples), s.seed, uint64_t(s.path.bounces),
-                                uint64_t(s.path.flight), uint64_t(s.path.shadow)})
+    for (const uint64_t word :
+         {uint64_t(s.samples), s.seed, uint64_t(s.path.bounces), uint64_t(s.path.flight),
+          uint64_t(s.path.shadow), uint64_t(s.path.forcedFlights)})
         hash.addWord(word);
     return hash.value();
 }
