@@ -14,7 +14,7 @@
 namespace fx::cli {
 namespace {
 
-constexpr uint32_t kPaths = 1u << 17;
+constexpr uint32_t kPaths = 1u << 19;
 constexpr double kLeast = 1e-6; // throughput below which a path counts as absorbed
 
 struct LitBall

@@ -59,8 +59,8 @@ void BlobDepthWalk::start(const TraceRay& ray, double begin, double end)
 {
     // A surface does not change with which density emissionDirection() draws the direction to what is behind
     // it.
-    findHits(medium_.tree(), ray, begin,
-             medium_.drawsEmission() ? std::numeric_limits<double>::infinity() : end, hits_);
+    findHits(medium_.tree(), ray, begin, medium_.shines() ? std::numeric_limits<double>::infinity() : end,
+             hits_);
     origin_ = ray.origin;
     chords_.resize(hits_.size());
     begin_ = end;
@@ -88,7 +88,7 @@ void BlobDepthWalk::start(const TraceRay& ray, double begin, double end)
 void BlobDepthWalk::findEmission(double begin, double end)
 {
     emitted_ = 0.0;
-    emittedBy_.resize(medium_.drawsEmission() ? hits_.size() : 0);
+    emittedBy_.resize(medium_.shines() ? hits_.size() : 0);
     for (size_t i = 0; i < emittedBy_.size(); ++i) {
         const Chord& chord = chords_[i];
         const double depth = chord.weight * (kernelTo(limited((end - chord.middle) * chord.inverseHalf)) -
@@ -119,10 +119,10 @@ double BlobDepthWalk::emissionParameter(double u) const
 double BlobDepthWalk::emissionDensity() const
 {
     double density = 0.0;
-    if (medium_.drawsEmission())
+    if (medium_.shines())
         for (size_t i = 0; i < hits_.size(); ++i)
             density += medium_.emissionDensity(hits_.place[i], origin_);
-    return density;
+    return density * medium_.emissionChance(origin_);
 }
 
 double BlobDepthWalk::depthTo(double parameter) const

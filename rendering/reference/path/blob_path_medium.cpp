@@ -18,6 +18,10 @@ namespace {
 
 constexpr double kMargin = 1.0 + 1e-12; ///< of majorants against rounding
 constexpr double kMostAnisotropy = 0.999;
+constexpr double kFaint =
+    0.1; ///< share of what other lights make of white smoke, below which glow is left to chance
+constexpr double kGlowChance = 0.3;   ///< times the illuminance of the glow over that of other lights
+constexpr double kLeastChance = 0.05; ///< of looking for glow
 
 /// A ball whose chord contains the current segment.
 struct MetBall
@@ -166,7 +170,7 @@ double solidAngleOf(const glm::dvec3& toCenter, double radius)
 } // namespace
 
 BlobPathMedium::BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye,
-                               base::TaskRunner& tasks)
+                               base::TaskRunner& tasks, double illuminance)
 {
     std::vector<TraceBall> balls;
     balls.reserve(blobs.size());
@@ -182,15 +186,41 @@ BlobPathMedium::BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dve
                               1.0 / (r * r), blob.albedo, blob.source, PhaseFunction::henyeyGreenstein(g)};
         hasOnePhase_ &= substances_[place].phase == substances_[0].phase;
     }
-    double sum = 0.0;
+    findGlow(blobs, illuminance);
+}
+
+void BlobPathMedium::findGlow(std::span<const MediumBlob> blobs, double illuminance)
+{
+    const double darkest = kFaint * illuminance / (4.0 * std::numbers::pi);
+    double sum = 0.0, squares = 0.0;
     for (uint32_t place = 0; place < tree_.count(); ++place) {
-        sum += blobs[tree_.ballAt(place)].crossSection * power(place);
+        const glm::dvec3& source = substances_[place].source;
+        const double intensity = std::max({source.x, source.y, source.z}) >= darkest
+                                     ? blobs[tree_.ballAt(place)].crossSection * power(place)
+                                     : 0.0;
+        sum += intensity;
+        squares += intensity * (glm::dot(center(place), center(place)) + radius(place) * radius(place));
+        glowCenter_ += intensity * center(place);
         shines_.push_back(sum);
     }
-    if (!(sum > 0.0))
+    if (!(sum > 0.0)) {
         shines_.clear();
+        return;
+    }
     for (double& share : shines_)
         share /= sum;
+    glowCenter_ /= sum;
+    glowRadius2_ = std::max(0.0, squares / sum - glm::dot(glowCenter_, glowCenter_));
+    glowIntensity_ = sum / (3.0 * illuminance); // infinite without other lights
+}
+
+double BlobPathMedium::emissionChance(const glm::dvec3& position) const
+{
+    if (!shines())
+        return 0.0;
+    const glm::dvec3 away = position - glowCenter_;
+    return std::clamp(kGlowChance * glowIntensity_ / (glm::dot(away, away) + glowRadius2_), kLeastChance,
+                      1.0);
 }
 
 std::unique_ptr<MediumWalk> BlobPathMedium::walk() const

@@ -31,11 +31,16 @@ class BlobPathMedium final : public PathMedium
 {
 public:
     /// @param eye [m] world position that rays are relative to
-    BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks);
+    /// @param illuminance [lx] of other lights: what glows much less is found by chance only
+    BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
+                   double illuminance = 0.0);
     std::unique_ptr<MediumWalk> walk() const override;
     std::unique_ptr<DepthWalk> depthWalk() const override;
 
-    bool drawsEmission() const override { return !shines_.empty(); }
+    /// Grows with the illuminance that the glow would have without medium between.
+    double emissionChance(const glm::dvec3& position) const override;
+    /// Whether there is a ball that glows brightly enough to be looked for.
+    bool shines() const { return !shines_.empty(); }
 
     /// Draws a ball in proportion to what it would emit if it were thin, then a direction that meets it.
     glm::dvec3 emissionDirection(const glm::dvec3& position, const std::array<double, 3>& u) const override;
@@ -80,6 +85,12 @@ private:
     BallTree tree_;
     std::vector<Substance> substances_;
     bool hasOnePhase_ = true;
+    /// Fills what is about emission. @param illuminance [lx]
+    void findGlow(std::span<const MediumBlob> blobs, double illuminance);
+
+    glm::dvec3 glowCenter_{0.0};
+    double glowRadius2_ = 0.0;   ///< [m2]
+    double glowIntensity_ = 0.0; ///< [cd] of all balls, over the illuminance of other lights [m2]
     /// [1] probability that one of the balls up to this place is drawn; empty: no ball emits.
     std::vector<double> shines_;
 };

@@ -29,7 +29,7 @@ double sum(const glm::dvec3& v)
     return v.x + v.y + v.z;
 }
 
-constexpr uint32_t kSeenEmissionSamples = 4; ///< on the way of the eye's ray
+constexpr uint32_t kSeenEmission = 2; ///< places by each method on the way of the eye's ray
 
 } // namespace
 
@@ -114,8 +114,9 @@ template <class Density>
 glm::dvec3 PathIntegrator::emissionAt(const glm::dvec3& position, const Density& density,
                                       PathSampler& sampler)
 {
-    if (!tracker_.lastWay() || !scene_.medium->drawsEmission())
-        return glm::dvec3(0.0);
+    const double chance = tracker_.lastWay() ? scene_.medium->emissionChance(position) : 0.0;
+    if (!(chance > 0.0) || (chance < 1.0 && sampler.number() >= chance))
+        return glm::dvec3(0.0); // both densities below contain the chance
     const auto [u, v] = sampler.pair();
     const glm::dvec3 direction = scene_.medium->emissionDirection(position, {sampler.number(), u, v});
     const double share = density(direction);
@@ -167,7 +168,7 @@ PathResult PathIntegrator::trace(const TraceRay& camera, double begin, PathSampl
     PathResult result;
     Way way;
     way.start = {camera, begin};
-    way.start.emissionSamples = kSeenEmissionSamples;
+    way.start.seenEmission = kSeenEmission;
     glm::dvec3 throughput(1.0);
     double least = settings_.roulette;
     for (uint32_t bounce = 0;; ++bounce) {

@@ -74,14 +74,15 @@ public:
     /// [m] the part of the way outside of which there is no medium; empty where `second` <= `first`
     virtual std::pair<double, double> extent() const = 0;
 
-    /// [cd/m2] integral over the way of the emitted light, summed over the channels
+    /// [cd/m2] integral over the way of the emitted light, summed over the channels; 0 where what the medium
+    /// emits is found well enough by collisions
     virtual double emitted() const = 0;
 
     /// A parameter that is distributed as the emitted light. @param u in [0, 1); emitted() is not 0
     virtual double emissionParameter(double u) const = 0;
 
-    /// [1/sr] with which PathMedium::emissionDirection() draws the direction of the ray at its origin; the
-    /// ray has to begin there
+    /// [1/sr] with which PathMedium::emissionDirection() draws the direction of the ray at its origin, times
+    /// emissionChance() there; the ray has to begin there
     virtual double emissionDensity() const = 0;
 };
 
@@ -95,8 +96,9 @@ public:
     /// Null where optical depths have no closed form or differ between color channels.
     virtual std::unique_ptr<DepthWalk> depthWalk() const { return nullptr; }
 
-    /// Whether emissionDirection() may be called.
-    virtual bool drawsEmission() const { return false; }
+    /// [1] how often a direction of emissionDirection() is to be drawn at a place; 0: never, and that
+    /// function is not to be called
+    virtual double emissionChance(const glm::dvec3& /*position*/) const { return 0.0; }
 
     /// A direction from `position` in which the medium emits; DepthWalk::emissionDensity() is its density.
     /// @param u three numbers in [0, 1)

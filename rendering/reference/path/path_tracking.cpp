@@ -58,24 +58,43 @@ private:
 };
 
 /// Light that the medium emits along a way and does not absorb [cd/m2].
-glm::dvec3 emissionAlong(const DepthWalk& way, uint32_t count, PathSampler& sampler)
+class EmissionEstimate
 {
-    glm::dvec3 light(0.0);
-    const double colliding = -std::expm1(-way.depth());
-    for (uint32_t i = 0; i < count; ++i) {
-        const auto [u, v] = sampler.pair();
-        const double depth = std::min(-std::log1p(-(i + u) / count * colliding), way.depth());
-        for (const double t : {way.parameterAt(depth), way.emissionParameter((i + v) / count)}) {
-            const MediumPoint point = way.at(t, 0.0);
-            const double passing = std::exp(-way.depthTo(t));
-            const double densities =
-                point.extinction.x * passing / colliding + sum(point.emission) / way.emitted(); // (3)
-            if (densities > 0.0)
-                light += point.emission * (passing / (count * densities)); // (4)
+public:
+    /// @param byDepth, byEmission places that are drawn by each method
+    EmissionEstimate(const DepthWalk& way, uint32_t byDepth, uint32_t byEmission)
+        : way_(way), byDepth_(byDepth), byEmission_(byEmission), colliding_(-std::expm1(-way.depth()))
+    {}
+    glm::dvec3 draw(PathSampler& sampler) const
+    {
+        glm::dvec3 light(0.0);
+        for (uint32_t i = 0; i < std::max(byDepth_, byEmission_); ++i) {
+            const auto [u, v] = sampler.pair();
+            if (i < byDepth_) {
+                const double depth = -std::log1p(-(i + u) / byDepth_ * colliding_);
+                light += lightOf(way_.parameterAt(std::min(depth, way_.depth())));
+            }
+            if (i < byEmission_)
+                light += lightOf(way_.emissionParameter((i + v) / byEmission_));
         }
+        return light;
     }
-    return light;
-}
+
+private:
+    glm::dvec3 lightOf(double t) const
+    {
+        const MediumPoint point = way_.at(t, 0.0);
+        const double passing = std::exp(-way_.depthTo(t));
+        const double p = point.extinction.x * passing / colliding_; // (3)
+        const double q = sum(point.emission) / way_.emitted();
+        const double densities = byDepth_ * p + byEmission_ * q;
+        return densities > 0.0 ? point.emission * (passing / densities) : glm::dvec3(0.0); // (4)
+    }
+
+    const DepthWalk& way_;
+    uint32_t byDepth_, byEmission_;
+    double colliding_;
+};
 
 } // namespace
 
@@ -115,7 +134,9 @@ Flight MediumTracker::flyByDepth(const FlightStart& start, PathSampler& sampler,
     if (way.emitted() > 0.0) {
         const double share =
             start.density > 0.0 ? start.density / (start.density + way.emissionDensity()) : 1.0;
-        outLuminance += io * share * emissionAlong(way, start.emissionSamples, sampler);
+        outLuminance +=
+            io * share *
+            EmissionEstimate(way, start.seenEmission, std::max(start.seenEmission, 1u)).draw(sampler);
     }
     const double colliding = start.isForced ? -std::expm1(-way.depth()) : 1.0;
     const double wanted = -std::log1p(-u * colliding); // (1)
@@ -128,7 +149,10 @@ Flight MediumTracker::flyByDepth(const FlightStart& start, PathSampler& sampler,
     flight.distance = way.parameterAt(std::min(wanted, way.depth()));
     const MediumPoint point = way.at(flight.distance, choice);
     flight.phase = point.phase;
-    io *= point.extinction.x > 0.0 ? point.scattering * (colliding / point.extinction.x) : glm::dvec3(0.0);
+    io *= point.extinction.x > 0.0 ? colliding / point.extinction.x : 0.0;
+    if (!(way.emitted() > 0.0))
+        outLuminance += io * point.emission; // (5)
+    io *= point.scattering;
     return flight;
 }
 
@@ -196,7 +220,8 @@ glm::dvec3 MediumTracker::emissionFrom(const TraceRay& ray, double end, double d
     emissionWalk_->start(ray, 0.0, end);
     if (!(emissionWalk_->depth() > 0.0 && emissionWalk_->emitted() > 0.0))
         return glm::dvec3(0.0);
-    return emissionAlong(*emissionWalk_, 1, sampler) / (density + emissionWalk_->emissionDensity());
+    return EmissionEstimate(*emissionWalk_, 0, 1).draw(sampler) /
+           (density + emissionWalk_->emissionDensity());
 }
 
 } // namespace fx::render

@@ -41,7 +41,8 @@ struct FlightStart
     /// [1/sr] with which the direction was drawn at a place where light was also looked for in directions of
     /// PathMedium::emissionDirection(); 0: it was not
     double density = 0.0;
-    uint32_t emissionSamples = 1; ///< places on the way where emitted light is looked up, by each method
+    uint32_t seenEmission = 0; ///< places on the way where emitted light is looked up by each of two methods;
+                               ///< 0: one place by one method
 };
 
 /// Where a free path ends.
@@ -85,13 +86,14 @@ struct Flight
 ///   T        1      optical depth of the way; D(t) from its beginning to t, x(t) [1/m] the extinction
 ///   C        1      1 for a free path that may escape, 1 - exp(-T) for one that collides for certain
 ///   e(t)     cd/m3  emitted light, its sum over channels s(t); E its integral over the way
-///   n        1      places drawn by each of two methods
+///   n, m     1      places drawn by each of two methods
 /// @derivation
 ///   depth of the collision: D = -ln(1 - u C); no collision when that exceeds T                     (1)
 ///   light exp(-T) passes, a collision carries C                                                    (2)
 ///   places where emitted light is looked up: by (1) with C = 1 - exp(-T), which has the density
 ///       p = x(t) exp(-D(t)) / (1 - exp(-T)), and in proportion to what is emitted, q = s(t) / E      (3)
-///   light of a place of either method: exp(-D(t)) e(t) / (n (p + q))                               (4)
+///   light of a place of either method: exp(-D(t)) e(t) / (n p + m q)                               (4)
+///   light of a medium that hardly emits: C e(t) / x(t) at the collision                            (5)
 /// @source    elementary (inversion of the distribution function); [VG95] for the weights in (4)
 /// @deviation none
 /// @valid     T > 0; extinction that is the same for all channels
