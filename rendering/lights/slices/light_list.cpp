@@ -73,7 +73,8 @@ uint64_t revisionOf(uint64_t revision, const SliceStack& stack, const glm::vec4&
         revision = base::hashWord(revision, std::bit_cast<uint64_t>(stack.corner[i]));
         revision = base::hashWord(revision, std::bit_cast<uint32_t>(stack.along[i]));
     }
-    for (const float value : {stack.texel, stack.spacing, stack.first, stack.begin, tiles.x, tiles.y, tiles.z, tiles.w})
+    for (const float value :
+         {stack.texel, stack.spacing, stack.first, stack.begin, tiles.x, tiles.y, tiles.z, tiles.w})
         revision = base::hashWord(revision, std::bit_cast<uint32_t>(value));
     return base::hashWord(revision, uint64_t(stack.mapping));
 }
