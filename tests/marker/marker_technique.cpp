@@ -36,7 +36,7 @@ public:
 
     void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const override
     {
-        drawQuads(backend, kProgram, markers, batch, target);
+        drawQuads(backend, kProgram, {markers}, batch, target);
     }
 
     ResourceId markers;
