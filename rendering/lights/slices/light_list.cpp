@@ -73,7 +73,8 @@ uint64_t revisionOf(uint64_t revision, const SliceStack& stack, const glm::vec4&
         revision = base::hashWord(revision, std::bit_cast<uint64_t>(stack.corner[i]));
         revision = base::hashWord(revision, std::bit_cast<uint32_t>(stack.along[i]));
     }
-    for (const float value : {stack.texel, stack.spacing, stack.first, stack.begin, tiles.x, tiles.y, tiles.z, tiles.w})
+    for (const float value :
+         {stack.texel, stack.spacing, stack.first, stack.begin, tiles.x, tiles.y, tiles.z, tiles.w})
         revision = base::hashWord(revision, std::bit_cast<uint32_t>(value));
     return base::hashWord(revision, uint64_t(stack.mapping));
 }
@@ -220,7 +221,10 @@ void LightList::addPoints(const LightListInputs& in)
         if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
             fitPointSlices(place, point.radius, in.casters, in.eye, partOf(in.settings->slices.resolution, 2),
                            stack))
+        {
+            stack.corner = point.position; // not by way of floats: it must not follow the eye
             addStack(stack, light);
+        }
         add(light);
         origins_.push_back(sorted.points[i].origin);
     }
