@@ -84,6 +84,14 @@ TimeRatio timeRatio(const AccuracyCurve& curve, size_t index)
     return ratio;
 }
 
+double efficiencyRatio(const AccuracyCurve& curve, size_t index)
+{
+    const AccuracyPoint& baseline = curve.points.front();
+    const AccuracyPoint& point = curve.points[index];
+    const double work = point.sample.variance * nanosecondsPerItem(point);
+    return work > 0 ? baseline.sample.variance * nanosecondsPerItem(baseline) / work : 0;
+}
+
 double instructionRatio(const AccuracyCurve& curve, size_t index)
 {
     const double baseline = fewestInstructions(curve.points.front());
@@ -115,15 +123,21 @@ std::string curveTable(const AccuracyCurve& curve)
     for (size_t k = 0; k < curve.points.size(); ++k) {
         const AccuracyPoint& point = curve.points[k];
         const TimeRatio ratio = timeRatio(curve, k);
+        std::string note = point.sample.note;
+        if (efficiencyRatio(curve, k) > 0) {
+            char efficiency[32];
+            std::snprintf(efficiency, sizeof efficiency, "efficiency %.2f", efficiencyRatio(curve, k));
+            note = note.empty() ? efficiency : efficiency + (", " + note);
+        }
         char instructions[16] = "-";
         if (instructionRatio(curve, k) > 0)
             std::snprintf(instructions, sizeof instructions, "%.3f", instructionRatio(curve, k));
         std::snprintf(
-            line, sizeof line, "%-28s %10.4g %10.4g %10.4g %10.2g  %7.3f (%5.2f .. %5.2f) %12s %9.1f %s %s\n",
+            line, sizeof line, "%-28s %10.4g %10.4g %10.4g %10.2g  %7.3f (%5.2f .. %5.2f) %12s %9.1f %s %s",
             point.setting.name.c_str(), point.sample.errorMean, point.sample.errorP50, point.sample.errorP99,
             point.sample.bias, ratio.best, ratio.low, ratio.high, instructions, nanosecondsPerItem(point),
             isOnFront(curve, k) ? "*" : " ", point.setting.tier.c_str());
-        text += line;
+        text += line + (note.empty() ? note : " " + note) + "\n";
     }
     return text;
 }
@@ -168,6 +182,8 @@ std::vector<nlohmann::json> curveJson(const AccuracyCurve& curve)
                          {"instructions", numberOrNull(fewestInstructions(point))},
                          {"instruction_ratio", numberOrNull(instructionRatio(curve, k))},
                          {"instructions_by", curve.instructionsBy},
+                         {"variance", numberOrNull(point.sample.variance)},
+                         {"efficiency_ratio", numberOrNull(efficiencyRatio(curve, k))},
                          {"threads", curve.threads},
                          {"commit", commitName()},
                          {"work", point.sample.work}});

@@ -52,6 +52,9 @@ TimeRatio timeRatio(const AccuracyCurve& curve, size_t point);
 /// [ns] of the fastest round.
 double nanosecondsPerItem(const AccuracyPoint& point);
 
+/// 1 / (variance x time) of a point in units of the baseline's; 0 where there is no variance.
+double efficiencyRatio(const AccuracyCurve& curve, size_t point);
+
 /// Fewest instructions of a point in units of the baseline's; 0 where they are not known.
 double instructionRatio(const AccuracyCurve& curve, size_t point);
 

@@ -40,6 +40,8 @@ struct AccuracySample
     double items = 0;                               ///< what the time is spent on, such as particle steps
     double instructions = 0;                        ///< of the timed part, 0 when the system does not count
     nlohmann::json work = nlohmann::json::object(); ///< counters
+    double variance = 0; ///< of one item, for techniques that draw random numbers; 0 for all others
+    std::string note;    ///< at the end of the row of the table
 };
 
 struct AccuracyScale

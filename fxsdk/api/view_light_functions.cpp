@@ -86,6 +86,10 @@ Status prepareLights(FxView& view, const FxFrameDef* frame)
     fx::render::FrameRequest request;
     if (Status status = fx::api::convertFrame(withTarget, request); !status)
         return status;
+    if (view.sleeps && view.scene->scene.showsNothing()) {
+        view.prepared.reset();
+        return {};
+    }
     const uint64_t before = view.context->memory.allocationCount();
     fx::api::ShownFrame& frameToShow = fx::api::showFrame(view, known);
     request.interpolation = frameToShow.shown().interpolation;

@@ -54,6 +54,15 @@ TEST(Examples, aPresetIsRenderedToAFile)
     EXPECT_NE(run(std::string(FX_RENDER_TO_FILE) + " volcano 1 " + output + " 2> /dev/null"), 0);
 }
 
+TEST(Examples, smokeDarkensTheGroundOfAGame)
+{
+    const fx::test::TemporaryFolder folder;
+    const std::string output = (folder / "shadow.png").string();
+    ASSERT_EQ(run(std::string(FX_MEDIA_SHADOW) + " smoke-column 3 " + output), 0);
+    EXPECT_GT(contrastOf(output), 0.05f);
+    EXPECT_NE(run(std::string(FX_MEDIA_SHADOW) + " volcano 1 " + output + " 2> /dev/null"), 0);
+}
+
 TEST(Examples, theFirstEffectTakesAtMostTwentyFiveLines)
 {
     std::ifstream file(std::string(FX_SOURCE_DIR) + "/examples/00_hello/main.c");

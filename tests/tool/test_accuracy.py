@@ -118,6 +118,20 @@ class FxAccuracyOfLight(FxTest):
             self.assertLess(by_setting([l for l in lines if l["scene"] == scene])["integers"]["error_max"], 1e-6)
         self.assertGreater(created["gray", "paper8-printed"], 0.1)
 
+    def test_paths_by_the_inverse_of_the_depth_have_less_noise_and_the_error_falls_with_their_root(self):
+        lines = lines_of("path", "--scene", "blobs-270-small", *QUICK)
+        names = by_setting(lines)
+        self.assertEqual(lines[0]["baseline"], "delta-64")
+        self.assertEqual(names["delta-64"]["efficiency_ratio"], 1.0)
+        self.assertGreater(names["delta-64"]["variance"], 2 * names["forced-64"]["variance"])
+        self.assertGreater(names["local-64"]["variance"], names["depth-64"]["variance"])
+        self.assertGreater(names["delta-64"]["work"]["collisions"], 5 * names["depth-64"]["work"]["collisions"])
+        self.assertGreater(names["forced-64"]["efficiency_ratio"], 0) # how large is a matter of time
+        self.assertAlmostEqual(names["forced-256"]["work"]["slope"], -0.5, delta=0.08)
+        for line in lines:
+            self.assertEqual(FIELDS - set(line), set())
+            self.assertLess(abs(line["bias"]), 3 * line["error_mean"])
+
     def test_reports_have_every_curve(self):
         csv, svg, html = (self.folder / name for name in ("a.csv", "a.svg", "a.html"))
         lines = lines_of("furnace", *QUICK, "--csv", csv, "--svg", svg, "--html", html)

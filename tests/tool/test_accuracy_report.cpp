@@ -129,6 +129,19 @@ TEST(AccuracyCurve, jsonHasTheFieldsThatScriptsRelyOn)
     EXPECT_TRUE(curveJson(uncounted)[1]["instruction_ratio"].is_null());
 }
 
+TEST(AccuracyCurve, efficiencyIsOneOverVarianceTimesTimeAgainstTheBaselines)
+{
+    AccuracyCurve curve = someCurve();
+    EXPECT_EQ(efficiencyRatio(curve, 1), 0.0); // no variance, no efficiency
+    EXPECT_TRUE(curveJson(curve)[1]["efficiency_ratio"].is_null());
+    curve.points[0].sample.variance = 0.6;
+    curve.points[1].sample.variance = 0.2;
+    EXPECT_DOUBLE_EQ(efficiencyRatio(curve, 0), 1.0);
+    EXPECT_DOUBLE_EQ(efficiencyRatio(curve, 1), 3.0 / 0.9);
+    EXPECT_DOUBLE_EQ(curveJson(curve)[1]["efficiency_ratio"], 3.0 / 0.9);
+    EXPECT_NE(curveTable(curve).find("efficiency 3.33"), std::string::npos);
+}
+
 TEST(AccuracyReport, drawsEveryPointAndItsNameInsideOfThePicture)
 {
     const std::string svg = curvesSvg({someCurve(), someCurve(), someCurve()}, provenance("a machine"));

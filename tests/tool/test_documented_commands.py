@@ -38,6 +38,7 @@ TESTED_ELSEWHERE = {
     ("fx", "bench", "idle"): "counts instructions with valgrind; tool.idle_cost, tool.idle_cost_gl",
     ("fx", "bench", "soak"): "counts instructions with valgrind; tool.soak",
     ("fx", "accuracy", "all"): "takes minutes; each technique is run by itself",
+    ("fx", "accuracy", "path"): "takes minutes; test_accuracy.py at a small size",
     ("fx", "accuracy", "sph"): "takes half a minute; test_fx_verify.py",
 }
 

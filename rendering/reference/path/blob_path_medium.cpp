@@ -1,12 +1,16 @@
 #include "rendering/reference/path/blob_path_medium.h"
 
+#include "rendering/reference/path/blob_depth_walk.h"
 #include "rendering/reference/trace/ray_query.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace fx::render {
 
@@ -14,6 +18,10 @@ namespace {
 
 constexpr double kMargin = 1.0 + 1e-12; ///< of majorants against rounding
 constexpr double kMostAnisotropy = 0.999;
+constexpr double kFaint =
+    0.1; ///< share of what other lights make of white smoke, below which glow is left to chance
+constexpr double kGlowChance = 0.3;   ///< times the illuminance of the glow over that of other lights
+constexpr double kLeastChance = 0.05; ///< of looking for glow
 
 /// A ball whose chord contains the current segment.
 struct MetBall
@@ -150,10 +158,19 @@ private:
     double at_ = 0.0, end_ = 0.0;
 };
 
+/// [sr] of the directions that meet a ball; all of them from inside of it.
+double solidAngleOf(const glm::dvec3& toCenter, double radius)
+{
+    const double sine2 = radius * radius / glm::dot(toCenter, toCenter);
+    // without cancellation for what is far
+    return sine2 < 1.0 ? 2.0 * std::numbers::pi * sine2 / (1.0 + std::sqrt(1.0 - sine2))
+                       : 4.0 * std::numbers::pi;
+}
+
 } // namespace
 
 BlobPathMedium::BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye,
-                               base::TaskRunner& tasks)
+                               base::TaskRunner& tasks, double illuminance)
 {
     std::vector<TraceBall> balls;
     balls.reserve(blobs.size());
@@ -169,11 +186,96 @@ BlobPathMedium::BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dve
                               1.0 / (r * r), blob.albedo, blob.source, PhaseFunction::henyeyGreenstein(g)};
         hasOnePhase_ &= substances_[place].phase == substances_[0].phase;
     }
+    findGlow(blobs, illuminance);
+}
+
+void BlobPathMedium::findGlow(std::span<const MediumBlob> blobs, double illuminance)
+{
+    const double darkest = kFaint * illuminance / (4.0 * std::numbers::pi);
+    double sum = 0.0, squares = 0.0;
+    for (uint32_t place = 0; place < tree_.count(); ++place) {
+        const glm::dvec3& source = substances_[place].source;
+        const double intensity = std::max({source.x, source.y, source.z}) >= darkest
+                                     ? blobs[tree_.ballAt(place)].crossSection * power(place)
+                                     : 0.0;
+        sum += intensity;
+        squares += intensity * (glm::dot(center(place), center(place)) + radius(place) * radius(place));
+        glowCenter_ += intensity * center(place);
+        shines_.push_back(sum);
+    }
+    if (!(sum > 0.0)) {
+        shines_.clear();
+        return;
+    }
+    for (double& share : shines_)
+        share /= sum;
+    glowCenter_ /= sum;
+    glowRadius2_ = std::max(0.0, squares / sum - glm::dot(glowCenter_, glowCenter_));
+    glowIntensity_ = sum / (3.0 * illuminance); // infinite without other lights
+}
+
+double BlobPathMedium::emissionChance(const glm::dvec3& position) const
+{
+    if (!shines())
+        return 0.0;
+    const glm::dvec3 away = position - glowCenter_;
+    return std::clamp(kGlowChance * glowIntensity_ / (glm::dot(away, away) + glowRadius2_), kLeastChance,
+                      1.0);
 }
 
 std::unique_ptr<MediumWalk> BlobPathMedium::walk() const
 {
     return std::make_unique<BlobWalk>(*this);
+}
+
+std::unique_ptr<DepthWalk> BlobPathMedium::depthWalk() const
+{
+    return std::make_unique<BlobDepthWalk>(*this);
+}
+
+glm::dvec3 BlobPathMedium::emissionDirection(const glm::dvec3& position, const std::array<double, 3>& u) const
+{
+    const auto chosen = std::upper_bound(shines_.begin(), shines_.end() - 1, u[0]);
+    const uint32_t place = uint32_t(chosen - shines_.begin());
+    const glm::dvec3 toCenter = center(place) - position;
+    const double solidAngle = solidAngleOf(toCenter, radius(place));
+    const double cosine = 1.0 - u[1] * solidAngle / (2.0 * std::numbers::pi);
+    const double distance = glm::length(toCenter);
+    const glm::dvec3 axis = distance > 0.0 ? toCenter / distance : glm::dvec3(0.0, 1.0, 0.0);
+    return PhaseFunction::around(axis, cosine, u[2]);
+}
+
+double BlobPathMedium::emissionDensity(uint32_t place, const glm::dvec3& position) const
+{
+    const double probability = shines_[place] - (place > 0 ? shines_[place - 1] : 0.0);
+    return probability > 0.0 ? probability / solidAngleOf(center(place) - position, radius(place)) : 0.0;
+}
+
+double BlobPathMedium::majorant() const
+{
+    constexpr int kCells = 32; // along each axis
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (uint32_t place = 0; place < tree_.count(); ++place) {
+        low = glm::min(low, center(place) - radius(place));
+        high = glm::max(high, center(place) + radius(place));
+    }
+    const glm::dvec3 cell = (high - low) / double(kCells);
+    std::vector<double> sums(tree_.count() > 0 ? kCells * kCells * kCells : 1, 0.0);
+    for (uint32_t place = 0; place < tree_.count(); ++place) {
+        const glm::dvec3 middle = center(place) - low;
+        const glm::ivec3 first = glm::max(glm::ivec3((middle - radius(place)) / cell), 0);
+        const glm::ivec3 last = glm::min(glm::ivec3((middle + radius(place)) / cell), kCells - 1);
+        for (int z = first.z; z <= last.z; ++z)
+            for (int y = first.y; y <= last.y; ++y)
+                for (int x = first.x; x <= last.x; ++x) {
+                    const glm::dvec3 corner = glm::dvec3(x, y, z) * cell;
+                    const glm::dvec3 away = middle - glm::clamp(middle, corner, corner + cell);
+                    const double q = 1.0 - glm::dot(away, away) * substances_[place].inverseRadius2;
+                    if (q > 0.0)
+                        sums[size_t((z * kCells + y) * kCells + x)] += substances_[place].extinction * q * q;
+                }
+    }
+    return *std::max_element(sums.begin(), sums.end()) * (1.0 + 1e-9);
 }
 
 } // namespace fx::render

@@ -31,8 +31,22 @@ class BlobPathMedium final : public PathMedium
 {
 public:
     /// @param eye [m] world position that rays are relative to
-    BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks);
+    /// @param illuminance [lx] of other lights: what glows much less is found by chance only
+    BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
+                   double illuminance = 0.0);
     std::unique_ptr<MediumWalk> walk() const override;
+    std::unique_ptr<DepthWalk> depthWalk() const override;
+
+    /// Grows with the illuminance that the glow would have without medium between.
+    double emissionChance(const glm::dvec3& position) const override;
+    /// Whether there is a ball that glows brightly enough to be looked for.
+    bool shines() const { return !shines_.empty(); }
+
+    /// Draws a ball in proportion to what it would emit if it were thin, then a direction that meets it.
+    glm::dvec3 emissionDirection(const glm::dvec3& position, const std::array<double, 3>& u) const override;
+
+    /// By cells of a grid: the sum over balls of the largest value that each has in the cell.
+    double majorant() const override;
 
     /// One ball, in the order of the tree.
     struct Substance
@@ -47,10 +61,38 @@ public:
     const Substance& substance(uint32_t place) const { return substances_[place]; }
     bool hasOnePhase() const { return hasOnePhase_; }
 
+    /// [cd/m2] light that a ball emits for each optical depth, summed over the channels
+    double power(uint32_t place) const
+    {
+        const glm::dvec3& source = substances_[place].source;
+        return source.x + source.y + source.z;
+    }
+    /// [1/sr] with which emissionDirection() draws a direction from `position` that meets a ball, because of
+    /// it.
+    double emissionDensity(uint32_t place, const glm::dvec3& position) const;
+
 private:
+    glm::dvec3 center(uint32_t place) const
+    {
+        const BallTree::Leaf& leaf = tree_.leaves()[place / BallTree::kWidth];
+        const uint32_t k = place % BallTree::kWidth;
+        return {leaf.x[k], leaf.y[k], leaf.z[k]};
+    }
+    double radius(uint32_t place) const
+    {
+        return tree_.leaves()[place / BallTree::kWidth].radius[place % BallTree::kWidth];
+    }
     BallTree tree_;
     std::vector<Substance> substances_;
     bool hasOnePhase_ = true;
+    /// Fills what is about emission. @param illuminance [lx]
+    void findGlow(std::span<const MediumBlob> blobs, double illuminance);
+
+    glm::dvec3 glowCenter_{0.0};
+    double glowRadius2_ = 0.0;   ///< [m2]
+    double glowIntensity_ = 0.0; ///< [cd] of all balls, over the illuminance of other lights [m2]
+    /// [1] probability that one of the balls up to this place is drawn; empty: no ball emits.
+    std::vector<double> shines_;
 };
 
 } // namespace fx::render

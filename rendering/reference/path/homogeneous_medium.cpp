@@ -96,11 +96,59 @@ private:
     MajorantSegment segment_;
 };
 
+class HomogeneousDepthWalk final : public DepthWalk
+{
+public:
+    HomogeneousDepthWalk(const MediumShape& shape, const MediumPoint& point) : shape_(shape), point_(point) {}
+
+    void start(const TraceRay& ray, double begin, double end) override
+    {
+        const Piece piece = pieceOf(shape_, ray);
+        begin_ = std::max(piece.begin, begin);
+        end_ = std::max(begin_, std::min(piece.end, end));
+    }
+    double depth() const override { return end_ > begin_ ? (end_ - begin_) * point_.extinction.x : 0.0; }
+    double depthTo(double parameter) const override
+    {
+        return end_ > begin_ ? (std::clamp(parameter, begin_, end_) - begin_) * point_.extinction.x : 0.0;
+    }
+    double parameterAt(double depth) const override { return begin_ + depth / point_.extinction.x; }
+    MediumPoint at(double parameter, double) const override
+    {
+        return parameter >= begin_ && parameter <= end_ ? point_ : MediumPoint();
+    }
+    std::pair<double, double> extent() const override { return {begin_, end_}; }
+    double emitted() const override
+    {
+        return end_ > begin_ ? (end_ - begin_) * (point_.emission.x + point_.emission.y + point_.emission.z)
+                             : 0.0;
+    }
+    double emissionParameter(double u) const override { return begin_ + u * (end_ - begin_); }
+    double emissionDensity() const override { return 0.0; }
+
+private:
+    MediumShape shape_;
+    MediumPoint point_;
+    double begin_ = 0.0, end_ = 0.0;
+};
+
 } // namespace
 
 std::unique_ptr<MediumWalk> HomogeneousMedium::walk() const
 {
     return std::make_unique<HomogeneousWalk>(shape_, point_, knowsDepth_, looseness_);
+}
+
+std::unique_ptr<DepthWalk> HomogeneousMedium::depthWalk() const
+{
+    if (!knowsDepth_ || point_.extinction != glm::dvec3(point_.extinction.x))
+        return nullptr;
+    return std::make_unique<HomogeneousDepthWalk>(shape_, point_);
+}
+
+double HomogeneousMedium::majorant() const
+{
+    return looseness_ * std::max({point_.extinction.x, point_.extinction.y, point_.extinction.z});
 }
 
 } // namespace fx::render

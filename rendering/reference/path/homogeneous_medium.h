@@ -31,6 +31,9 @@ public:
         : shape_(shape), point_(point), knowsDepth_(knowsDepth), looseness_(looseness)
     {}
     std::unique_ptr<MediumWalk> walk() const override;
+    /// Null when the extinction differs between channels, or depths are to be estimated.
+    std::unique_ptr<DepthWalk> depthWalk() const override;
+    double majorant() const override;
 
 private:
     MediumShape shape_;

@@ -1,18 +1,23 @@
 #include "rendering/reference/path/path_integrator.h"
 
+#include "rendering/reference/path/path_equiangular.h"
+
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 namespace fx::render {
 
 namespace {
 
 constexpr double kInvPi = std::numbers::inv_pi;
+constexpr double kFar = std::numeric_limits<double>::infinity();
 
 double largest(const glm::dvec3& v)
 {
@@ -24,99 +29,13 @@ double sum(const glm::dvec3& v)
     return v.x + v.y + v.z;
 }
 
-/// Way to the next tentative collision [m].
-double freePath(double majorant, PathSampler& sampler)
-{
-    return -std::log1p(-sampler.number()) / majorant;
-}
-
-double largestMajorant(MediumWalk& walk, const TraceRay& ray, double begin, double end)
-{
-    double majorant = 0.0;
-    walk.start(ray, begin, end);
-    for (MajorantSegment segment; walk.next(segment);)
-        majorant = std::max(majorant, segment.majorant);
-    return majorant;
-}
+constexpr uint32_t kSeenEmission = 2; ///< places by each method on the way of the eye's ray
 
 } // namespace
 
 PathIntegrator::PathIntegrator(const PathScene& scene, const PathSettings& settings)
-    : scene_(scene), settings_(settings)
-{
-    if (scene_.medium) {
-        walk_ = scene_.medium->walk();
-        shadowWalk_ = scene_.medium->walk();
-    }
-}
-
-Flight PathIntegrator::fly(const TraceRay& ray, double begin, double end, PathSampler& sampler,
-                           glm::dvec3& io, glm::dvec3& outLuminance)
-{
-    Flight flight;
-    if (!walk_)
-        return flight;
-    const bool isPlain = settings_.flight == FlightEstimator::OneMajorant;
-    const double bound = isPlain ? largestMajorant(*walk_, ray, begin, end) : 0.0;
-    walk_->start(ray, begin, end);
-    double last = -1.0; // end of the segment before
-    for (MajorantSegment segment; walk_->next(segment);) {
-        if (isPlain && last >= 0.0) // plain tracking does not know where there is nothing
-            for (double t = last + freePath(bound, sampler); t < segment.begin; t += freePath(bound, sampler))
-                ++collisions_;
-        last = segment.end;
-        const double majorant = std::max(bound, segment.majorant);
-        for (double t = segment.begin + freePath(majorant, sampler); t < segment.end;
-             t += freePath(majorant, sampler))
-        { // (1)
-            ++collisions_;
-            const MediumPoint point = walk_->at(t, sampler.number());
-            outLuminance += io * point.emission / majorant; // (4)
-            const glm::dvec3 nulls = glm::max(majorant - point.extinction, glm::dvec3(0.0));
-            const double scattering = sum(io * point.scattering);
-            const double passing = sum(io * nulls);
-            if (!(scattering + passing > 0.0)) {
-                io = glm::dvec3(0.0);
-                return flight;
-            }
-            const double share = scattering / (scattering + passing); // (2)
-            if (sampler.number() < share) {
-                io *= point.scattering / (majorant * share); // (3)
-                flight = {true, t, point.phase};
-                return flight;
-            }
-            io *= nulls / (majorant * (1.0 - share));
-        }
-    }
-    return flight;
-}
-
-glm::dvec3 PathIntegrator::transmittance(const TraceRay& ray, double begin, double end, PathSampler& sampler)
-{
-    glm::dvec3 result(1.0);
-    if (!shadowWalk_)
-        return result;
-    glm::dvec3 depth;
-    if (settings_.shadow == ShadowEstimator::Exact && shadowWalk_->opticalDepth(ray, begin, end, depth))
-        return glm::exp(-depth);
-    shadowWalk_->start(ray, begin, end);
-    for (MajorantSegment segment; shadowWalk_->next(segment);) {
-        const double majorant = segment.majorant;
-        for (double t = segment.begin + freePath(majorant, sampler); t < segment.end;
-             t += freePath(majorant, sampler))
-        {
-            ++collisions_;
-            result *= glm::max(1.0 - shadowWalk_->at(t, 0.0).extinction / majorant, glm::dvec3(0.0));
-            if (settings_.shadow != ShadowEstimator::Delta)
-                continue;
-            const double passing = largest(result);
-            if (sampler.number() >= passing)
-                return glm::dvec3(0.0);
-            result /= passing;
-        }
-    }
-    return result;
-}
+    : scene_(scene), settings_(settings), tracker_(scene.medium, settings.flight, settings.shadow)
+{}
 
 SurfaceHit PathIntegrator::surface(const TraceRay& ray, double begin)
 {
@@ -131,24 +50,99 @@ glm::dvec3 PathIntegrator::arriving(const LightSample& sample, const glm::dvec3&
     const TraceRay shadow{position, sample.direction};
     if (surface(shadow, 0.0).distance < sample.distance)
         return glm::dvec3(0.0);
-    return sample.illuminance * transmittance(shadow, 0.0, sample.distance, sampler);
+    return sample.illuminance * tracker_.transmittance(shadow, 0.0, sample.distance, sampler);
 }
 
-glm::dvec3 PathIntegrator::lightAt(const glm::dvec3& position, const glm::dvec3& direction,
-                                   const PhaseFunction& phase, PathSampler& sampler)
+glm::dvec3 PathIntegrator::lightAt(const Way& way, PathSampler& sampler)
 {
+    const TraceRay& ray = way.start.ray;
+    const glm::dvec3 position = ray.origin + ray.direction * way.flight.distance;
     glm::dvec3 light(0.0);
     for (const PathLight* source : scene_.lights) {
         const LightSample sample = source->sample(position, sampler.pair());
-        const double share = phase.at(glm::dot(direction, sample.direction));
-        if (largest(sample.illuminance) * share > 0.0)
-            light += share * arriving(sample, position, sampler);
+        double share = way.flight.phase.at(glm::dot(ray.direction, sample.direction));
+        if (!(largest(sample.illuminance) * share > 0.0))
+            continue;
+        const std::optional<LightPlace> place = source->place();
+        if (place && tracker_.lastWay()) {
+            const Equiangular others(ray, tracker_.lastWay()->extent(), *place);
+            const double density = collisionDensity(way, way.flight.distance);
+            if (others.isNear())
+                share *= density / (density + others.density(way.flight.distance));
+        }
+        light += share * arriving(sample, position, sampler);
     }
     return light;
 }
 
-void PathIntegrator::reflect(const SurfaceHit& hit, TraceRay& ray, PathSampler& sampler, glm::dvec3& io,
-                             glm::dvec3& outLuminance)
+double PathIntegrator::collisionDensity(const Way& way, double parameter) const
+{
+    const DepthWalk& medium = *tracker_.lastWay();
+    const double colliding = way.start.isForced ? -std::expm1(-medium.depth()) : 1.0;
+    return medium.at(parameter, 0.0).extinction.x * std::exp(-medium.depthTo(parameter)) / colliding;
+}
+
+glm::dvec3 PathIntegrator::lightOnWay(const Way& way, PathSampler& sampler)
+{
+    glm::dvec3 light(0.0);
+    if (!tracker_.lastWay() || !(tracker_.lastWay()->depth() > 0.0))
+        return light;
+    const TraceRay& ray = way.start.ray;
+    const DepthWalk& medium = *tracker_.lastWay();
+    for (const PathLight* source : scene_.lights) {
+        const std::optional<LightPlace> place = source->place();
+        if (!place)
+            continue;
+        const Equiangular places(ray, medium.extent(), *place);
+        if (!places.isNear())
+            continue;
+        const auto [u, choice] = sampler.pair();
+        const double t = places.parameter(u);
+        const glm::dvec3 position = ray.origin + ray.direction * t;
+        const LightSample sample = source->sample(position, sampler.pair());
+        const MediumPoint point = medium.at(t, choice);
+        const double passing = std::exp(-medium.depthTo(t));
+        const double densities = collisionDensity(way, t) + places.density(t);
+        const double share = point.phase.at(glm::dot(ray.direction, sample.direction)) * passing / densities;
+        if (largest(sample.illuminance) * largest(point.scattering) * share > 0.0)
+            light += share * point.scattering * arriving(sample, position, sampler);
+    }
+    return light;
+}
+
+template <class Density>
+glm::dvec3 PathIntegrator::emissionAt(const glm::dvec3& position, const Density& density,
+                                      PathSampler& sampler)
+{
+    const double chance = tracker_.lastWay() ? scene_.medium->emissionChance(position) : 0.0;
+    if (!(chance > 0.0) || (chance < 1.0 && sampler.number() >= chance))
+        return glm::dvec3(0.0); // both densities below contain the chance
+    const auto [u, v] = sampler.pair();
+    const glm::dvec3 direction = scene_.medium->emissionDirection(position, {sampler.number(), u, v});
+    const double share = density(direction);
+    if (!(share > 0.0))
+        return glm::dvec3(0.0);
+    const TraceRay ray{position, direction};
+    return share * tracker_.emissionFrom(ray, surface(ray, 0.0).distance, share, sampler);
+}
+
+glm::dvec3 PathIntegrator::scatter(const Way& way, PathSampler& sampler, FlightStart& outNext)
+{
+    const TraceRay& ray = way.start.ray;
+    const PhaseFunction& phase = way.flight.phase;
+    const glm::dvec3 position = ray.origin + ray.direction * way.flight.distance;
+    glm::dvec3 light = lightAt(way, sampler);
+    light += emissionAt(
+        position, [&](const glm::dvec3& to) { return phase.at(glm::dot(ray.direction, to)); }, sampler);
+    const auto [u, turn] = sampler.pair();
+    const double cosine = phase.cosine(u);
+    outNext.ray = {position, PhaseFunction::around(ray.direction, cosine, turn)};
+    outNext.density = phase.at(cosine);
+    return light;
+}
+
+void PathIntegrator::reflect(const SurfaceHit& hit, const TraceRay& ray, PathSampler& sampler,
+                             FlightStart& outNext, glm::dvec3& io, glm::dvec3& outLuminance)
 {
     glm::dvec3 normal = glm::normalize(interpolate(scene_.mesh.normals, hit));
     if (glm::dot(normal, ray.direction) > 0.0)
@@ -162,47 +156,69 @@ void PathIntegrator::reflect(const SurfaceHit& hit, TraceRay& ray, PathSampler& 
         if (largest(sample.illuminance) * cosine > 0.0)
             outLuminance += io * (cosine * kInvPi) * arriving(sample, position, sampler);
     }
+    const auto density = [&](const glm::dvec3& direction) { return glm::dot(normal, direction) * kInvPi; };
+    outLuminance += io * emissionAt(position, density, sampler);
     const auto [u, turn] = sampler.pair();
-    ray = {position, PhaseFunction::around(normal, std::sqrt(1.0 - u), turn)}; // density cosine / pi
+    outNext.ray = {position, PhaseFunction::around(normal, std::sqrt(1.0 - u), turn)};
+    outNext.density = std::max(density(outNext.ray.direction), 0.0);
 }
 
 PathResult PathIntegrator::trace(const TraceRay& camera, double begin, PathSampler& sampler)
 {
     PathResult result;
-    TraceRay ray = camera;
+    Way way;
+    way.start = {camera, begin};
+    way.start.seenEmission = kSeenEmission;
     glm::dvec3 throughput(1.0);
+    double least = settings_.roulette;
     for (uint32_t bounce = 0;; ++bounce) {
-        const SurfaceHit hit = surface(ray, begin);
+        const SurfaceHit hit = surface(way.start.ray, way.start.begin);
+        way.start.end = hit.distance;
+        way.start.isForced = bounce < settings_.forcedFlights && !hit.isHit();
+        const glm::dvec3 before = throughput;
+        way.flight = tracker_.fly(way.start, sampler, throughput, result.luminance);
         if (bounce == 0)
-            result.opacity =
-                hit.isHit() ? 1.0 : 1.0 - sum(transmittance(ray, begin, hit.distance, sampler)) / 3.0;
-        const Flight flight = fly(ray, begin, hit.distance, sampler, throughput, result.luminance);
-        const bool escapes = !flight.isScattered && !hit.isHit();
-        if (escapes && bounce == 0) {
-            result.sawBackground = true;
-            result.throughput = throughput;
-        } else if (escapes && scene_.sky)
-            result.luminance += throughput * scene_.sky->luminance(ray.direction);
+            result.opacity = hit.isHit() ? 1.0 : opacity(way, sampler);
+        const bool escapes = !way.flight.isScattered && !hit.isHit();
+        const glm::dvec3 escaping = escapes ? throughput : before * way.flight.passing;
+        if (bounce == 0) {
+            result.sawBackground = escapes || way.flight.passing > 0.0;
+            result.throughput = escaping;
+        } else if (scene_.sky && (escapes || way.flight.passing > 0.0)) {
+            result.luminance += escaping * scene_.sky->luminance(way.start.ray.direction);
+        }
+        if (bounce < settings_.bounces)
+            result.luminance += before * lightOnWay(way, sampler);
         if (escapes || bounce == settings_.bounces)
             return result;
-        if (flight.isScattered) {
-            const glm::dvec3 position = ray.origin + ray.direction * flight.distance;
-            result.luminance += throughput * lightAt(position, ray.direction, flight.phase, sampler);
-            const auto [u, turn] = sampler.pair();
-            ray = {position, PhaseFunction::around(ray.direction, flight.phase.cosine(u), turn)};
-        } else {
-            reflect(hit, ray, sampler, throughput, result.luminance);
-        }
-        begin = 0.0;
-        const double left = largest(throughput);
-        if (!(left > 0.0))
+        FlightStart next;
+        if (way.flight.isScattered)
+            result.luminance += throughput * scatter(way, sampler, next);
+        else
+            reflect(hit, way.start.ray, sampler, next, throughput, result.luminance);
+        least *= way.flight.colliding;
+        if (!survives(least, throughput, sampler))
             return result;
-        if (left < settings_.roulette) {
-            if (sampler.number() * settings_.roulette >= left)
-                return result;
-            throughput *= settings_.roulette / left;
-        }
+        way.start = next;
     }
+}
+
+double PathIntegrator::opacity(const Way& way, PathSampler& sampler)
+{
+    if (tracker_.lastWay())
+        return -std::expm1(-tracker_.lastWay()->depth());
+    return 1.0 - sum(tracker_.transmittance(way.start.ray, way.start.begin, kFar, sampler)) / 3.0;
+}
+
+bool PathIntegrator::survives(double least, glm::dvec3& io, PathSampler& sampler)
+{
+    const double left = largest(io);
+    if (left >= least)
+        return left > 0.0;
+    if (sampler.number() * least >= left)
+        return false;
+    io *= least / left;
+    return true;
 }
 
 } // namespace fx::render

@@ -9,6 +9,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 
 namespace fx::render {
 
@@ -22,6 +23,13 @@ struct LightSample
     glm::dvec3 illuminance{0.0};
 };
 
+/// Where a light is that shines from within the scene.
+struct LightPlace
+{
+    glm::dvec3 center{0.0}; ///< [m]
+    double radius = 0.0;    ///< [m] 0: a point
+};
+
 /// A source of light that rays do not see. Coordinates are those of the rays. Const calls from any thread.
 class PathLight
 {
@@ -29,6 +37,9 @@ public:
     virtual ~PathLight() = default;
     /// @param u two numbers in [0, 1)
     virtual LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const = 0;
+
+    /// Null for lights that are far away.
+    virtual std::optional<LightPlace> place() const { return std::nullopt; }
 };
 
 /// A disc in the sky, of equal luminance.
@@ -53,6 +64,7 @@ public:
     /// @param intensity [cd] in every direction  @param radius [m] > 0
     BallPathLight(const glm::dvec3& center, const glm::dvec3& intensity, double radius);
     LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const override;
+    std::optional<LightPlace> place() const override { return LightPlace{center_, radius_}; }
 
 private:
     glm::dvec3 center_, luminance_;
@@ -68,6 +80,7 @@ public:
     SpotPathLight(const glm::dvec3& position, const glm::dvec3& direction, const glm::dvec3& intensity,
                   double inner, double outer);
     LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const override;
+    std::optional<LightPlace> place() const override { return LightPlace{position_, 0.0}; }
 
 private:
     glm::dvec3 position_, direction_, intensity_;

@@ -7,7 +7,9 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <memory>
+#include <utility>
 
 namespace fx::render {
 
@@ -47,12 +49,67 @@ public:
     virtual bool opticalDepth(const TraceRay& ray, double begin, double end, glm::dvec3& out) = 0;
 };
 
+/// A ray through a medium whose optical depth is known in closed form and the same for all color channels.
+/// One for each thread.
+class DepthWalk
+{
+public:
+    virtual ~DepthWalk() = default;
+
+    /// Turns to a new ray. @param end [m] may be infinite
+    virtual void start(const TraceRay& ray, double begin, double end) = 0;
+
+    /// [1] optical depth between the two parameters of start()
+    virtual double depth() const = 0;
+
+    /// [1] optical depth from the first of them to `parameter`
+    virtual double depthTo(double parameter) const = 0;
+
+    /// The parameter at which depthTo() is `depth`. @param depth [1] 0..depth()
+    virtual double parameterAt(double depth) const = 0;
+
+    /// The medium at a parameter of the ray; see MediumWalk::at() for `choice`
+    virtual MediumPoint at(double parameter, double choice) const = 0;
+
+    /// [m] the part of the way outside of which there is no medium; empty where `second` <= `first`
+    virtual std::pair<double, double> extent() const = 0;
+
+    /// [cd/m2] integral over the way of the emitted light, summed over the channels; 0 where what the medium
+    /// emits is found well enough by collisions
+    virtual double emitted() const = 0;
+
+    /// A parameter that is distributed as the emitted light. @param u in [0, 1); emitted() is not 0
+    virtual double emissionParameter(double u) const = 0;
+
+    /// [1/sr] with which PathMedium::emissionDirection() draws the direction of the ray at its origin, times
+    /// emissionChance() there; the ray has to begin there
+    virtual double emissionDensity() const = 0;
+};
+
 /// A medium. Coordinates are those of the rays it is asked for. Const calls from any thread.
 class PathMedium
 {
 public:
     virtual ~PathMedium() = default;
     virtual std::unique_ptr<MediumWalk> walk() const = 0;
+
+    /// Null where optical depths have no closed form or differ between color channels.
+    virtual std::unique_ptr<DepthWalk> depthWalk() const { return nullptr; }
+
+    /// [1] how often a direction of emissionDirection() is to be drawn at a place; 0: never, and that
+    /// function is not to be called
+    virtual double emissionChance(const glm::dvec3& /*position*/) const { return 0.0; }
+
+    /// A direction from `position` in which the medium emits; DepthWalk::emissionDensity() is its density.
+    /// @param u three numbers in [0, 1)
+    virtual glm::dvec3 emissionDirection(const glm::dvec3& /*position*/,
+                                         const std::array<double, 3>& /*u*/) const
+    {
+        return {0.0, 1.0, 0.0};
+    }
+
+    /// [1/m] an upper bound of the extinction everywhere, for tracking without local majorants
+    virtual double majorant() const = 0;
 };
 
 } // namespace fx::render

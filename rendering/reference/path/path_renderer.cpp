@@ -35,6 +35,13 @@ private:
     glm::dvec3 above_, below_; ///< [cd/m2]
 };
 
+/// [lx] of the sun and the sky.
+double illuminanceOf(const Lighting& lighting)
+{
+    const glm::vec3 light = lighting.sunIlluminance + std::numbers::pi_v<float> * lighting.skyLuminance;
+    return double(std::max({light.x, light.y, light.z}));
+}
+
 /// Mean, variance of the mean and opacity of a pixel, by [Wel62].
 class PixelStatistics
 {
@@ -88,8 +95,9 @@ uint64_t keyOf(const ReferenceScene& scene, const PathPictureSettings& s, base::
     for (const double number :
          {double(s.width), double(s.height), s.error, s.exposure, s.sunRadius, s.path.roulette})
         hash.add(number);
-    for (const uint64_t word : {uint64_t(s.samples), s.seed, uint64_t(s.path.bounces),
-                                uint64_t(s.path.flight), uint64_t(s.path.shadow)})
+    for (const uint64_t word :
+         {uint64_t(s.samples), s.seed, uint64_t(s.path.bounces), uint64_t(s.path.flight),
+          uint64_t(s.path.shadow), uint64_t(s.path.forcedFlights)})
         hash.addWord(word);
     return hash.value();
 }
@@ -101,7 +109,8 @@ struct PathRenderer::Shared
 {
     Shared(const ReferenceScene& scene, const PathPictureSettings& settings, base::TaskRunner& tasks)
         : camera(withUnitAxes(scene.camera)), grid(camera.grid(settings.width, settings.height)),
-          medium(scene.blobs, camera.eye, tasks), sky(scene.opaque.lighting),
+          medium(scene.blobs, camera.eye, tasks, illuminanceOf(scene.opaque.lighting)),
+          sky(scene.opaque.lighting),
           sun(glm::normalize(glm::dvec3(scene.opaque.lighting.sunDirection)),
               glm::dvec3(scene.opaque.lighting.sunIlluminance), settings.sunRadius)
     {

@@ -75,7 +75,11 @@ protected:
         return s.keptLists;
     }
 
-    render::FrameRequest request_{render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f), {}};
+    render::FrameRequest request_ = [] {
+        render::FrameRequest request;
+        request.camera = render::perspectiveView({{0, 0, 20}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f);
+        return request;
+    }();
 };
 
 } // namespace

@@ -2,7 +2,7 @@
 /// Means of random numbers with their standard errors, and free flights of light through a medium.
 #pragma once
 
-#include "rendering/reference/path/path_integrator.h"
+#include "rendering/reference/path/path_tracking.h"
 
 #include <cmath>
 #include <cstdint>
@@ -40,12 +40,12 @@ struct Escape
 };
 
 /// Follows light until it leaves the medium or has less than `least` left.
-inline Escape escape(PathIntegrator& integrator, TraceRay ray, PathSampler& sampler, double least = 1e-9)
+inline Escape escape(MediumTracker& tracker, TraceRay ray, PathSampler& sampler, double least = 1e-9)
 {
     Escape result;
     for (;; ++result.scatterings) {
         result.ray = ray;
-        const Flight flight = integrator.fly(ray, 0.0, 1e30, sampler, result.throughput, result.luminance);
+        const Flight flight = tracker.fly({ray}, sampler, result.throughput, result.luminance);
         if (!flight.isScattered) {
             result.isOut = true;
             return result;

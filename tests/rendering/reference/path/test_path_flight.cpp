@@ -12,26 +12,20 @@ namespace {
 
 constexpr uint32_t kPaths = 40000;
 
-PathIntegrator integratorOf(const PathMedium& medium,
-                            FlightEstimator flight = FlightEstimator::LocalMajorants,
-                            ShadowEstimator shadow = ShadowEstimator::Exact)
+MediumTracker trackerOf(const PathMedium& medium, FlightEstimator flight = FlightEstimator::LocalMajorants,
+                        ShadowEstimator shadow = ShadowEstimator::Exact)
 {
-    PathScene scene;
-    scene.medium = &medium;
-    PathSettings settings;
-    settings.flight = flight;
-    settings.shadow = shadow;
-    return PathIntegrator(scene, settings);
+    return MediumTracker(&medium, flight, shadow);
 }
 
 /// Light that passes without a collision, by channel: black media, so that scattering never happens.
-std::array<Statistics, 3> passing(PathIntegrator& integrator, const TraceRay& ray)
+std::array<Statistics, 3> passing(MediumTracker& tracker, const TraceRay& ray)
 {
     std::array<Statistics, 3> result;
     for (uint32_t i = 0; i < kPaths; ++i) {
         PathSampler sampler(1, 0, i);
         glm::dvec3 throughput(1.0), luminance(0.0);
-        integrator.fly(ray, 0.0, 1e30, sampler, throughput, luminance);
+        tracker.fly({ray}, sampler, throughput, luminance);
         for (int channel = 0; channel < 3; ++channel)
             result[size_t(channel)].add(throughput[channel]);
     }
@@ -46,8 +40,8 @@ TEST(PathFlight, passesTheTransmittanceOfAHomogeneousBoxInEveryChannel)
             point.extinction = depth * glm::dvec3(1.0, 0.6, 0.25);
             const HomogeneousMedium medium({MediumShape::Kind::Box, {}, {0.5, 0.5, 0.5}}, point, true,
                                            looseness);
-            PathIntegrator integrator = integratorOf(medium);
-            const auto result = passing(integrator, {{-3, 0, 0}, {1, 0, 0}});
+            MediumTracker tracker = trackerOf(medium);
+            const auto result = passing(tracker, {{-3, 0, 0}, {1, 0, 0}});
             for (int channel = 0; channel < 3; ++channel)
                 EXPECT_NEAR(result[size_t(channel)].mean(), std::exp(-point.extinction[channel]),
                             3.0 * result[size_t(channel)].error() + 1e-12)
@@ -66,11 +60,11 @@ TEST(PathFlight, passesTheTransmittanceOfBlobsWithBothMajorants)
     ASSERT_GT(depth.x, 0.3);
     ASSERT_LT(depth.x, 3.0);
     std::array<uint64_t, 2> work{};
-    for (const FlightEstimator flight : {FlightEstimator::LocalMajorants, FlightEstimator::OneMajorant}) {
-        PathIntegrator integrator = integratorOf(medium, flight);
-        const Statistics result = passing(integrator, ray)[0];
+    for (const FlightEstimator flight : {FlightEstimator::LocalMajorants, FlightEstimator::Analog}) {
+        MediumTracker tracker = trackerOf(medium, flight);
+        const Statistics result = passing(tracker, ray)[0];
         EXPECT_NEAR(result.mean(), std::exp(-depth.x), 3.0 * result.error());
-        work[size_t(flight)] = integrator.collisions();
+        work[size_t(flight)] = tracker.collisions();
     }
     EXPECT_LT(work[0], work[1]); // tighter majorants, fewer null collisions
 }
@@ -79,13 +73,12 @@ TEST(PathFlight, scattersAtDistancesOfTheExponentialLaw)
 {
     const HomogeneousMedium medium({MediumShape::Kind::Slab, {}, {0, 50.0, 0}}, substance(1.5, 1.0), true,
                                    2.5);
-    PathIntegrator integrator = integratorOf(medium);
+    MediumTracker tracker = trackerOf(medium);
     Statistics distance;
     for (uint32_t i = 0; i < kPaths; ++i) {
         PathSampler sampler(1, 0, i);
         glm::dvec3 throughput(1.0), luminance(0.0);
-        const Flight flight =
-            integrator.fly({{0, 0, 0}, {1, 0, 0}}, 0.0, 1e30, sampler, throughput, luminance);
+        const Flight flight = tracker.fly({{{0, 0, 0}, {1, 0, 0}}}, sampler, throughput, luminance);
         ASSERT_TRUE(flight.isScattered);
         EXPECT_NEAR(throughput.x, 1.0, 1e-12);
         distance.add(flight.distance);
@@ -104,11 +97,11 @@ TEST(PathFlight, shadowEstimatorsAgreeWithTheIntegral)
     std::array<double, 3> variance{};
     for (const ShadowEstimator shadow :
          {ShadowEstimator::Exact, ShadowEstimator::Ratio, ShadowEstimator::Delta}) {
-        PathIntegrator integrator = integratorOf(medium, FlightEstimator::LocalMajorants, shadow);
+        MediumTracker tracker = trackerOf(medium, FlightEstimator::LocalMajorants, shadow);
         Statistics result;
         for (uint32_t i = 0; i < kPaths; ++i) {
             PathSampler sampler(6, 0, i);
-            result.add(integrator.transmittance(ray, 0.4, 3.3, sampler).x);
+            result.add(tracker.transmittance(ray, 0.4, 3.3, sampler).x);
         }
         EXPECT_NEAR(result.mean(), std::exp(-depth.x), 3.0 * result.error() + 1e-12);
         variance[size_t(shadow)] = result.variance();
@@ -125,11 +118,11 @@ TEST(PathFlight, lightThatIsSentIsAbsorbedOrEscapes)
     for (MediumBlob& blob : blobs)
         blob.source = glm::dvec3(1.0) - blob.albedo;
     const BlobPathMedium medium(blobs, glm::dvec3(0.0), *tasks);
-    PathIntegrator integrator = integratorOf(medium);
+    MediumTracker tracker = trackerOf(medium);
     uint32_t scattered = 0;
     for (uint32_t i = 0; i < 2000; ++i) {
         PathSampler sampler(5, 0, i);
-        const Escape out = escape(integrator, {{-3, 0.3, 0}, {1, 0, 0}}, sampler);
+        const Escape out = escape(tracker, {{-3, 0.3, 0}, {1, 0, 0}}, sampler);
         ASSERT_TRUE(out.isOut);
         scattered += out.scatterings > 0;
         EXPECT_NEAR(out.throughput.x + out.luminance.x, 1.0, 1e-12);

@@ -1,3 +1,4 @@
+#include "rendering/reference/path/path_integrator.h"
 #include "rendering/reference/path/path_lights.h"
 
 #include "tests/rendering/reference/path/path_statistics.h"

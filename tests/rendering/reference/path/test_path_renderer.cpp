@@ -90,7 +90,7 @@ TEST(PathRenderer, oneScatteringIsTheReferenceRenderersSingleScattering)
     ReferenceScene scene = sunnySmoke();
     for (MediumBlob& blob : scene.blobs) // gas that glows lights other gas here, and by a few lights there
         blob.source = glm::dvec3(0.0);
-    PathPictureSettings settings = smallPicture(512);
+    PathPictureSettings settings = smallPicture(96);
     settings.path.bounces = 1;
     settings.sunRadius = 0.0;
     ReferenceSettings reference = test::smallSettings();
