@@ -55,6 +55,27 @@ Subject media()
                 knobs.lodBias = bias;
                 subject.settings.push_back(knobs);
             }
+    for (const float particles : {1.0f, 0.5f}) // fewer look-ups of light, and scattered once alone
+        for (const bool multiple : {true, false}) {
+            Knobs knobs{render::BillboardForm::Kernel, true, particles};
+            knobs.lightSamples = 1.0f;
+            knobs.multiple = multiple;
+            subject.settings.push_back(knobs);
+        }
+    return subject;
+}
+
+Subject lightSlices()
+{
+    Subject subject{"light slices",
+                    {},
+                    {{"library:explosion", 0.5}, {"library:smoke-column", 4.0}, {"library:dust-burst", 1.0}},
+                    false};
+    for (const float planes : {32.0f, 24.0f, 16.0f, 8.0f, 4.0f}) {
+        Knobs knobs;
+        knobs.slicePlanes = planes;
+        subject.settings.push_back(knobs);
+    }
     return subject;
 }
 
@@ -220,7 +241,7 @@ quality::ScalabilityLevels scalabilityLevelsOf(const AccuracyCurve& curve, const
 base::Result<MeasuredCalibration> measureLevels(const CalibrateRules& rules)
 {
     MeasuredCalibration calibration;
-    const Subject subjects[] = {media(), shimmer(), dazzle()};
+    const Subject subjects[] = {media(), lightSlices(), shimmer(), dazzle()};
     uint64_t all = 0;
     for (const Subject& subject : subjects)
         all += subject.moments.size() * rules.repetitions;

@@ -18,6 +18,9 @@ void forEachMember(K& knobs, F&& f)
     f("shimmer", knobs.shimmer);
     f("lodBias", knobs.lodBias);
     f("dazzle", knobs.dazzle);
+    f("slicePlanes", knobs.slicePlanes);
+    f("lightSamples", knobs.lightSamples);
+    f("multiple", knobs.multiple);
 }
 
 } // namespace

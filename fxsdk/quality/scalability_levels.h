@@ -25,6 +25,9 @@ struct Knobs
     std::optional<bool> shimmer = std::nullopt;
     std::optional<float> lodBias = std::nullopt; ///< [1] of render::LodSettings, at least so much, [0, 256]
     std::optional<bool> dazzle = std::nullopt;
+    std::optional<float> slicePlanes = std::nullopt;  ///< of a light, [3, 128]; four times as many texels
+    std::optional<float> lightSamples = std::nullopt; ///< points of a ray through a ball that are lit, [1, 4]
+    std::optional<bool> multiple = std::nullopt;      ///< light that is scattered more than once
 };
 
 /// One setting of a technique.

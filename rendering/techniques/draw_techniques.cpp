@@ -3,6 +3,7 @@
 #include "rendering/techniques/blobs/blob_technique.h"
 #include "rendering/techniques/dazzle/dazzle_technique.h"
 #include "rendering/techniques/gpu_particles/gpu_particle_technique.h"
+#include "rendering/techniques/light_slices/light_slice_technique.h"
 #include "rendering/techniques/particle_lights/particle_light_technique.h"
 #include "rendering/techniques/ribbons/ribbon_technique.h"
 #include "rendering/techniques/shimmer/shimmer_technique.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr const DrawTechnique* kTechniques[] = {
     &kBlobTechnique,          //
+    &kLightSliceTechnique,    //
     &kSpriteTechnique,        //
     &kRibbonTechnique,        //
     &kGpuParticleTechnique,   //

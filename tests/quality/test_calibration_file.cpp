@@ -79,6 +79,30 @@ TEST(CalibrationFile, comesBackAsItWasWritten)
     EXPECT_EQ(calibrationText(*again), text);
 }
 
+TEST(CalibrationFile, lowersLightSlicesButNeverRaisesThem)
+{
+    const auto calibration = readCalibration(R"({"version": 1, "techniques": [
+        {"name": "light slices", "steps": [
+            {"cost": 0.2, "error": 0.1, "setting": {"slicePlanes": 8}},
+            {"cost": 1, "error": 0, "setting": {"slicePlanes": 32}}]},
+        {"name": "media", "steps": [
+            {"cost": 1, "error": 0, "setting": {"lightSamples": 1, "multiple": false}}]}]})",
+                                             "my.json");
+    ASSERT_TRUE(calibration.ok()) << calibration.status().message();
+    const Knobs& low = calibration->techniqueLevels[0].steps[0].knobs;
+    render::ViewSettings settings;
+    settings.slices.resolution = {128, 32};
+    apply(low, settings);
+    EXPECT_EQ(settings.slices.resolution, (render::SliceResolution{32, 8}));
+    apply(calibration->techniqueLevels[0].steps[1].knobs, settings);
+    EXPECT_EQ(settings.slices.resolution, (render::SliceResolution{32, 8}));
+    settings.slices.samples = 2;
+    settings.slices.multiple = true;
+    apply(calibration->techniqueLevels[1].steps[0].knobs, settings);
+    EXPECT_EQ(settings.slices.samples, 1);
+    EXPECT_FALSE(settings.slices.multiple);
+}
+
 TEST(CalibrationFile, everyTruncationIsRefused)
 {
     const std::string text = fileWith(kLow + ",\n" + kTop);

@@ -99,7 +99,7 @@ public:
         casters_ = upload(std::as_bytes(std::span(blocks)), "casters");
         stacks_ = upload(std::as_bytes(list.stackBlocks()), "stacks");
         atlas_ = taken(
-            render::GlTexture::create(*device_, list.atlasWidth(), list.atlasHeight(), GL_R32F, "planes"));
+            render::GlTexture::create(*device_, list.atlasWidth(), list.atlasHeight(), GL_RG32F, "planes"));
         double least = 1e30;
         for (int i = 0; i < repeat + 1; ++i) { // the first compiles
             const double ms = fillOnce(list, uint32_t(casters.size()));
@@ -110,7 +110,7 @@ public:
 
     std::vector<float> read()
     {
-        return render::readTexture(*device_, atlas_.name(), atlas_.width(), atlas_.height(), 1);
+        return render::readTexture(*device_, atlas_.name(), atlas_.width(), atlas_.height(), 2);
     }
 
 private:
@@ -120,7 +120,7 @@ private:
         const auto casters = graph_.importBuffer({"casters", casters_.bytes()}, casters_.name());
         const auto stacks = graph_.importBuffer({"stacks", stacks_.bytes()}, stacks_.name());
         const auto atlas = graph_.importTexture(
-            {"planes", atlas_.width(), atlas_.height(), render::Format::R32F}, atlas_.name());
+            {"planes", atlas_.width(), atlas_.height(), render::Format::RG32F}, atlas_.name());
         graph_.keep(
             render::LightSlicesPass::addTo(graph_, {casters, stacks, atlas, count,
                                                     uint32_t(list.stackBlocks().size()), list.mostTexels()})
@@ -159,7 +159,7 @@ double errorOf(const render::LightList& list, const std::vector<float>& atlas,
             for (int x = 0; x < side; ++x) {
                 const int column = int(tiles.x) + side * (k % render::kSliceTileColumns) + x;
                 const int row = int(tiles.y) + side * (k / render::kSliceTileColumns) + y;
-                const float got = atlas[size_t(row) * size_t(list.atlasWidth()) + size_t(column)];
+                const float got = atlas[2 * (size_t(row) * size_t(list.atlasWidth()) + size_t(column))];
                 worst = std::max(worst, double(std::abs(got - depths.at(k, x, y))));
                 most = std::max(most, double(depths.at(k, x, y)));
             }
@@ -186,7 +186,7 @@ void measureCase(Filling& filling, const Options& options, const Machine& machin
         {"planes", used.planes},
         {"texels", used.texels},
         {"ms_light", ms},
-        {"bytes", size_t(used.planes) * size_t(used.texels) * size_t(used.texels) * 4},
+        {"bytes", size_t(used.planes) * size_t(used.texels) * size_t(used.texels) * 8},
         {"error_of_largest_depth", error}};
     printJsonLine(withMachine(line, machine));
     if (!(error <= kWorstError))

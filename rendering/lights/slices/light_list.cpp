@@ -221,7 +221,10 @@ void LightList::addPoints(const LightListInputs& in)
         if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
             fitPointSlices(place, point.radius, in.casters, in.eye, partOf(in.settings->slices.resolution, 2),
                            stack))
+        {
+            stack.corner = point.position; // not by way of floats: it must not follow the eye
             addStack(stack, light);
+        }
         add(light);
         origins_.push_back(sorted.points[i].origin);
     }

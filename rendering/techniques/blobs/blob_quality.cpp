@@ -29,6 +29,16 @@ void raiseLodBias(float bias, ViewSettings& settings)
     settings.lod.bias = std::max(settings.lod.bias, bias);
 }
 
+void lowerSamples(float samples, ViewSettings& settings)
+{
+    settings.slices.samples = std::min(settings.slices.samples, std::max(int(samples), 1));
+}
+
+void lowerMultiple(float isOn, ViewSettings& settings)
+{
+    settings.slices.multiple = settings.slices.multiple && isOn != 0.0f;
+}
+
 constexpr QualityKnob kKnobs[] = {
     {"billboards", "", QualityKnob::Type::Choice, kForms,
      R"({"title": "Billboards", "description": "Form of the billboards.", "type": "string",
@@ -54,6 +64,19 @@ constexpr QualityKnob kKnobs[] = {
      R"({"title": "Level of detail", "description": "Pixels of a far effect for which one particle of its media is drawn; 0: all are.",
          "type": "number", "minimum": 0, "maximum": 256})",
      raiseLodBias},
+    {"lightSamples",
+     "light samples",
+     QualityKnob::Type::Number,
+     {},
+     R"({"title": "Light samples", "description": "Points of a ray through a ball at which light is looked up.",
+         "type": "number", "minimum": 1, "maximum": 4})",
+     lowerSamples},
+    {"multiple",
+     "multiple scattering",
+     QualityKnob::Type::Switch,
+     {},
+     R"({"title": "Multiple scattering", "description": "Light that is scattered more than once.", "type": "boolean"})",
+     lowerMultiple},
 };
 
 double weight(const ScreenShare& covered)

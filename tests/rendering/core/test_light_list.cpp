@@ -156,7 +156,12 @@ TEST_F(LightListTest, planesStayInTheWorldWhileTheEyeMoves)
     build();
     const std::vector<SliceStack> first(list_.stacks().begin(), list_.stacks().end());
     const uint64_t revision = list_.placesRevision();
-    for (const glm::dvec3& step : {glm::dvec3(0.25, -0.125, 7.0), {64.0, -32.0, 0.5}, {0.0, 0.0, 0.0}}) {
+    for (const glm::dvec3& step : {glm::dvec3(0.25, -0.125, 7.0),
+                                   {64.0, -32.0, 0.5},
+                                   {0.3, -0.1, 7.7},
+                                   {12.7, 3.3, -21.1},
+                                   {0.0, 0.0, 0.0}})
+    {
         eye_ = step;
         for (size_t i = 0; i < casters_.size(); ++i)
             casters_[i].center = glm::vec3(glm::dvec3(kCasters[i].center) - eye_);

@@ -68,7 +68,7 @@ ResourceId PostPass::importTexels(int width, int height, Format format, std::spa
     auto texture = GlTexture::create(*device_, width, height, glInternalFormat(format), "test input");
     EXPECT_TRUE(texture.ok()) << texture.status().message();
     textures_.push_back(std::move(*texture));
-    const GLenum layout = format == Format::R32F ? GL_RED : GL_RGBA;
+    const GLenum layout = format == Format::R32F ? GL_RED : format == Format::RG32F ? GL_RG : GL_RGBA;
     device_->gl.TextureSubImage2D(textures_.back().name(), 0, 0, 0, width, height, layout, GL_FLOAT,
                                   texels.data());
     return graph_->importTexture(TextureDesc{"test input", width, height, format}, textures_.back().name());

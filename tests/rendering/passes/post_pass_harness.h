@@ -44,6 +44,8 @@ protected:
 
     render::ResourceId import(const Picture& picture);
     render::ResourceId importScalar(int width, int height, std::span<const float> texels);
+    render::ResourceId importTexels(int width, int height, render::Format format,
+                                    std::span<const float> texels);
     render::ResourceId importBytes(std::span<const std::byte> bytes);
 
     /// Executes the graph so that `kept` exists afterwards; the frame stays readable until the next one.
@@ -64,9 +66,6 @@ protected:
     static std::unique_ptr<render::GlDevice> device_;
 
 private:
-    render::ResourceId importTexels(int width, int height, render::Format format,
-                                    std::span<const float> texels);
-
     std::unique_ptr<render::GlBackend> backend_;
     std::unique_ptr<render::GlMessages> messages_;
     std::deque<render::GlTexture> textures_;

@@ -1,0 +1,48 @@
+#include "rendering/techniques/light_slices/light_slice_technique.h"
+
+#include <algorithm>
+
+namespace fx::render {
+
+namespace {
+
+constexpr TimedPass kTimed[] = {{"light list", "light slices"},
+                                {"light slice casters", "light slices"},
+                                {"light slices", "light slices"}};
+
+constexpr int kTexelsOfAPlane = 4; ///< texels along a side for each plane
+
+double weight(const ScreenShare& covered)
+{
+    return covered.media;
+}
+
+void lowerPlanes(float planes, ViewSettings& settings)
+{
+    SliceResolution& resolution = settings.slices.resolution;
+    const int most = std::max(int(planes), 1);
+    resolution.planes = std::min(resolution.planes, most);
+    resolution.texels = std::min(resolution.texels, kTexelsOfAPlane * most);
+}
+
+constexpr QualityKnob kKnobs[] = {
+    {"slicePlanes",
+     "light slices",
+     QualityKnob::Type::Number,
+     {},
+     R"({"title": "Light slices", "description": "Planes of optical depth across a light; four times as many texels.",
+         "type": "number", "minimum": 3, "maximum": 128})",
+     lowerPlanes},
+};
+
+constexpr ScalabilitySettings kScalability{"light slices", "shadows of media", weight, kKnobs};
+
+} // namespace
+
+constexpr DrawTechnique kLightSliceTechnique{
+    .name = "light slices",
+    .timedPasses = kTimed,
+    .levels = &kScalability,
+};
+
+} // namespace fx::render
