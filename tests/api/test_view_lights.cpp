@@ -2,6 +2,7 @@
 #include "tests/api/view_fixture.h"
 #include "tests/rendering/gl/gl_host_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -100,7 +101,7 @@ TEST_F(ViewLights, preparationLeavesTheStateOfGlAlone)
     def.origin[0] = 0.25;
     const auto before = host.probe();
     ASSERT_EQ(fxView_PrepareLights(view_, &def), FX_OK) << fxGetLastErrorMessage();
-    EXPECT_EQ(differences(before, host.probe()), "");
+    EXPECT_EQ(differences(before, host.probe()), std::vector<std::string>());
 }
 
 TEST_F(ViewLights, mediaCastShadowsInTheLightsThatThereAre)
@@ -145,7 +146,11 @@ TEST_F(ViewLights, aLightOfTheHostLightsMediaAndStaysWhenSettingsChange)
     sunlight();
     EXPECT_EQ(render(def), with);
     ASSERT_EQ(fxView_SetLights(view_, nullptr, 0), FX_OK);
-    EXPECT_EQ(render(def), without);
+    const std::vector<float> again = render(def);
+    double most = 0.0;
+    for (size_t i = 0; i < again.size(); ++i)
+        most = std::max(most, double(std::abs(again[i] - without[i])));
+    EXPECT_LT(most, 1e-4) << "but for the rounding of places in a larger texture";
 }
 
 TEST_F(ViewLights, aLightOutOfRangeIsRefusedByNameAndTheOthersStay)
