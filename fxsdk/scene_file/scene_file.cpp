@@ -112,6 +112,8 @@ bool readScene(std::string_view text, const asset::AssetResolver& resolver, Find
     Reader reader{resolver, findings, scene, {}, {}};
     root.read("name", scene.name);
     scene.camera = readCamera(root.child("camera"));
+    for (size_t i = 0; i < root.size("lights"); ++i)
+        scene.lights.push_back(readLight(root.element("lights", i)));
     scene.view = readView(root);
     readBackground(root.child("background"), resolver, findings, scene);
     readSceneMesh(root.child("mesh"), resolver, findings, scene);

@@ -1,5 +1,5 @@
 /// @file scene_file.h
-/// From a scene (`*.scene.json`) to all that a tool needs to draw it: camera, light, background, mesh,
+/// From a scene (`*.scene.json`) to all that a tool needs to draw it: camera, lights, background, mesh,
 /// instances.
 ///
 /// For tools: libfxsdk does not contain it. Threads: any; nothing is shared between calls.
@@ -9,6 +9,7 @@
 #include "fxsdk/presets/preset_loader.h"
 #include "fxsdk/scene_file/camera_path.h"
 #include "fxsdk/scene_file/instance_play.h"
+#include "rendering/frame/scene_light.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/stage/stage_renderer.h"
 #include "simulation/solver/solver.h"
@@ -51,7 +52,8 @@ struct SceneFile
 {
     std::string name;
     CameraPath camera;
-    render::ViewSettings view; ///< exposure, lighting, shimmer, dazzle, form, tone map, detail
+    std::vector<render::SceneLight> lights; ///< besides sun and sky
+    render::ViewSettings view;              ///< exposure, lighting, shimmer, dazzle, form, tone map, detail
     render::StageBackground background;
     render::StageMesh mesh;    ///< empty when the scene has none
     std::string meshFile;      ///< where it lies; empty: in the library, or there is none

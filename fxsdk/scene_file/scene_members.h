@@ -15,6 +15,7 @@ namespace fx::scene_file {
 // Plain values, in scene_settings.cpp: camera, light, view settings, placement of instances.
 
 CameraPath readCamera(const preset::PresetValue& camera);
+render::SceneLight readLight(const preset::PresetValue& light);
 /// Exposure, lighting, shimmer, dazzle, form, detail, tone map.
 render::ViewSettings readView(const preset::PresetValue& root);
 /// All but the preset.

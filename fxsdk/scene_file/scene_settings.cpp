@@ -1,6 +1,7 @@
 #include "fxsdk/scene_file/scene_members.h"
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <array>
 #include <cmath>
@@ -15,6 +16,19 @@ constexpr std::array<std::pair<std::string_view, render::BillboardForm>, 3> kFor
     {"planar", render::BillboardForm::Planar},
     {"constant", render::BillboardForm::Constant},
     {"kernel", render::BillboardForm::Kernel},
+}};
+
+enum class LightType
+{
+    Point,
+    Ball,
+    Spot
+};
+
+constexpr std::array<std::pair<std::string_view, LightType>, 3> kLightTypes{{
+    {"point", LightType::Point},
+    {"ball", LightType::Ball},
+    {"spot", LightType::Spot},
 }};
 
 /// The picture needs a direction to look in, and an up that is not along it.
@@ -43,6 +57,23 @@ render::Lighting readLighting(const PresetValue& value)
     value.read("skyLuminance", lighting.skyLuminance);
     value.read("groundAlbedo", lighting.groundAlbedo);
     return lighting;
+}
+
+void readCone(const PresetValue& value, render::SceneLight& io)
+{
+    float inner = 20.0f, outer = 30.0f; // [degree]
+    value.read("innerDegrees", inner);
+    value.read("outerDegrees", outer);
+    if (outer < inner)
+        value.error("outerDegrees", "found an angle below innerDegrees; allowed is at least that");
+    io.innerAngle = glm::radians(inner);
+    io.outerAngle = glm::radians(outer);
+    value.read("direction", io.direction);
+    const float length = glm::length(io.direction);
+    if (length < 1e-6f)
+        value.error("direction", "found a direction of length 0; allowed is any other");
+    else
+        io.direction /= length;
 }
 
 render::DazzleSettings readDazzle(const PresetValue& value)
@@ -114,6 +145,29 @@ CameraPath readCamera(const PresetValue& value)
     if (camera.keys.empty())
         checkPose(value, camera.position, camera.target, camera.up);
     return camera;
+}
+
+render::SceneLight readLight(const PresetValue& value)
+{
+    render::SceneLight light;
+    LightType type = LightType::Point;
+    value.read("type", std::span<const std::pair<std::string_view, LightType>>(kLightTypes), type);
+    value.read("position", light.position);
+    value.read("intensity", light.intensity);
+    if (type == LightType::Ball) {
+        light.radius = 0.1f;
+        value.read("radius", light.radius);
+    } else if (value.has("radius")) {
+        value.warning("radius", "found a radius, but only a light of the type \"ball\" has one");
+    }
+    if (type == LightType::Spot)
+        readCone(value, light);
+    else
+        for (const char* member : {"direction", "innerDegrees", "outerDegrees"})
+            if (value.has(member))
+                value.warning(member,
+                              "found a member of a cone, but only a light of the type \"spot\" has one");
+    return light;
 }
 
 render::ViewSettings readView(const PresetValue& root)

@@ -98,6 +98,45 @@ TEST(SceneFile, readsLightAndGlare)
               (std::array{2.0f, 3.0f, 1.0f, 4.0f, 0.5f, 2.0f}));
 }
 
+TEST(SceneFile, readsPointsBallsAndSpots)
+{
+    const SceneFile scene = load(R"({"version": 1, "camera": {}, "lights": [
+        {"position": [1, 2, 3], "intensity": 5},
+        {"type": "ball", "position": [0, 1, 0], "intensity": [1, 2, 3], "radius": 0.5},
+        {"type": "spot", "position": [0, 4, 0], "intensity": 9, "direction": [0, -3, 4], "innerDegrees": 10,
+         "outerDegrees": 45}]})");
+    EXPECT_TRUE(scene.warnings.empty());
+    ASSERT_EQ(scene.lights.size(), 3u);
+    EXPECT_EQ(scene.lights[0].position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(scene.lights[0].intensity, glm::vec3(5));
+    EXPECT_FALSE(scene.lights[0].isBall() || scene.lights[0].isSpot());
+    EXPECT_EQ(scene.lights[1].intensity, glm::vec3(1, 2, 3));
+    EXPECT_EQ(scene.lights[1].radius, 0.5f);
+    EXPECT_TRUE(scene.lights[2].isSpot());
+    EXPECT_LT(glm::length(scene.lights[2].direction - glm::vec3(0, -0.6f, 0.8f)), 1e-6f);
+    EXPECT_NEAR(std::tan(scene.lights[2].outerAngle), 1.0, 1e-6);
+    EXPECT_NEAR(scene.lights[2].innerAngle, 0.17453293, 1e-6);
+}
+
+TEST(SceneFile, refusesALightThatCannotBeAndWarnsOfMembersWithoutEffect)
+{
+    const auto loaded = [](const std::string& light) {
+        return loadSceneText(
+            R"({"version": 1, "camera": {}, "lights": [{"position": [0, 1, 0], "intensity": 1, )" + light +
+                "}]}",
+            "s.scene.json", fx::asset::AssetResolver("", {}));
+    };
+    EXPECT_FALSE(loaded(R"("type": "spot", "innerDegrees": 40, "outerDegrees": 30)").ok());
+    EXPECT_FALSE(loaded(R"("type": "spot", "direction": [0, 0, 0])").ok());
+    EXPECT_FALSE(loaded(R"("type": "tube")").ok());
+    EXPECT_FALSE(loaded(R"("type": "ball", "radius": 0)").ok());
+    for (const char* member : {R"("radius": 1)", R"("direction": [1, 0, 0])", R"("outerDegrees": 10)"}) {
+        const auto scene = loaded(member);
+        ASSERT_TRUE(scene.ok()) << scene.status().message();
+        EXPECT_EQ(scene->warnings.size(), 1u) << member;
+    }
+}
+
 TEST(SceneFile, placesTheMesh)
 {
     const SceneFile scene = load(kScene);

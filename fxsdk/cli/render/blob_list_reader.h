@@ -1,5 +1,5 @@
 /// @file blob_list_reader.h
-/// Lists of blobs (`*.blobs.csv`) for experiments with the reference renderer.
+/// Lists of blobs (`*.blobs.csv`) for experiments with renderers.
 ///
 /// The first line is `x[m],y[m],z[m],radius[m],tau_area[m2],albedo,er,eg,eb`, and `,g` may follow; every
 /// other one has as many numbers. A blob's extinction is tau_area W(r; radius) with the quartic kernel; it

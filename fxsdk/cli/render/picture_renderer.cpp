@@ -32,6 +32,7 @@ public:
         settings_.samples = arguments.samples;
         settings_.isSingle = plan.isSingle;
         settings_.scattering = plan.scattering;
+        settings_.skyRings = arguments.skyRings;
         settings_.integral = plan.integral;
     }
 
@@ -64,6 +65,8 @@ public:
         io["renderer"] = "reference";
         io["integrator"] = render::schemeName(settings_.integral.scheme);
         io["scattering"] = arguments_.scattering;
+        if (settings_.scattering == render::ScatteringMode::Single)
+            io["sky_directions"] = 4 * arguments_.skyRings * arguments_.skyRings;
         io["precision"] = arguments_.precision;
         io["rays"] = renderer_.work().rays;
         io["hits"] = renderer_.work().hits;

@@ -67,8 +67,14 @@ void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments)
         .add_option(
             "--scattering", arguments.scattering,
             "Light of the scene that is scattered once. centers: as it arrives at the centers of the blobs; "
-            "single: that of sun and glowing gas by shadow rays all along each ray, slow")
+            "single: by shadow rays to all lights all along each ray and from surfaces, slow")
         ->check(oneOf({"none", "centers", "single"}))
+        ->capture_default_str()
+        ->group(group);
+    command
+        .add_option("--sky-rings", arguments.skyRings,
+                    "With --scattering single light of the sky comes from 4 N N directions")
+        ->check(CLI::Range(1, 64))
         ->capture_default_str()
         ->group(group);
     command.add_option("--samples", arguments.samples, "A pixel is the mean of N x N rays")

@@ -1,15 +1,15 @@
 #include "fxsdk/cli/render/reference_scene.h"
 
+#include "foundation/snapshot/blob_kind.h"
 #include "rendering/techniques/draw_techniques.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace fx::cli {
 namespace {
 
-constexpr size_t kMaxLights = 8; // as many as the stage of the GL renderer has
+constexpr size_t kMaxLights = 64; // of effects, the brightest
 
 render::OpaqueScene opaqueOf(const scene_file::SceneFile& file)
 {
@@ -18,7 +18,26 @@ render::OpaqueScene opaqueOf(const scene_file::SceneFile& file)
     const render::StageBackground& b = file.background;
     scene.background = {b.luminance, b.horizon, b.width, b.height, b.image, b.panorama};
     scene.lighting = file.view.lighting;
+    scene.lamps = file.lights;
     return scene;
+}
+
+/// What draws no blobs, which are the medium of both renderers.
+std::vector<const render::DrawTechnique*> techniquesWithoutMedium()
+{
+    std::vector<const render::DrawTechnique*> techniques;
+    for (const render::DrawTechnique* technique : render::drawTechniques())
+        if (technique->kind != &base::kBlobKind)
+            techniques.push_back(technique);
+    return techniques;
+}
+
+std::vector<render::EffectLight> lightsOf(const base::FrameSnapshot& snapshot,
+                                          render::DrawTechniques techniques)
+{
+    std::vector<render::EffectLight> lights(kMaxLights);
+    lights.resize(render::effectLights(snapshot, lights, techniques));
+    return lights;
 }
 
 } // namespace
@@ -59,9 +78,9 @@ base::Result<ReferenceFrame> ReferenceSceneSource::frameAt(base::Ticks tick)
     frame.scene.opaque = opaqueOf(file_);
     frame.scene.camera = cameraOf(file_.camera, base::toSeconds(tick));
     if (moment->snapshots.newer) {
-        std::array<render::EffectLight, kMaxLights> lights;
-        const size_t count = render::effectLights(*moment->snapshots.newer, lights);
-        frame.scene.opaque.lights.assign(lights.begin(), lights.begin() + std::ptrdiff_t(count));
+        const base::FrameSnapshot& newer = *moment->snapshots.newer;
+        frame.scene.opaque.lights = lightsOf(newer, render::drawTechniques());
+        frame.scene.opaque.particleLights = lightsOf(newer, techniquesWithoutMedium());
     }
     return frame;
 }

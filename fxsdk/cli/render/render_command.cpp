@@ -2,6 +2,7 @@
 /// fx render: scenes and presets to pictures.
 
 #include "fxsdk/cli/commands.h"
+#include "fxsdk/cli/render/blob_list_render.h"
 #include "fxsdk/cli/render/depth_contacts.h"
 #include "fxsdk/cli/render/frame_output.h"
 #include "fxsdk/cli/render/render_options.h"
@@ -63,6 +64,7 @@ base::Result<scene_file::SceneFile> loadLitInput(const RenderArguments& argument
     if (!scene.ok() || !lights)
         return scene;
     scene->view.lighting = lights->view.lighting;
+    scene->lights = lights->lights;
     scene->view.exposureEv100 = lights->view.exposureEv100;
     scene->background = lights->background;
     return scene;
@@ -151,6 +153,15 @@ int failed(const base::Status& status)
     return exitCodeOf(status);
 }
 
+void warnOfLights(const scene_file::SceneFile& scene)
+{
+    if (!scene.lights.empty())
+        std::fprintf(stderr,
+                     "warning: --renderer gl leaves out the %zu \"lights\" of the scene; --renderer "
+                     "reference and path have them\n",
+                     scene.lights.size());
+}
+
 int runRender(const RenderArguments& arguments)
 {
     auto plan = planRender(arguments);
@@ -169,9 +180,9 @@ int runRender(const RenderArguments& arguments)
     if (arguments.renderer != "gl")
         return runTiled(arguments, *plan, lights ? &*lights : nullptr, load);
     if (isBlobList(arguments.input)) {
-        failed({base::Code::InvalidArgument,
-                arguments.input + ": a list of blobs needs --renderer reference or path"});
-        return kUsage;
+        if (lights)
+            warnOfLights(*lights);
+        return runBlobList(arguments, *plan, lights ? &*lights : nullptr);
     }
     const auto scene = load();
     if (!scene.ok())
@@ -179,6 +190,7 @@ int runRender(const RenderArguments& arguments)
     for (const preset::Diagnostic& warning : scene->warnings)
         std::fprintf(stderr, "warning: %s\n", preset::toString(warning).c_str());
 
+    warnOfLights(*scene);
     const std::string why = gpuObstacleOf(*scene);
     if (arguments.compute == "gpu" && !why.empty() && !showsDepthContacts(*scene))
         std::fprintf(stderr,

@@ -158,7 +158,7 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
         .add_option(
             "--renderer", arguments.renderer,
             "gl; reference: the ray integral on the processor, exact and slow; path: light scattered any "
-            "number of times, without bias. The last two write EXR and draw *.blobs.csv too")
+            "number of times, without bias. The last two write EXR")
         ->check(oneOf({"gl", "reference", "path"}))
         ->capture_default_str();
     command.add_flag(

@@ -1,6 +1,7 @@
 #include "fxsdk/cli/render/tiled_render.h"
 
 #include "fxsdk/cli/render/blob_list_reader.h"
+#include "fxsdk/cli/render/camera_choice.h"
 #include "fxsdk/cli/render/picture_renderer.h"
 #include "fxsdk/cli/render/reference_scene.h"
 #include "fxsdk/cli/support/atomic_file.h"
@@ -35,8 +36,8 @@ class TiledJob
 {
 public:
     TiledJob(const RenderArguments& arguments, const RenderPlan& plan, const ReferencePlan& reference,
-             const scene_file::SceneFile* lights)
-        : arguments_(arguments), plan_(plan), reference_(reference), lights_(lights),
+             const scene_file::SceneFile* lights, const CameraChoice& camera)
+        : arguments_(arguments), plan_(plan), reference_(reference), lights_(lights), camera_(camera),
           tasks_(base::makeTbbRunner(arguments.reference.threads))
     {}
 
@@ -52,8 +53,10 @@ public:
         ReferenceFrame frame;
         frame.scene.blobs = std::move(*blobs);
         frame.scene.opaque.isEmpty = true;
-        if (lights_)
+        if (lights_) {
             frame.scene.opaque.lighting = lights_->view.lighting;
+            frame.scene.opaque.lamps = lights_->lights;
+        }
         for (const RenderPlan::Frame& moment : plan_.frames)
             if (base::Status status = renderFrame(moment, frame); !status)
                 return status;
@@ -80,17 +83,6 @@ public:
         return finish();
     }
 
-    base::Status chooseCamera()
-    {
-        if (arguments_.reference.camera.empty())
-            return {};
-        auto file = scene_file::loadSceneFile(arguments_.reference.camera);
-        if (!file.ok())
-            return file.status();
-        path_ = file->camera;
-        return {};
-    }
-
     const Machine& machine() const { return machine_; }
 
 private:
@@ -98,10 +90,7 @@ private:
 
     base::Status renderFrame(const RenderPlan::Frame& moment, ReferenceFrame& frame)
     {
-        if (reference_.camera)
-            frame.scene.camera = *reference_.camera;
-        else if (path_)
-            frame.scene.camera = cameraOf(*path_, base::toSeconds(moment.tick));
+        frame.scene.camera = camera_.at(base::toSeconds(moment.tick), frame.scene.camera);
         const Clock::time_point start = Clock::now();
         const std::unique_ptr<PictureRenderer> made = makeRenderer();
         PictureRenderer& renderer = *made;
@@ -174,8 +163,8 @@ private:
     const RenderArguments& arguments_;
     const RenderPlan& plan_;
     const ReferencePlan& reference_;
-    const scene_file::SceneFile* lights_;        ///< of --lights; null: none
-    std::optional<scene_file::CameraPath> path_; ///< of --camera
+    const scene_file::SceneFile* lights_; ///< of --lights; null: none
+    const CameraChoice& camera_;
     std::unique_ptr<base::TaskRunner> tasks_;
     float white_ = 1.0f; ///< [cd/m2] that is written as 1
     Machine machine_ = readMachine();
@@ -222,13 +211,14 @@ int runTiled(const RenderArguments& arguments, const RenderPlan& plan, const sce
     for (const RenderPlan::Frame& moment : plan.frames)
         if (base::Status status = checkTarget(plan.output.frame(moment.number)); !status)
             return failed(status);
-    if (isBlobList(arguments.input) && !reference->camera && arguments.reference.camera.empty())
+    const auto camera = CameraChoice::create(arguments.reference, *reference);
+    if (!camera.ok())
+        return failed(camera.status());
+    if (isBlobList(arguments.input) && camera->isNone())
         return failedUsage(
             {base::Code::InvalidArgument, arguments.input + ": a list of blobs needs --view or --camera"});
-    TiledJob job(arguments, plan, *reference, lights);
+    TiledJob job(arguments, plan, *reference, lights, *camera);
     if (base::Status status = checkPictureMemory(plan.width, plan.height, job.machine().memory); !status)
-        return failed(status);
-    if (base::Status status = job.chooseCamera(); !status)
         return failed(status);
     const base::Status done = isBlobList(arguments.input) ? job.runBlobList() : runScene(job, loadScene());
     if (done.code() == base::Code::Interrupted)

@@ -10,7 +10,7 @@
 
 namespace fx::cli {
 
-/// Whether the input is a list of blobs, which only these renderers draw.
+/// Whether the input is a list of blobs.
 bool isBlobList(const std::string& input);
 
 /// Renders all frames of `plan`.

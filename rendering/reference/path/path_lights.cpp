@@ -13,6 +13,7 @@ namespace fx::render {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kAllDirections = -2.0; ///< a cosine below all
 
 } // namespace
 
@@ -60,10 +61,36 @@ LightSample BallPathLight::sample(const glm::dvec3& position, const std::array<d
     return sample;
 }
 
+LightSample GlowPathLight::sample(const glm::dvec3& position, const std::array<double, 2>&) const
+{
+    LightSample sample;
+    const glm::dvec3 toCenter = center_ - position;
+    const double distance2 = glm::dot(toCenter, toCenter);
+    if (!(distance2 > 0.0))
+        return sample;
+    const double distance = std::sqrt(distance2);
+    sample.direction = toCenter / distance;
+    sample.distance = std::max(0.0, distance - radius_);
+    sample.illuminance = intensity_ / (distance2 + radius_ * radius_);
+    return sample;
+}
+
+std::unique_ptr<PathLight> makePathLight(const SceneLight& light, const glm::dvec3& eye)
+{
+    const glm::dvec3 position = light.position - eye;
+    const glm::dvec3 intensity(light.intensity);
+    if (light.isBall())
+        return std::make_unique<BallPathLight>(position, intensity, double(light.radius));
+    return std::make_unique<SpotPathLight>(position, glm::normalize(glm::dvec3(light.direction)), intensity,
+                                           double(light.innerAngle),
+                                           light.isSpot() ? double(light.outerAngle) : kPi);
+}
+
 SpotPathLight::SpotPathLight(const glm::dvec3& position, const glm::dvec3& direction,
                              const glm::dvec3& intensity, double inner, double outer)
-    : position_(position), direction_(direction), intensity_(intensity), cosInner_(std::cos(inner)),
-      cosOuter_(std::cos(outer))
+    : position_(position), direction_(direction), intensity_(intensity),
+      cosInner_(outer < kPi ? std::cos(inner) : kAllDirections),
+      cosOuter_(outer < kPi ? std::cos(outer) : kAllDirections)
 {}
 
 LightSample SpotPathLight::sample(const glm::dvec3& position, const std::array<double, 2>&) const
@@ -76,12 +103,7 @@ LightSample SpotPathLight::sample(const glm::dvec3& position, const std::array<d
     sample.distance = std::sqrt(distance2);
     sample.direction = toLight / sample.distance;
     const double cosine = -glm::dot(sample.direction, direction_);
-    double share = cosine >= cosOuter_ ? 1.0 : 0.0;
-    if (cosine < cosInner_ && cosInner_ > cosOuter_) {
-        const double x = std::clamp((cosine - cosOuter_) / (cosInner_ - cosOuter_), 0.0, 1.0);
-        share = x * x * (3.0 - 2.0 * x);
-    }
-    sample.illuminance = intensity_ * (share / distance2);
+    sample.illuminance = intensity_ * (spotFalloff(cosine, cosInner_, cosOuter_) / distance2);
     return sample;
 }
 

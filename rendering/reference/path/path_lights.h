@@ -2,10 +2,13 @@
 /// Lights of the path tracer: directions are drawn towards them; the sky is met by rays that escape.
 #pragma once
 
+#include "rendering/frame/scene_light.h"
+
 #include <glm/vec3.hpp>
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 
 namespace fx::render {
@@ -83,6 +86,26 @@ private:
     glm::dvec3 position_, direction_, intensity_;
     double cosInner_, cosOuter_;
 };
+
+/// A glowing group of particles: as bright as a point, but finite inside its extent, where nothing blocks it.
+/// The same model as in the reference renderer and in rendering/lights/light.h.
+class GlowPathLight final : public PathLight
+{
+public:
+    /// @param intensity [cd] in every direction  @param radius [m] extent, > 0
+    GlowPathLight(const glm::dvec3& center, const glm::dvec3& intensity, double radius)
+        : center_(center), intensity_(intensity), radius_(radius)
+    {}
+    LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const override;
+    std::optional<LightPlace> place() const override { return LightPlace{center_, radius_}; }
+
+private:
+    glm::dvec3 center_, intensity_;
+    double radius_;
+};
+
+/// A light of a scene. @param eye [m] world position that rays are relative to
+std::unique_ptr<PathLight> makePathLight(const SceneLight& light, const glm::dvec3& eye);
 
 /// Light from everywhere that is far away.
 class PathSky

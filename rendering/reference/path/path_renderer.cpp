@@ -120,6 +120,13 @@ struct PathRenderer::Shared
         background.build(behind, camera.eye, tasks);
         if (scene.opaque.lighting.sunIlluminance != glm::vec3(0.0f))
             lights.push_back(&sun);
+        for (const SceneLight& lamp : scene.opaque.lamps)
+            lamps.push_back(makePathLight(lamp, camera.eye));
+        for (const EffectLight& glow : scene.opaque.particleLights)
+            lamps.push_back(std::make_unique<GlowPathLight>(glow.position - camera.eye,
+                                                            glm::dvec3(glow.intensity), double(glow.radius)));
+        for (const auto& lamp : lamps)
+            lights.push_back(lamp.get());
         paths.medium = &medium;
         paths.triangles = &triangles;
         paths.mesh = scene.opaque.mesh;
@@ -134,6 +141,7 @@ struct PathRenderer::Shared
     OpaqueView background;
     LightingSky sky;
     SunLight sun;
+    std::vector<std::unique_ptr<PathLight>> lamps;
     std::vector<const PathLight*> lights;
     PathScene paths;
 };

@@ -1,10 +1,11 @@
 /// @file path_renderer.h
 /// A picture by paths: tiles over threads, with a journal of what is done and the variance of every pixel.
 ///
-/// Light of the scene's sun, of its sky and of glowing gas is scattered by media and reflected by diffuse
-/// triangles any number of times. Rays from the eye that meet nothing show the scene's background; all others
-/// that escape meet the sky: its luminance above, light reflected by ground of the lighting's albedo below.
-/// The picture has the same bits for any number of threads, and whether it was made in one run or in several.
+/// Light of the scene's sun, lamps and sky, of glowing gas and of shining particles is scattered by media and
+/// reflected by diffuse triangles any number of times. Rays from the eye that meet nothing show the scene's
+/// background; all others that escape meet the sky: its luminance above, light reflected by ground of the
+/// lighting's albedo below. The picture has the same bits for any number of threads, and whether it was made
+/// in one run or in several.
 #pragma once
 
 #include "rendering/reference/path/path_integrator.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "rendering/reference/render/medium_view.h"
-#include "rendering/reference/render/opaque_view.h"
+#include "rendering/reference/render/scene_lights.h"
 
 #include <vector>
 
@@ -14,7 +14,8 @@ namespace fx::render {
 ///
 /// symbol    unit    meaning
 ///   a, p    1, 1/sr albedo and phase function of the blob
-///   E_l     lx      illuminance of light l with nothing in its way; T_l the transmittance towards it
+///   E_l     lx      illuminance of sun, lamp or glowing group l with nothing in its way
+///   T_l     1       the transmittance towards it
 ///   L_j     cd/m2   luminance of sky or ground in direction j; T_j the transmittance up to it
 ///   w_j     1       weight of direction j, sum 1
 ///   S       cd/m2   scattered light per optical depth
@@ -28,9 +29,8 @@ namespace fx::render {
 /// @accuracy  transmittances are exact; light that changes over a blob is not resolved
 /// @tests     tests/rendering/reference/render/test_blob_light.cpp
 ///
-/// @param lights sun and glowing groups as well; false: sky and ground alone
 /// @return S of each blob, by its place in the tree of `medium`; empty if nothing shines
-std::vector<glm::vec3> lightAtCenters(const MediumView& medium, const OpaqueView& opaque, bool lights,
-                                      base::TaskRunner& tasks);
+std::vector<glm::vec3> lightAtCenters(const MediumView& medium, const OpaqueView& opaque,
+                                      const SceneLights& lights, base::TaskRunner& tasks);
 
 } // namespace fx::render

@@ -30,12 +30,13 @@ void OpaqueView::build(const OpaqueScene& scene, const glm::dvec3& eye, base::Ta
 }
 
 OpaqueSample OpaqueView::sample(const TraceRay& ray, double x, double y, const RayHits& hits, double begin,
-                                RayHits& scratch) const
+                                RayHits& scratch, const Illuminance& illuminance) const
 {
     OpaqueSample sample;
     const SurfaceHit hit = hasMesh() ? triangles_.nearest(ray, hits, begin) : SurfaceHit{};
     sample.distance = hit.distance;
-    sample.luminance = hit.isHit() ? surfaceAt(ray, hit, scratch) : backgroundAt(ray.direction, x, y);
+    sample.luminance =
+        hit.isHit() ? surfaceAt(ray, hit, scratch, illuminance) : backgroundAt(ray.direction, x, y);
     return sample;
 }
 
@@ -71,18 +72,50 @@ glm::dvec3 OpaqueView::backgroundAt(const glm::dvec3& d, double x, double y) con
                    0.5 - std::asin(glm::clamp(d.y, -1.0, 1.0)) * kInvPi, true);
 }
 
-glm::dvec3 OpaqueView::surfaceAt(const TraceRay& ray, const SurfaceHit& hit, RayHits& scratch) const
+glm::dvec3 OpaqueView::surfaceAt(const TraceRay& ray, const SurfaceHit& hit, RayHits& scratch,
+                                 const Illuminance& illuminance) const
+{
+    const glm::dvec3 n = glm::normalize(interpolate(scene_.mesh.normals, hit));
+    const glm::dvec3 point = ray.origin + ray.direction * hit.distance;
+    const double lift = kSurfaceLift * hit.distance;
+    const glm::dvec3 reflectance = interpolate(scene_.mesh.colors, hit) * kInvPi;
+    if (!illuminance)
+        return reflectance * stageLight(point, n, lift, scratch);
+    const glm::dvec3 seen = glm::dot(n, ray.direction) > 0.0 ? -n : n;
+    return reflectance * illuminance(point + seen * lift, seen);
+}
+
+/// [lx] A ball above the horizon lights as a point in its middle.
+glm::dvec3 OpaqueView::lampLight(const SceneLight& lamp, const glm::dvec3& point, const glm::dvec3& n,
+                                 double lift, RayHits& scratch) const
+{
+    const glm::dvec3 way = lamp.position - eye_ - point;
+    const double distance = glm::length(way);
+    const double facing = glm::dot(n, way);
+    if (!(distance > 0.0 && facing > 0.0))
+        return glm::dvec3(0.0);
+    const double cosine = -glm::dot(way, glm::normalize(glm::dvec3(lamp.direction))) / distance;
+    const double share = lamp.isSpot() ? spotFalloff(cosine, std::cos(double(lamp.innerAngle)),
+                                                     std::cos(double(lamp.outerAngle)))
+                                       : 1.0;
+    const double open = std::max(0.0, distance - double(lamp.radius));
+    if (!(share > 0.0) || blocks({point + n * lift, way / distance}, open, scratch))
+        return glm::dvec3(0.0);
+    return glm::dvec3(lamp.intensity) * (share * facing / (distance * distance * distance));
+}
+
+/// [lx]
+glm::dvec3 OpaqueView::stageLight(const glm::dvec3& point, const glm::dvec3& n, double lift,
+                                  RayHits& scratch) const
 {
     const Lighting& light = scene_.lighting;
     const glm::dvec3 sun(light.sunDirection);
     const glm::dvec3 sunLight(light.sunIlluminance);
     const glm::dvec3 sky(light.skyLuminance);
-    const glm::dvec3 n = glm::normalize(interpolate(scene_.mesh.normals, hit));
-    const glm::dvec3 point = ray.origin + ray.direction * hit.distance;
     glm::dvec3 illuminance(0.0);
     const double cosine = glm::dot(n, sun);
     if (cosine > 0.0 && sunLight != glm::dvec3(0.0)) {
-        const TraceRay shadow{point + n * (kSurfaceLift * hit.distance), sun};
+        const TraceRay shadow{point + n * lift, sun};
         if (!triangles_.trace(shadow, 0.0, scratch).isHit())
             illuminance += sunLight * cosine;
     }
@@ -95,7 +128,9 @@ glm::dvec3 OpaqueView::surfaceAt(const TraceRay& ray, const SurfaceHit& hit, Ray
         illuminance +=
             glm::dvec3(fire.intensity) * (std::max(facing * 0.8 + 0.2, 0.0) / d2); // a wide light wraps
     }
-    return interpolate(scene_.mesh.colors, hit) * kInvPi * illuminance;
+    for (const SceneLight& lamp : scene_.lamps)
+        illuminance += lampLight(lamp, point, n, lift, scratch);
+    return illuminance;
 }
 
 } // namespace fx::render

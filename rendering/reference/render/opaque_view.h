@@ -2,12 +2,14 @@
 /// What stands behind the medium: diffuse triangles under the scene's lights, or the background.
 #pragma once
 
+#include "rendering/frame/scene_light.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
 #include "rendering/reference/render/triangle_scene.h"
 
 #include <glm/vec3.hpp>
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -29,7 +31,10 @@ struct OpaqueScene
     OpaqueMesh mesh;
     OpaqueBackground background;
     Lighting lighting;
-    std::vector<EffectLight> lights; ///< of the effects, on surfaces
+    std::vector<SceneLight> lamps;
+    std::vector<EffectLight> lights; ///< of the effects
+    /// Those of `lights` that no medium emits. The path tracer takes these only: its media emit the others.
+    std::vector<EffectLight> particleLights;
     bool isEmpty = false; ///< nothing at all stands behind the medium: the picture is transparent there
 };
 
@@ -43,8 +48,12 @@ struct OpaqueSample
     double distance = std::numeric_limits<double>::infinity(); ///< [m] along the ray
 };
 
+/// [lx] at a place a little above a surface, whose unit normal is towards the side that is seen.
+using Illuminance = std::function<glm::dvec3(const glm::dvec3& position, const glm::dvec3& normal)>;
+
 /// Shades as rendering/stage does, but with exact shadow rays in place of a shadow map. The medium casts no
-/// shadow on surfaces there, and none here.
+/// shadow on surfaces there, and none here. Lamps light from their middle. An Illuminance replaces all of
+/// that.
 class OpaqueView
 {
 public:
@@ -62,8 +71,9 @@ public:
     /// @param hits of the ray in tree(); ignored without a mesh
     /// @param begin [m] ray parameter where the ray begins
     /// @param scratch keeps memory for shadow rays
+    /// @param illuminance of surfaces, instead of that of rendering/stage; may be empty
     OpaqueSample sample(const TraceRay& ray, double x, double y, const RayHits& hits, double begin,
-                        RayHits& scratch) const;
+                        RayHits& scratch, const Illuminance& illuminance = {}) const;
 
     /// [m] along the ray to the first triangle, +infinity for none. @param scratch keeps memory
     double distance(const TraceRay& ray, RayHits& scratch) const
@@ -80,7 +90,12 @@ public:
 private:
     glm::dvec3 backgroundAt(const glm::dvec3& direction, double x, double y) const;
     glm::dvec3 imageAt(double x, double y, bool wraps) const;
-    glm::dvec3 surfaceAt(const TraceRay& ray, const SurfaceHit& hit, RayHits& scratch) const;
+    glm::dvec3 surfaceAt(const TraceRay& ray, const SurfaceHit& hit, RayHits& scratch,
+                         const Illuminance& illuminance) const;
+    glm::dvec3 lampLight(const SceneLight& lamp, const glm::dvec3& point, const glm::dvec3& normal,
+                         double lift, RayHits& scratch) const;
+    glm::dvec3 stageLight(const glm::dvec3& point, const glm::dvec3& normal, double lift,
+                          RayHits& scratch) const;
 
     OpaqueScene scene_;
     glm::dvec3 eye_{0.0};

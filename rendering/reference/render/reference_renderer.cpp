@@ -14,7 +14,7 @@ uint64_t keyOf(const ReferenceScene& scene, const ReferenceSettings& s, base::Ta
     addScene(hash, scene, tasks);
     for (const double number :
          {double(s.width), double(s.height), double(s.samples), s.exposure, double(s.isSingle),
-          double(s.scattering), double(s.integral.model), double(s.integral.degree),
+          double(s.scattering), double(s.skyRings), double(s.integral.model), double(s.integral.degree),
           double(s.integral.scheme.method), double(s.integral.scheme.count), s.integral.scheme.cap,
           s.integral.scheme.step, s.integral.scheme.tolerance, s.integral.scheme.stopDepth})
         hash.add(number);
@@ -30,15 +30,19 @@ base::Status ReferenceRenderer::build(const ReferenceScene& scene, const Referen
         return status;
     if (settings.samples < 1 || settings.samples > kMaxSamples)
         return {base::Code::InvalidArgument, "samples must be 1..16"};
+    if (settings.skyRings < 1 || settings.skyRings > SceneLights::kMostSkyRings)
+        return {base::Code::InvalidArgument, "rings of the sky must be 1..64"};
     picture_.camera = withUnitAxes(scene.camera);
     tasks_ = &tasks;
     key_ = keyOf(scene, settings, tasks);
     picture_.settings = settings;
     picture_.medium.build(scene.blobs, scene.camera.eye, tasks);
     picture_.opaque.build(scene.opaque, scene.camera.eye, tasks);
-    if (settings.scattering != ScatteringMode::None)
-        picture_.medium.setScattered(lightAtCenters(picture_.medium, picture_.opaque,
-                                                    settings.scattering == ScatteringMode::Centers, tasks));
+    picture_.lights.build(scene.opaque, scene.camera.eye, settings.skyRings);
+    const bool atCenters = settings.scattering == ScatteringMode::Centers;
+    picture_.medium.setScattered(
+        atCenters ? lightAtCenters(picture_.medium, picture_.opaque, picture_.lights, tasks)
+                  : std::vector<glm::vec3>());
     tiles_.start(settings.width, settings.height, settings.samples == 1 ? 16 : 8, reference_channel::Count);
     idle_.clear();
     work_ = {};

@@ -3,9 +3,9 @@
 ///
 /// Every pixel is the integral of emission and absorption along its ray, through all blobs in double (or
 /// float), up to the nearest triangle. What the GPU passes add for looks is left out: procedural detail,
-/// scattering more than once, shimmer, glare. Light of sun, fires and sky that is scattered once is an
-/// option. The picture has the same bits for any number of threads, any instruction set, and whether it was
-/// made in one run or in several.
+/// scattering more than once, shimmer, glare. Light of sun, lamps, fires and sky that is scattered once is
+/// an option. The picture has the same bits for any number of threads, any instruction set, and whether it
+/// was made in one run or in several.
 #pragma once
 
 #include "rendering/reference/render/reference_scene.h"

@@ -19,6 +19,17 @@ bool isUsable(const MediumBlob& blob)
            blob.source.y >= 0.0 && blob.source.z >= 0.0;
 }
 
+bool isUsable(const SceneLight& lamp)
+{
+    const glm::dvec3 direction(lamp.direction);
+    const double sum = lamp.position.x + lamp.position.y + lamp.position.z + double(lamp.intensity.x) +
+                       double(lamp.intensity.y) + double(lamp.intensity.z) + double(lamp.radius);
+    return base::isFinite(sum) && lamp.intensity.x >= 0.0f && lamp.intensity.y >= 0.0f &&
+           lamp.intensity.z >= 0.0f && lamp.radius >= 0.0f && lamp.innerAngle >= 0.0f &&
+           lamp.outerAngle >= lamp.innerAngle && !(lamp.isBall() && lamp.isSpot()) &&
+           unitDirection({direction.x, direction.y, direction.z}).ok();
+}
+
 uint64_t digestOf(std::span<const MediumBlob> blobs)
 {
     KeyHash hash;
@@ -61,10 +72,20 @@ void addOpaque(KeyHash& hash, const OpaqueScene& scene)
     for (const double number : {double(b.width), double(b.height), double(b.panorama),
                                 double(scene.lighting.groundAlbedo), double(scene.isEmpty)})
         hash.add(number);
-    for (const EffectLight& light : scene.lights) {
-        hash.add(light.position);
-        hash.add(glm::dvec3(light.intensity));
-        hash.add(double(light.radius));
+    for (const auto& lights : {std::span(scene.lights), std::span(scene.particleLights)}) {
+        hash.add(double(lights.size()));
+        for (const EffectLight& light : lights) {
+            hash.add(light.position);
+            hash.add(glm::dvec3(light.intensity));
+            hash.add(double(light.radius));
+        }
+    }
+    for (const SceneLight& lamp : scene.lamps) {
+        hash.add(lamp.position);
+        hash.add(glm::dvec3(lamp.intensity));
+        hash.add(glm::dvec3(lamp.direction));
+        for (const double number : {double(lamp.radius), double(lamp.innerAngle), double(lamp.outerAngle)})
+            hash.add(number);
     }
 }
 
@@ -91,8 +112,14 @@ base::Status checkScene(const ReferenceScene& scene, int width, int height)
 {
     if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize)
         return refused("width and height must be 1..16384");
-    if (!std::all_of(scene.blobs.begin(), scene.blobs.end(), isUsable))
+    if (!std::all_of(scene.blobs.begin(), scene.blobs.end(),
+                     [](const MediumBlob& blob) { return isUsable(blob); }))
         return refused("a blob's numbers must be finite, its radius positive, the others not negative");
+    const auto& lamps = scene.opaque.lamps;
+    if (!std::all_of(lamps.begin(), lamps.end(), [](const SceneLight& lamp) { return isUsable(lamp); }))
+        return refused(
+            "a light's numbers must be finite and not negative, its direction not 0, its outer angle "
+            "at least the inner, and a ball is no spot");
     const ReferenceCamera& c = scene.camera;
     for (const glm::dvec3& axis : {c.right, c.up, c.forward})
         if (!unitDirection({axis.x, axis.y, axis.z}).ok())

@@ -31,7 +31,7 @@ class KeyHash
 {
 public:
     /// Of the arithmetic: another picture from the same input gets another number.
-    static constexpr uint64_t kVersion = 3;
+    static constexpr uint64_t kVersion = 4;
 
     void add(double x) { addWord(std::bit_cast<uint64_t>(x)); }
     void add(const glm::dvec3& v)
@@ -60,8 +60,8 @@ private:
 /// Hashes the scene. The same bits for any number of threads.
 void addScene(KeyHash& io, const ReferenceScene& scene, base::TaskRunner& tasks);
 
-/// @return InvalidArgument for a size of a picture outside 1..16384, or a blob or camera with impossible
-/// numbers
+/// @return InvalidArgument for a size of a picture outside 1..16384, or a blob, a light or a camera with
+/// impossible numbers
 base::Status checkScene(const ReferenceScene& scene, int width, int height);
 
 /// The camera with axes exactly as long as formulas assume. @param camera checked

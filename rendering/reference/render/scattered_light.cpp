@@ -1,9 +1,8 @@
 #include "rendering/reference/render/scattered_light.h"
 
 #include "rendering/optics/phase.h"
-#include "rendering/reference/render/chord_depth.h"
-#include "rendering/reference/trace/ray_query.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -19,13 +18,29 @@ constexpr double kThin = 0.1;       ///< [1] optical depth below which intervals
 constexpr double kLeastIntervals = 24.0;
 constexpr double kDarkest = 1e-6;              ///< transmittance below which nothing is seen any more
 constexpr double kNode = 0.774596669241483377; ///< of Gauss-Legendre on [-1, 1]: sqrt(3/5)
+constexpr double kWidest = 0.4;                ///< [rad] of a part as a lamp sees it
+constexpr double kGrowth = 3.0;                ///< of the distance from a lamp within a piece
+/// Shifts the directions of the sky from node to node: the powers of 1 / x with x^3 = x + 1.
+constexpr glm::dvec2 kLattice{0.754877666246692760, 0.569840290998053266};
+
+/// Calls add(place, weight) for the three nodes of [from, to].
+template <class Add>
+void integrate(double from, double to, const Add& add)
+{
+    const double middle = 0.5 * (from + to);
+    const double half = 0.5 * (to - from);
+    for (const int side : {-1, 0, 1})
+        add(middle + half * kNode * side, half * (side == 0 ? 8.0 : 5.0) / 9.0);
+}
 
 } // namespace
 
-ScatteredLight::Layers ScatteredLight::along(const TraceRay& ray, const RayHits& hits, double begin,
+ScatteredLight::Layers ScatteredLight::along(const TraceRay& trace, const RayHits& hits, double begin,
                                              double end)
 {
     Layers light{};
+    const Ray ray{trace, hits, begin};
+    node_ = 0;
     events_.clear();
     for (size_t i = 0; i < hits.size(); ++i) {
         events_.push_back(std::clamp(hits.enter[i], begin, end));
@@ -42,68 +57,118 @@ ScatteredLight::Layers ScatteredLight::along(const TraceRay& ray, const RayHits&
         if (depth > 0.0) {
             if (std::exp(-opticalDepthOf(medium_, hits, begin, from)) < kDarkest)
                 break;
-            addInterval(ray, hits, begin, {from, events_[k], depth}, light);
+            addInterval(ray, {from, events_[k]}, light);
         }
         from = events_[k];
     }
     return light;
 }
 
-void ScatteredLight::addInterval(const TraceRay& ray, const RayHits& hits, double begin,
-                                 const Interval& interval, Layers& io)
+void ScatteredLight::addInterval(const Ray& ray, const Interval& interval, Layers& io)
 {
-    const int parts = int(std::clamp(std::ceil(interval.depth / kCap), 1.0, kMostParts));
-    const double length = (interval.to - interval.from) / parts;
-    for (int part = 0; part < parts; ++part)
-        addPart(ray, hits, begin, interval.from + length * part, interval.from + length * (part + 1), io);
-}
-
-void ScatteredLight::addPart(const TraceRay& ray, const RayHits& hits, double begin, double from, double to,
-                             Layers& io)
-{
-    const double middle = 0.5 * (from + to);
-    const double half = 0.5 * (to - from);
-    for (const int side : {-1, 0, 1}) {
-        const double t = middle + half * kNode * side;
-        const double seen = std::exp(-opticalDepthOf(medium_, hits, begin, t));
-        addNode(ray, hits, t, half * seen * (side == 0 ? 8.0 : 5.0) / 9.0, io); // (2)
+    if (lights_.hasSun() || lights_.hasSky())
+        addParts(ray, interval, kDistant, io);
+    for (size_t lamp = 0; lamp < lights_.lampCount(); ++lamp) {
+        lights_.course(lamp, ray.ray, course_);
+        double from = interval.from;
+        for (const double cut : course_.cuts)
+            if (cut > from && cut < interval.to) {
+                addParts(ray, {from, cut}, lamp, io);
+                from = cut;
+            }
+        addParts(ray, {from, interval.to}, lamp, io);
     }
 }
 
-double ScatteredLight::transmittance(const glm::dvec3& point, const glm::dvec3& direction, double distance)
+void ScatteredLight::addParts(const Ray& ray, const Interval& interval, size_t lamp, Layers& io)
 {
-    const TraceRay shadow{point, direction};
-    if (opaque_.blocks(shadow, distance, shadowHits_))
-        return 0.0;
-    findHits(medium_.tree(), shadow, 0.0, distance, shadowHits_);
-    return std::exp(-opticalDepthOf(medium_, shadowHits_, 0.0, distance));
+    const double depth = opticalDepthOf(medium_, ray.hits, interval.from, interval.to);
+    const int parts = int(std::clamp(std::ceil(depth / kCap), 1.0, kMostParts));
+    const double length = (interval.to - interval.from) / parts;
+    for (int part = 0; part < parts; ++part) {
+        const Interval piece{interval.from + length * part, interval.from + length * (part + 1)};
+        if (lamp == kDistant)
+            addPart(ray, piece, io);
+        else
+            addLampPart(ray, piece, lamp, io);
+    }
 }
 
-void ScatteredLight::addNode(const TraceRay& ray, const RayHits& hits, double t, double weight, Layers& io)
+void ScatteredLight::addPart(const Ray& ray, const Interval& part, Layers& io)
 {
-    const glm::dvec3 point = ray.origin + ray.direction * t;
-    const auto scatter = [&](const glm::dvec3& direction, const glm::dvec3& illuminance, double distance) {
-        const glm::dvec3 arriving = illuminance * (weight * transmittance(point, direction, distance));
-        const double cosine = glm::dot(ray.direction, direction); // 1: looking into the light
-        for (size_t i = 0; i < hits.size(); ++i) {
-            const double extinction = BlobChord(medium_.blob(hits.place[i]), hits, i).extinction(t);
-            if (!(extinction > 0.0))
-                continue;
-            const MediumView::Scattering& s = medium_.scattering(hits.place[i]);
-            const double phase = double(henyeyGreenstein(float(cosine), s.anisotropy));
-            io[size_t(s.layer)] += arriving * glm::dvec3(s.albedo) * (extinction * phase); // (1)
+    integrate(part.from, part.to,
+              [&](double t, double length) { addNode(ray, t, length, kDistant, io); }); // (3)
+}
+
+void ScatteredLight::addLampPart(const Ray& ray, const Interval& part, size_t lamp, Layers& io)
+{
+    // All of the part is on one side of the place nearest to the lamp. Far from the lamp the medium changes
+    // within small angles, so that pieces grow with the distance by no more than a factor.
+    const double d = course_.distance;
+    const bool isBehind = part.to > course_.nearest;
+    double from = std::abs((isBehind ? part.from : part.to) - course_.nearest);
+    const double end = std::abs((isBehind ? part.to : part.from) - course_.nearest);
+    while (from < end) {
+        const double to = std::min(end, std::max(kGrowth * from, d));
+        const double first = std::atan(from / d), last = std::atan(to / d);
+        const int slices = std::max(1, int(std::ceil((last - first) / kWidest)));
+        const double slice = (last - first) / slices;
+        for (int i = 0; i < slices; ++i)
+            integrate(first + slice * i, first + slice * (i + 1), [&](double angle, double weight) {
+                const double tangent = std::tan(angle);
+                addNode(ray, course_.nearest + (isBehind ? d : -d) * tangent,
+                        weight * d * (1.0 + tangent * tangent), lamp, io); // (4)
+            });
+        from = to;
+    }
+}
+
+glm::dvec3 ScatteredLight::inflow(const glm::dvec3& look, float anisotropy) const
+{
+    glm::dvec3 light(0.0), sky(0.0);
+    double all = 0.0;
+    for (size_t i = 0; i < arriving_.size(); ++i) {
+        const double cosine = glm::dot(look, arriving_[i].direction); // 1: looking into the light
+        const double phase = double(henyeyGreenstein(float(cosine), anisotropy));
+        if (i < firstOfSky_) {
+            light += phase * arriving_[i].illuminance;
+            continue;
         }
-    };
-    const Lighting& lighting = opaque_.scene().lighting;
-    if (lighting.sunIlluminance != glm::vec3(0.0f))
-        scatter(glm::dvec3(lighting.sunDirection), glm::dvec3(lighting.sunIlluminance), 1e30);
-    for (const EffectLight& fire : opaque_.scene().lights) {
-        const glm::dvec3 toLight = fire.position - opaque_.eye() - point;
-        const double distance = glm::length(toLight);
-        const double radius = double(fire.radius);
-        if (distance > 0.0)
-            scatter(toLight / distance, glm::dvec3(fire.intensity) / (distance * distance + radius * radius),
-                    std::max(distance - radius, 0.0));
+        sky += phase * arriving_[i].illuminance;
+        all += phase * arriving_[i].solidAngle;
+    }
+    return all > 0.0 ? light + sky / all : light; // (2)
+}
+
+void ScatteredLight::addNode(const Ray& ray, double t, double length, size_t lamp, Layers& io)
+{
+    const glm::dvec3 point = ray.ray.origin + ray.ray.direction * t;
+    const glm::dvec2 shift = glm::fract(double(node_++) * kLattice);
+    arriving_.clear();
+    if (lamp != kDistant)
+        lights_.appendLamp(lamp, point, shift.x, arriving_);
+    else if (lights_.hasSun())
+        arriving_.push_back(lights_.sun());
+    firstOfSky_ = arriving_.size();
+    if (lamp == kDistant && lights_.hasSky())
+        lights_.appendSky(shift, 1, arriving_);
+    const double weight = length * std::exp(-opticalDepthOf(medium_, ray.hits, ray.begin, t));
+    for (ArrivingLight& light : arriving_)
+        if (light.illuminance != glm::dvec3(0.0))
+            light.illuminance *= weight * shadow_.visibility({point, light.direction}, light.distance);
+
+    glm::dvec3 light(0.0);
+    float anisotropy = 2.0f; // of `light`; 2: none yet
+    for (size_t i = 0; i < ray.hits.size(); ++i) {
+        const double extinction = BlobChord(medium_.blob(ray.hits.place[i]), ray.hits, i).extinction(t);
+        if (!(extinction > 0.0))
+            continue;
+        const MediumView::Scattering& s = medium_.scattering(ray.hits.place[i]);
+        if (s.anisotropy != anisotropy) {
+            anisotropy = s.anisotropy;
+            light = inflow(ray.ray.direction, anisotropy);
+        }
+        io[size_t(s.layer)] += light * glm::dvec3(s.albedo) * extinction; // (1)
     }
 }
 

@@ -36,8 +36,14 @@ TileRenderer::TileRenderer(const ReferencePicture& picture)
     : picture_(picture), grid_(picture.camera.grid(picture.settings.width * picture.settings.samples,
                                                    picture.settings.height * picture.settings.samples)),
       integrator_(makeBundleIntegrator(picture.settings.integral, picture.settings.isSingle)),
-      scattered_(picture.medium, picture.opaque)
-{}
+      scattered_(picture.medium, picture.opaque, picture.lights),
+      surfaceLight_(picture.medium, picture.opaque, picture.lights)
+{
+    if (picture.settings.scattering == ScatteringMode::Single)
+        illuminance_ = [this](const glm::dvec3& position, const glm::dvec3& normal) {
+            return surfaceLight_.at(position, normal);
+        };
+}
 
 TileRenderer::~TileRenderer() = default;
 
@@ -75,7 +81,7 @@ void TileRenderer::renderOpaque(const PixelBlock& rays)
         sample.ray = grid_.ray(x + 0.5, y + 0.5, &lengthPerDepth);
         sample.begin = picture_.camera.nearDistance * lengthPerDepth;
         sample.opaque = picture_.opaque.sample(sample.ray, (x + 0.5) * perX, (y + 0.5) * perY, hits,
-                                               sample.begin, shadowHits_);
+                                               sample.begin, shadowHits_, illuminance_);
     };
     if (picture_.opaque.hasMesh()) {
         walk_.run(picture_.opaque.tree(), grid_, rays, {picture_.camera.nearDistance}, see);

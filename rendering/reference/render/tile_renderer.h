@@ -7,6 +7,7 @@
 #include "rendering/reference/render/reference_camera.h"
 #include "rendering/reference/render/scattered_light.h"
 #include "rendering/reference/render/seen_depth.h"
+#include "rendering/reference/render/surface_light.h"
 
 #include <functional>
 #include <memory>
@@ -19,8 +20,8 @@ namespace fx::render {
 enum class ScatteringMode : uint8_t
 {
     None,
-    Centers, ///< of sun, glowing gas and sky, as it arrives at the blobs' centers
-    Single   ///< of sun and glowing gas by shadow rays all along each ray; of the sky as above
+    Centers, ///< as it arrives at the blobs' centers
+    Single   ///< by shadow rays all along each ray, and from surfaces, which media and surfaces shade
 };
 
 struct ReferenceSettings
@@ -31,6 +32,7 @@ struct ReferenceSettings
     double exposure = 1.0; ///< [m2/cd] written value per luminance
     bool isSingle = false; ///< integrates in float instead of double
     ScatteringMode scattering = ScatteringMode::None;
+    int skyRings = 3; ///< 1..64: ScatteringMode::Single takes light of the sky from 4 skyRings^2 directions
     IntegralSettings integral;
 };
 
@@ -56,6 +58,7 @@ struct ReferencePicture
     ReferenceCamera camera;
     MediumView medium;
     OpaqueView opaque;
+    SceneLights lights;
 };
 
 /// Counts of what was done.
@@ -97,6 +100,8 @@ private:
     std::unique_ptr<BundleIntegrator> integrator_;
     SeenDepth seenDepth_;
     ScatteredLight scattered_;
+    SurfaceLight surfaceLight_;
+    Illuminance illuminance_; ///< by `surfaceLight_`; empty: as rendering/stage does
     std::vector<Sample> samples_;
     RayHits hits_;
     RayHits shadowHits_;

@@ -32,14 +32,15 @@ OpaqueScene underSky(float luminance, float groundAlbedo)
 }
 
 /// By blob, in the order of the list.
-std::vector<glm::vec3> lightOf(const std::vector<MediumBlob>& blobs, const OpaqueScene& scene,
-                               bool lights = false)
+std::vector<glm::vec3> lightOf(const std::vector<MediumBlob>& blobs, const OpaqueScene& scene)
 {
     const auto tasks = base::makeTbbRunner(2);
     MediumView medium;
     medium.build(blobs, glm::dvec3(0.0), *tasks);
     OpaqueView opaque;
     opaque.build(scene, glm::dvec3(0.0), *tasks);
+    SceneLights lights;
+    lights.build(scene, glm::dvec3(0.0), 1);
     const std::vector<glm::vec3> byPlace = lightAtCenters(medium, opaque, lights, *tasks);
     std::vector<glm::vec3> light(byPlace.size());
     for (uint32_t place = 0; place < byPlace.size(); ++place)
@@ -78,28 +79,33 @@ TEST(BlobLight, aShellAroundABlobDimsAllDirections)
     EXPECT_NEAR(light[0].x, 80.0 * std::exp(-0.5 * 3.5 / std::numbers::pi), 1e-4);
 }
 
-TEST(BlobLight, sunAndGlowingGasComeWithTheirPhaseAndShadows)
+TEST(BlobLight, sunLampsAndGlowingGasComeWithTheirPhaseAndShadows)
 {
     OpaqueScene scene = underSky(0.0f, 0.0f);
     scene.lighting.sunDirection = {0.0f, 0.8f, 0.6f};
     scene.lighting.sunIlluminance = glm::vec3(100.0f);
     MediumBlob blob = blobAt({0.0, 0.0, -10.0}, 1.0, 1e-9);
     blob.anisotropy = 0.4;
-    EXPECT_EQ(lightOf({blob}, scene)[0].x, 0.0f);
     const double sun = 100.0 * double(henyeyGreenstein(-0.6f, 0.4f));
-    EXPECT_NEAR(lightOf({blob}, scene, true)[0].x, sun, 1e-4 * sun);
+    EXPECT_NEAR(lightOf({blob}, scene)[0].x, sun, 1e-4 * sun);
     scene.lights.push_back({glm::dvec3(0.0, 3.0, -10.0), glm::vec3(90.0f), 0.5f});
     const double fire = 90.0 / 9.25 * double(henyeyGreenstein(0.0f, 0.4f));
-    EXPECT_NEAR(lightOf({blob}, scene, true)[0].x, sun + fire, 1e-4 * (sun + fire));
+    EXPECT_NEAR(lightOf({blob}, scene)[0].x, sun + fire, 1e-4 * (sun + fire));
+    SceneLight point;
+    point.position = {0.0, 3.0, -10.0};
+    point.intensity = glm::vec3(18.0f);
+    scene.lamps.push_back(point);
+    const double lamp = 18.0 / 9.0 * double(henyeyGreenstein(0.0f, 0.4f));
+    EXPECT_NEAR(lightOf({blob}, scene)[0].x, sun + fire + lamp, 1e-4 * (sun + fire + lamp));
     const std::vector<glm::vec3> roof{{-9, 2, 9}, {9, 2, 9}, {0, 2, -90}};
     const std::vector<glm::vec3> up(3, {0, 1, 0});
     scene.mesh = {glm::dvec3(0.0), roof, up, up};
-    EXPECT_EQ(lightOf({blob}, scene, true)[0].x, 0.0f);
+    EXPECT_EQ(lightOf({blob}, scene)[0].x, 0.0f);
 }
 
 TEST(BlobLight, whereNothingShinesThereIsNoLight)
 {
-    EXPECT_TRUE(lightOf({blobAt({0.0, 0.0, -5.0}, 1.0, 1.0)}, OpaqueScene{}, true).empty());
+    EXPECT_TRUE(lightOf({blobAt({0.0, 0.0, -5.0}, 1.0, 1.0)}, OpaqueScene{}).empty());
 }
 
 TEST(BlobLight, inAWhiteFurnaceAThinCloudOfAlbedoOneDisappears)

@@ -137,6 +137,33 @@ TEST(OpaqueView, whatFacesDownSeesTheLightThatTheGroundReflects)
     EXPECT_NEAR(look(scene, {0.0, 1.0, 0.0}, {0.0, 1.0, 0.0}).luminance.x, 0.5 * ground, 1e-6);
 }
 
+TEST(OpaqueView, pointsBallsAndSpotsLightItPastOtherTriangles)
+{
+    Triangles triangles;
+    addFloor(triangles, 0.0f, 10.0f);
+    OpaqueScene scene;
+    scene.lighting.groundAlbedo = 0.0f;
+    scene.mesh = triangles.mesh();
+    SceneLight lamp;
+    lamp.position = {3.0, 4.0, 0.0};
+    lamp.intensity = glm::vec3(50.0f);
+    lamp.direction = {1.0f, 0.0f, 0.0f};
+    scene.lamps = {lamp};
+    const auto light = [&] { return look(scene, {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}).luminance.x; };
+    const double expected = 0.5 / std::numbers::pi * 50.0 * 0.8 / 25.0;
+    EXPECT_NEAR(light(), expected, 1e-5 * expected);
+    scene.lamps[0].radius = 1.0f;
+    EXPECT_NEAR(light(), expected, 1e-5 * expected);
+    scene.lamps[0].radius = 0.0f;
+    scene.lamps[0].innerAngle = scene.lamps[0].outerAngle = 0.3f;
+    EXPECT_EQ(light(), 0.0) << "its cone goes elsewhere";
+    scene.lamps[0].direction = {-0.6f, -0.8f, 0.0f};
+    EXPECT_NEAR(light(), expected, 1e-5 * expected);
+    addFloor(triangles, 2.0f, 2.5f);
+    scene.mesh = triangles.mesh();
+    EXPECT_EQ(light(), 0.0);
+}
+
 TEST(OpaqueView, backgroundImagesFillTheViewOrSurroundTheEye)
 {
     const std::vector<glm::vec3> image{{1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0},

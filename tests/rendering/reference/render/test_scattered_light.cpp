@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -30,7 +31,7 @@ MediumBlob blobAt(const glm::dvec3& center, double radius, double crossSection)
 
 /// Light along -Z from the origin.
 ScatteredLight::Layers scatteredBy(const std::vector<MediumBlob>& blobs, const OpaqueScene& scene,
-                                   double end = kInf)
+                                   double end = kInf, int skyRings = 4)
 {
     const auto tasks = base::makeSerialRunner();
     MediumView medium;
@@ -40,7 +41,9 @@ ScatteredLight::Layers scatteredBy(const std::vector<MediumBlob>& blobs, const O
     const TraceRay ray{glm::dvec3(0.0), {0.0, 0.0, -1.0}};
     RayHits hits;
     findHits(medium.tree(), ray, 0.0, end, hits);
-    return ScatteredLight(medium, opaque).along(ray, hits, 0.0, end);
+    SceneLights lights;
+    lights.build(scene, glm::dvec3(0.0), skyRings);
+    return ScatteredLight(medium, opaque, lights).along(ray, hits, 0.0, end);
 }
 
 OpaqueScene underSun(const glm::vec3& direction)
@@ -48,6 +51,7 @@ OpaqueScene underSun(const glm::vec3& direction)
     OpaqueScene scene;
     scene.lighting.sunDirection = direction;
     scene.lighting.sunIlluminance = {100.0f, 100.0f, 100.0f};
+    scene.lighting.groundAlbedo = 0.0f;
     return scene;
 }
 
@@ -115,6 +119,184 @@ TEST(ScatteredLight, aGlowingGroupIsALightOfItsDistance)
     const double depth = 3.5 / std::numbers::pi * 1e-9 / 1e-4;
     const double expected = 90.0 / (9.0 + 0.25) / (4.0 * std::numbers::pi) * depth;
     EXPECT_NEAR(scatteredBy({blob}, scene)[1].x, expected, 1e-3 * expected);
+}
+
+OpaqueScene withLamp(const glm::dvec3& position, float radius = 0.0f)
+{
+    OpaqueScene scene;
+    SceneLight lamp;
+    lamp.position = position;
+    lamp.intensity = glm::vec3(40.0f);
+    lamp.radius = radius;
+    scene.lamps.push_back(lamp);
+    return scene;
+}
+
+TEST(ScatteredLight, theRadialTransmittanceFromAPointInTheMiddleOfABlobIsExact)
+{
+    // Collisions of the light of a point within r: the integral of extinction times transmittance is
+    // 1 - T(r), and T is that of half a chord at the rim.
+    const auto tasks = base::makeSerialRunner();
+    for (const double crossSection : {0.3, 3.0, 20.0}) {
+        MediumView medium;
+        medium.build({{blobAt({0.0, 0.0, -5.0}, 2.0, crossSection)}}, glm::dvec3(0.0), *tasks);
+        OpaqueView opaque;
+        opaque.build({}, glm::dvec3(0.0), *tasks);
+        ShadowRay shadow(medium, opaque);
+        const glm::dvec3 center(0.0, 0.0, -5.0), out = glm::normalize(glm::dvec3(1.0, 2.0, -0.5));
+        const double peak = 105.0 * crossSection / (32.0 * std::numbers::pi * 8.0);
+        double collided = 0.0;
+        constexpr int kSteps = 2000;
+        for (int k = 0; k < kSteps; ++k) {
+            const double r = 2.0 * (k + 0.5) / kSteps;
+            const double q = 1.0 - r * r / 4.0;
+            collided += peak * q * q * shadow.visibility({center + r * out, -out}, r) * 2.0 / kSteps;
+        }
+        const double half = 0.5 * 3.5 / std::numbers::pi * crossSection / 4.0;
+        EXPECT_NEAR(collided, 1.0 - std::exp(-half), 1e-5);
+    }
+}
+
+TEST(ScatteredLight, aPointInTheMiddleOfABlobLightsItAsTheRadialIntegralSays)
+{
+    // The ray passes the light at the distance b. Counted by the angle, dt / r^2 = da / b.
+    for (const double b : {0.5, 0.05, 1e-3}) {
+        for (const double crossSection : {0.1, 2.0, 10.0}) {
+            const double radius = 1.0;
+            const double peak = 105.0 * crossSection / (32.0 * std::numbers::pi);
+            const auto outwards = [&](double r) { // optical depth from the center
+                return peak * (r - 2.0 / 3.0 * r * r * r + 0.2 * r * r * r * r * r);
+            };
+            const double half = std::sqrt(radius * radius - b * b);
+            const double h2 = half * half;
+            const auto alongRay = [&](double s) { // from the middle of the chord
+                return peak * (h2 * h2 * s - 2.0 / 3.0 * h2 * s * s * s + 0.2 * s * s * s * s * s);
+            };
+            double expected = 0.0;
+            constexpr int kSteps = 20000;
+            const double rim = std::atan(half / b);
+            for (int k = 0; k < kSteps; ++k) {
+                const double s = b * std::tan(rim * (2.0 * (k + 0.5) / kSteps - 1.0));
+                const double r = std::sqrt(b * b + s * s);
+                const double q = 1.0 - r * r;
+                expected += peak * q * q * std::exp(-outwards(r) - alongRay(s) - alongRay(half));
+            }
+            expected *= 2.0 * rim / kSteps / b * 40.0 / (4.0 * std::numbers::pi);
+            const auto light =
+                scatteredBy({blobAt({0.0, b, -10.0}, radius, crossSection)}, withLamp({0.0, b, -10.0}));
+            EXPECT_NEAR(light[1].x, expected, 2e-4 * expected) << b << ' ' << crossSection;
+        }
+    }
+}
+
+TEST(ScatteredLight, onlyTheMediumInsideTheConeOfASpotIsLit)
+{
+    OpaqueScene scene = withLamp({0.0, 4.0, -10.0});
+    scene.lamps[0].innerAngle = scene.lamps[0].outerAngle = std::atan(0.5f);
+    // The cone meets the ray from -12 to -8. Extinction of a thin blob in it: half + half of the middle.
+    const MediumBlob wide = blobAt({0.0, 0.0, -10.0}, 4.0, 1e-6);
+    const double peak = 105.0 * 1e-6 / (32.0 * std::numbers::pi * 64.0);
+    double expected = 0.0;
+    constexpr int kSteps = 10000;
+    for (int k = 0; k < kSteps; ++k) {
+        const double s = 4.0 * (k + 0.5) / kSteps - 2.0;
+        const double q = 1.0 - s * s / 16.0;
+        expected += peak * q * q / (16.0 + s * s);
+    }
+    expected *= 4.0 / kSteps * 40.0 / (4.0 * std::numbers::pi);
+    EXPECT_NEAR(scatteredBy({wide}, scene)[1].x, expected, 1e-5 * expected);
+    EXPECT_EQ(scatteredBy({blobAt({0.0, 0.0, -5.0}, 2.9, 1e-6)}, scene)[1].x, 0.0);
+}
+
+TEST(ScatteredLight, aBallLightsAsAPointFromOutsideAndFromAllSidesWithin)
+{
+    const MediumBlob blob = blobAt({0.0, 0.0, -10.0}, 0.01, 1e-9);
+    const double depth = 3.5 / std::numbers::pi * 1e-9 / 1e-4;
+    for (const float radius : {0.0f, 0.1f, 2.0f}) {
+        const double below =
+            radius > 0.0f ? radius * radius / 9.0 / (1.0 + std::sqrt(1.0 - radius * radius / 9.0)) : 0.0;
+        const double luminance = radius > 0.0f ? 40.0 / (std::numbers::pi * radius * radius) : 0.0;
+        const double fluence = radius > 0.0f ? luminance * 2.0 * std::numbers::pi * below : 40.0 / 9.0;
+        const double expected = fluence / (4.0 * std::numbers::pi) * depth;
+        EXPECT_NEAR(scatteredBy({blob}, withLamp({0.0, 3.0, -10.0}, radius))[1].x, expected, 1e-4 * expected);
+    }
+    const double within = 40.0 / (std::numbers::pi * 16.0) * depth;
+    EXPECT_NEAR(scatteredBy({blob}, withLamp({0.0, 3.0, -10.0}, 4.0f))[1].x, within, 1e-4 * within);
+}
+
+TEST(ScatteredLight, anEvenSkyAroundAThinBlobIsSeenInItWhateverThePhase)
+{
+    OpaqueScene scene;
+    scene.lighting.skyLuminance = glm::vec3(80.0f);
+    scene.lighting.groundAlbedo = 1.0f;
+    for (const double g : {0.0, 0.7, -0.9})
+        for (const int rings : {1, 4}) {
+            MediumBlob blob = blobAt({0.0, 0.0, -10.0}, 1.0, 1e-6);
+            blob.anisotropy = g;
+            const double depth = 3.5 / std::numbers::pi * 1e-6;
+            EXPECT_NEAR(scatteredBy({blob}, scene, kInf, rings)[1].x, 80.0 * depth, 1e-4 * 80.0 * depth);
+        }
+}
+
+TEST(ScatteredLight, halfASkyAndAHorizonAreScatteredByThePhaseFunction)
+{
+    // Looking along the horizon, either half of the sky sends half, whatever the phase function.
+    OpaqueScene scene;
+    scene.lighting.skyLuminance = glm::vec3(80.0f);
+    scene.lighting.groundAlbedo = 0.0f;
+    for (const double g : {0.0, 0.7}) {
+        MediumBlob blob = blobAt({0.0, 0.0, -10.0}, 1.0, 1e-6);
+        blob.anisotropy = g;
+        const double expected = 40.0 * 3.5 / std::numbers::pi * 1e-6;
+        EXPECT_NEAR(scatteredBy({blob}, scene)[1].x, expected, 1e-3 * expected);
+    }
+}
+
+TEST(ScatteredLight, aShellDimsTheSkyByItsTransmittanceInAllDirections)
+{
+    OpaqueScene scene;
+    scene.lighting.skyLuminance = glm::vec3(80.0f);
+    scene.lighting.groundAlbedo = 1.0f;
+    const MediumBlob seen = blobAt({0.0, 0.0, -10.0}, 0.01, 1e-9);
+    MediumBlob shell = blobAt({0.0, 0.0, -10.0}, 4.0, 16.0);
+    shell.albedo = glm::dvec3(0.0);
+    const double alone = scatteredBy({seen}, scene)[1].x;
+    const double half = 0.5 * 3.5 / std::numbers::pi;
+    // dimmed on the way in and once more on the way to the eye
+    EXPECT_NEAR(scatteredBy({seen, shell}, scene)[1].x / alone, std::exp(-2.0 * half), 1e-3);
+}
+
+/// Root mean square over rays through different clouds of 60 blobs.
+double errorOfTheSky(int skyRings)
+{
+    OpaqueScene scene;
+    scene.lighting.skyLuminance = glm::vec3(80.0f);
+    scene.lighting.groundAlbedo = 0.2f;
+    double squares = 0.0;
+    constexpr int kClouds = 12;
+    for (int cloud = 0; cloud < kClouds; ++cloud) {
+        test::Chance chance(uint64_t(cloud) + 8);
+        std::vector<MediumBlob> blobs;
+        for (int i = 0; i < 60; ++i) {
+            blobs.push_back(blobAt(glm::dvec3(0.0, 0.0, -10.0) + 1.2 * chance.inCube(),
+                                   chance.between(0.3, 0.9), 0.2 * chance()));
+            blobs.back().anisotropy = 0.5;
+        }
+        static std::array<double, kClouds> exact{};
+        if (exact[size_t(cloud)] == 0.0)
+            exact[size_t(cloud)] = scatteredBy(blobs, scene, kInf, 14)[1].x;
+        const double error = scatteredBy(blobs, scene, kInf, skyRings)[1].x / exact[size_t(cloud)] - 1.0;
+        squares += error * error / kClouds;
+    }
+    return std::sqrt(squares);
+}
+
+TEST(ScatteredLight, theErrorOfTheSkyFallsWithTheNumberOfDirections)
+{
+    EXPECT_LT(errorOfTheSky(2), 0.03);
+    EXPECT_LT(errorOfTheSky(3), 0.015);
+    EXPECT_LT(errorOfTheSky(4), 0.0125);
+    EXPECT_LT(errorOfTheSky(6), 0.005);
 }
 
 /// Summed in small steps, every shadow by looking at every blob.

@@ -1,0 +1,16 @@
+/// @file blob_list_render.h
+/// fx render --renderer gl of a list of blobs: PNG, EXR, a sequence or a video.
+#pragma once
+
+#include "fxsdk/cli/render/render_options.h"
+#include "fxsdk/scene_file/scene_file.h"
+
+namespace fx::cli {
+
+/// Renders all frames of `plan`.
+/// @param lights of --lights, null for none
+/// @return an exit code; messages went to standard error
+int runBlobList(const RenderArguments& arguments, const RenderPlan& plan,
+                const scene_file::SceneFile* lights);
+
+} // namespace fx::cli

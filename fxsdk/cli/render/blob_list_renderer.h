@@ -1,0 +1,45 @@
+/// @file blob_list_renderer.h
+/// Draws a list of blobs by OpenGL, as a view draws the snapshot of a scene, over nothing.
+///
+/// Threads: the thread that made it, which is its GL thread.
+#pragma once
+
+#include "fxsdk/cli/render/frame_renderer.h"
+#include "rendering/reference/render/medium_blobs.h"
+#include "rendering/reference/render/reference_camera.h"
+
+#include <memory>
+#include <span>
+
+namespace fx::cli {
+
+class BlobListRenderer
+{
+public:
+    /// @param width, height [pixel]
+    static base::Result<std::unique_ptr<BlobListRenderer>> create(std::span<const render::MediumBlob> blobs,
+                                                                  const render::ViewSettings& settings,
+                                                                  int width, int height);
+    ~BlobListRenderer();
+
+    /// @param time [s] of the picture, which only the camera depends on
+    base::Status render(const render::ReferenceCamera& camera, double time);
+    /// Copies the pictures from the GPU; those besides `color` only with settings.layerOutputs.
+    FrameLayers read();
+
+    const render::FrameStatistics& statistics() const;
+    double millisecondsRender() const; ///< of the last frame, until the GPU has finished
+    const std::string& rendererName() const;
+
+private:
+    BlobListRenderer();
+    base::Status start(std::span<const render::MediumBlob> blobs, const render::ViewSettings& settings,
+                       int width, int height);
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// The camera as views take it, relative to its eye. Nothing nearer than a millimetre is seen.
+render::CameraView viewOf(const render::ReferenceCamera& camera, double aspect);
+
+} // namespace fx::cli

@@ -1,0 +1,20 @@
+/// @file blob_snapshot.h
+/// A list of blobs as a snapshot, which is what the GL renderer draws.
+#pragma once
+
+#include "foundation/snapshot/frame_snapshot.h"
+#include "rendering/reference/render/medium_blobs.h"
+
+#include <memory_resource>
+#include <span>
+
+namespace fx::cli {
+
+/// The opposite of render::mediumOf(): one group for each anisotropy, without procedural detail, relative to
+/// the middle of all blobs. Numbers become floats.
+/// @param schema has the kind "blob" and must outlive the snapshot
+/// @param sequence above that of every snapshot that the same view has drawn
+base::FrameSnapshot snapshotOfBlobs(std::span<const render::MediumBlob> blobs,
+                                    const base::SnapshotSchema& schema, uint64_t sequence);
+
+} // namespace fx::cli

@@ -1,0 +1,49 @@
+/// @file scene_light.h
+/// Lights that a scene lists besides sun and sky.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fx::render {
+
+/// A point, a ball or a spot. Nothing but what it lights shows it.
+struct SceneLight
+{
+    glm::dvec3 position{0.0};  ///< [m] world
+    glm::vec3 intensity{0.0f}; ///< [cd] in every direction; of a spot inside the inner angle
+    float radius = 0.0f;       ///< [m] of a ball whose surface has the same luminance everywhere; 0: a point
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};       ///< unit, the way the light of a spot goes
+    float innerAngle = std::numbers::pi_v<float>; ///< [rad] half angle up to which a spot has its intensity
+    float outerAngle = std::numbers::pi_v<float>; ///< [rad] >= inner; pi: light in all directions
+
+    bool isSpot() const { return outerAngle < std::numbers::pi_v<float>; }
+    bool isBall() const { return radius > 0.0f; }
+};
+
+/// @formula spot-falloff
+/// Share of its intensity that a spot sends in a direction.
+///
+/// symbol    unit   meaning
+///   c       1      cosine of the angle between the direction and the spot's
+///   ci, co  1      cosines of the inner and the outer angle, ci >= co
+///   s       1      share
+/// @derivation
+///   s = x^2 (3 - 2 x),  x = (c - co) / (ci - co), limited to 0..1; a step at c = co where ci = co   (1)
+/// @source    textbook: the cubic Hermite step
+/// @deviation none
+/// @valid     ci >= co
+/// @accuracy  some roundings
+/// @tests     tests/rendering/reference/render/test_scene_lights.cpp
+inline double spotFalloff(double cosine, double cosInner, double cosOuter)
+{
+    if (!(cosInner > cosOuter))
+        return cosine >= cosOuter ? 1.0 : 0.0;
+    const double x = std::clamp((cosine - cosOuter) / (cosInner - cosOuter), 0.0, 1.0);
+    return x * x * (3.0 - 2.0 * x); // (1)
+}
+
+} // namespace fx::render

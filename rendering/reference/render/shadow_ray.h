@@ -1,0 +1,42 @@
+/// @file shadow_ray.h
+/// What the medium and the triangles of a scene leave of light on its way to a point.
+#pragma once
+
+#include "rendering/reference/render/chord_depth.h"
+#include "rendering/reference/render/opaque_view.h"
+#include "rendering/reference/trace/ray_query.h"
+
+#include <cmath>
+
+namespace fx::render {
+
+/// One for each thread: keeps memory from ray to ray.
+class ShadowRay
+{
+public:
+    /// @param medium, opaque must outlive this
+    ShadowRay(const MediumView& medium, const OpaqueView& opaque) : medium_(medium), opaque_(opaque) {}
+
+    /// Of the medium alone.
+    double transmittance(const TraceRay& ray, double distance)
+    {
+        if (medium_.isEmpty())
+            return 1.0;
+        findHits(medium_.tree(), ray, 0.0, distance, hits_);
+        return std::exp(-opticalDepthOf(medium_, hits_, 0.0, distance));
+    }
+    /// Of all that stands between a point and `distance`: 0 behind a triangle.
+    double visibility(const TraceRay& ray, double distance)
+    {
+        return opaque_.blocks(ray, distance, hits_) ? 0.0 : transmittance(ray, distance);
+    }
+    /// [m] to the first triangle, +infinity for none.
+    double toSurface(const TraceRay& ray) { return opaque_.distance(ray, hits_); }
+
+private:
+    const MediumView& medium_;
+    const OpaqueView& opaque_;
+    RayHits hits_;
+};
+
+} // namespace fx::render
