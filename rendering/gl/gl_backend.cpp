@@ -321,6 +321,9 @@ void GlBackend::upload(ResourceId buffer, std::span<const std::byte> bytes)
     if (!resource.imported)
         device_.gl.InvalidateBufferData(
             name); // the last frame may still read it: take fresh memory, do not wait
+    // NVIDIA's driver (580) writes to a buffer that is bound nowhere without waiting for the draws and
+    // dispatches that still use it, whatever barriers came before; to one that is bound, in order.
+    device_.gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, 0, name, 0, static_cast<GLsizeiptr>(bytes.size()));
     device_.gl.NamedBufferSubData(name, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }
 

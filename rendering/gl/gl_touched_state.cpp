@@ -253,6 +253,8 @@ constexpr GlTouchedState kTable[] = {
     {"GL_DEPTH_CLAMP", GL_DEPTH_CLAMP, 1, saveSwitch, restoreSwitch},
     {"GL_FRAMEBUFFER_SRGB", GL_FRAMEBUFFER_SRGB, 1, saveSwitch, restoreSwitch},
     {"GL_RASTERIZER_DISCARD", GL_RASTERIZER_DISCARD, 1, saveSwitch, restoreSwitch},
+    {"GL_PRIMITIVE_RESTART", GL_PRIMITIVE_RESTART, 1, saveSwitch, restoreSwitch},
+    {"GL_PRIMITIVE_RESTART_FIXED_INDEX", GL_PRIMITIVE_RESTART_FIXED_INDEX, 1, saveSwitch, restoreSwitch},
     {"GL_COLOR_LOGIC_OP", GL_COLOR_LOGIC_OP, 1, saveSwitch, restoreSwitch},
     {"GL_DITHER", GL_DITHER, 1, saveSwitch, restoreSwitch},
     {"GL_POLYGON_OFFSET_FILL", GL_POLYGON_OFFSET_FILL, 1, saveSwitch, restoreSwitch},

@@ -36,10 +36,11 @@ base::Status GlUniformRing::bind(std::span<const std::byte> bytes)
             buffer_.name()); // the driver may hand out fresh memory instead of waiting
         offset = 0;
     }
-    device_.gl.NamedBufferSubData(buffer_.name(), static_cast<GLintptr>(offset),
-                                  static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    // Bound before it is written: see GlBackend::upload().
     device_.gl.BindBufferRange(GL_UNIFORM_BUFFER, 0, buffer_.name(), static_cast<GLintptr>(offset),
                                static_cast<GLsizeiptr>(size));
+    device_.gl.NamedBufferSubData(buffer_.name(), static_cast<GLintptr>(offset),
+                                  static_cast<GLsizeiptr>(bytes.size()), bytes.data());
     cursor_ = offset + size;
     return {};
 }

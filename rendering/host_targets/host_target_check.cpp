@@ -158,15 +158,27 @@ base::Status HostTargetCheck::checkAttachment(const HostTargets& targets, Size& 
     if (type == GL_NONE)
         return refuse("frame.framebuffer has nothing attached where its draw buffer 0 points: attach a color "
                       "texture there");
-    const GLint component = ask(GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
+    const auto object = static_cast<GLuint>(ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME));
+    const bool isRenderbuffer = type == GL_RENDERBUFFER;
+    const GLint level = isRenderbuffer ? 0 : ask(GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL);
+    // Not GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, which NVIDIA's driver refuses to tell of formats with
+    // _SNORM.
+    GLint component = GL_NONE;
+    if (isRenderbuffer) {
+        GLint format = GL_NONE;
+        gl.GetNamedRenderbufferParameteriv(object, GL_RENDERBUFFER_INTERNAL_FORMAT, &format);
+        gl.GetInternalformativ(GL_RENDERBUFFER, static_cast<GLenum>(format), GL_INTERNALFORMAT_RED_TYPE, 1,
+                               &component);
+    } else {
+        gl.GetTextureLevelParameteriv(object, level, GL_TEXTURE_RED_TYPE, &component);
+    }
     if (component == GL_INT || component == GL_UNSIGNED_INT)
         return refuse("frame.framebuffer has integers attached as color, not light: attach GL_RGBA16F");
     if (ask(GL_FRAMEBUFFER_ATTACHMENT_GREEN_SIZE) == 0 || ask(GL_FRAMEBUFFER_ATTACHMENT_BLUE_SIZE) == 0)
         return refuse(
             "frame.framebuffer has a color attachment that lacks one of red, green and blue: attach "
             "GL_RGBA16F");
-    const auto object = static_cast<GLuint>(ask(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME));
-    if (type == GL_RENDERBUFFER) {
+    if (isRenderbuffer) {
         gl.GetNamedRenderbufferParameteriv(object, GL_RENDERBUFFER_WIDTH, &outSize.width);
         gl.GetNamedRenderbufferParameteriv(object, GL_RENDERBUFFER_HEIGHT, &outSize.height);
     } else {
@@ -174,7 +186,6 @@ base::Status HostTargetCheck::checkAttachment(const HostTargets& targets, Size& 
             return refuse(
                 "frame.framebuffer is layered and only its first layer would be drawn to: attach one "
                 "layer at a time (glNamedFramebufferTextureLayer)");
-        const GLint level = ask(GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL);
         gl.GetTextureLevelParameteriv(object, level, GL_TEXTURE_WIDTH, &outSize.width);
         gl.GetTextureLevelParameteriv(object, level, GL_TEXTURE_HEIGHT, &outSize.height);
     }

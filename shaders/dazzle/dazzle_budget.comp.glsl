@@ -71,11 +71,24 @@ double adapt(double state, double frame)
     return next;
 }
 
-const double kOverFactorial[12] = double[12](
-    1.6059043836821613e-10LF, 2.08767569878681e-09LF, 2.505210838544172e-08LF,
-    2.755731922398589e-07LF, 2.7557319223985893e-06LF, 2.48015873015873e-05LF,
-    0.0001984126984126984LF, 0.001388888888888889LF, 0.008333333333333333LF,
-    0.041666666666666664LF, 0.16666666666666666LF, 0.5LF); // 1 / 13!, ... 1 / 2!
+// Doubles by their bits: NVIDIA's compiler (580) rounds the elements of a constant array of doubles to float, and reads some
+// decimal literals one unit in the last place off.
+const uvec2 kPerLn2 = uvec2(0x652B82FEu, 0x3FF71547u);  // 1.4426950408889634
+const uvec2 kLn2High = uvec2(0xFEE00000u, 0x3FE62E42u); // 6.93147180369123816490e-01
+const uvec2 kLn2Low = uvec2(0x35793C76u, 0x3DEA39EFu);  // 1.90821492927058770002e-10
+const uvec2 kOverFactorial[12] = uvec2[12](
+    uvec2(0x13A86D09u, 0x3DE61246u),
+    uvec2(0xEFF8D898u, 0x3E21EED8u),
+    uvec2(0x67F544E4u, 0x3E5AE645u),
+    uvec2(0xB7789F5Cu, 0x3E927E4Fu),
+    uvec2(0xA556C734u, 0x3EC71DE3u),
+    uvec2(0x1A01A01Au, 0x3EFA01A0u),
+    uvec2(0x1A01A01Au, 0x3F2A01A0u),
+    uvec2(0x16C16C17u, 0x3F56C16Cu),
+    uvec2(0x11111111u, 0x3F811111u),
+    uvec2(0x55555555u, 0x3FA55555u),
+    uvec2(0x55555555u, 0x3FC55555u),
+    uvec2(0x00000000u, 0x3FE00000u)); // 1 / 13!, ... 1 / 2!
 
 // exp(-x) for x >= 0 from additions and multiplications, which every GPU rounds alike; explained, with the same text, in
 // rendering/reference/dazzle/dazzle_reference.cpp.
@@ -83,11 +96,11 @@ double expOfMinus(double x)
 {
     if (!(x < 700.0LF))
         return 0.0LF;
-    precise double n = floor(x * 1.4426950408889634LF + 0.5LF);
-    precise double r = (n * 6.93147180369123816490e-01LF - x) + n * 1.90821492927058770002e-10LF;
+    precise double n = floor(x * packDouble2x32(kPerLn2) + 0.5LF);
+    precise double r = (n * packDouble2x32(kLn2High) - x) + n * packDouble2x32(kLn2Low);
     precise double sum = 0.0LF;
     for (int k = 0; k < 12; ++k)
-        sum = sum * r + kOverFactorial[k];
+        sum = sum * r + packDouble2x32(kOverFactorial[k]);
     sum = (sum * r + 1.0LF) * r + 1.0LF;
     precise double scaled = sum * packDouble2x32(uvec2(0u, uint(1023 - int(n)) << 20));
     return scaled;

@@ -56,14 +56,15 @@ protected:
     /// The picture of the frame in RGBA32F over `light`.
     std::vector<float> reference(FxFrameDef def, const std::vector<float>& light);
     /// Compares what is stored with the reference picture.
-    static std::string faultOf(const ColorFormat& format, const std::vector<float>& stored,
-                               const std::vector<float>& expected);
+    std::string faultOf(const ColorFormat& format, const std::vector<float>& stored,
+                        const std::vector<float>& expected) const;
     /// Far on the left, a wall through the flames on the right.
     void buildWall(GLuint depth, GLenum attachment);
     /// Depth in [0, 1] at a distance along the axis.
     static float depthAt(double distance);
 
     HostTextures textures_;
+    bool isBlended_ = true; ///< the settings blend media into the picture where it lies
 };
 
 extern const std::vector<ColorFormat> kColorFormats;

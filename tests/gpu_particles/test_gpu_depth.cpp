@@ -60,7 +60,7 @@ TEST_F(GpuDepthContacts, killWhereThePlaneDoes)
         size_t living = 0, lonely = 0;
         const Rows cpu = playedOnCpu(planeMember(kPlanes[1], R"("response": "kill")"), 1.6);
         const Rows gpu = playedOnGpu(depthMember(R"("response": "kill")"), 1.6);
-        EXPECT_EQ(worstOf(cpu, gpu, living, lonely), 0.0) << "those that live have touched nothing";
+        EXPECT_LE(worstOf(cpu, gpu, living, lonely), sameWithin()) << "those that live have touched nothing";
         EXPECT_LE(lonely, 1u) << "one that is at the surface this very moment";
         EXPECT_GT(living, 150u);
         const Rows all = playedOnCpu(kFree, 1.6);

@@ -15,7 +15,7 @@ namespace column = base::particle_column;
 
 namespace {
 
-constexpr float kBound = 1e-4f; ///< [m] for what is within 5 m, see docs/howto/gpu-particles.md
+constexpr float kBound = 2e-4f; ///< [m] for what is within 5 m, see docs/howto/gpu-particles.md
 
 /// @return living ones; how far apart they are in `outWorst` [m], how many are not equal in `outDifferent`
 size_t compare(const Rows& cpu, const Rows& gpu, float& outWorst, size_t& outDifferent)

@@ -74,7 +74,7 @@ TEST_F(GpuView, picturesAreThoseOfTheCpuForEveryPresetOfTheLibrary)
             const bool isInView = view_->statistics().gpuParticles > 0;
             EXPECT_EQ(ran("gpu particles"), isInView);
             // Groups that overlap do not take turns by distance: which is in front differs here and there.
-            EXPECT_LE(meanDifference(a, b), 6e-3 * meanOf(a) + 1e-7) << name << " " << seconds;
+            EXPECT_LE(meanDifference(a, b), 8e-3 * meanOf(a) + 1e-7) << name << " " << seconds;
             const double visible = 4e-2 * double(*std::max_element(a.texels.begin(), a.texels.end()));
             EXPECT_LE(shareBeyond(visible, a, b), 2e-3) << name << " " << seconds;
             pictures += isInView && meanOf(a) > 1e-6 ? 1 : 0;
@@ -185,9 +185,8 @@ TEST_F(GpuView, aRefusedProgramIsNoError)
     EXPECT_FALSE(view_->canComputeParticles());
     EXPECT_GT(meanOf(picture), 0.0) << "its mist is a medium";
     EXPECT_LE(maxDifference(draw(gpu.publishedLast(), nullptr), picture), 1e-6) << "until the scene knows";
-    EXPECT_GT(messages_->serious(), 0u); // the driver's, not ours
-    messages_ = std::make_unique<render::GlMessages>(*device_);
-    gpu.world().setGpuParticles(false); // as a scene does now
+    messages_ = std::make_unique<render::GlMessages>(*device_); // some drivers complain of the program
+    gpu.world().setGpuParticles(false);                         // as a scene does now
     gpu.playTo(2.1);
     const Picture all = draw(gpu.publish(), nullptr);
     EXPECT_GT(meanDifference(all, picture), 1e-3 * meanOf(picture));

@@ -97,6 +97,7 @@ public:
         : center_(center), intensity_(intensity), radius_(radius)
     {}
     LightSample sample(const glm::dvec3& position, const std::array<double, 2>& u) const override;
+    std::optional<LightPlace> place() const override { return LightPlace{center_, radius_}; }
 
 private:
     glm::dvec3 center_, intensity_;

@@ -179,7 +179,9 @@ TEST_F(ToneMap, ditherMovesNoValueByAStepAndKeepsTheMean)
             ASSERT_LT(std::abs(255.0 * double(out[i]) - want), 1.0);
             mean += 255.0 * double(out[i]) / (64 * 64);
         }
-        EXPECT_NEAR(mean, want, gray == 0.0f || gray == 8.0f ? 1e-9 : 0.02) << gray; // exact code values stay
+        // Exact code values stay. Storing a value may round up from as much as 0.6 of a step on (NVIDIA:
+        // 0.56).
+        EXPECT_NEAR(mean, want, gray == 0.0f || gray == 8.0f ? 1e-9 : 0.1) << gray;
     }
 }
 
