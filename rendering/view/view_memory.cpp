@@ -83,7 +83,8 @@ FrameStatistics ViewRenderer::Impl::count(int divisor)
     return statistics;
 }
 
-/// Of the frame that was drawn, with those that had prepared it.
+/// Of the frame that was drawn, with those that had prepared it. draw() has made room: once the host's
+/// picture has changed, nothing may run out of memory.
 void ViewRenderer::Impl::namePasses(bool wasPrepared)
 {
     passNames.clear();

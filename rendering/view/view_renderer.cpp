@@ -152,7 +152,8 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
         if (const MediaSource* source = part->solids())
             solids.push_back(source);
     const LightListInputs lit{&settings, camera.eye, inputs.lights, casters};
-    if (base::Status status = lights.gather(lit, casterRevision(inputs)); !status)
+    const bool isUsed = !streams.empty() || !solids.empty() || !casters.empty();
+    if (base::Status status = lights.gather(lit, casterRevision(inputs), isUsed); !status)
         return status;
     fragments = gathered.fragments;
     mediaBatches = batcher.build(streams);
@@ -228,6 +229,7 @@ base::Status ViewRenderer::Impl::draw(const FrameRequest& request, const ViewSet
     if (!outputs.anyPass)
         return {};
     graph.compile();
+    passNames.reserve(lightGraph.executedPasses().size() + graph.executedPasses().size()); // see namePasses()
     GlStateGuard guard(*device, settings.saveState);
     timer.beginPasses();
     // tone mapping writes the codes of sRGB itself
@@ -279,7 +281,14 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     s.backend.setTimer(s.clock == TimingClock::Off ? nullptr : &s.timer);
     const int divisor = s.layerScale.choose(s.fragments, settings_.layerDivisor, settings_.fragmentBudget,
                                             asked.resetHistory);
-    const base::Status status = s.draw(asked, settings_, divisor);
+    base::Status status;
+    try {
+        status = s.draw(asked, settings_, divisor);
+    } catch (...) { // out of memory: the next frame uploads and fills everything again
+        s.forget();
+        s.key.reset();
+        throw;
+    }
     for (const auto& part : s.parts)
         part->endFrame(status.ok());
     s.askWhetherParticlesAreComputed();

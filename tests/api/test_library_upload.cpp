@@ -9,7 +9,7 @@
 
 namespace {
 
-constexpr uint64_t kBlobBytes = 80;     ///< of a particle of a medium
+constexpr uint64_t kBlobBytes = 96;     ///< of a particle of a medium
 constexpr uint64_t kMostRowBytes = 32;  ///< of a sprite or a point of a ribbon, with its place in an order
 constexpr uint64_t kMostMeshBytes = 44; ///< of a mesh that turns and flies
 constexpr uint32_t kMostBatches = 16;

@@ -8,7 +8,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <set>
+#include <stdexcept>
 #include <vector>
 
 using namespace fx;
@@ -162,11 +165,79 @@ bool contains(const Names& names, const std::string& name)
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// What the scene of a row is to light. The lighting itself belongs to no technique:
+///
+/// - A view that draws media or particles holds the list of lights.
+/// - A frame that draws media or particles begins with a pass that uploads the list.
+/// - Blobs have their light computed, once for each, right after their upload.
+/// - Planes of light are filled only where a light casts (no sun and no sky here, so one of an effect) and
+///   something takes light from what lies behind it; these two need not come from one technique.
+struct PartInLight
+{
+    bool isLit;  ///< something is drawn that takes light
+    bool shines; ///< sheds light that casts
+    bool shades; ///< takes light from what lies behind it
+};
+
+PartInLight partInLight(const Row& row)
+{
+    static const std::map<std::string, PartInLight> kParts{
+        {"billboard layers", {true, false, true}}, // dust
+        {"heat shimmer", {true, true, true}},      // of blobs that glow
+        {"trails", {true, false, true}},
+        {"sprites", {true, false, true}},
+        {"mesh particles", {true, false, true}},
+        {"particle lights", {false, true, false}}, // of particles that nothing shows
+        {"scene mesh", {false, false, false}},
+        {"dazzle", {false, false, false}},
+        {"sph gas", {true, true, true}},         // it burns
+        {"gpu particles", {true, false, false}}, // rows that the GPU computes cast no shadow
+    };
+    const auto found = kParts.find(row.name);
+    if (found == kParts.end())
+        throw std::runtime_error("say what " + row.name + " is to light");
+    return found->second;
+}
+
+const Names kSlicePasses{"light slice casters", "light slices"};
+const std::string kSliceProgram = "light slices";
+
+/// The rows with what lighting adds to the scene of each.
+std::vector<Row> litRows()
+{
+    std::vector<Row> rows = test::techniqueRows();
+    for (Row& row : rows) {
+        const PartInLight part = partInLight(row);
+        if (part.isLit)
+            row.buffers["lights"] = 1;
+        const auto upload = std::find(row.passes.begin(), row.passes.end(), "blob upload");
+        if (upload != row.passes.end()) {
+            row.passes.insert(upload + 1, "blob light");
+            row.programs.insert("blob light");
+            row.buffers["blob lights"] = 1;
+        }
+        if (row.name == "billboard layers") { // no blobs, no light of blobs
+            row.ownPasses.insert("blob light");
+            row.ownPrograms.insert("blob light");
+        }
+        if (part.shines && part.shades) {
+            row.passes.insert(row.passes.begin(), kSlicePasses.begin(), kSlicePasses.end());
+            row.programs.insert(kSliceProgram);
+            row.textures["RG32F"] = 1; // the planes
+            // of casters and stacks; passes behind them use these two again
+            row.buffers["frame buffer"] = std::max(row.buffers["frame buffer"], 2);
+        }
+        if (contains(row.passes, "scene distance")) // media or particles are drawn
+            row.passes.insert(row.passes.begin(), "light list");
+    }
+    return rows;
+}
+
 } // namespace
 
 TEST(ViewTechniques, aSceneWithNothingButOneHasExactlyWhatItsRowLists)
 {
-    for (const Row& row : test::techniqueRows()) {
+    for (const Row& row : litRows()) {
         Host host(isSetting(row));
         host.add(row);
         host.show();
@@ -179,19 +250,27 @@ TEST(ViewTechniques, aSceneWithNothingButOneHasExactlyWhatItsRowLists)
 
 TEST(ViewTechniques, aSceneWithAllButOneHasNothingThatOnlyThatOneCallsForAndEverythingElse)
 {
-    const std::vector<Row> rows = test::techniqueRows();
+    const std::vector<Row> rows = litRows();
     for (const Row& missing : rows) {
         bool dazzle = false;
         for (const Row& row : rows)
             dazzle = dazzle || (isSetting(row) && &row != &missing);
         Host host(dazzle);
         std::set<std::string> passes, programs;
+        bool anyShines = false, anyShades = false;
         for (const Row& row : rows) {
             if (&row == &missing || row.standsOn == missing.name)
                 continue;
             host.add(row);
             passes.insert(row.passes.begin(), row.passes.end());
             programs.insert(row.programs.begin(), row.programs.end());
+            const PartInLight part = partInLight(row);
+            anyShines = anyShines || part.shines;
+            anyShades = anyShades || part.shades;
+        }
+        if (anyShines && anyShades) { // also where no row alone has both: particle lights shine on sprites
+            passes.insert(kSlicePasses.begin(), kSlicePasses.end());
+            programs.insert(kSliceProgram);
         }
         if (programs.contains("present") && programs.erase("composite (blend)") > 0)
             programs.insert("composite"); // with a pass behind it, it does not blend in place
@@ -208,7 +287,7 @@ TEST(ViewTechniques, aSceneWithAllButOneHasNothingThatOnlyThatOneCallsForAndEver
 
 TEST(ViewTechniques, whatARowCallsItsOwnIsInNoOtherRow) // the control of the test above: the lists can fail
 {
-    const std::vector<Row> rows = test::techniqueRows();
+    const std::vector<Row> rows = litRows();
     size_t owned = 0;
     for (const Row& row : rows)
         for (const Row& other : rows) {
@@ -223,7 +302,7 @@ TEST(ViewTechniques, whatARowCallsItsOwnIsInNoOtherRow) // the control of the te
 
 TEST(ViewTechniques, memoryIsGivenBackAfterAWhileAndComesBackWithoutCompiling)
 {
-    for (const Row& row : test::techniqueRows()) {
+    for (const Row& row : litRows()) {
         if (isSetting(row))
             continue; // requested by the host: it is never idle
         Host host(false);
@@ -256,7 +335,7 @@ TEST(ViewTechniques, memoryIsGivenBackAfterAWhileAndComesBackWithoutCompiling)
 
 TEST(ViewTechniques, whatOneOfSeveralHasHeldIsGivenBackWhileTheOthersGoOn)
 {
-    const std::vector<Row> rows = test::techniqueRows();
+    const std::vector<Row> rows = litRows();
     const auto find = [&rows](const std::string& name) {
         return *std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.name == name; });
     };

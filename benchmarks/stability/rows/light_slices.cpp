@@ -423,9 +423,10 @@ double shareOf(double inner, double outer, double angle)
     light.cosOuter = float(std::cos(outer * kPi / 180.0));
     render::LightList list(std::pmr::new_delete_resource());
     list.build({&settings, glm::dvec3(0.0), {}, {}});
-    const glm::vec4 cone = list.lights()[0].cone;
+    const glm::vec4 cone = list.lights()[1].cone; // the first is the sun, also where there is none
     const glm::vec3 towards(std::sin(angle * kPi / 180.0), std::cos(angle * kPi / 180.0), 0.0);
-    return double(std::clamp(cone.w - glm::dot(towards, glm::vec3(cone)), 0.0f, 1.0f));
+    const float x = std::clamp(cone.w - glm::dot(towards, glm::vec3(cone)), 0.0f, 1.0f);
+    return double(x * (x * (3.0f - 2.0f * x)));
 }
 
 /// 1 within, 0 outside, and between them where there is a rim.

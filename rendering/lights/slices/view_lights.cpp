@@ -18,7 +18,7 @@ ViewLights::ViewLights(GlDevice* device, std::pmr::memory_resource* memory)
     : device_(*device), list_(memory), casters_(memory)
 {}
 
-base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters)
+base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters, bool isUsed)
 {
     isKept_ = false;
     list_.build(in);
@@ -30,7 +30,7 @@ base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters)
             casters_.push_back(
                 {glm::vec4(caster.center, caster.radius), glm::vec4(caster.crossSection, 0.0f, 0.0f, 0.0f)});
     }
-    return makeRoom();
+    return isUsed ? makeRoom() : base::Status();
 }
 
 base::Status ViewLights::makeRoom()

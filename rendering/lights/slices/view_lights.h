@@ -30,7 +30,8 @@ public:
     /// Makes the list of a frame. The planes are filled again only where casters or lights have changed.
     /// @param casters revision: differs where `in.casters` differ in the world
     /// @return OutOfMemory
-    base::Status gather(const LightListInputs& in, uint64_t casters);
+    /// @param isUsed something is drawn with it or casts a shadow; otherwise it takes no memory on the GPU
+    base::Status gather(const LightListInputs& in, uint64_t casters, bool isUsed = true);
 
     /// Instead of gather(): the frame has the lights of the last one.
     void keep() { isKept_ = true; }

@@ -58,14 +58,16 @@ TEST_F(ViewGraphTest, anEmptySnapshotHasNoPass)
 
 TEST_F(ViewGraphTest, gasIsUploadedDrawnAndComposited)
 {
-    EXPECT_EQ(passes(3), (Names{"scene distance", "blob upload", "media", "composite"}));
+    EXPECT_EQ(passes(3),
+              (Names{"light list", "scene distance", "blob upload", "blob light", "media", "composite"}));
 }
 
 TEST_F(ViewGraphTest, shimmerComesOnlyWithHeatAndStrength)
 {
     EXPECT_FALSE(has(passes(3), "shimmer"));
-    EXPECT_EQ(passes(3, 500.0f), (Names{"scene distance", "blob upload", "media", "composite", "heat offset",
-                                        "heat shimmer", "heat shimmer back", "present"}));
+    EXPECT_EQ(passes(3, 500.0f),
+              (Names{"light list", "scene distance", "blob upload", "blob light", "media", "composite",
+                     "heat offset", "heat shimmer", "heat shimmer back", "present"}));
     view_->settings().shimmer.strength = 0.0f;
     EXPECT_FALSE(has(passes(3, 500.0f), "shimmer"));
 }
@@ -74,9 +76,10 @@ TEST_F(ViewGraphTest, glareAndToneMappingComeBehindWhatBendsLight)
 {
     view_->settings().dazzle.enabled = true;
     view_->settings().toneMap = true;
-    EXPECT_EQ(passes(3, 500.0f), (Names{"scene distance", "blob upload", "media", "composite", "heat offset",
-                                        "heat shimmer", "heat shimmer back", "dazzle sum", "dazzle budget",
-                                        "dazzle deal", "tone map", "present"}));
+    EXPECT_EQ(passes(3, 500.0f),
+              (Names{"light list", "scene distance", "blob upload", "blob light", "media", "composite",
+                     "heat offset", "heat shimmer", "heat shimmer back", "dazzle sum", "dazzle budget",
+                     "dazzle deal", "tone map", "present"}));
 }
 
 TEST_F(ViewGraphTest, layersAreResolvedOnlyWhenAskedFor)
@@ -102,7 +105,8 @@ TEST_F(ViewGraphTest, aFramebufferAloneIsDrawnOver)
     device_->gl.NamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, color_->name(), 0);
     request_.targets = {0, 0, framebuffer, true, 96, 64};
     view_->settings().toneMap = true;
-    EXPECT_EQ(passes(3), (Names{"scene distance", "blob upload", "media", "composite"}));
+    EXPECT_EQ(passes(3),
+              (Names{"light list", "scene distance", "blob upload", "blob light", "media", "composite"}));
     device_->gl.DeleteFramebuffers(1, &framebuffer);
 }
 
@@ -118,9 +122,9 @@ TEST_F(ViewGraphTest, manyBlobsAreInstancesOfOneDraw)
 TEST_F(ViewGraphTest, smallLayersAreDrawnToBothEndsOfTheDepthAndEnlarged)
 {
     view_->settings().layerDivisor = 2;
-    EXPECT_EQ(passes(3), (Names{"scene distance", "blob upload", "layer distance", "layer spread", "media",
-                                "media", "layer upsample", "composite"}));
+    EXPECT_EQ(passes(3), (Names{"light list", "scene distance", "blob upload", "blob light", "layer distance",
+                                "layer spread", "media", "media", "layer upsample", "composite"}));
     request_.targets.depth = 0;
-    EXPECT_EQ(passes(3), (Names{"scene distance", "blob upload", "layer distance", "media", "layer upsample",
-                                "composite"}));
+    EXPECT_EQ(passes(3), (Names{"light list", "scene distance", "blob upload", "blob light", "layer distance",
+                                "media", "layer upsample", "composite"}));
 }
