@@ -73,7 +73,8 @@ Extent extentAlong(const glm::vec3& axis, std::span<const MediumCaster> casters)
 /// number.
 double snappedBelow(float low, float side, const glm::vec3& axis, const glm::dvec3& eye)
 {
-    constexpr double kRounding = 1e-3; // [1] of a side: a rim that lies on a multiple must not turn it into the next one
+    constexpr double kRounding =
+        1e-3; // [1] of a side: a rim that lies on a multiple must not turn it into the next one
     return std::floor((glm::dot(eye, glm::dvec3(axis)) + double(low)) / double(side) - kRounding);
 }
 
