@@ -36,11 +36,12 @@ vec3 pointOfBlob(BlobRay ray, float passed)
     return ray.across + along * ray.direction;
 }
 
-// Mean transmittance of the media between the sun and the ray, weighted by how much of each point is seen: Gauss quadrature
+// Mean share of the sun's light that reaches the ray through media, weighted by how much of each point is seen: Gauss quadrature
 // in the opacity that has been passed, so that all points count whatever the optical depth.
 float sunTransmittance(BlobRay ray, float opticalDepth)
 {
-    int points = blobLit.w < 0.0 ? 1 : lightCounts.z;
+    bool isDark = lights[0].color.r + lights[0].color.g + lights[0].color.b <= 0.0;
+    int points = isDark ? 0 : blobLit.w < 0.0 ? 1 : lightCounts.z;
     float opacity = 1.0 - exp(-opticalDepth);
     float sum = 0.0;
     for (int i = 0; i < points; ++i) {
@@ -57,9 +58,9 @@ float sunTransmittance(BlobRay ray, float opticalDepth)
         }
         float passed = opacity < 1e-3 ? node : -log(1.0 - node * opacity) / opticalDepth; // [1] of the optical depth
         vec3 place = blobLit.xyz + (blobLit.w < 0.0 ? vec3(0.0) : pointOfBlob(ray, passed));
-        sum += weight * exp(-sunDepth(place).x) * hostShadow(place);
+        sum += weight * exp(-sunDepth(place).x);
     }
-    return sum;
+    return sum * hostShadow(blobLit.xyz + (blobLit.w < 0.0 ? vec3(0.0) : ray.toPoint));
 }
 
 vec3 scatteredAlong(BlobRay ray, float opticalDepth)

@@ -90,15 +90,14 @@ vec2 sliceDepth(SliceLight light, vec3 p)
 // Share of the sun that the host's surfaces let through to p: 3 x 3 places within the soft edge, each between four texels.
 float hostShadow(vec3 p)
 {
-    if (hostShadowEdge.z == 0.0)
-        return 1.0;
+    int taps = hostShadowEdge.z == 0.0 ? 0 : 9; // a loop without turns is skipped by software renderers too, a branch is not
     vec3 place = vec3(dot(hostShadowRows[0].xyz, p) + hostShadowRows[0].w,
                       dot(hostShadowRows[1].xyz, p) + hostShadowRows[1].w,
                       dot(hostShadowRows[2].xyz, p) + hostShadowRows[2].w);
     vec2 size = vec2(textureSize(hostShadowMap, 0));
     float depth = hostShadowEdge.z * clamp(place.z, 0.0, 1.0); // behind the far plane nothing is known
     float lit = 0.0;
-    for (int i = 0; i < 9; ++i) {
+    for (int i = 0; i < taps; ++i) {
         vec2 uv = place.xy + hostShadowEdge.xy * vec2(i % 3 - 1, i / 3 - 1);
         vec4 stored = textureGather(hostShadowMap, uv);
         vec4 passes = vec4(greaterThanEqual(hostShadowEdge.z * stored, vec4(depth)));
@@ -107,7 +106,7 @@ float hostShadow(vec3 p)
         bool isOutside = any(lessThan(uv, vec2(0.0))) || any(greaterThan(uv, vec2(1.0)));
         lit += isOutside ? 1.0 : share;
     }
-    return lit / 9.0;
+    return taps == 0 ? 1.0 : lit / 9.0;
 }
 
 // Exposed illuminance of a light at a point before media, and the unit vector towards it.
