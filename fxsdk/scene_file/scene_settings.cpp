@@ -44,15 +44,20 @@ void checkPose(const PresetValue& value, const glm::dvec3& position, const glm::
         value.error("target", "found a direction of view along the camera's \"up\"; allowed is any other");
 }
 
+void readUnitVector(const PresetValue& value, const char* name, glm::vec3& io)
+{
+    value.read(name, io);
+    const float length = glm::length(io);
+    if (length < 1e-6f)
+        value.error(name, "found a direction of length 0; allowed is any other");
+    else
+        io /= length;
+}
+
 render::Lighting readLighting(const PresetValue& value)
 {
     render::Lighting lighting;
-    value.read("sunDirection", lighting.sunDirection);
-    const float length = glm::length(lighting.sunDirection);
-    if (length < 1e-6f)
-        value.error("sunDirection", "found a direction of length 0; allowed is any other");
-    else
-        lighting.sunDirection /= length;
+    readUnitVector(value, "sunDirection", lighting.sunDirection);
     value.read("sunIlluminance", lighting.sunIlluminance);
     value.read("skyLuminance", lighting.skyLuminance);
     value.read("groundAlbedo", lighting.groundAlbedo);
@@ -68,12 +73,7 @@ void readCone(const PresetValue& value, render::SceneLight& io)
         value.error("outerDegrees", "found an angle below innerDegrees; allowed is at least that");
     io.innerAngle = glm::radians(inner);
     io.outerAngle = glm::radians(outer);
-    value.read("direction", io.direction);
-    const float length = glm::length(io.direction);
-    if (length < 1e-6f)
-        value.error("direction", "found a direction of length 0; allowed is any other");
-    else
-        io.direction /= length;
+    readUnitVector(value, "direction", io.direction);
 }
 
 render::DazzleSettings readDazzle(const PresetValue& value)

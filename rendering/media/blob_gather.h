@@ -35,12 +35,11 @@ struct GatheredBlob
     uint32_t layer;     ///< MediaLayer
 };
 
-/// Blobs of one instance, as ranges of the two lists that gatherBlobs() fills.
+/// Blobs of one instance, as a range of those that can be seen.
 struct InstanceBlobs
 {
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
-    size_t mediumBegin, mediumEnd;
     ImpostorPlan plan; ///< what of it is drawn as a picture
 };
 
@@ -55,7 +54,7 @@ struct GatherCounts
 /// Appends to `outVisible` every blob that can be seen, in the order of groups and ids, and to `outMedium`
 /// every blob whether seen or not: what is beside the picture still casts its shadow into it.
 ///
-/// `outInstances` gets the ranges of each instance in both.
+/// `outInstances` gets the range of each instance in `outVisible`.
 ///
 /// Elements are matched by id between the two snapshots and interpolated; one that is only in the newer is
 /// carried back along its velocity, and left out if it was not yet born. Blobs smaller than a pixel are

@@ -34,9 +34,12 @@ void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest
 void FrameBuilder::beginImpostors(const FrameRequest& request, const ViewSettings& settings,
                                   const CameraGeometry& camera, uint64_t content)
 {
-    if (!(settings.lighting == lighting_ && settings.exposureEv100 == exposureEv100_))
+    if (!(settings.lighting == lighting_ && settings.hostLights == hostLights_ &&
+          settings.slices == slices_ && settings.exposureEv100 == exposureEv100_))
         ++lightingRevision_;
     lighting_ = settings.lighting;
+    hostLights_ = settings.hostLights;
+    slices_ = settings.slices;
     exposureEv100_ = settings.exposureEv100;
     const float most = settings.layerOutputs || camera.orthographic ? 0.0f : settings.lod.impostorPixels;
     impostors_.begin({std::min(most, LodSettings::kMostImpostorPixels), request.deltaTime, content,

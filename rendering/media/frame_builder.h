@@ -72,7 +72,9 @@ private:
     std::pmr::vector<float> takenDistances_;
     std::pmr::vector<uint32_t> takenTiles_;
     std::span<const uint32_t> impostorOrder_;
-    Lighting lighting_; ///< of the last frame
+    Lighting lighting_; ///< of the last frame, as the next two
+    HostLights hostLights_;
+    SliceSettings slices_;
     float exposureEv100_ = 0.0f;
     uint64_t lightingRevision_ = 0;
     bool mustForget_ = false;

@@ -180,9 +180,8 @@ base::Status ViewRenderer::warmUp()
                 return status;
         return base::Status();
     };
-    for (const auto programs : {framePrograms(), lightPrograms()})
-        if (base::Status status = compile(programs); !status)
-            return status;
+    if (base::Status status = compile(framePrograms()); !status)
+        return status;
     for (const DrawTechnique* technique : impl_->techniques)
         if (base::Status status = technique->programs ? compile(technique->programs()) : base::Status();
             !status)

@@ -79,12 +79,10 @@ vec2 pointDepth(SliceLight light, vec3 p)
     return depthAtPlace(light.tiles, vec3(1.0 + (0.5 + 0.5 * direction) * (light.tiles.z - 2.0), l * light.along.w - light.along.x));
 }
 
-// Of any light.
-vec2 sliceDepth(SliceLight light, vec3 p)
+// Of the light with a number below lightCounts.x: the sun is the first.
+vec2 sliceDepth(int number, vec3 p)
 {
-    if (light.color.w > 0.5)
-        return pointDepth(light, p);
-    return light.place == lights[0].place ? sunDepth(p) : parallelDepth(light, p);
+    return number == 0 ? sunDepth(p) : pointDepth(lights[number], p);
 }
 
 // Share of the sun that the host's surfaces let through to p: 3 x 3 places within the soft edge, each between four texels.

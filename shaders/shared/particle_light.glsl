@@ -78,7 +78,7 @@ vec3 scatteredByBody(vec4 ball)
     for (int i = 0; i < lightCounts.x; ++i) {
         vec3 towards;
         vec3 arriving = unshadowedLight(lights[i], ball.xyz, towards);
-        sum += arriving * (kPerBall * exp(-sliceDepth(lights[i], beforeBall(lights[i], ball, ball.xyz, towards)).x));
+        sum += arriving * (kPerBall * exp(-sliceDepth(i, beforeBall(lights[i], ball, ball.xyz, towards)).x));
     }
     return sum;
 }
@@ -94,7 +94,7 @@ vec3 scatteredBySurface(vec4 ball, vec3 place, vec3 normal)
         float facing = dot(normal, towards);
         if (facing > 0.0)
             sum += arriving *
-                   (kPerSurface * facing * exp(-sliceDepth(lights[i], beforeBall(lights[i], ball, place, towards)).x));
+                   (kPerSurface * facing * exp(-sliceDepth(i, beforeBall(lights[i], ball, place, towards)).x));
     }
     return sum;
 }

@@ -207,8 +207,15 @@ TEST_F(ViewApi, theSceneThreadUpdatesWhileTheGlThreadDraws)
         update(100);
     });
     const FxFrameDef def = frame();
-    for (int i = 0; i < 20; ++i)
+    for (int i = 0; i < 20; ++i) {
+        if (i % 2 == 0) { // the frame keeps its snapshot until it is drawn, whatever the scene does
+            EXPECT_EQ(fxView_PrepareLights(view_, &def), FX_OK) << fxGetLastErrorMessage();
+            FxMediaShadow shadow{};
+            shadow.structSize = sizeof shadow;
+            EXPECT_EQ(fxView_GetMediaShadow(view_, FX_LIGHT_SUN, 0, &shadow), FX_OK);
+        }
         EXPECT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();
+    }
     updater.join();
     ASSERT_EQ(fxScene_AdoptThread(scene_), FX_OK);
 }

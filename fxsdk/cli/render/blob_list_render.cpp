@@ -131,10 +131,7 @@ int runBlobList(const RenderArguments& arguments, const RenderPlan& plan, const 
     BlobListJob job(arguments, plan, lights);
     if (base::Status status = job.run(*camera); !status)
         return failed(status, exitCodeOf(status));
-    if (!arguments.json)
-        std::printf("%s: %zu %s of %dx%d on %s\n", arguments.output.c_str(), plan.frames.size(),
-                    plan.frames.size() == 1 ? "frame" : "frames", plan.width, plan.height,
-                    toText(job.machine()).c_str());
+    printRendered(arguments, plan, toText(job.machine()));
     return kSuccess;
 }
 

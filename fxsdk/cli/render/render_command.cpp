@@ -201,10 +201,7 @@ int runRender(const RenderArguments& arguments)
     RenderJob job(arguments, *plan, *scene);
     if (base::Status status = job.run(); !status)
         return failed(status);
-    if (!arguments.json)
-        std::printf("%s: %zu %s of %dx%d on %s\n", arguments.output.c_str(), plan->frames.size(),
-                    plan->frames.size() == 1 ? "frame" : "frames", plan->width, plan->height,
-                    toText(job.machine()).c_str());
+    printRendered(arguments, *plan, toText(job.machine()));
     return kSuccess;
 }
 

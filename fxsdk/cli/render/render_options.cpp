@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <sstream>
@@ -297,6 +298,13 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
         settings.slices.resolution.planes = std::stoi(arguments.lightSlices);
     settings.slices.multiple = arguments.reference.scattering != "single";
     settings.exposureEv100 = arguments.exposureEv100.value_or(settings.exposureEv100);
+}
+
+void printRendered(const RenderArguments& arguments, const RenderPlan& plan, const std::string& machine)
+{
+    if (!arguments.json)
+        std::printf("%s: %zu %s of %dx%d on %s\n", arguments.output.c_str(), plan.frames.size(),
+                    plan.frames.size() == 1 ? "frame" : "frames", plan.width, plan.height, machine.c_str());
 }
 
 } // namespace fx::cli

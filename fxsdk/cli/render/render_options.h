@@ -79,6 +79,9 @@ void addRenderOptions(CLI::App& command, RenderArguments& arguments);
 /// Understands what CLI11 cannot check. @return InvalidArgument, which is a usage error
 base::Result<RenderPlan> planRender(const RenderArguments& arguments);
 
+/// Says what was rendered, unless JSON is printed.
+void printRendered(const RenderArguments& arguments, const RenderPlan& plan, const std::string& machine);
+
 /// What the arguments change in the settings of a scene. EXR files hold the scene-linear picture that their
 /// layers add up to: no tone map, no dazzle, no shimmer.
 void applyArguments(const RenderArguments& arguments, OutputKind kind, render::ViewSettings& settings);

@@ -225,10 +225,7 @@ int runTiled(const RenderArguments& arguments, const RenderPlan& plan, const sce
         std::fprintf(stderr, "fx render: interrupted; the same command with --resume goes on\n");
     if (!done.ok())
         return done.code() == base::Code::Interrupted ? int(kInterrupted) : failed(done);
-    if (!arguments.json)
-        std::printf("%s: %zu %s of %dx%d on %s\n", arguments.output.c_str(), plan.frames.size(),
-                    plan.frames.size() == 1 ? "frame" : "frames", plan.width, plan.height,
-                    toText(job.machine()).c_str());
+    printRendered(arguments, plan, toText(job.machine()));
     return kSuccess;
 }
 

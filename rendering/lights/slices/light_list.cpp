@@ -151,7 +151,6 @@ void LightList::add(const SliceLightBlock& light)
     block_.lights[count_++] = light;
 }
 
-/// The first entry, black without sun.
 bool LightList::setSunShadow(const HostShadowMap& map, const glm::dvec3& shift)
 {
     const std::array<glm::vec4, 4> before{block_.hostShadow[0], block_.hostShadow[1], block_.hostShadow[2],
@@ -169,6 +168,7 @@ bool LightList::setSunShadow(const HostShadowMap& map, const glm::dvec3& shift)
                                               block_.hostShadow[2], block_.hostShadowEdge};
 }
 
+/// The first entry, black without sun.
 void LightList::addSun(const LightListInputs& in)
 {
     const Lighting& lighting = in.settings->lighting;

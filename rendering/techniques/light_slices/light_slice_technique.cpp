@@ -1,5 +1,7 @@
 #include "rendering/techniques/light_slices/light_slice_technique.h"
 
+#include "rendering/lights/slices/view_lights.h"
+
 #include <algorithm>
 
 namespace fx::render {
@@ -41,6 +43,7 @@ constexpr ScalabilitySettings kScalability{"light slices", "shadows of media", w
 
 constexpr DrawTechnique kLightSliceTechnique{
     .name = "light slices",
+    .programs = lightPrograms,
     .timedPasses = kTimed,
     .levels = &kScalability,
 };

@@ -160,6 +160,13 @@ TEST_F(Impostors, areTakenAnewWhenStateViewOrLightHasChanged)
     const auto other = cloud({0, 0, -distance}, 2);
     (void)show(other, 20);
     EXPECT_EQ(taken_, 4u) << "other state";
+    render::HostLights& host = view_->settings().hostLights;
+    host.lights[host.count++] = {{0, 5, -distance}, glm::vec3(10.0f)};
+    (void)show(other, 20);
+    EXPECT_EQ(taken_, 5u) << "a lamp of the host";
+    view_->settings().slices.multiple = false;
+    (void)show(other, 20);
+    EXPECT_EQ(taken_, 6u) << "scattered once";
 }
 
 TEST_F(Impostors, fadeFromStateToStateWithoutAJump)
