@@ -126,9 +126,10 @@ void addDetail(SlabRay ray, uint ball, vec4 medium, inout Chord chord, inout Bal
 }
 #endif
 
-// Fills kGroup slabs whose kGroup + 1 edges are given [m].
-void fill(SlabRay ray, float edges[kGroup + 1], out SlabSums sums[kGroup])
+// Fills kGroup slabs whose kGroup + 1 edges are given [m]. behind: optical depth from the last edge to `end`
+void fill(SlabRay ray, float edges[kGroup + 1], float end, out SlabSums sums[kGroup], out float behind)
 {
+    behind = 0.0;
     float sun[kGroup + 1];
     for (int k = 0; k <= kGroup; ++k)
         sun[k] = sunAt(ray, edges[k]);
@@ -164,6 +165,7 @@ void fill(SlabRay ray, float edges[kGroup + 1], out SlabSums sums[kGroup])
                              light.sun * (0.5 * (sun[k] + sun[k + 1]));
             addBall(sums[k], light, medium.z, depth, moment, scattered);
         }
+        behind += chord.depth * (fxKernelPassed(placeOn(chord, end)) - passed);
     }
     for (uint card = ray.cards; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
         vec4 light = cardNodes[card - 1u].light;
@@ -176,5 +178,6 @@ void fill(SlabRay ray, float edges[kGroup + 1], out SlabSums sums[kGroup])
             float place = clamp((0.5 * (from + to - edges[k] - edges[k + 1])) / (edges[k + 1] - edges[k]), -0.5, 0.5);
             addCard(sums[k], light, body.y, (to - from) * perLength, place);
         }
+        behind += body.y * clamp((interval.y - edges[kGroup]) * perLength, 0.0, 1.0);
     }
 }

@@ -6,7 +6,7 @@ layout(binding = 2) uniform usampler2D lists;
 flat in ivec2 tileList; // first entry and entries
 
 const float kLeastDepth = 0.002; // [1] before the window
-const float kMostDepth = 7.0;    // [1] up to its end
+const float kMostDepth = 9.0;    // [1] up to its end: glow behind it may be a thousand times as bright as what hides it
 const int kBins = 8;             // of each of the two passes that find it
 
 struct SlabRay
@@ -100,7 +100,7 @@ vec2 rangeOf(SlabRay ray)
 
 // Narrows a range to the bins from that in which the depth passes kLeastDepth to that in which it passes kMostDepth.
 // start: where the depth is counted from.
-vec2 narrowed(SlabRay ray, float start, vec2 range)
+vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast)
 {
     float passed[kBins + 1];
     float width = (range.y - range.x) / float(kBins);
@@ -119,14 +119,12 @@ vec2 narrowed(SlabRay ray, float start, vec2 range)
         for (int k = 0; k <= kBins; ++k)
             passed[k] += body.y * clamp((range.x + float(k) * width - interval.x) * perLength, 0.0, 1.0);
     }
-    vec2 narrow = vec2(range.x, range.y);
-    for (int k = 1; k < kBins; ++k) {
-        float t = range.x + float(k) * width;
-        narrow.x = passed[k] < kLeastDepth ? t : narrow.x;
-    }
-    for (int k = kBins - 1; k > 0; --k) {
-        float t = range.x + float(k) * width;
-        narrow.y = passed[k] >= kMostDepth ? t : narrow.y;
+    vec2 narrow = range;
+    for (int k = 1; k < kBins; ++k)
+        narrow.x = passed[k] < kLeastDepth ? range.x + float(k) * width : narrow.x;
+    for (int k = kBins - 1; k >= 0; --k) { // within the bin as if its medium were even
+        float share = isLast ? (kMostDepth - passed[k]) / max(passed[k + 1] - passed[k], 1e-6) : 1.0;
+        narrow.y = passed[k + 1] >= kMostDepth ? range.x + (float(k) + clamp(share, 0.0, 1.0)) * width : narrow.y;
     }
     return narrow;
 }

@@ -42,11 +42,12 @@ void main()
     vec2 range = rangeOf(ray);
     if (!(range.y > range.x))
         discard;
-    vec2 window = narrowed(ray, range.x, range);
-    window = narrowed(ray, range.x, window);
+    vec2 window = narrowed(ray, range.x, range, false);
+    window = narrowed(ray, range.x, window, true);
     float width = (window.y - window.x) / float(FX_SLABS);
 
     float through = 1.0; // [1] transmittance
+    float behind = 0.0;  // [1] optical depth behind the window: it hides, and its light is not seen
     vec3 seen[kLayers];
     for (int l = 0; l < kLayers; ++l)
         seen[l] = vec3(0.0);
@@ -58,10 +59,10 @@ void main()
         float edges[kGroup + 1];
         for (int k = 0; k <= kGroup; ++k) {
             int edge = first + k;
-            edges[k] = edge == 0 ? range.x : edge == FX_SLABS ? range.y : window.x + float(edge) * width;
+            edges[k] = edge == 0 ? range.x : edge == FX_SLABS ? window.y : window.x + float(edge) * width;
         }
         SlabSums sums[kGroup];
-        fill(ray, edges, sums);
+        fill(ray, edges, range.y, sums, behind);
         for (int k = 0; k < kGroup; ++k) {
             float depth = sums[k].depth;
             float opacity = fxSlabOpacity(depth);
@@ -94,7 +95,9 @@ void main()
             through *= 1.0 - opacity;
         }
     }
+    through *= exp(-behind);
 #if FX_LAYERS
+    depths += behind;
     float alpha = 1.0 - through;
     fireLight = vec4(max(seen[0], vec3(0.0)), alpha);
     smokeLight = vec4(max(seen[1], vec3(0.0)), alpha);
