@@ -75,10 +75,16 @@ void ExplosionRun::step()
     ++frame_;
 }
 
-ExplosionState ExplosionRun::look()
+const base::FrameSnapshot& ExplosionRun::publish()
 {
     snapshot_.begin(frame_ * kStep, snapshot_.sequence() + 1);
     solver_->publish({}, snapshot_);
+    return snapshot_;
+}
+
+ExplosionState ExplosionRun::look()
+{
+    publish();
     ExplosionState sum{};
     double count = 0;
     for (size_t g = 0; g < snapshot_.groupCount(); ++g) {
@@ -104,8 +110,7 @@ ExplosionState ExplosionRun::look()
 double ExplosionRun::nearestOverSpacing()
 {
     using namespace base::blob_column;
-    snapshot_.begin(frame_ * kStep, snapshot_.sequence() + 1);
-    solver_->publish({}, snapshot_);
+    publish();
     if (snapshot_.groupCount() == 0)
         return 0;
     const base::SnapshotGroup& group = snapshot_.group(0);

@@ -47,6 +47,35 @@ void lintGeometry(Reader& reader, const PresetValue& instance, const std::string
                                      "\"NAME.obj\", \"collide\": true} to the scene");
 }
 
+/// The first member below `value` that says in which order particles are drawn; empty: there is none.
+std::string orderMember(const Json& value)
+{
+    if (!value.is_structured())
+        return {};
+    for (const auto& [key, member] : value.items()) {
+        const bool isByAge = key == "order" && (member == "oldest" || member == "youngest");
+        if (isByAge)
+            return "\"order\": " + member.dump();
+        if (key == "orderBias" && member.is_number() && member != 0)
+            return "\"orderBias\": " + member.dump();
+        if (std::string found = orderMember(member); !found.empty())
+            return found;
+    }
+    return {};
+}
+
+/// Warns when a preset orders its particles and the scene sums them up. The preset is valid.
+void lintOrder(Reader& reader, const PresetValue& instance, const std::string& name, const std::string& text)
+{
+    if (reader.scene.view.composition == render::Composition::Sorted)
+        return;
+    if (const std::string member = orderMember(Json::parse(text, nullptr, false)); !member.empty())
+        instance.warning("preset",
+                         name + ": found " + member +
+                             ", which needs the composition \"sorted\": the composition of this scene "
+                             "sums particles up without an order; remove it, or \"composition\"");
+}
+
 /// Index of the preset called `name`, loaded when it is met for the first time; nothing after a failure.
 std::optional<size_t> findPreset(Reader& reader, const std::string& name, const PresetValue& instance)
 {
@@ -71,6 +100,7 @@ std::optional<size_t> findPreset(Reader& reader, const std::string& name, const 
     for (const preset::Diagnostic& warning : loaded->warnings)
         instance.warning("preset", preset::toString(warning));
     lintGeometry(reader, instance, name, *text);
+    lintOrder(reader, instance, name, *text);
     const size_t index = reader.scene.presets.size();
     const bool isFile = !isInLibrary && !reader.resolver.folder().empty();
     reader.scene.presets.push_back({name, std::move(*text),

@@ -67,6 +67,37 @@ TEST(SceneFile, warnsWhereAnEmitterWantsGeometryThatTheSceneLacks)
     EXPECT_EQ(warnings(R"("mesh":{"file":"m.obj","collide":true},)"), 0u);
 }
 
+TEST(SceneFile, warnsWhereAnOrderOfParticlesIsNotSeen)
+{
+    const TempFolder folder;
+    const auto warnings = [&](const std::string& view, const std::string& appearance) {
+        folder.write("p.fx.json", R"({"version":1,"emitters":[{"emission":{"rate":1},"appearance":{)" +
+                                      appearance + "}}]}");
+        const auto scene = loadSceneFile(
+            folder.write("s.scene.json", R"({"version":1,"camera":{"position":[0,0,9],"target":[0,0,0]},)" +
+                                             view + R"("instances":[{"preset":"p.fx.json"}]})"));
+        EXPECT_TRUE(scene.ok()) << scene.status().message();
+        size_t count = 0;
+        for (const auto& warning : scene.ok() ? scene->warnings : decltype(scene->warnings)())
+            count += warning.message.find("needs the composition") != std::string::npos ? 1 : 0;
+        return count;
+    };
+    const std::string slabs = R"("composition":"slabs",)";
+    EXPECT_EQ(warnings(slabs, R"("order":"youngest")"), 1u);
+    EXPECT_EQ(warnings(slabs, R"("order":"oldest")"), 1u);
+    EXPECT_EQ(warnings(slabs, R"("orderBias":0.5)"), 1u);
+    EXPECT_EQ(warnings(slabs, R"("order":"depth","orderBias":0)"), 0u);
+    EXPECT_EQ(warnings("", R"("order":"youngest")"), 0u) << "sorted is the default";
+}
+
+TEST(SceneFile, readsTheComposition)
+{
+    const SceneFile scene = load(R"({"version": 1, "camera": {}, "composition": "slabs", "slabs": 6})");
+    EXPECT_EQ(scene.view.composition, fx::render::Composition::Slabs);
+    EXPECT_EQ(scene.view.slabs, 6);
+    EXPECT_EQ(load(R"({"version": 1, "camera": {}})").view.composition, fx::render::Composition::Sorted);
+}
+
 TEST(SceneFile, readsCameraAndView)
 {
     const SceneFile scene = load(kScene);

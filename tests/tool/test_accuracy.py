@@ -110,6 +110,15 @@ class FxAccuracyOfLight(FxTest):
             self.assertLess(error[f"overlapping-{count}", "gauss-5"], 1e-3)
             self.assertLess(error[f"sorted-wrong-{count}", "gauss-5"], 1e-3) # the integral knows no order
 
+    def test_slabs_are_the_integral_in_any_order(self):
+        lines = lines_of("billboards", *QUICK)
+        error = {(line["scene"], line["setting"]): line["error_p99"] for line in lines}
+        for scene in {line["scene"] for line in lines}:
+            self.assertLessEqual(error[scene, "slabs-16"], 0.03 if scene.startswith("explosion") else 1e-3)
+        for scene in ("overlapping-270", "sorted-wrong-270"):
+            self.assertLessEqual(error[scene, "slabs-6"], 0.02)
+            self.assertGreater(error[scene, "sorted"], 0.05) # the control
+
     def test_only_integers_keep_the_light_of_the_dazzle(self):
         lines = lines_of("dazzle", *QUICK)
         created = {(line["scene"], line["setting"]): abs(line["work"]["light_created_per_overflow"]) for line in lines}

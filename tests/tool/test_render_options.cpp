@@ -107,6 +107,19 @@ TEST(RenderOptions, aFormThatIsNamedWinsOverTheQuality)
     EXPECT_EQ(settingsFor(arguments, OutputKind::Png).form, render::BillboardForm::Planar);
 }
 
+TEST(RenderOptions, aCompositionThatIsNamedWinsOverTheScene)
+{
+    RenderArguments arguments = argumentsFor("a.png");
+    EXPECT_EQ(settingsFor(arguments, OutputKind::Png).composition, render::Composition::Sorted);
+    arguments.composition = "slabs";
+    arguments.slabs = "6";
+    const render::ViewSettings settings = settingsFor(arguments, OutputKind::Png);
+    EXPECT_EQ(settings.composition, render::Composition::Slabs);
+    EXPECT_EQ(settings.slabs, 6);
+    EXPECT_EQ(toApi(settings).composition, uint32_t(FX_COMPOSITION_SLABS));
+    EXPECT_EQ(toApi(settings).slabs, 6u);
+}
+
 TEST(ViewSettings, everyMemberArrivesInTheApiUnderItsName)
 {
     render::ViewSettings s;

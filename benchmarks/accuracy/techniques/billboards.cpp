@@ -1,10 +1,13 @@
 /// @file billboards.cpp
 /// Blobs drawn one after the other, as the GPU draws them, against the integral through all of them. The same
-/// formula texts as the shaders', on the processor, so that no OpenGL is needed.
+/// formula texts as the shaders', on the processor. Settings that are named after a composition are pictures
+/// of a view, drawn by OpenGL: its own lists, shaders and rounding; their time is that of the whole frame.
 
 #include "benchmarks/accuracy/accuracy_technique.h"
 #include "benchmarks/accuracy/techniques/ray_settings.h"
-#include "benchmarks/scenes/cards.h"
+#include "benchmarks/scenes/card_picture.h"
+#include "benchmarks/scenes/explosion_cards.h"
+#include "fxsdk/cli/support/interrupt.h"
 #include "rendering/reference/integral/ray_integrator.h"
 #include "rendering/reference/integral/reference_integral.h"
 #include "shaders/formulas/formula.h"
@@ -83,21 +86,33 @@ std::vector<render::RayBlob<T>> blobsOfRay(const std::vector<Card>& cards, const
     return blobs;
 }
 
-class BillboardAccuracy final : public CountedAccuracy
+/// What a view draws, instead of a Form.
+struct GlSetting
+{
+    std::string_view name;
+    render::Composition composition;
+    int slabs;
+};
+constexpr GlSetting kGlSettings[] = {{"sorted", render::Composition::Sorted, 16},
+                                     {"slabs-6", render::Composition::Slabs, 6},
+                                     {"slabs-16", render::Composition::Slabs, 16}};
+constexpr Form kForms[] = {Form::Kernel, Form::Planar, Form::Constant, Form::Integral};
+
+class BillboardAccuracy final : public AccuracyTechnique
 {
 public:
     explicit BillboardAccuracy(const std::string& scene);
 
     std::string_view scene() const override { return scene_; }
     const std::vector<AccuracySetting>& settings() const override { return settings_; }
+    base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) override;
     std::optional<MeasuredWork> work(size_t setting) override;
 
-protected:
-    double items() const override { return double(rays_.size()); }
-    void judge(size_t setting, AccuracySample& outSample) override;
-
 private:
+    void makeRays(float field, bool hasGround);
     void makeReference();
+    base::Status drawByGl(const GlSetting& setting, double& outSeconds);
+    base::Status makePicture();
     std::vector<double> errors() const;
 
     std::string scene_;
@@ -107,34 +122,122 @@ private:
     std::vector<std::array<float, 3>> lights_;
     std::vector<std::array<double, 3>> reference_;
     nlohmann::json counters_;
+    base::Status status_; ///< of the scene
+    float field_ = 2.4f;  ///< [m] that the width of the picture shows
+    bool isWrong_ = false;
+    std::unique_ptr<CardPicture> picture_; ///< made when it is needed
 };
 
 BillboardAccuracy::BillboardAccuracy(const std::string& scene) : scene_(scene)
 {
-    const uint32_t count = uint32_t(std::atoi(scene.c_str() + scene.rfind('-') + 1));
-    const bool isWrong = scene.find("wrong") != std::string::npos;
-    cards_ = scene.rfind("isolated", 0) == 0 ? isolatedCards(count) : overlappingCards(count);
+    isWrong_ = scene.find("wrong") != std::string::npos;
+    const bool isExplosion = scene.rfind("explosion", 0) == 0;
+    const double number = std::atof(scene.c_str() + scene.rfind('-') + 1);
+    if (isExplosion) {
+        base::Result<std::vector<Card>> cards = explosionCards(number);
+        status_ = cards.status();
+        if (cards)
+            cards_ = std::move(*cards);
+        field_ = kExplosionField;
+    } else {
+        cards_ = scene.rfind("isolated", 0) == 0 ? isolatedCards(uint32_t(number))
+                                                 : overlappingCards(uint32_t(number));
+    }
     std::stable_sort(cards_.begin(), cards_.end(),
-                     [isWrong](const Card& a, const Card& b) { return isWrong ? a.z < b.z : a.z > b.z; });
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
-            const float px = (float(x) + 0.5f - 0.5f * kWidth) * 2.4f / kWidth;
-            const float py = (float(y) + 0.5f - 0.5f * kHeight) * 2.4f / kWidth;
-            // a wall behind the left half; the ground rises through the blobs of the right half
-            rays_.push_back({px, py, px < 0.0f ? std::numeric_limits<float>::infinity() : 2.0f + 0.8f * py});
-        }
-    lights_.resize(rays_.size());
-    const nlohmann::json parameters = {{"blobs", count},
-                                       {"order", isWrong ? "front to back" : "back to front"}};
+                     [this](const Card& a, const Card& b) { return isWrong_ ? a.z < b.z : a.z > b.z; });
+    makeRays(field_, !isExplosion);
+    const nlohmann::json parameters = {{"blobs", cards_.size()},
+                                       {"order", isWrong_ ? "front to back" : "back to front"}};
     settings_ = {{"kernel", "default", parameters},
                  {"planar", "low", parameters},
                  {"constant", "", parameters},
                  {"gauss-5", "high", parameters}};
+    for (const GlSetting& gl : kGlSettings)
+        settings_.push_back({std::string(gl.name), "", parameters});
+}
+
+/// @param hasGround a wall behind the left half; the ground rises through the blobs of the right half
+void BillboardAccuracy::makeRays(float field, bool hasGround)
+{
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const float px = (float(x) + 0.5f - 0.5f * kWidth) * field / kWidth;
+            const float py = (float(y) + 0.5f - 0.5f * kHeight) * field / kWidth;
+            rays_.push_back(
+                {px, py,
+                 px < 0.0f || !hasGround ? std::numeric_limits<float>::infinity() : 2.0f + 0.8f * py});
+        }
+    lights_.resize(rays_.size());
+}
+
+base::Result<AccuracySample> BillboardAccuracy::run(size_t setting, const std::function<bool()>& stop)
+{
+    if (stop())
+        return interruptedStatus();
+    if (!status_)
+        return status_;
+    AccuracySample sample;
+    if (setting < std::size(kForms)) {
+        const MeasuredWork measured = *work(setting);
+        sample.seconds = measured.seconds;
+        sample.instructions = measured.instructions;
+    } else if (base::Status status = drawByGl(kGlSettings[setting - std::size(kForms)], sample.seconds);
+               !status) {
+        return status;
+    }
+    sample.items = double(rays_.size());
+    if (reference_.empty())
+        makeReference();
+    storeErrors(errors(), sample);
+    sample.work = counters_;
+    return sample;
+}
+
+base::Status BillboardAccuracy::makePicture()
+{
+    base::Result<std::unique_ptr<CardPicture>> made = CardPicture::create(kWidth, kHeight, field_);
+    if (!made)
+        return made.status();
+    picture_ = std::move(*made);
+    std::vector<float> surface;
+    for (const CardRay& ray : rays_)
+        surface.push_back(ray.farthest);
+    picture_->setSurface(surface);
+    return {};
+}
+
+/// A view sorts: to see the wrong order, each blob is drawn in a frame of its own. A sum is drawn in one.
+base::Status BillboardAccuracy::drawByGl(const GlSetting& setting, double& outSeconds)
+{
+    if (!picture_)
+        if (base::Status status = makePicture(); !status)
+            return status;
+    picture_->settings().composition = setting.composition;
+    picture_->settings().slabs = setting.slabs;
+    const bool isApart = isWrong_ && setting.composition == render::Composition::Sorted;
+    const size_t atOnce = isApart ? 1 : cards_.size();
+    outSeconds = 0;
+    for (const bool isTimed : {false, true}) { // the first may compile
+        picture_->clear();
+        for (size_t i = 0; i < cards_.size(); i += atOnce) {
+            double milliseconds = 0;
+            const base::FrameSnapshot snapshot = picture_->snapshotOf(std::span(cards_).subspan(i, atOnce));
+            if (base::Status status = picture_->draw(snapshot, &milliseconds); !status)
+                return status;
+            outSeconds += isTimed ? 1e-3 * milliseconds : 0.0;
+        }
+    }
+    const std::vector<float> light = picture_->read();
+    for (size_t i = 0; i < lights_.size(); ++i)
+        lights_[i] = {light[3 * i], light[3 * i + 1], light[3 * i + 2]};
+    counters_ = {{"rays", rays_.size()}};
+    return {};
 }
 
 std::optional<MeasuredWork> BillboardAccuracy::work(size_t setting)
 {
-    constexpr Form kForms[] = {Form::Kernel, Form::Planar, Form::Constant, Form::Integral};
+    if (setting >= std::size(kForms))
+        return measureWork([] {}); // what a driver does is not counted
     const Form form = kForms[setting];
     if (form != Form::Integral) {
         uint64_t fragments = 0;
@@ -182,14 +285,6 @@ std::vector<double> BillboardAccuracy::errors() const
     return errors;
 }
 
-void BillboardAccuracy::judge(size_t, AccuracySample& outSample)
-{
-    if (reference_.empty())
-        makeReference();
-    storeErrors(errors(), outSample);
-    outSample.work = counters_;
-}
-
 std::unique_ptr<AccuracyTechnique> make(const std::string& scene, const AccuracyScale&)
 {
     return std::make_unique<BillboardAccuracy>(scene);
@@ -200,12 +295,12 @@ std::unique_ptr<AccuracyTechnique> make(const std::string& scene, const Accuracy
 AccuracyTechniqueEntry billboardsAccuracy()
 {
     return {"billboards",
-            "planar, constant and kernel billboards against the integral",
+            "planar, constant and kernel billboards and compositions against the integral",
             "ray",
             ShownError::P99,
             {"isolated-1", "isolated-10", "isolated-270", "overlapping-10", "overlapping-270",
-             "sorted-wrong-10", "sorted-wrong-270"},
-            7,
+             "sorted-wrong-10", "sorted-wrong-270", "explosion-0.6"},
+            8,
             false,
             make};
 }

@@ -1,0 +1,61 @@
+/// @file card_picture.h
+/// Cards drawn by OpenGL along parallel rays, as views draw them: for measurements against the integral.
+///
+/// Threads: the thread that made it.
+#pragma once
+
+#include "benchmarks/scenes/cards.h"
+#include "foundation/snapshot/frame_snapshot.h"
+#include "rendering/gl/gl_device.h"
+#include "rendering/gl/gl_texture.h"
+#include "rendering/platform/gl_context.h"
+#include "rendering/view/view_renderer.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+
+class CardPicture
+{
+public:
+    static constexpr float kFarthest = 40.0f; ///< [m] of a surface
+
+    /// @param width, height [pixel]
+    /// @param field [m] that the width of the picture shows
+    static base::Result<std::unique_ptr<CardPicture>> create(int width, int height, float field);
+
+    /// Without procedural detail and glare, at EV 0.
+    render::ViewSettings& settings() { return view_->settings(); }
+    const render::FrameStatistics& statistics() const { return view_->statistics(); }
+    const std::string& renderer() const { return device_->limits().renderer; }
+    const base::SnapshotSchema& schema() const { return schema_; }
+
+    /// Cards stand in front of the eye, their z along the view. No two snapshots have the same number: a view
+    /// takes what it made from one for another of the same number.
+    base::FrameSnapshot snapshotOf(std::span<const Card> cards) const;
+
+    /// Opaque surface behind each pixel [m], rows from the bottom; +inf, or more than kFarthest: none.
+    void setSurface(std::span<const float> distances);
+    void clear();
+    /// Over what is there. @param outMilliseconds until the GPU has finished; null: it is not waited for
+    base::Status draw(const base::FrameSnapshot& snapshot, double* outMilliseconds = nullptr);
+    /// RGB of luminance, rows from the bottom.
+    std::vector<float> read();
+
+private:
+    CardPicture(int width, int height, float field) : width_(width), height_(height), field_(field) {}
+
+    int width_, height_;
+    float field_;
+    std::unique_ptr<render::GlContext> gl_;
+    std::unique_ptr<render::GlDevice> device_;
+    render::GlTexture color_, depth_;
+    bool hasSurface_ = false;
+    base::SnapshotSchema schema_;
+    std::unique_ptr<render::ViewRenderer> view_;
+};
+
+} // namespace fx::cli
