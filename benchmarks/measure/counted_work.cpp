@@ -1,8 +1,7 @@
 #include "benchmarks/measure/counted_work.h"
 
+#include "benchmarks/measure/clocks.h"
 #include "benchmarks/measure/instruction_counter.h"
-
-#include <ctime>
 
 extern "C" [[gnu::noinline]] void fxAccuracyWork(const std::function<void()>* work)
 {
@@ -10,16 +9,6 @@ extern "C" [[gnu::noinline]] void fxAccuracyWork(const std::function<void()>* wo
 }
 
 namespace fx::cli {
-namespace {
-
-double threadSeconds()
-{
-    timespec time = {};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
-}
-
-} // namespace
 
 MeasuredWork measureWork(const std::function<void()>& work)
 {

@@ -1,5 +1,6 @@
 #include "benchmarks/scenes/quality_stage.h"
 
+#include "benchmarks/measure/clocks.h"
 #include "foundation/result/nearest_name.h"
 #include "fxsdk/cli/scene/api_status.h"
 #include "fxsdk/cli/scene/view_settings.h"
@@ -12,22 +13,22 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <memory_resource>
 
 namespace fx::cli {
+namespace {
+
+double processMilliseconds()
+{
+    return 1e3 * processSeconds();
+}
+
+} // namespace
 
 const char* clockName(StageClock clock)
 {
     constexpr const char* kNames[] = {"gpu", "wall", "processor"};
     return kNames[size_t(clock)];
-}
-
-double processorMilliseconds()
-{
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return double(time.tv_sec) * 1e3 + double(time.tv_nsec) * 1e-6;
 }
 
 base::Result<std::unique_ptr<QualityStage>> QualityStage::create(const scene_file::SceneFile& file, int width,
@@ -95,7 +96,7 @@ StageClock QualityStage::bestClock() const
 
 base::Status QualityStage::setBudget(double budget, StageClock clock)
 {
-    view_->renderer.setHostClock(clock == StageClock::Processor ? processorMilliseconds
+    view_->renderer.setHostClock(clock == StageClock::Processor ? processMilliseconds
                                                                 : render::steadyMilliseconds);
     const render::TimingClock timing =
         clock == StageClock::Gpu ? render::TimingClock::Gpu : render::TimingClock::Host;

@@ -28,8 +28,6 @@ enum class StageClock
     Processor ///< processor time of all threads of this program: for software renderers on busy machines
 };
 const char* clockName(StageClock clock);
-/// [ms]
-double processorMilliseconds();
 
 class QualityStage
 {

@@ -71,6 +71,10 @@ class Lint(unittest.TestCase):
         self.accepted("arrows", {"rendering/a.h": "", "fxsdk/cli/render/a.cpp": '#include "fxsdk/cli/support/machine.h"\n',
                                  "benchmarks/a.cpp": '#include "fxsdk/cli/support/machine.h"\n#include "benchmarks/b.h"\n'})
 
+    def test_only_tests_include_tests(self):
+        self.refused("arrows", {"benchmarks/a.cpp": '#include "tests/simulation/stage.h"\n'}, "benchmarks/ must not include tests/")
+        self.accepted("arrows", {"benchmarks/a.cpp": "", "tests/a.cpp": '#include "tests/simulation/stage.h"\n'})
+
     def test_includes_of_the_simulation_follow_the_modules(self):
         modules = {"simulation/low/CMakeLists.txt": "# low\nfx_module(NAME low LAYER 2 SOURCES a.cpp DEPENDS foundation)\n",
                    "simulation/low/a.h": "", "simulation/plain/c.h": "", "simulation/high/b.h": "",

@@ -4,12 +4,12 @@
 #define HWY_TARGET_INCLUDE "benchmarks/bench/gas/machine_peak.cpp"
 #include <hwy/foreach_target.h> // before everything that is compiled for each target
 
+#include "benchmarks/measure/clocks.h"
 #include "foundation/simd/instruction_set.h"
 
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <ctime>
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();
@@ -78,22 +78,15 @@ HWY_EXPORT(calculateFloats);
 HWY_EXPORT(calculateDoubles);
 HWY_EXPORT(readAll);
 
-double cpuSeconds()
-{
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
-
 /// Largest amount a second of several runs of f, which returns an amount.
 template <class F>
 double bestRate(F&& f)
 {
     double best = 0;
     for (int run = 0; run < 9; ++run) {
-        const double begin = cpuSeconds();
+        const double begin = threadSeconds();
         const double amount = f();
-        best = std::max(best, amount / std::max(cpuSeconds() - begin, 1e-9));
+        best = std::max(best, amount / std::max(threadSeconds() - begin, 1e-9));
     }
     return best;
 }

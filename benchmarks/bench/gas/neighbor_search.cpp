@@ -5,6 +5,7 @@
 // sample of lists is not what a trial of all pairs finds. --small: 8^3 and 16^3 particles once.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
+#include "benchmarks/measure/clocks.h"
 #include "foundation/math/hash.h"
 #include "foundation/random/philox.h"
 #include "foundation/simd/instruction_set.h"
@@ -19,7 +20,6 @@
 #include <numbers>
 #include <numeric>
 #include <string>
-#include <time.h>
 #include <utility>
 #include <vector>
 
@@ -125,20 +125,15 @@ struct Times
 class StopWatch
 {
 public:
-    explicit StopWatch(uint32_t threads) : clock_(threads == 1 ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC)
-    {
-        lap();
-    }
+    explicit StopWatch(uint32_t threads) : now_(threads == 1 ? processSeconds : wallSeconds) { lap(); }
     double lap()
     {
-        timespec now{};
-        clock_gettime(clock_, &now);
-        const double seconds = double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+        const double seconds = now_();
         return seconds - std::exchange(last_, seconds);
     }
 
 private:
-    clockid_t clock_;
+    double (*now_)();
     double last_ = 0;
 };
 

@@ -9,16 +9,16 @@
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
 #include "benchmarks/bench/gas/machine_peak.h"
+#include "benchmarks/measure/clocks.h"
+#include "benchmarks/scenes/gas_stage.h"
 #include "foundation/math/hash.h"
 #include "foundation/simd/instruction_set.h"
 #include "fxsdk/cli/support/json_line.h"
-#include "tests/simulation/pair_loops/gas_stage.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <memory>
 #include <string>
 
@@ -35,13 +35,6 @@ struct Options
     uint64_t validateHash = 0; ///< 0: nothing
     bool isSmall = false;
 };
-
-double cpuSeconds()
-{
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 template <class T>
 uint64_t hashOf(uint64_t hash, const std::vector<T>& column)
@@ -66,21 +59,21 @@ constexpr double kDensityNumbers = 8;
 constexpr double kForceNumbers = 16;
 
 template <class T>
-Case timeDensity(const test::GasStage<T>& stage, const Options& options)
+Case timeDensity(const bench::GasStage<T>& stage, const Options& options)
 {
     sim::DensityRules rules;
     rules.neighbors = options.neighbors;
-    test::Densities<T> at = stage.template sized<test::Densities<T>>();
-    const test::Densities<T> solved = stage.densities(rules, 1.0);
+    bench::Densities<T> at = stage.template sized<bench::Densities<T>>();
+    const bench::Densities<T> solved = stage.densities(rules, 1.0);
     at.support = solved.support;
     stage.sumDensity(rules, options.reach, at); // now by place
     const std::vector<T> solution = at.support;
     for (uint32_t i = 0; i < stage.count(); ++i)
-        at.support[i] = solution[i] * T(0.99 + 0.02 * test::chance(9, i, 0));
+        at.support[i] = solution[i] * T(0.99 + 0.02 * bench::chance(9, i, 0));
     Case result;
-    const double start = cpuSeconds();
+    const double start = threadSeconds();
     stage.sumDensity(rules, options.reach, at);
-    result.seconds = cpuSeconds() - start;
+    result.seconds = threadSeconds() - start;
     for (const auto* column : {&at.support, &at.density, &at.correction, &at.divergence, &at.curl})
         result.hash = hashOf(result.hash, *column);
     result.hash = hashOf(result.hash, at.neighbors);
@@ -90,13 +83,13 @@ Case timeDensity(const test::GasStage<T>& stage, const Options& options)
 }
 
 template <class T>
-Case timeForces(const test::GasStage<T>& stage)
+Case timeForces(const bench::GasStage<T>& stage)
 {
-    test::Forces<T> at = stage.template sized<test::Forces<T>>();
+    bench::Forces<T> at = stage.template sized<bench::Forces<T>>();
     Case result;
-    const double start = cpuSeconds();
+    const double start = threadSeconds();
     stage.sumForces({}, at);
-    result.seconds = cpuSeconds() - start;
+    result.seconds = threadSeconds() - start;
     for (const auto* column : {&at.ax, &at.ay, &at.az, &at.heating, &at.signalSpeed, &at.fastestNeighbor})
         result.hash = hashOf(result.hash, *column);
     for (const uint32_t n : at.pairs)
@@ -146,9 +139,9 @@ void print(const char* name, const char* precision, base::InstructionSet set, co
 template <class T>
 bool runPrecision(const char* precision, const Options& options, uint64_t& ioHash)
 {
-    test::Gas gas = test::latticeGas(options.size, 0.3, options.neighbors);
-    test::stir(gas);
-    const test::GasStage<T> stage(gas, test::unitBox(sim::AxisKind::Periodic), options.reach);
+    bench::Gas gas = bench::latticeGas(options.size, 0.3, options.neighbors);
+    bench::stir(gas);
+    const bench::GasStage<T> stage(gas, bench::unitBox(sim::AxisKind::Periodic), options.reach);
     const base::InstructionSet widest = base::instructionSet();
     const uint32_t first = options.onlyWidest ? uint32_t(widest) : 0;
     std::array<Case, 4> density, forces;

@@ -2,6 +2,7 @@
 #include "benchmarks/bench/instances/city.h"
 
 #include "benchmarks/bench/bench_measurement.h"
+#include "benchmarks/measure/clocks.h"
 #include "benchmarks/scenes/bench_scene.h"
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,13 +31,6 @@ struct CityRun
     uint64_t catchUp = 0;               ///< particle steps
     base::Status status;
 };
-
-double threadSeconds()
-{
-    timespec time = {};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
-}
 
 /// The camera swings by half a degree about -Z and sees 250 m far.
 base::Status frame(BenchScene& scene, uint32_t number, CityRun& run)

@@ -1,5 +1,6 @@
 // fx bench city --turn: a camera that turns fast, so that in every frame many effects come into sight.
 #include "benchmarks/bench/instances/city.h"
+#include "benchmarks/measure/clocks.h"
 #include "benchmarks/scenes/bench_scene.h"
 #include "fxsdk/cli/scene/api_status.h"
 #include "fxsdk/cli/support/exit_code.h"
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 
 namespace fx::cli {
 namespace {
@@ -24,13 +24,6 @@ struct Turned
     double bytesEach = 0;             ///< [byte] in use over instances, before the camera turns
     base::Status status;
 };
-
-double threadMilliseconds()
-{
-    timespec time = {};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e3 * double(time.tv_sec) + 1e-6 * double(time.tv_nsec);
-}
 
 base::Status build(const BenchCityOptions& options, const char* policy, BenchScene& scene)
 {
@@ -69,10 +62,10 @@ Turned play(const BenchCityOptions& options, const char* policy)
     turned.bytesEach = double(scene.bytesInUse() - empty) / options.instances;
     for (uint32_t i = 0; i < options.frames && status.ok(); ++i) {
         status = scene.look(0.0174533 * options.turn * (i + 1));
-        const double start = threadMilliseconds();
+        const double start = threadSeconds();
         if (status.ok())
             status = scene.update();
-        turned.milliseconds.push_back(threadMilliseconds() - start);
+        turned.milliseconds.push_back(1e3 * (threadSeconds() - start));
         const FxFrameStats now = scene.frameStats();
         turned.mostParticleSteps = std::max(turned.mostParticleSteps, now.catchUpParticleSteps);
         turned.mostWaking = std::max(turned.mostWaking, now.waking);

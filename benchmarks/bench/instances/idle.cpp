@@ -1,6 +1,7 @@
 // fx bench idle: instructions, time, GL calls and allocations of frames in which nothing is to be seen.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/measure/callgrind.h"
+#include "benchmarks/measure/clocks.h"
 #include "benchmarks/scenes/bench_scene.h"
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
@@ -103,13 +103,6 @@ base::Result<std::unique_ptr<BenchScene>> makeScene(const BenchIdleOptions& opti
     return std::move(*made);
 }
 
-double threadNanoseconds()
-{
-    timespec time = {};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e9 * double(time.tv_sec) + double(time.tv_nsec);
-}
-
 std::vector<std::string> argumentsOf(const BenchIdleOptions& options)
 {
     std::vector<std::string> words{"bench",
@@ -150,9 +143,9 @@ IdleRow measure(const BenchIdleOptions& options)
     row.nanoseconds = 1e30;
     for (int repeat = 0; repeat < 7; ++repeat) {
         IdleFrames run{scene->get(), &options, kFrames, false};
-        const double before = threadNanoseconds();
+        const double before = threadSeconds();
         fxIdleFrames(&run);
-        row.nanoseconds = std::min(row.nanoseconds, (threadNanoseconds() - before) / kFrames);
+        row.nanoseconds = std::min(row.nanoseconds, 1e9 * (threadSeconds() - before) / kFrames);
     }
     row.glCalls = (*scene)->viewStatistics().glCalls;
     row.allocations = (*scene)->statistics().updateAllocations + (*scene)->viewStatistics().allocations;

@@ -1,6 +1,7 @@
 // fx bench lod: what a level of detail saves, what it changes, and whether flying in shows it.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/instances/lod_flight.h"
+#include "benchmarks/measure/clocks.h"
 #include "benchmarks/scenes/bench_scene.h"
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"
@@ -11,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,13 +46,6 @@ struct LodRow
     double mostError = 0; ///< [1] largest difference over the brightest value
     LodFlight flight{};
 };
-
-double seconds(clockid_t clock)
-{
-    timespec time = {};
-    clock_gettime(clock, &time);
-    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
-}
 
 base::Status addField(BenchScene& scene, uint32_t count)
 {
@@ -102,15 +95,15 @@ base::Status drawTimed(BenchScene& scene, uint32_t frames, LodRow& row)
             return status;
         scene.clear();
         scene.finish();
-        const double all = seconds(CLOCK_PROCESS_CPUTIME_ID), own = seconds(CLOCK_THREAD_CPUTIME_ID);
+        const double all = processSeconds(), own = threadSeconds();
         if (base::Status status = scene.draw(); !status)
             return status;
-        const double submit = seconds(CLOCK_THREAD_CPUTIME_ID) - own;
+        const double submit = threadSeconds() - own;
         scene.finish();
         if (i < warm)
             continue;
         row.submit += 1e3 * submit / frames;
-        row.milliseconds += 1e3 * (seconds(CLOCK_PROCESS_CPUTIME_ID) - all) / frames;
+        row.milliseconds += 1e3 * (processSeconds() - all) / frames;
         row.view = scene.viewStatistics();
     }
     return {};

@@ -8,15 +8,13 @@ namespace fx::cli {
 namespace {
 
 constexpr std::array<std::string_view, 2> kVariants{"many", "few"};
-constexpr uint32_t kPerSmall = 10;   // particles of an effect in "many"
-constexpr uint32_t kPerLarge = 1000; // in "few"
 constexpr uint32_t kWarmSteps = uint32_t(kSteadyAfter * 60.0);
 
 base::Result<BenchRow> measure(const BenchSettings& settings, std::string_view variant)
 {
     if (settings.gl)
         return benchManyDrawn(settings, variant);
-    const uint32_t each = variant == "many" ? kPerSmall : kPerLarge;
+    const uint32_t each = manySmallParticles(variant);
     const std::shared_ptr<const sim::EffectDef> effect = benchEffect("lean", each);
     BenchStage stage(settings.threads);
     const uint64_t instances = std::max<uint64_t>(settings.count / each, 1);

@@ -1,14 +1,13 @@
 // fx bench many-small --gl: what a view takes to draw many small effects, and the same particles in few. The
 // picture is small: what counts is the way from the snapshot to the GPU, not the pixels.
 #include "benchmarks/bench/particles/bench_stage.h"
+#include "benchmarks/bench/particles/drawn_frames.h"
 #include "benchmarks/bench/particles/particle_rows.h"
-#include "benchmarks/scenes/bench_scene.h"
+#include "benchmarks/measure/clocks.h"
 #include "foundation/math/hash.h"
-#include "fxsdk/cli/support/interrupt.h"
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -16,18 +15,8 @@ namespace fx::cli {
 namespace {
 
 constexpr int kPixels = 64;
-constexpr uint32_t kPerSmall = 10;    // particles of an effect in "many"
-constexpr uint32_t kPerLarge = 1000;  // in "few"
-constexpr uint32_t kWarmFrames = 250; // a life of 2 s, and until emitters have joined
+constexpr uint32_t kWarmSteps = 250; // a life of 2 s, and until emitters have joined
 constexpr uint32_t kWarmDraws = 8;
-
-/// Of this thread alone: those that put pixels together do not count.
-double processorTime()
-{
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
-}
 
 std::string presetText(uint32_t each)
 {
@@ -49,35 +38,6 @@ base::Status addInstances(BenchScene& scene, FxPresetId preset, uint64_t count)
     return status;
 }
 
-/// What the timed frames took.
-struct Times
-{
-    std::vector<double> update, upload, submit, whole; ///< [s]
-    FxViewStatistics view{};                           ///< of the last frame
-};
-
-base::Status playFrame(BenchScene& scene, Times& times)
-{
-    const double begin = processorTime();
-    base::Status status = scene.update();
-    const double updated = processorTime();
-    if (status.ok())
-        status = scene.draw();
-    const double drawn = processorTime();
-    times.view = scene.viewStatistics();
-    scene.finish();
-    const double again = processorTime(); // nothing has changed: only submission is left
-    if (status.ok())
-        status = scene.draw();
-    const double submitted = processorTime() - again;
-    scene.finish();
-    times.update.push_back(updated - begin);
-    times.upload.push_back(std::max(drawn - updated - submitted, 0.0));
-    times.submit.push_back(submitted);
-    times.whole.push_back(drawn - begin);
-    return status;
-}
-
 } // namespace
 
 base::Result<BenchRow> benchManyDrawn(const BenchSettings& settings, std::string_view variant)
@@ -88,7 +48,7 @@ base::Result<BenchRow> benchManyDrawn(const BenchSettings& settings, std::string
     auto scene = BenchScene::create(options);
     if (!scene.ok())
         return scene.status();
-    const uint32_t each = variant == "many" ? kPerSmall : kPerLarge;
+    const uint32_t each = manySmallParticles(variant);
     const uint64_t instances = std::max<uint64_t>(settings.count / each, 1);
     auto preset = (*scene)->load(presetText(each));
     if (!preset.ok())
@@ -96,30 +56,23 @@ base::Result<BenchRow> benchManyDrawn(const BenchSettings& settings, std::string
     base::Status status = addInstances(**scene, *preset, instances);
     if (status.ok())
         status = (*scene)->look(0);
-    for (uint32_t i = 0; i < kWarmFrames && status.ok(); ++i)
-        status = (*scene)->update();
-    Times times;
-    const uint32_t frames = settings.steps > 0 ? settings.steps : 300;
-    for (uint32_t i = 0; i < frames + kWarmDraws && status.ok(); ++i) {
-        if (interruptRequested())
-            return interruptedStatus();
-        if (i == kWarmDraws)
-            times = {};
-        (*scene)->clear();
-        status = playFrame(**scene, times);
-    }
+    // By the time of this thread alone: threads that put pixels together do not count.
+    const FramePlan plan{threadSeconds, kWarmSteps, kWarmDraws, settings.steps > 0 ? settings.steps : 300,
+                         true};
+    FrameTimes times;
+    if (status.ok())
+        status = playFrames(**scene, plan, times);
     if (!status)
         return status;
-    const auto milliseconds = [](const std::vector<double>& t) { return 1e3 * quantile(t, 0.5); };
     const std::vector<float> picture = (*scene)->picture();
     BenchRow row;
-    row.medianNanoseconds = 1e9 * quantile(times.whole, 0.5) / double(settings.count);
-    row.p95Nanoseconds = 1e9 * quantile(times.whole, 0.95) / double(settings.count);
+    row.medianNanoseconds = 1e9 * quantile(times.calls, 0.5) / double(settings.count);
+    row.p95Nanoseconds = 1e9 * quantile(times.calls, 0.95) / double(settings.count);
     row.hash = base::hashBytes(0, picture.data(), picture.size() * sizeof(float));
     row.more = {{"instances", instances},
-                {"ms_update", milliseconds(times.update)},
-                {"ms_upload", milliseconds(times.upload)},
-                {"ms_submit", milliseconds(times.submit)},
+                {"ms_update", medianMilliseconds(times.update)},
+                {"ms_upload", medianMilliseconds(times.upload)},
+                {"ms_submit", medianMilliseconds(times.submit)},
                 {"draw_calls", times.view.drawCalls},
                 {"sorted_particles", times.view.sortedParticles},
                 {"uploaded_bytes", times.view.uploadedBytes},

@@ -19,6 +19,12 @@ std::span<const std::string_view> particleVariants();
 /// The same, computed on the GPU where it can; else as without.
 base::Result<BenchRow> measureOnGpu(const BenchSettings& settings, std::string_view variant);
 
+/// Particles of one effect of a variant of fx bench many-small.
+inline uint32_t manySmallParticles(std::string_view variant)
+{
+    return variant == "many" ? 10 : 1000;
+}
+
 /// fx bench many-small with a view that draws.
 base::Result<BenchRow> benchManyDrawn(const BenchSettings& settings, std::string_view variant);
 

@@ -5,6 +5,7 @@
 // that of a stable standard sort.
 #include "benchmarks/bench/particles/bench_stage.h"
 #include "benchmarks/bench/particles/particle_rows.h"
+#include "benchmarks/measure/clocks.h"
 #include "foundation/math/hash.h"
 #include "foundation/random/philox.h"
 #include "fxsdk/cli/support/interrupt.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <ctime>
 #include <memory_resource>
 #include <numeric>
 #include <span>
@@ -24,12 +24,6 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kVariants{
     "random", "same", "hundredth-moved", "all-nearer", "nearer-and-moved", "radix", "standard"};
-double threadSeconds()
-{
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
 
 float unit(uint64_t stream, size_t i)
 {

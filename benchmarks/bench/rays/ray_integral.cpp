@@ -11,6 +11,7 @@
 // even steps of 0.1 mm do not reach it, the ratio is a lower bound.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
+#include "benchmarks/measure/clocks.h"
 #include "foundation/math/hash.h"
 #include "foundation/simd/instruction_set.h"
 #include "foundation/tasks/task_runner.h"
@@ -23,7 +24,6 @@
 #include <chrono>
 #include <memory>
 #include <string>
-#include <time.h>
 #include <vector>
 
 namespace fx::cli {
@@ -41,13 +41,6 @@ const Machine& machine()
 {
     static const Machine read = readMachine();
     return read;
-}
-
-double threadSeconds()
-{
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
 struct Variant

@@ -4,17 +4,17 @@
 // object: least time of `repeat` runs, of building and of rendering, work, and a hash of the picture.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
+#include "benchmarks/measure/clocks.h"
+#include "benchmarks/scenes/chance.h"
 #include "foundation/math/hash.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "rendering/reference/render/reference_renderer.h"
-#include "tests/rendering/reference/trace/ball_scenes.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <numbers>
 
@@ -36,7 +36,7 @@ struct Options
 
 render::ReferenceScene makeScene(const Options& options)
 {
-    test::Chance chance(1);
+    bench::Chance chance(1);
     const double count = double(options.blobs);
     const double radius = std::sqrt(options.cover / count);
     render::ReferenceScene scene;
@@ -55,13 +55,6 @@ render::ReferenceScene makeScene(const Options& options)
     scene.camera = render::ReferenceCamera::lookAt({0.0, 0.0, 3.0}, glm::dvec3(0.0), {0.0, 1.0, 0.0});
     scene.camera.halfHeight = 0.36; // the ball fills most of the picture's height
     return scene;
-}
-
-double processSeconds()
-{
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
 struct Result

@@ -4,21 +4,23 @@
 // `repeat` runs. Prints one JSON object with a hash of the hits.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
+#include "benchmarks/measure/clocks.h"
+#include "benchmarks/scenes/chance.h"
 #include "foundation/math/hash.h"
 #include "foundation/simd/instruction_set.h"
 #include "rendering/reference/trace/tile_walk.h"
-#include "tests/rendering/reference/trace/ball_scenes.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace fx::cli {
 namespace {
@@ -33,18 +35,11 @@ struct Options
     bool isSmall = false;
 };
 
-double cpuSeconds()
+std::vector<render::TraceBall> makeBalls(const Options& options)
 {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
-
-test::Balls makeBalls(const Options& options)
-{
-    test::Chance chance(1);
+    bench::Chance chance(1);
     const double radius = std::cbrt(options.fill / double(options.balls));
-    test::Balls balls;
+    std::vector<render::TraceBall> balls;
     while (balls.size() < options.balls) {
         const glm::dvec3 p = chance.inCube();
         if (glm::dot(p, p) < 1.0)
@@ -79,7 +74,7 @@ struct Result
     uint64_t hash = 0;
 };
 
-void runOnce(const test::Balls& balls, const Options& options, Result& result)
+void runOnce(const std::vector<render::TraceBall>& balls, const Options& options, Result& result)
 {
     const auto tasks = base::makeSerialRunner();
     const render::RayGrid grid = makeGrid(options);
@@ -87,20 +82,20 @@ void runOnce(const test::Balls& balls, const Options& options, Result& result)
     static render::BallTree tree;
     static render::TileWalk walk;
     clearCaches();
-    double start = cpuSeconds();
+    double start = threadSeconds();
     tree.build(balls, eye, *tasks);
-    result.build = std::min(result.build, cpuSeconds() - start);
+    result.build = std::min(result.build, threadSeconds() - start);
 
     uint64_t hits = 0;
     double sum = 0.0;
-    start = cpuSeconds();
+    start = threadSeconds();
     walk.run(tree, grid, {0, 0, options.width, options.height}, {},
              [&](int, int, const render::RayHits& ray) {
                  hits += ray.size();
                  if (ray.size() > 0)
                      sum += ray.enter[0] + ray.chordSquare[ray.size() - 1];
              });
-    result.find = std::min(result.find, cpuSeconds() - start);
+    result.find = std::min(result.find, threadSeconds() - start);
     result.hits = hits;
     uint64_t bits;
     std::memcpy(&bits, &sum, sizeof bits);
@@ -111,7 +106,7 @@ void measure(Options options)
 {
     if (options.isSmall)
         options.balls = 2000, options.width = 64, options.height = 36, options.repeat = 1;
-    const test::Balls balls = makeBalls(options);
+    const std::vector<render::TraceBall> balls = makeBalls(options);
     Result result;
     for (int i = 0; i < options.repeat; ++i)
         runOnce(balls, options, result);

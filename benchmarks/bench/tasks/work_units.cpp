@@ -4,13 +4,13 @@
 // fitted with it.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
+#include "benchmarks/measure/clocks.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/fxsdk.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
@@ -50,13 +50,6 @@ constexpr Kind kKinds[] = {
      R"("fragments":[{"count":2000,"lifetime":30,"speed":50,"trail":{"spacing":0.05,"maxBlobs":50000,"lifetime":30}}])"},
 };
 
-double processorSeconds()
-{
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
-
 void check(FxResult result)
 {
     if (result != FX_OK)
@@ -88,9 +81,9 @@ nlohmann::json measureKind(const Kind& kind, int updates)
     std::vector<double> seconds;
     std::vector<uint64_t> units;
     for (int i = 0; i < updates; ++i) {
-        const double start = processorSeconds();
+        const double start = processSeconds();
         check(fxScene_Update(scene, 1.0 / 60.0));
-        seconds.push_back(processorSeconds() - start);
+        seconds.push_back(processSeconds() - start);
         FxSceneStatistics statistics{};
         statistics.structSize = sizeof statistics;
         check(fxScene_GetStatistics(scene, &statistics));

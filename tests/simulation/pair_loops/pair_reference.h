@@ -3,7 +3,7 @@
 /// unit vectors, from the formulas in the comments.
 #pragma once
 
-#include "tests/simulation/pair_loops/gas_stage.h"
+#include "benchmarks/scenes/gas_stage.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -13,6 +13,9 @@
 #include <numbers>
 
 namespace fx::test {
+
+using bench::chance, bench::latticeGas, bench::parcel, bench::stir, bench::unitBox;
+using bench::Densities, bench::Forces, bench::Gas, bench::GasStage;
 
 /// W and dW/dr of unit mass, written as in Dehnen and Aly's table.
 struct ReferenceKernel

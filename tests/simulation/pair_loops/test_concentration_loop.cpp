@@ -1,5 +1,5 @@
+#include "benchmarks/scenes/gas_stage.h"
 #include "tests/foundation/every_set.h"
-#include "tests/simulation/pair_loops/gas_stage.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 namespace {
 
 using namespace fx;
+using namespace fx::bench;
 using namespace fx::test;
 
 constexpr double kRange = 0.5;

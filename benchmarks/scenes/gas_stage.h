@@ -1,6 +1,6 @@
 /// @file gas_stage.h
-/// A gas on a stage: particles with lists of neighbors, and results of the pair loops by the order in which
-/// the particles were given.
+/// A gas on a stage, for measurements and tests of the pair loops: particles with lists of neighbors, and
+/// results by the order in which the particles were given.
 #pragma once
 
 #include "foundation/math/elementary.h"
@@ -14,7 +14,7 @@
 #include <numeric>
 #include <vector>
 
-namespace fx::test {
+namespace fx::bench {
 
 using Gas = std::vector<sim::GasRecord<double>>;
 
@@ -252,4 +252,4 @@ private:
     std::vector<T> columns_[4];
 };
 
-} // namespace fx::test
+} // namespace fx::bench
