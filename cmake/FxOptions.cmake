@@ -6,6 +6,8 @@ option(FXSDK_GPU_PARTICLES "Compute particles of emitters that ask for it on the
 option(FXSDK_WERROR "Treat warnings as errors" ${PROJECT_IS_TOP_LEVEL})
 set(FXSDK_SANITIZE "" CACHE STRING "Sanitizers to build with, as given to -fsanitize= (address,undefined or thread)")
 option(FXSDK_BUILD_FUZZERS "Build tests/fuzz with libFuzzer, which only Clang has; otherwise they replay their corpora" OFF)
+option(FXSDK_FEW_INSTRUCTION_SETS "Compile kernels for scalar code and AVX2 only, in half the time; for builds that only run tests"
+    ${FXSDK_BUILD_FUZZERS})
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
@@ -46,16 +48,18 @@ if(FXSDK_SANITIZE)
     target_compile_definitions(fx_flags INTERFACE _GLIBCXX_ASSERTIONS)
     target_link_options(fx_flags INTERFACE -fsanitize=${FXSDK_SANITIZE})
 endif()
+if(FXSDK_BUILD_FUZZERS AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "FXSDK_BUILD_FUZZERS needs Clang: add -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++")
+endif()
 # For kernels of Highway, which are compiled once for every instruction set. SSSE3 is skipped: processors without SSE4
 # take the scalar code.
 set(FX_KERNEL_DEFINITIONS HWY_DISABLED_TARGETS=HWY_SSSE3)
-if(FXSDK_BUILD_FUZZERS)
-    if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-        message(FATAL_ERROR "FXSDK_BUILD_FUZZERS needs Clang: add -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++")
-    endif()
-    # scripts/test compiles this build in full: two instruction sets, scalar and AVX2, take half the time.
+if(FXSDK_FEW_INSTRUCTION_SETS)
     set(FX_KERNEL_DEFINITIONS "")
     target_compile_definitions(fx_flags INTERFACE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
 endif()
 
 set(FX_TEST_TIMEOUT 1800) # [s] ends a test that hangs; on a machine that is busy otherwise none comes near it
+if(FXSDK_SANITIZE)
+    set(FX_TEST_TIMEOUT 7200)
+endif()
