@@ -174,6 +174,14 @@ std::vector<MediumCaster> lightCloud(uint32_t count, double depth)
         if (pointInBall(i, base::RandomPurpose::Position, place))
             casters.push_back({place, 0.25f + 0.2f * size, 1.0f});
     }
+    const double mean = meanDiameter(casters);
+    for (MediumCaster& caster : casters)
+        caster.crossSection = float(depth / mean);
+    return casters;
+}
+
+double meanDiameter(std::span<const MediumCaster> casters)
+{
     constexpr int kDirections = 64;
     const render::BlobMedium medium = mediumOf(casters);
     double mean = 0.0;
@@ -181,9 +189,7 @@ std::vector<MediumCaster> lightCloud(uint32_t count, double depth)
         const glm::dvec3 d = direction(i, kDirections);
         mean += medium.opticalDepth({-2.0 * d, d}, 0.0, 4.0) / kDirections;
     }
-    for (MediumCaster& caster : casters)
-        caster.crossSection = float(depth / mean);
-    return casters;
+    return mean;
 }
 
 std::vector<glm::vec3> pointsWithin(std::span<const MediumCaster> casters, uint32_t count)

@@ -18,6 +18,9 @@ namespace fx::cli {
 /// @param depth [1] mean optical depth through the middle, over all directions
 std::vector<render::MediumCaster> lightCloud(uint32_t count, double depth);
 
+/// [1] mean optical depth through the middle over all directions, for balls within 2 m of the origin.
+double meanDiameter(std::span<const render::MediumCaster> casters);
+
 /// Points within the balls, where light is looked up. [m]
 std::vector<glm::vec3> pointsWithin(std::span<const render::MediumCaster> casters, uint32_t count);
 

@@ -9,7 +9,7 @@
 namespace fx::render {
 
 extern const ProgramDesc kBlobLightProgram;
-constexpr size_t kBlobLightBytes = 2 * 16; ///< [byte] a blob
+constexpr size_t kBlobLightBytes = 3 * 16; ///< [byte] a blob
 
 /// Light of sky, ground and points, and light of the sun that is scattered more than once, at four points of
 /// each blob.

@@ -1,6 +1,5 @@
 #include "formulas/sphere_path.fx.h"
 #include "formulas/kernel_optical_depth.fx.h"
-#include "formulas/kernel_quantile.fx.h"
 #include "formulas/detail_noise.fx.h"
 #include "formulas/henyey_greenstein.fx.h"
 #include "shared/view_block.glsl"
@@ -14,7 +13,8 @@
 
 flat in vec4 blobScatter;
 flat in vec4 blobLight;
-flat in vec3 blobSlope;
+flat in vec4 blobSlope;
+flat in vec4 blobShade;
 flat in vec4 blobLit;
 flat in vec4 blobEmission;
 flat in mat3 blobDetailAxes;
@@ -25,26 +25,31 @@ flat in mat3 blobDetailAxes;
 layout(location = 0) out vec4 light;
 #endif
 
-// Where the ray has passed a share of its optical depth [m, relative to the blob's center].
+const float kEvenShade = 0.25; // change of the optical depth towards the sun across a radius that is taken as even
+
+// Point of the ray where it has passed a share of its optical depth [m, relative to the blob's center], for an even density on
+// the part of the chord on which that spreads as far as the blob's own density does.
 vec3 pointOfBlob(BlobRay ray, float passed)
 {
-    float along = mix(ray.front, ray.back, passed);
 #if FX_FORM == 2
-    float w = max(ray.halfChord, 1e-12);
-    along = w * fxKernelQuantile(mix(fxKernelPassed(ray.front / w), fxKernelPassed(ray.back / w), passed));
+    const float kSpread = 0.6546537; // sqrt(3 / 7)
+#else
+    const float kSpread = 1.0;
 #endif
-    return ray.across + along * ray.direction;
+    return ray.across + mix(ray.front, ray.back, 0.5 + kSpread * (passed - 0.5)) * ray.direction;
 }
 
 // Mean share of the sun's light that reaches the ray through media, weighted by how much of each point is seen: Gauss quadrature
-// in the opacity that has been passed, so that all points count whatever the optical depth.
-float sunTransmittance(BlobRay ray, float opticalDepth)
+// in the opacity that has been passed, so that all points count whatever the optical depth. Where the depth towards the sun
+// hardly changes across the blob it is not looked up.
+float sunTransmittance(float seenDepth, BlobRay ray, vec3 seen)
 {
     bool isDark = lights[0].color.r + lights[0].color.g + lights[0].color.b <= 0.0;
-    int points = isDark ? 0 : blobLit.w < 0.0 ? 1 : lightCounts.z;
-    float opacity = 1.0 - exp(-opticalDepth);
-    float sum = 0.0;
-    for (int i = 0; i < points; ++i) {
+    int points = isDark || length(blobShade.xyz) < kEvenShade ? 0 : lightCounts.z;
+    float even = exp(-max(blobShade.w + dot(blobShade.xyz, seen) / blobCenterRadius.w, 0.0));
+    float opacity = 1.0 - exp(-seenDepth);
+    float sum = points == 0 ? even : 0.0;
+    for (int i = 0; i < points; ++i) { // software renderers skip a loop without turns, but no branch
         float node = 0.5, weight = 1.0;
         if (points == 2) {
             node = i == 0 ? 0.2113249 : 0.7886751;
@@ -56,19 +61,23 @@ float sunTransmittance(BlobRay ray, float opticalDepth)
             node = i == 0 ? 0.0694318 : i == 1 ? 0.3300095 : i == 2 ? 0.6699905 : 0.9305682;
             weight = i == 0 || i == 3 ? 0.1739274 : 0.3260726;
         }
-        float passed = opacity < 1e-3 ? node : -log(1.0 - node * opacity) / opticalDepth; // [1] of the optical depth
-        vec3 place = blobLit.xyz + (blobLit.w < 0.0 ? vec3(0.0) : pointOfBlob(ray, passed));
-        sum += weight * exp(-sunDepth(place).x);
+        float passed = opacity < 1e-3 ? node : -log(1.0 - node * opacity) / seenDepth; // [1] of the optical depth
+        sum += weight * exp(-sunDepth(blobLit.xyz + pointOfBlob(ray, passed)).x);
     }
-    return sum * hostShadow(blobLit.xyz + (blobLit.w < 0.0 ? vec3(0.0) : ray.toPoint));
+    return sum * hostShadow(blobLit.xyz + seen);
 }
 
 vec3 scatteredAlong(BlobRay ray, float opticalDepth)
 {
-    vec3 toEye = blobLit.w < 0.0 ? -normalize(blobLit.xyz) : -ray.direction;
+    bool isSmall = blobLit.w < 0.0; // a blob of a picture, lit in its center alone
+    vec3 toEye = isSmall ? -normalize(blobLit.xyz) : -ray.direction;
     float phase = fxHenyeyGreenstein(-dot(lights[0].place.xyz, toEye), blobScatter.w);
-    vec3 smoothPart = blobLight.rgb * max(1.0 + dot(blobSlope, ray.toPoint) / blobCenterRadius.w, 0.0);
-    return smoothPart + lights[0].color.rgb * blobScatter.rgb * (phase * sunTransmittance(ray, opticalDepth));
+    float seenDepth = opticalDepth * blobSlope.w;              // with what else lies in the blob
+    vec3 seen = pointOfBlob(ray, 1.0 / (2.0 + seenDepth)); // where the light comes from in the mean
+    if (isSmall)
+        seen = vec3(0.0);
+    vec3 smoothPart = blobLight.rgb * max(1.0 + dot(blobSlope.xyz, seen) / blobCenterRadius.w, 0.0);
+    return smoothPart + lights[0].color.rgb * blobScatter.rgb * (phase * sunTransmittance(seenDepth, ray, seen));
 }
 
 void main()

@@ -7,12 +7,13 @@ flat out vec4 blobCenterRadius;
 flat out vec4 blobMedium;
 flat out vec4 blobScatter;
 flat out vec4 blobLight; // rgb light that changes little within the blob; w layer * 2 + share of fire
-flat out vec3 blobSlope; // relative change of it across a radius
+flat out vec4 blobSlope; // xyz relative change of it across a radius; w see crowding in lights/blob_light.comp.glsl
+flat out vec4 blobShade; // optical depth towards the sun: xyz its change across a radius, w in the center
 flat out vec4 blobLit;
 flat out vec4 blobEmission;
 flat out mat3 blobDetailAxes; // noise periods along each axis, turned by the seed so that no two blobs share a lattice
 
-layout(std430, binding = 6) readonly buffer BlobLights { vec4 blobLights[]; }; // two a blob, see lights/blob_light.comp.glsl
+layout(std430, binding = 6) readonly buffer BlobLights { vec4 blobLights[]; }; // three a blob, see lights/blob_light.comp.glsl
 
 mat3 detailAxes(float seed, float periods)
 {
@@ -37,10 +38,12 @@ void main()
         blobMedium.z *= smoothstep(0.3, 1.3, length(blob.centerRadius.xyz) / blob.centerRadius.w);
     blobScatter = blob.scatter;
     blobLight = vec4(0.0, 0.0, 0.0, blob.layer.x);
-    blobSlope = vec3(0.0);
+    blobSlope = vec4(0.0, 0.0, 0.0, 1.0);
+    blobShade = vec4(0.0);
 #ifdef FX_LAYERS // what is only counted needs no light
-    blobLight.rgb = blobLights[2 * index].rgb;
-    blobSlope = blobLights[2 * index + 1].xyz;
+    blobLight.rgb = blobLights[3 * index].rgb;
+    blobSlope = blobLights[3 * index + 1];
+    blobShade = blobLights[3 * index + 2];
 #endif
     blobLit = blob.lit;
     blobEmission = blob.emission;

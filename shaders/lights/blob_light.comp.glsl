@@ -1,3 +1,5 @@
+#include "formulas/sphere_path.fx.h"
+#include "formulas/kernel_optical_depth.fx.h"
 #include "formulas/henyey_greenstein.fx.h"
 #include "formulas/multiple_scattering.fx.h"
 #include "shared/blob_instance.glsl"
@@ -6,24 +8,34 @@
 #include "shared/sky_light.glsl"
 
 // Light that each blob scatters to the eye and that changes little within it: of sky and ground, of lights at points, and of
-// the sun what is scattered more than once. Fragments add the sun's light that is scattered once; without points of a ray
-// (lightCounts.z) it is here as well.
+// the sun what is scattered more than once. Of the sun's light that is scattered once it holds the optical depth towards the
+// sun; fragments do the rest.
 layout(local_size_x = 64) in;
-layout(std430, binding = 6) writeonly buffer BlobLights { vec4 blobLights[]; }; // rgb [exposed]; xyz slope across a radius
+
+// Three a blob. rgb [exposed]
+// xyz slope of it across a radius; w crowding: how often more light its place extinguishes than the blob alone does, >= 1. Blobs
+// that lie in each other are drawn one after the other; by as much the first is seen too deep into
+// xyz slope of the optical depth towards the sun across a radius; w this depth in the center
+layout(std430, binding = 6) writeonly buffer BlobLights { vec4 blobLights[]; };
 layout(std140, binding = 0) uniform BlobLightBlock
 {
     ivec4 blobCount;
     vec4 viewAxis; // xyz in which the eye looks; w 1 orthographic
 };
 
-vec3 smoothLight(vec3 p, vec3 toEye, vec3 albedo, float g)
+vec3 smoothLight(vec3 p, vec3 toEye, vec3 albedo, float g, vec2 towardsSun)
 {
-    vec3 sum = skySource(p, albedo) + scatteredOfPoints(p, toEye, albedo, g);
-    if (lightOfSky.w > 0.5)
-        sum += sunScatteredAgain(p, toEye, albedo, g);
-    if (lightCounts.z == 0)
-        sum += sunScatteredOnce(p, toEye, albedo, g);
-    return sum;
+    vec3 sum = skySource(p, toEye, albedo, g) + scatteredOfPoints(p, toEye, albedo, g);
+    return lightOfSky.w > 0.5 ? sum + sunScatteredAgain(p, toEye, albedo, g, towardsSun) : sum;
+}
+
+// Optical depth towards the sun of the blob alone.
+float ownDepth(BlobInstance blob, vec3 fromCenter)
+{
+    float along = dot(fromCenter, lights[0].place.xyz);
+    float across = length(fromCenter - along * lights[0].place.xyz);
+    float radius = blob.centerRadius.w;
+    return fxKernelOpticalDepth(blob.medium.x, radius, across, -along, 0.0, 2.0 * radius);
 }
 
 void main()
@@ -37,13 +49,22 @@ void main()
     const vec3 kCorners[4] = vec3[4](vec3(1, 1, 1), vec3(1, -1, -1), vec3(-1, 1, -1), vec3(-1, -1, 1));
     const float kInvSqrt3 = 0.57735027;
     float reach = blob.lit.w < 0.0 ? 0.0 : 0.5 * blob.centerRadius.w;
-    vec3 mean = vec3(0.0), slope = vec3(0.0);
+    vec3 mean = vec3(0.0), slope = vec3(0.0), shadeSlope = vec3(0.0), ownSlope = vec3(0.0);
+    float shade = 0.0;
     for (int i = 0; i < 4; ++i) {
-        vec3 source = smoothLight(blob.lit.xyz + reach * kInvSqrt3 * kCorners[i], toEye, blob.scatter.rgb, blob.scatter.w);
+        vec3 fromCenter = reach * kInvSqrt3 * kCorners[i];
+        vec2 towardsSun = sunDepth(blob.lit.xyz + fromCenter);
+        vec3 source = smoothLight(blob.lit.xyz + fromCenter, toEye, blob.scatter.rgb, blob.scatter.w, towardsSun);
         mean += 0.25 * source;
         slope += kCorners[i] * (source.r + source.g + source.b);
+        shade += 0.25 * towardsSun.x;
+        shadeSlope += kCorners[i] * towardsSun.x;
+        ownSlope += kCorners[i] * ownDepth(blob, fromCenter);
     }
     float total = mean.r + mean.g + mean.b;
-    blobLights[2 * index] = vec4(mean, 0.0);
-    blobLights[2 * index + 1] = vec4(total > 0.0 ? 1.5 * kInvSqrt3 * slope / total : vec3(0.0), 0.0);
+    float extinguished = -dot(shadeSlope, lights[0].place.xyz), byBlob = -dot(ownSlope, lights[0].place.xyz);
+    float crowding = byBlob > 0.0 ? clamp(extinguished / byBlob, 1.0, 1e4) : 1.0;
+    blobLights[3 * index] = vec4(mean, 0.0);
+    blobLights[3 * index + 1] = vec4(total > 0.0 ? 1.5 * kInvSqrt3 * slope / total : vec3(0.0), crowding);
+    blobLights[3 * index + 2] = vec4(1.5 * kInvSqrt3 * shadeSlope, shade);
 }

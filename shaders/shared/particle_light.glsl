@@ -22,7 +22,8 @@ vec3 scatteredByMedium(vec3 place, vec3 color, float share)
 {
     vec3 scattering = color * share;
     vec3 albedo = min(scattering, vec3(1.0));
-    vec3 source = scatteredLight(place, -lookAt(place), albedo, 0.0) + skySource(place, albedo);
+    vec3 toEye = -lookAt(place);
+    vec3 source = scatteredLight(place, toEye, albedo, 0.0) + skySource(place, toEye, albedo, 0.0);
     return source * max(scattering, vec3(1.0));
 }
 

@@ -18,10 +18,11 @@ vec3 sunScatteredOnce(vec3 p, vec3 toEye, vec3 albedo, float g)
     return lights[0].color.rgb * albedo * (fxHenyeyGreenstein(cosine, g) * exp(-sunDepth(p).x) * hostShadow(p));
 }
 
-vec3 sunScatteredAgain(vec3 p, vec3 toEye, vec3 albedo, float g)
+// depth: sunDepth(p)
+vec3 sunScatteredAgain(vec3 p, vec3 toEye, vec3 albedo, float g, vec2 depth)
 {
     float cosine = -dot(lights[0].place.xyz, toEye);
-    return lights[0].color.rgb * hostShadow(p) * scatteredAgain(albedo, g, cosine, sunDepth(p));
+    return lights[0].color.rgb * hostShadow(p) * scatteredAgain(albedo, g, cosine, depth);
 }
 
 vec3 scatteredOfPoints(vec3 p, vec3 toEye, vec3 albedo, float g)
@@ -44,5 +45,5 @@ vec3 scatteredOfPoints(vec3 p, vec3 toEye, vec3 albedo, float g)
 vec3 scatteredLight(vec3 p, vec3 toEye, vec3 albedo, float g)
 {
     vec3 sum = sunScatteredOnce(p, toEye, albedo, g) + scatteredOfPoints(p, toEye, albedo, g);
-    return lightOfSky.w > 0.5 ? sum + sunScatteredAgain(p, toEye, albedo, g) : sum;
+    return lightOfSky.w > 0.5 ? sum + sunScatteredAgain(p, toEye, albedo, g, sunDepth(p)) : sum;
 }

@@ -93,9 +93,9 @@ float sunAt(SlabRay ray, float t)
 {
     float sum = 1.0;
     bool isDark = lights[0].color.r + lights[0].color.g + lights[0].color.b <= 0.0;
-    for (int i = 0; i < (isDark || lightCounts.z == 0 ? 0 : 1); ++i) // software renderers skip a loop without turns
+    for (int i = 0; i < (isDark ? 0 : 1); ++i) // software renderers skip a loop without turns
         sum = exp(-sunDepth(ray.origin + t * ray.direction).x) * hostShadow(ray.origin + t * ray.direction);
-    return lightCounts.z == 0 ? 0.0 : sum; // then it is in blobLights
+    return sum;
 }
 
 #if FX_DETAIL

@@ -53,6 +53,25 @@ class FxAccuracyOfLightSlices(FxTest):
                 self.assertLess(line["work"]["change_with_half_texels"], 0.1, line["scene"] + " " + line["setting"])
 
 
+class FxAccuracyOfLitMedia(FxTest):
+    def test_light_that_is_scattered_once_is_that_of_exact_shadow_rays(self):
+        names = by_setting(lines_of("light", "--scene", "blobs-270-small", *QUICK))
+        error = {name: line["work"]["error_rms"] for name, line in names.items()}
+        self.assertLess(error["single-sun"], 0.012) # 0.02 if each blob is lit as if it were alone at its place
+        self.assertLess(error["single-sun-fine"], 0.012)
+        self.assertLess(error["single"], 0.07) # 0.13 if light of the sky were scattered alike in all directions
+        self.assertLess(error["multiple"], 0.15)
+        self.assertGreater(error["single-sun-no-slices"], 0.5) # the shadow matters
+        self.assertGreater(error["single-no-slices"], 0.5)
+
+    def test_the_light_of_clouds_is_that_of_paths_on_all_sides(self):
+        lines = lines_of("light", "--scene", "clouds-small", *QUICK)
+        self.assertEqual(len(lines), 4)
+        for line in lines:
+            self.assertLess(line["error_max"], 0.25, line["setting"])
+            self.assertGreater(line["work"]["sunward"], 0)
+
+
 class FxAccuracyOfLight(FxTest):
     @classmethod
     def setUpClass(cls):

@@ -60,6 +60,7 @@ struct BlobListRenderer::Impl
     render::GlTexture color;
     std::unique_ptr<render::ViewRenderer> view;
     std::optional<base::FrameSnapshot> snapshot;
+    uint64_t sequence = 0;  ///< of the snapshot
     double lastTime = -1.0; ///< [s] of the picture before; -1: there was none
     double milliseconds = 0.0;
 };
@@ -99,8 +100,18 @@ base::Status BlobListRenderer::start(std::span<const render::MediumBlob> blobs,
     impl.view = std::make_unique<render::ViewRenderer>(impl.device.get(), &impl.schema,
                                                        std::pmr::get_default_resource());
     impl.view->settings() = settings;
-    impl.snapshot.emplace(snapshotOfBlobs(blobs, impl.schema, 1));
+    show(blobs);
     return impl.view->warmUp();
+}
+
+void BlobListRenderer::show(std::span<const render::MediumBlob> blobs)
+{
+    impl_->snapshot.emplace(snapshotOfBlobs(blobs, impl_->schema, ++impl_->sequence));
+}
+
+render::ViewSettings& BlobListRenderer::settings()
+{
+    return impl_->view->settings();
 }
 
 base::Status BlobListRenderer::render(const render::ReferenceCamera& camera, double time)
@@ -142,6 +153,11 @@ FrameLayers BlobListRenderer::read()
 const render::FrameStatistics& BlobListRenderer::statistics() const
 {
     return impl_->view->statistics();
+}
+
+bool BlobListRenderer::fillsPlanes() const
+{
+    return std::ranges::count(impl_->view->executedPasses(), "light slices") > 0;
 }
 
 double BlobListRenderer::millisecondsRender() const

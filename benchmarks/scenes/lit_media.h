@@ -1,0 +1,106 @@
+/// @file lit_media.h
+/// Media in the light of sun and sky, and their pictures by OpenGL, by the ray integral with exact single
+/// scattering, and by paths. For measurements of how media are lit: nothing stands behind the media, they
+/// have no procedural detail, and nothing is done to the picture.
+///
+/// Threads: the thread that made it, which is its GL thread.
+#pragma once
+
+#include "fxsdk/cli/render/blob_list_renderer.h"
+#include "rendering/reference/render/reference_scene.h"
+
+#include <glm/vec3.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fx::cli {
+
+/// Where an eye stands, and the light.
+struct LitView
+{
+    glm::dvec3 eye{0.0, 0.0, 6.0}; ///< [m]
+    glm::dvec3 target{0.0};        ///< [m]
+    double fovYDegrees = 24.0;     ///< [degree]
+    render::Lighting lighting;
+    float exposureEv100 = 14.5f; ///< [EV100]
+};
+
+render::ReferenceCamera cameraOf(const LitView& view);
+
+/// The light of the scenes of examples/scenes in daylight.
+render::Lighting daylight();
+
+/// Blobs of a preset of the library at a moment. @param name without "library:" @param time [s]
+base::Result<std::vector<render::MediumBlob>> presetMedia(const std::string& name, double time);
+
+/// One substance in blobs of one size.
+struct BallOfMedia
+{
+    uint32_t blobs = 300;
+    double radius = 0.25;    ///< [m] of a blob, below 1
+    double depth = 1.0;      ///< [1] mean optical depth through the middle of the ball, over all directions
+    double albedo = 0.9;     ///< [1]
+    double anisotropy = 0.0; ///< [1] Henyey-Greenstein g
+};
+
+/// Blobs evenly in a ball of radius 1 m around the origin.
+std::vector<render::MediumBlob> blobsOf(const BallOfMedia& ball);
+
+/// Size of a picture, and how much is done for it.
+struct LitSize
+{
+    int width = 96, height = 96; ///< [pixel]
+    uint32_t paths = 64;         ///< of a pixel
+    int skyRings = 3;            ///< the ray integral takes 4 skyRings^2 directions of the sky
+};
+
+/// A picture, rows from the top.
+struct LitPicture
+{
+    std::vector<glm::dvec3> light; ///< [1] exposed
+    std::vector<double> opacity;   ///< [1]
+    double variance = 0.0;         ///< [1] mean over pixels and channels of the square of the standard error
+    double seconds = 0.0;          ///< [s] that it took
+};
+
+/// Draws lists of blobs by OpenGL.
+class LitPainter
+{
+public:
+    static base::Result<std::unique_ptr<LitPainter>> create(int width, int height);
+
+    /// @param slices of the view's settings
+    base::Result<LitPicture> paint(std::span<const render::MediumBlob> blobs, const LitView& view,
+                                   const render::SliceSettings& slices);
+    const std::string& rendererName() const { return renderer_->rendererName(); }
+
+private:
+    LitPainter(int width, int height) : width_(width), height_(height) {}
+
+    int width_, height_;
+    std::unique_ptr<BlobListRenderer> renderer_;
+    std::vector<render::MediumBlob> shown_;
+};
+
+/// By the ray integral, with light that is scattered once.  @param stop see RenderCallbacks
+base::Result<LitPicture> integrated(std::span<const render::MediumBlob> blobs, const LitView& view,
+                                    const LitSize& size, const std::function<bool()>& stop);
+
+/// By paths of any length.
+base::Result<LitPicture> traced(std::span<const render::MediumBlob> blobs, const LitView& view,
+                                const LitSize& size, const std::function<bool()>& stop);
+
+/// [1] root mean square difference to a true picture over the pixels that media cover, relative to the root
+/// mean square of the light there. What the noise of the true picture adds is taken away.
+/// @param outRelative receives the difference of each such pixel and channel, relative to the latter; may be
+/// null
+double relativeError(const LitPicture& picture, const LitPicture& truth,
+                     std::vector<double>* outRelative = nullptr);
+
+/// [1] mean over all pixels and channels.
+double meanLight(const LitPicture& picture);
+
+} // namespace fx::cli
