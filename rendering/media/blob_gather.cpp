@@ -66,6 +66,10 @@ public:
         return hasOld_ || !older_ ? p : p - vector(column::VelocityX) * ((1.0f - t_) * stepSeconds_);
     }
     uint64_t id() const { return newer_.ids()[i_]; }
+    std::array<glm::vec3, 2> carried(const BlobDetail& detail) const
+    {
+        return detail.carried(i_, j_, hasOld_, position());
+    }
 
 private:
     const base::SnapshotGroup& newer_;
@@ -127,9 +131,14 @@ public:
     /// Whether what is beside the view is left out.
     void cullToView(bool isCulled) { isCulled_ = isCulled; }
 
-    void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds)
+    /// @param detail of the group  @param outDetails null: blobs have none
+    void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds,
+             const BlobDetail& detail, std::pmr::vector<GroupDetail>* outDetails)
     {
         const base::Placement place = placementAt(newer, older, t, camera_.eye);
+        const bool isDetailed = outDetails && detail.isGiven();
+        if (isDetailed)
+            outDetails->push_back(detail.groupDetail(place));
         level_ = lod_ ? lod_->levelOf(newer.info(), place) : LodLevel();
         const std::span<const float> constants = newer.constants();
         ElementReader reader(newer, older, t, stepSeconds);
@@ -154,6 +163,10 @@ public:
             if (!(blob.crossSection > 0.0f && blob.radius > 0.0f))
                 continue;
             medium_.push_back({blob.center, blob.radius, blob.crossSection * shadowWeight});
+            if (isDetailed) {
+                blob.detail = int(outDetails->size()) - 1;
+                blob.carried = reader.carried(detail);
+            }
             const float shownWeight = rank < share_ ? weightOf(rank / share_) : 0.0f; // uniform again
             if (shownWeight == 0.0f)
                 continue;
@@ -287,7 +300,8 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<MediumCaster>& outMedium,
                          std::pmr::vector<InstanceBlobs>& outInstances, float share, LevelOfDetail* lod,
-                         ImpostorField* impostors, bool castsShadows)
+                         ImpostorField* impostors, bool castsShadows,
+                         std::pmr::vector<GroupDetail>* outDetails)
 {
     GatherCounts counts;
     if (!snapshots.newer)
@@ -314,8 +328,9 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         const ImpostorPlan& plan = outInstances.back().plan;
         const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
         const base::SnapshotGroup* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
+        const BlobDetail detail = outDetails ? BlobDetail(snapshots, g, t) : BlobDetail();
         if (plan.blobShare > 0.0f || plan.isTaken)
-            gather.run(group, older, t, stepSeconds);
+            gather.run(group, older, t, stepSeconds, detail, outDetails);
         else if (castsShadows)
             gather.runFar(group, older, t, stepSeconds, far);
         outInstances.back().visibleEnd = outVisible.size();

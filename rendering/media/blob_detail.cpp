@@ -1,0 +1,87 @@
+#include "rendering/media/blob_detail.h"
+
+#include "foundation/snapshot/material_kind.h"
+#include "rendering/frame/snapshot_match.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <cmath>
+
+namespace fx::render {
+
+namespace {
+
+namespace constant = base::material_constant;
+namespace column = base::material_column;
+
+/// Number and weight of the younger generation as one number that grows evenly.
+double phaseOf(const base::SnapshotGroup& group)
+{
+    return double(group.constants()[constant::Generation]) + double(group.constants()[constant::Fade]);
+}
+
+} // namespace
+
+BlobDetail::BlobDetail(const base::SnapshotPair& snapshots, size_t group, float t)
+{
+    const base::FrameSnapshot& newer = *snapshots.newer;
+    if (group + 1 >= newer.groupCount())
+        return;
+    const base::GroupName blobs = newer.name(group);
+    const base::GroupName name = newer.name(group + 1);
+    if (newer.schema().kind(name.kind) != base::kMaterialKind || name.instance != blobs.instance ||
+        name.solver != blobs.solver)
+        return;
+    chosen_ = newer_ = &newer.group(group + 1);
+    numbers_ = fieldDetailNumbers(chosen_->constants());
+    const size_t same = findSameGroup(snapshots.older, name, group + 1);
+    const base::SnapshotGroup* const older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
+    if (!older || older->count() == 0 || phaseOf(*older) > phaseOf(*newer_))
+        return;
+    const double phase = phaseOf(*older) + double(t) * (phaseOf(*newer_) - phaseOf(*older));
+    const float born = newer_->constants()[constant::Generation];
+    const bool isUnborn = std::floor(phase) < double(born);
+    if (isUnborn && older->constants()[constant::Generation] + 1.0f == born)
+        chosen_ = older;
+    std::array<float, constant::Count> constants;
+    for (size_t c = 0; c < constant::Count; ++c)
+        constants[c] = chosen_->constants()[c];
+    if (chosen_ == older || !isUnborn)
+        constants[constant::Fade] = float(phase - double(constants[constant::Generation]));
+    if (older->constants()[constant::Generation] == born)
+        for (const size_t c : {constant::Growth0, constant::Growth1})
+            constants[c] = older->constants()[c] + t * (newer_->constants()[c] - older->constants()[c]);
+    numbers_ = fieldDetailNumbers(constants);
+}
+
+GroupDetail BlobDetail::groupDetail(const base::Placement& place) const
+{
+    GroupDetail detail;
+    detail.numbers = numbers_;
+    detail.scale = place.scale;
+    const glm::mat3 toGroup = glm::transpose(glm::mat3_cast(place.rotation)) * (1.0f / place.scale);
+    for (size_t g = 0; g < 2; ++g) {
+        const FieldDetailNumbers::Generation& own = numbers_.generations[g];
+        detail.toCells[g] = toGroup * (own.growth / own.length);
+        detail.first[g] = own.offset - detail.toCells[g] * glm::vec3(place.position);
+    }
+    return detail;
+}
+
+std::array<glm::vec3, 2> BlobDetail::carried(size_t newer, size_t older, bool hasOlder,
+                                             const glm::vec3& position) const
+{
+    const bool isOlder = chosen_ != newer_ && hasOlder;
+    const base::SnapshotGroup& group = isOlder ? *chosen_ : *newer_;
+    const size_t i = isOlder ? older : newer;
+    std::array<glm::vec3, 2> result;
+    for (size_t g = 0; g < 2; ++g) {
+        const size_t first = column::Place0X + 3 * g;
+        const glm::vec3 place(group.column(first)[i], group.column(first + 1)[i], group.column(first + 2)[i]);
+        const FieldDetailNumbers::Generation& own = numbers_.generations[g];
+        result[g] = (place - own.growth * position) / own.length;
+    }
+    return result;
+}
+
+} // namespace fx::render
