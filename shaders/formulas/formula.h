@@ -49,6 +49,7 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/sensor_law.fx.h"
 #include "shaders/formulas/sphere_path.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
+#include "shaders/formulas/voxel_kernel.fx.h"
 // clang-format on
 } // namespace fx::formula
 #undef FX_REAL
@@ -67,6 +68,7 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/multiple_scattering.fx.h"
 #include "shaders/formulas/sensor_law.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
+#include "shaders/formulas/voxel_kernel.fx.h"
 // clang-format on
 } // namespace fx::formula64
 #undef FX_REAL
