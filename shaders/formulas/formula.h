@@ -43,10 +43,12 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/detail_noise.fx.h"
 #include "shaders/formulas/heat_stream.fx.h"
 #include "shaders/formulas/henyey_greenstein.fx.h"
+#include "shaders/formulas/kernel_moment.fx.h"
 #include "shaders/formulas/kernel_optical_depth.fx.h"
 #include "shaders/formulas/kernel_quantile.fx.h"
 #include "shaders/formulas/multiple_scattering.fx.h"
 #include "shaders/formulas/sensor_law.fx.h"
+#include "shaders/formulas/slab_light.fx.h"
 #include "shaders/formulas/sphere_path.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
 #include "shaders/formulas/voxel_kernel.fx.h"
@@ -60,6 +62,7 @@ FX_FORMULA_SPACE_BEGIN
 // clang-format off
 #include "shaders/formulas/sphere_path.fx.h"
 #include "shaders/formulas/kernel_optical_depth.fx.h"
+#include "shaders/formulas/kernel_moment.fx.h"
 #include "shaders/formulas/kernel_quantile.fx.h"
 #include "shaders/formulas/black_body_contrast.fx.h"
 #include "shaders/formulas/detail_noise.fx.h"
@@ -67,6 +70,7 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/henyey_greenstein.fx.h"
 #include "shaders/formulas/multiple_scattering.fx.h"
 #include "shaders/formulas/sensor_law.fx.h"
+#include "shaders/formulas/slab_light.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
 #include "shaders/formulas/voxel_kernel.fx.h"
 // clang-format on
