@@ -1,6 +1,7 @@
 // The definitions of fx_view.h, checked and in the renderer's terms.
 #include "fxsdk/api/check_projection.h"
 #include "fxsdk/api/view_object.h"
+#include "rendering/compositions/media_compositions.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -13,6 +14,8 @@ static_assert(int(FX_DEPTH_REVERSED) == int(fx::render::DepthConvention::Reverse
 static_assert(int(FX_BILLBOARD_PLANAR) == int(fx::render::BillboardForm::Planar));
 static_assert(int(FX_BILLBOARD_CONSTANT) == int(fx::render::BillboardForm::Constant));
 static_assert(int(FX_BILLBOARD_KERNEL) == int(fx::render::BillboardForm::Kernel));
+static_assert(int(FX_COMPOSITION_SORTED) == int(fx::render::Composition::Sorted));
+static_assert(int(FX_COMPOSITION_SLABS) == int(fx::render::Composition::Slabs));
 
 constexpr float kBrightest = 1e6f;  // [cd/m2] and [lx]
 constexpr double kFarthest = 1e9;   // [m]
@@ -73,6 +76,14 @@ void checkSlices(fx::api::Checks& check, const FxViewSettings& given)
     check.flag(given.multipleScattering, "settings.multipleScattering");
 }
 
+void checkComposition(fx::api::Checks& check, const FxViewSettings& given)
+{
+    const bool isThere =
+        given.composition <= 0xFFu && fx::render::findComposition(fx::render::Composition(given.composition));
+    check.that(isThere, "settings.composition is none of FX_COMPOSITION_...");
+    check.that(given.slabs == 6 || given.slabs == 16, "settings.slabs is not 6 or 16");
+}
+
 void checkSunShadow(fx::api::Checks& check, const FxFrameDef& given)
 {
     check.range(given.sunShadowConvention, 0u, uint32_t(FX_DEPTH_REVERSED), "frame.sunShadowConvention");
@@ -109,6 +120,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     checkDazzle(check, given);
     checkSwitches(check, given);
     checkSlices(check, given);
+    checkComposition(check, given);
     if (!check.status())
         return check.status();
 
@@ -138,6 +150,8 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     slices.castingPoints = int(given.castingLights);
     slices.samples = int(given.lightSamples);
     slices.multiple = given.multipleScattering != 0;
+    settings.composition = render::Composition(given.composition);
+    settings.slabs = int(given.slabs);
     outSettings = settings;
     return {};
 }

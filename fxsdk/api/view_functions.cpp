@@ -90,6 +90,9 @@ FxViewStatistics gatherStatistics(const FxView& view)
     statistics.sprites = frame.sprites;
     statistics.meshes = frame.meshes;
     statistics.ribbonPieces = frame.ribbonPieces;
+    statistics.listedBlobs = frame.listedBalls;
+    statistics.spilledBlobs = frame.spilledBalls;
+    statistics.spilledFragments = frame.spilledCards;
     return statistics;
 }
 

@@ -1,4 +1,5 @@
 #include "fxsdk/scene_file/scene_members.h"
+#include "rendering/frame/composition_names.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -180,6 +181,12 @@ render::ViewSettings readView(const PresetValue& root)
     shimmer.read("maxOffset", view.shimmer.maxOffset);
     view.dazzle = readDazzle(root.child("dazzle"));
     root.read("form", std::span<const std::pair<std::string_view, render::BillboardForm>>(kForms), view.form);
+    root.read("composition",
+              std::span<const std::pair<std::string_view, render::Composition>>(render::kCompositionNames),
+              view.composition);
+    uint32_t slabs = uint32_t(view.slabs);
+    root.read("slabs", slabs);
+    view.slabs = int(slabs);
     root.read("detail", view.detail);
     root.read("toneMap", view.toneMap);
     return view;

@@ -42,6 +42,13 @@ enum class BillboardForm : uint8_t
     Kernel,   ///< the gas's own quartic kernel, exact clipped integral
 };
 
+/// How media that overlap are put together; rendering/compositions has an entry for each.
+enum class Composition : uint8_t
+{
+    Sorted, ///< one ball or card after the other, farthest first
+    Slabs,  ///< in slabs across each ray, in which all are summed up: no order is seen
+};
+
 /// One directional light, and light from everywhere.
 struct Lighting
 {
@@ -143,6 +150,8 @@ struct ViewSettings
     ShimmerSettings shimmer;
     DazzleSettings dazzle;
     BillboardForm form = BillboardForm::Kernel;
+    Composition composition = Composition::Sorted;
+    int slabs = 16;        ///< 6 or 16 along each ray, of Composition::Slabs
     bool saveState = true; ///< restore every GL state that is touched; false: the host does
     bool detail = true;    ///< procedural detail of blobs
     float particleShare =
@@ -234,6 +243,9 @@ struct FrameStatistics
     uint64_t shadedFragments = 0;    ///< at the layers' scale; with countOverdraw
     uint64_t estimatedFragments = 0; ///< of the rectangles of blobs and particles, at the layers' scale
     int layerDivisor = 1;            ///< of this frame: what was asked for, or more to keep the budget
+    uint64_t listedBalls = 0;  ///< in lists of tiles, one for each tile; with countOverdraw, as the next two
+    uint64_t spilledBalls = 0; ///< left out of them because they were full
+    uint64_t spilledCards = 0; ///< fragments of sprites, ribbons and pictures left out, likewise
     double overflow[3] = {0, 0,
                           0}; ///< with countOverdraw and dazzle: mean overflow per pixel, units of white
 };

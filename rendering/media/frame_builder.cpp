@@ -6,18 +6,20 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <numeric>
+
 namespace fx::render {
 
 FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
     : gathered_(memory), casters_(memory), instances_(memory), shaded_(memory), sorted_(memory),
       distances_(memory), depthSort_(memory), impostors_(memory), impostorSort_(memory), takenSort_(memory),
       sortedImpostors_(memory), taken_(memory), sortedTaken_(memory), takenDistances_(memory),
-      takenTiles_(memory)
+      identity_(memory), takenTiles_(memory)
 {}
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,
                          const ViewSettings& settings, const CameraGeometry& camera, LevelOfDetail& lod,
-                         uint64_t content, bool castsShadows)
+                         uint64_t content, bool castsShadows, bool isSorted)
 {
     gathered_.clear();
     casters_.clear();
@@ -27,7 +29,7 @@ void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest
                           casters_, instances_, settings.particleShare, &lod, &impostors_, castsShadows);
     impostors_.end();
     shade(settings, camera);
-    sort(camera);
+    sort(camera, isSorted);
     sortImpostors(camera);
 }
 
@@ -84,8 +86,17 @@ void FrameBuilder::add(const BlobInstance& blob, const ImpostorPlan& plan, const
     taken_.push_back(placed);
 }
 
-void FrameBuilder::sort(const CameraGeometry& camera)
+void FrameBuilder::sort(const CameraGeometry& camera, bool isSorted)
 {
+    if (!isSorted) {
+        sorted_.assign(shaded_.begin(), shaded_.end());
+        identity_.resize(shaded_.size());
+        std::iota(identity_.begin(), identity_.end(), 0u);
+        order_ = identity_;
+        distances_.assign(shaded_.size(), 0.0f);
+        depthSort_.forget();
+        return;
+    }
     distances_.clear();
     for (const BlobInstance& blob : shaded_) {
         const glm::vec3 center(blob.centerRadius);

@@ -25,11 +25,12 @@ public:
     /// @param lod begun for this frame
     /// @param content differs where what is shown differs, for pictures that are kept
     /// @param castsShadows as of gatherBlobs()
+    /// @param isSorted false: blobs() come in the order of groups and ids
     void build(const base::SnapshotPair& snapshots, const FrameRequest& request, const ViewSettings& settings,
                const CameraGeometry& camera, LevelOfDetail& lod, uint64_t content = 0,
-               bool castsShadows = true);
+               bool castsShadows = true, bool isSorted = true);
 
-    std::span<const BlobInstance> blobs() const { return sorted_; } ///< farthest first
+    std::span<const BlobInstance> blobs() const { return sorted_; } ///< farthest first, unless not sorted
     bool anyHeat() const { return anyHeat_; }                       ///< some blob bends light
     bool anyDetail() const { return anyDetail_; }                   ///< some blob has procedural detail
     /// All that casts shadows, seen or not.
@@ -50,7 +51,7 @@ public:
 
 private:
     void shade(const ViewSettings& settings, const CameraGeometry& camera);
-    void sort(const CameraGeometry& camera);
+    void sort(const CameraGeometry& camera, bool isSorted);
     void beginImpostors(const FrameRequest& request, const ViewSettings& settings,
                         const CameraGeometry& camera, uint64_t content);
     void sortImpostors(const CameraGeometry& camera);
@@ -70,6 +71,7 @@ private:
     std::pmr::vector<BlobInstance> taken_;
     std::pmr::vector<BlobInstance> sortedTaken_;
     std::pmr::vector<float> takenDistances_;
+    std::pmr::vector<uint32_t> identity_; ///< order_ where nothing is sorted
     std::pmr::vector<uint32_t> takenTiles_;
     std::span<const uint32_t> impostorOrder_;
     Lighting lighting_; ///< of the last frame, as the next two

@@ -2,9 +2,11 @@
 /// A blob as the GPU gets it; shaders/shared/blob_instance.glsl reads this layout.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <cstddef>
+#include <cstdint>
 
 namespace fx::render {
 
@@ -19,5 +21,12 @@ struct BlobInstance
                    ///< or -1 minus those of a ball in a picture, which is lit in its center alone
 };
 static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
+
+/// The box around all balls of one instance, seen or not.
+struct BlobEffect
+{
+    uint64_t instance;
+    glm::vec3 low, high; ///< [m] relative to the eye, world axes; low > high: it has none
+};
 
 } // namespace fx::render

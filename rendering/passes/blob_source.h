@@ -19,12 +19,14 @@ class BlobSource final : public MediaSource
 public:
     void read(FrameGraph::Builder& builder) const override;
     void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const override;
+    const BallList* balls() const override { return &list; }
 
     ResourceId blobs; ///< buffer of BlobInstance
     ResourceId
         blobLights; ///< buffer of what BlobLightPass writes for each; invalid without planes for the sky
     BillboardForm form = BillboardForm::Kernel;
     bool detail = false; ///< some have procedural detail, and it is drawn
+    BallList list;       ///< the same blobs, for compositions that sum them up
 };
 
 } // namespace fx::render

@@ -69,7 +69,8 @@ void ImpostorSource::read(FrameGraph::Builder& builder) const
 
 void ImpostorSource::draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const
 {
-    drawQuads(backend, kImpostorProgram, {instances, {1, atlas, Sampling::Linear}}, batch, target);
+    drawQuads(backend, target.cards.valid() ? kImpostorCardProgram : kImpostorProgram,
+              {instances, {1, atlas, Sampling::Linear}}, batch, target);
 }
 
 } // namespace fx::render

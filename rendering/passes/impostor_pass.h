@@ -39,7 +39,9 @@ struct ImpostorInstance
 static_assert(sizeof(ImpostorInstance) == 64);
 
 inline constexpr ProgramDesc kImpostorProgram{"impostors", "blobs/impostor.vert.glsl",
-                                              "blobs/impostor.frag.glsl", nullptr, nullptr};
+                                              "blobs/impostor.frag.glsl", nullptr, "FX_CARDS=0"};
+inline constexpr ProgramDesc kImpostorCardProgram{"impostor cards", "blobs/impostor.vert.glsl",
+                                                  "blobs/impostor.frag.glsl", nullptr, "FX_CARDS=1"};
 inline constexpr ProgramDesc kImpostorKeepProgram{"impostor keep", "blobs/impostor_keep.vert.glsl",
                                                   "blobs/impostor_keep.frag.glsl", nullptr, nullptr};
 

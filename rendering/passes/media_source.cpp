@@ -8,7 +8,7 @@ void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& i
     ViewBlock view = *target.view;
     view.pass.y = float(batch.first); // exact up to 2^24
     TextureBinding textures[4] = {{0, target.distance}};
-    BufferBinding buffers[3] = {{0, inputs.instances}};
+    BufferBinding buffers[5] = {{0, inputs.instances}};
     size_t textureCount = 1, bufferCount = 1;
     if (inputs.picture.texture.valid())
         textures[textureCount++] = inputs.picture;
@@ -20,6 +20,10 @@ void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& i
         textures[textureCount++] = inputs.lights->hostShadowBinding();
     if (inputs.blobLights.valid())
         buffers[bufferCount++] = {kBlobLightBinding, inputs.blobLights};
+    if (target.cards.valid()) {
+        buffers[bufferCount++] = {kCardHeadBinding, target.cards.heads};
+        buffers[bufferCount++] = {kCardNodeBinding, target.cards.nodes};
+    }
     DrawCall call;
     call.program = &program;
     call.targets = target.targets;

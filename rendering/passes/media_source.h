@@ -12,6 +12,7 @@
 namespace fx::render {
 
 class MediaSource;
+struct BlobInstance;
 
 /// Some of what a source has, drawn in one go.
 struct DrawBatch
@@ -20,6 +21,27 @@ struct DrawBatch
     uint32_t first = 0;
     uint32_t count = 0;
     const MediaSource* source = nullptr;
+};
+
+/// Lists of fragments, one for each texel, in which cards are gathered instead of being drawn over each
+/// other. Layout of shaders/shared/card_lists.glsl.
+struct CardLists
+{
+    ResourceId heads = {}; ///< buffer; invalid: fragments are drawn
+    ResourceId nodes = {}; ///< buffer
+
+    bool valid() const { return heads.valid(); }
+};
+constexpr uint32_t kCardHeadBinding = 4;
+constexpr uint32_t kCardNodeBinding = 5;
+
+/// Balls of medium, for compositions that sum them up instead of drawing them.
+struct BallList
+{
+    ResourceId balls = {};                     ///< buffer of BlobInstance
+    ResourceId lights = {};                    ///< buffer of what BlobLightPass writes for each
+    std::span<const BlobInstance> instances{}; ///< the same balls; stay until the graph has executed
+    bool detail = false;                       ///< some have procedural detail, and it is drawn
 };
 
 /// Where a pass draws to.
@@ -31,6 +53,7 @@ struct MediaTarget
     bool layers;                         ///< as in MediaPass
     bool isSmall;                        ///< texels are larger than pixels
     LightBindings lights{};              ///< of the view
+    CardLists cards{};                   ///< where cards are gathered, instead of `targets`
 };
 
 /// Draws batches of its own things. It stays as it is from when its pass is added until the graph has
@@ -40,8 +63,12 @@ class MediaSource
 public:
     /// Declares everything that the draws read.
     virtual void read(FrameGraph::Builder& builder) const = 0;
-    /// Draws premultiplied "over" what is there.
+    /// Draws premultiplied "over" what is there; or, with target.cards, gathers fragments. Balls are drawn
+    /// only.
     virtual void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const = 0;
+
+    /// All that it draws, where that is balls of medium; null: it draws cards.
+    virtual const BallList* balls() const { return nullptr; }
 
     /// Whether something of it hides what is behind it; that is not part of batches.
     virtual bool hasSolids() const { return false; }

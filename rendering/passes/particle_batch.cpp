@@ -22,17 +22,29 @@ constexpr ProgramDesc mesh(const char* defines)
 
 // index = shape * 4 + solid * 2 + layers
 constexpr ProgramDesc kPrograms[kParticlePrograms] = {
-    sprite("FX_SOLID=0 FX_LAYERS=0"), sprite("FX_SOLID=0 FX_LAYERS=1"), sprite("FX_SOLID=1 FX_LAYERS=0"),
-    sprite("FX_SOLID=1 FX_LAYERS=1"), ribbon("FX_SOLID=0 FX_LAYERS=0"), ribbon("FX_SOLID=0 FX_LAYERS=1"),
-    ribbon("FX_SOLID=1 FX_LAYERS=0"), ribbon("FX_SOLID=1 FX_LAYERS=1"), mesh("FX_SOLID=0 FX_LAYERS=0"),
-    mesh("FX_SOLID=0 FX_LAYERS=1"),   mesh("FX_SOLID=1 FX_LAYERS=0"),   mesh("FX_SOLID=1 FX_LAYERS=1"),
+    sprite("FX_SOLID=0 FX_LAYERS=0 FX_CARDS=0"), sprite("FX_SOLID=0 FX_LAYERS=1 FX_CARDS=0"),
+    sprite("FX_SOLID=1 FX_LAYERS=0 FX_CARDS=0"), sprite("FX_SOLID=1 FX_LAYERS=1 FX_CARDS=0"),
+    ribbon("FX_SOLID=0 FX_LAYERS=0 FX_CARDS=0"), ribbon("FX_SOLID=0 FX_LAYERS=1 FX_CARDS=0"),
+    ribbon("FX_SOLID=1 FX_LAYERS=0 FX_CARDS=0"), ribbon("FX_SOLID=1 FX_LAYERS=1 FX_CARDS=0"),
+    mesh("FX_SOLID=0 FX_LAYERS=0 FX_CARDS=0"),   mesh("FX_SOLID=0 FX_LAYERS=1 FX_CARDS=0"),
+    mesh("FX_SOLID=1 FX_LAYERS=0 FX_CARDS=0"),   mesh("FX_SOLID=1 FX_LAYERS=1 FX_CARDS=0"),
 };
+
+constexpr ProgramDesc kCardPrograms[] = {sprite("FX_SOLID=0 FX_LAYERS=0 FX_CARDS=1"),
+                                         ribbon("FX_SOLID=0 FX_LAYERS=0 FX_CARDS=1"),
+                                         mesh("FX_SOLID=0 FX_LAYERS=0 FX_CARDS=1")};
+static_assert(std::size(kCardPrograms) == size_t(BatchShape::Count));
 
 } // namespace
 
 const ProgramDesc& particleProgramAt(size_t index)
 {
     return kPrograms[index];
+}
+
+const ProgramDesc& cardProgram(BatchShape shape)
+{
+    return kCardPrograms[size_t(shape)];
 }
 
 const ProgramDesc& particleProgram(BatchShape shape, bool isSolid, bool layers)
@@ -57,7 +69,7 @@ void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uin
         {}};
     size_t textureCount = 3, bufferCount = 4;
     const BufferPart* parts[] = {&batch.newer, &batch.older, &batch.order, &batch.mesh};
-    std::array<BufferBinding, 5> buffers;
+    std::array<BufferBinding, 7> buffers;
     for (uint32_t i = 0; i < 4; ++i) { // what is not there is never read, but something has to be bound
         const BufferPart& part = parts[i]->bytes > 0 ? *parts[i] : batch.newer;
         buffers[i] = {i, part.id, part.offset, part.bytes};
@@ -70,8 +82,14 @@ void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uin
         textures[textureCount++] = target.lights.textureBinding();
     if (target.lights.hostShadow.valid())
         textures[textureCount++] = target.lights.hostShadowBinding();
+    const bool isGathered = target.cards.valid();
+    if (isGathered) {
+        buffers[bufferCount++] = {kCardHeadBinding, target.cards.heads};
+        buffers[bufferCount++] = {kCardNodeBinding, target.cards.nodes};
+    }
     DrawCall call;
-    call.program = &particleProgram(batch.shape, batch.isSolid, target.layers);
+    call.program =
+        isGathered ? &cardProgram(batch.shape) : &particleProgram(batch.shape, batch.isSolid, target.layers);
     call.targets = target.targets;
     call.textures = {textures, textureCount};
     call.buffers = {buffers.data(), bufferCount};

@@ -72,6 +72,9 @@ const ProgramDesc& particleProgram(BatchShape shape, bool isSolid, bool layers);
 constexpr size_t kParticlePrograms = 3 * 2 * 2;
 const ProgramDesc& particleProgramAt(size_t index);
 
+/// The program that gathers fragments, see CardLists.
+const ProgramDesc& cardProgram(BatchShape shape);
+
 /// Draws groups of particles and ribbons; runs number its batches.
 class BatchSource final : public MediaSource
 {

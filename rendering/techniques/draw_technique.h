@@ -53,6 +53,7 @@ struct GatherInputs
     LevelOfDetail* lod;                  ///< begun for this frame
     uint64_t content;                    ///< differs where what is shown differs
     bool castsShadows = true;            ///< there are lights, and media cast shadows
+    bool needsOrder = true;              ///< balls are drawn one over the other, farthest first
 };
 
 /// What techniques have gathered so far, in the order of their list.

@@ -17,6 +17,7 @@ FrameKey frameKey(const RevisionPair& revisions, const FrameRequest& request, co
     key.slices = settings.slices;
     key.particleShare = settings.particleShare;
     key.lod = settings.lod;
+    key.composition = settings.composition;
     key.layerOutputs = settings.layerOutputs;
     key.assets = assets;
     return key;

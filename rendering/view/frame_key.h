@@ -24,6 +24,7 @@ struct FrameKey
     SliceSettings slices;
     float particleShare = 1;
     LodSettings lod;
+    Composition composition = Composition::Sorted;
     bool layerOutputs = false;
     const base::AssetTable* assets = nullptr; ///< never followed
 

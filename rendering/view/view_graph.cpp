@@ -41,7 +41,8 @@ public:
             view->forward.w = settings_.detail ? 1.0f : 0.0f;
             view->sunDirection = {settings_.lighting.sunDirection, view->sunDirection.w};
         }
-        frame_.hasMedia = !in.batches.empty() || !in.solids.empty();
+        isComposed_ = in.composition && in.composition->hasMedia();
+        frame_.hasMedia = isComposed_ || !in.batches.empty() || !in.solids.empty();
     }
 
     ViewGraphOutputs build()
@@ -143,10 +144,18 @@ private:
     /// seen.
     MediaPass::Outputs drawLayers(ResourceId distance, const MediaPass::Outputs& under)
     {
-        return MediaPass::addTo(graph_,
-                                {in_.batches, distance, grid_.width, grid_.height, frame_.layerView,
-                                 settings_.layerOutputs, frame_.hasSmallLayers, frame_.lights},
-                                under);
+        MediaPass::Inputs inputs{{},
+                                 distance,
+                                 grid_.width,
+                                 grid_.height,
+                                 frame_.layerView,
+                                 settings_.layerOutputs,
+                                 frame_.hasSmallLayers,
+                                 frame_.lights};
+        const MediaPass::Outputs composed =
+            isComposed_ ? in_.composition->compose(graph_, inputs, under) : under;
+        inputs.batches = in_.batches;
+        return MediaPass::addTo(graph_, inputs, composed);
     }
 
     /// Layers smaller than the picture: drawn up to the far end of each block and, where a block shows more
@@ -154,7 +163,7 @@ private:
     /// over `under`, which has that size.
     MediaPass::Outputs drawSmallLayers(const MediaPass::Outputs& under)
     {
-        if (in_.batches.empty())
+        if (in_.batches.empty() && !isComposed_)
             return under;
         const bool hasDepth = request_.targets.depth != 0 || under.media.valid() || under.layers[0].valid();
         const auto ends = LayerDistancePass::addTo(
@@ -216,6 +225,7 @@ private:
     const ViewSettings& settings_;
     LayerGrid grid_;
     PassFrame frame_{};
+    bool isComposed_ = false; ///< the composition has media of its own
     bool readable_ = false;
     bool separateTarget_ = false;
     ResourceId target_; ///< where the result goes

@@ -2,6 +2,7 @@
 /// Declares the passes of one frame of a view: which exist, in what order, and what they hand to each other.
 #pragma once
 
+#include "rendering/compositions/media_composition.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/frame_graph/frame_graph.h"
 #include "rendering/lights/slices/view_lights.h"
@@ -23,6 +24,7 @@ struct ViewGraphInputs
     std::span<const DrawBatch> batches;         ///< of what does not hide
     std::span<const MediaSource* const> solids; ///< of what hides
     ViewLights* lights = nullptr;               ///< gathered; null: nothing is lit
+    CompositionView* composition = nullptr;     ///< draws media before `batches`; null: there is none
     int layerDivisor = 1;                       ///< of this frame, >= that of the settings
 };
 

@@ -7,12 +7,25 @@
 
 namespace fx::render {
 
-ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
+namespace {
+
+PassGroups passGroupsOf(DrawTechniques list)
+{
+    PassGroups groups = passGroups(list);
+    for (const MediaComposition* composition : mediaCompositions())
+        groups.add(composition->timedPasses);
+    return groups;
+}
+
+} // namespace
+
+ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* kinds, std::pmr::memory_resource* heap,
                          DrawTechniques list)
-    : device(d), graph(memory), backend(*d, memory), lightGraph(memory), lightBackend(*d, memory),
-      techniques(list), parts(memory), lod(memory), lights(d, memory), casters(memory), batcher(memory),
-      streams(memory), solids(memory), revisions(memory), passNames(memory), targetCheck(*d),
-      timer(*d, render::passGroups(list))
+    : device(d), schema(kinds), memory(heap), graph(memory), backend(*d, memory), lightGraph(memory),
+      lightBackend(*d, memory), techniques(list), parts(memory),
+      composing(findComposition(Composition::Sorted)), lod(memory), lights(d, memory), casters(memory),
+      batcher(memory), streams(memory), solids(memory), revisions(memory), passNames(memory), targetCheck(*d),
+      timer(*d, passGroupsOf(list))
 {
     const TechniqueSetup setup{d, schema, memory, list};
     for (size_t i = 0; i < list.size(); ++i) {
@@ -24,6 +37,23 @@ ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* schema, std::p
         if (list[i]->rows && !list[i]->rows->isComputed)
             revisions.stampRowsOf(*list[i]->kind);
     }
+}
+
+void ViewRenderer::Impl::compose(Composition wanted)
+{
+    if (composing->value == wanted)
+        return;
+    const MediaComposition* found = findComposition(wanted);
+    key.reset();
+    if (composition)
+        parts.pop_back();
+    composition = nullptr;
+    composing = found;
+    if (!found->create)
+        return;
+    std::unique_ptr<CompositionView> made = found->create({device, schema, memory, techniques});
+    composition = made.get();
+    parts.push_back(std::move(made));
 }
 
 uint64_t ViewRenderer::Impl::bytes() const

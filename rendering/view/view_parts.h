@@ -2,6 +2,7 @@
 /// What a ViewRenderer is made of: what its techniques keep, the lists of a frame, and what it counts.
 #pragma once
 
+#include "rendering/compositions/media_compositions.h"
 #include "rendering/frame/fragment_counts.h"
 #include "rendering/gl/gl_backend.h"
 #include "rendering/gl/gl_device.h"
@@ -43,6 +44,7 @@ struct ViewRenderer::Impl
                             const FrameRequest& request, const ViewSettings& settings);
     base::Status begin(const base::SnapshotPair& snapshots, const FrameRequest& request,
                        const ViewSettings& settings); ///< the parts, then gather()
+    void compose(Composition wanted);                 ///< makes its part, in place of that of another
     base::Status fillLights(const ViewSettings& settings);
     void dropPrepared(); ///< lists that were gathered and not drawn
     /// Whether the lists are those of prepareLights() for this frame; then they are drawn as they are.
@@ -59,12 +61,17 @@ struct ViewRenderer::Impl
     FrameStatistics count(int divisor);
 
     GlDevice* device;
+    const base::SnapshotSchema* schema;
+    std::pmr::memory_resource* memory;
     FrameGraph graph;
     GlBackend backend;
     FrameGraph lightGraph; ///< of prepareLights(); that of the last frame stays as it is
     GlBackend lightBackend;
     DrawTechniques techniques;
-    std::pmr::vector<std::unique_ptr<TechniqueView>> parts; ///< of techniques, in their order
+    std::pmr::vector<std::unique_ptr<TechniqueView>>
+        parts;                              ///< of techniques, in their order; then `composition`
+    const MediaComposition* composing;      ///< of the last frame
+    CompositionView* composition = nullptr; ///< among the parts; null: it keeps nothing
     LevelOfDetail lod;
     ViewLights lights;
     std::pmr::vector<MediumCaster> casters;

@@ -139,7 +139,8 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
                               std::span(glows).first(glowCount),
                               &lod,
                               contentOf(now, request.interpolation),
-                              castsShadows(settings, glowCount)};
+                              castsShadows(settings, glowCount),
+                              composing->needsOrder};
     streams.clear();
     solids.clear();
     mediaBatches = {};
@@ -152,7 +153,8 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
         if (const MediaSource* source = part->solids())
             solids.push_back(source);
     const LightListInputs lit{&settings, camera.eye, inputs.lights, casters};
-    const bool isUsed = !streams.empty() || !solids.empty() || !casters.empty();
+    const bool isUsed =
+        (composition && composition->hasMedia()) || !streams.empty() || !solids.empty() || !casters.empty();
     if (base::Status status = lights.gather(lit, casterRevision(inputs), isUsed); !status)
         return status;
     fragments = gathered.fragments;
@@ -184,6 +186,10 @@ base::Status ViewRenderer::warmUp()
         return status;
     for (const DrawTechnique* technique : impl_->techniques)
         if (base::Status status = technique->programs ? compile(technique->programs()) : base::Status();
+            !status)
+            return status;
+    for (const MediaComposition* composition : mediaCompositions())
+        if (base::Status status = composition->programs ? compile(composition->programs()) : base::Status();
             !status)
             return status;
     for (const auto& part : impl_->parts)
@@ -224,7 +230,8 @@ base::Status ViewRenderer::check(const FrameRequest& request)
 base::Status ViewRenderer::Impl::draw(const FrameRequest& request, const ViewSettings& settings, int divisor)
 {
     graph.begin();
-    outputs = buildViewGraph(graph, {&request, &settings, parts, mediaBatches, solids, &lights, divisor});
+    outputs = buildViewGraph(
+        graph, {&request, &settings, parts, mediaBatches, solids, &lights, composition, divisor});
     if (!outputs.anyPass)
         return {};
     graph.compile();
@@ -247,6 +254,11 @@ base::Status ViewRenderer::checkAll(const FrameRequest& request) const
 {
     if (base::Status status = check(request); !status)
         return status;
+    if (!findComposition(settings_.composition))
+        return invalid("settings: this library has no composition " +
+                       std::to_string(int(settings_.composition)));
+    if (settings_.slabs != 6 && settings_.slabs != 16)
+        return invalid("settings: slabs are 6 or 16");
     for (const DrawTechnique* technique : impl_->techniques)
         if (base::Status status = technique->check ? technique->check(settings_) : base::Status(); !status)
             return status;

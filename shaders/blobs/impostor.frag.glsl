@@ -9,7 +9,11 @@ flat in vec4 impostorCenter;
 flat in vec4 impostorLook;
 flat in vec4 impostorTiles;
 in vec2 impostorPlace;
+#if FX_CARDS
+#include "shared/card_lists.glsl"
+#else
 layout(location = 0) out vec4 light;
+#endif
 
 // `size` of the square, in sides of the picture.
 vec4 pictureAt(vec2 tile, float size)
@@ -27,5 +31,14 @@ void main()
     float share = impostorLook.y * before; // of the optical depth
     float alpha = min(picture.a, 0.9999);
     float shown = 1.0 - pow(1.0 - alpha, share);
-    light = alpha > 1e-6 ? picture * (shown / alpha) : picture * share;
+    vec4 seen = alpha > 1e-6 ? picture * (shown / alpha) : picture * share;
+#if FX_CARDS
+    if (!(seen.a > 0.0 || any(greaterThan(seen.rgb, vec3(0.0)))))
+        discard;
+    float hides = seen.a > 1e-6 ? seen.a : 0.0;
+    addCard(seen.rgb / max(hides, seen.a > 1e-6 ? 1e-6 : 1.0), 1.0, hides, length(impostorCenter.xyz), 2.0 * impostorLook.z,
+            1.0);
+#else
+    light = seen;
+#endif
 }

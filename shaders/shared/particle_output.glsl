@@ -1,8 +1,11 @@
 // What a fragment of a particle adds to the targets of the media pass. Needs shared/view_block.glsl and
-// shared/particle_block.glsl. FX_LAYERS as in media.frag.glsl; FX_SOLID 1 replaces instead, with depth and distance.
+// shared/particle_block.glsl. FX_LAYERS as in media.frag.glsl; FX_SOLID 1 replaces instead, with depth and distance;
+// FX_CARDS 1 gathers fragments instead.
 layout(binding = 0) uniform sampler2D sceneDistance; // [m] along the ray to the opaque surface, +inf for none
 
-#if FX_LAYERS
+#if FX_CARDS
+#include "shared/card_lists.glsl"
+#elif FX_LAYERS
 #include "shared/layer_outputs.glsl"
 #if FX_SOLID
 layout(location = 6) out vec4 solidDistance;
@@ -49,7 +52,9 @@ void writeParticle(vec3 light, float alpha, vec3 place)
 #endif
     float cover = look.w > 0.5 && look.w < 1.5 ? 0.0 : alpha; // what only adds hides nothing
     vec3 seen = alpha * light;
-#if FX_LAYERS
+#if FX_CARDS
+    addCard(light, alpha, cover, distanceOf(place), 2.0 * look.z, shine.z);
+#elif FX_LAYERS
     float layer = shine.z;
     vec3 ofLayer = vec3(layer < 0.5, layer > 0.5 && layer < 1.5, layer > 1.5);
     fireLight = vec4(ofLayer.x * seen, cover);

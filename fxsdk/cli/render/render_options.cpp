@@ -1,6 +1,7 @@
 #include "fxsdk/cli/render/render_options.h"
 
 #include "fxsdk/cli/support/named_choice.h"
+#include "rendering/frame/composition_names.h"
 
 #include <CLI/CLI.hpp>
 
@@ -129,6 +130,14 @@ void addOutputOptions(CLI::App& command, RenderArguments& arguments)
         ->capture_default_str();
 }
 
+std::vector<std::string> compositionNames()
+{
+    std::vector<std::string> names;
+    for (const auto& [name, value] : render::kCompositionNames)
+        names.emplace_back(name);
+    return names;
+}
+
 /// How it looks.
 void addLookOptions(CLI::App& command, RenderArguments& arguments)
 {
@@ -141,6 +150,14 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
         ->capture_default_str();
     command.add_option("--form", arguments.form, "Billboard form instead of the one that the quality says")
         ->check(oneOf({"planar", "constant", "kernel"}));
+    command
+        .add_option(
+            "--composition", arguments.composition,
+            "How media that overlap are put together instead of what the scene says: sorted, one over "
+            "the other; slabs, summed up in slabs across each ray")
+        ->check(oneOf(compositionNames()));
+    command.add_option("--slabs", arguments.slabs, "Slabs along each ray of --composition slabs")
+        ->check(oneOf({"6", "16"}));
     command.add_option("--seed", arguments.seed, "Instance k gets the seed N + k instead of the file's")
         ->check(CLI::Validator(
             [](std::string& text) { return text.starts_with('-') ? "must not be negative" : ""; }, "UINT"));
@@ -280,6 +297,12 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
         settings.form = render::BillboardForm::Constant;
     else if (arguments.form == "kernel")
         settings.form = render::BillboardForm::Kernel;
+
+    for (const auto& [name, value] : render::kCompositionNames)
+        if (arguments.composition == name)
+            settings.composition = value;
+    if (!arguments.slabs.empty())
+        settings.slabs = std::stoi(arguments.slabs);
 
     const bool linear = kind == OutputKind::Exr;
     if (linear || arguments.noShimmer || arguments.quality == "low")

@@ -28,7 +28,9 @@ struct RenderArguments
     std::string size = "1280x720";
     std::string frames; ///< "A:B", empty for the default
     std::string quality = "high";
-    std::string form; ///< empty: what quality says
+    std::string form;        ///< empty: what quality says
+    std::string composition; ///< empty: the scene's
+    std::string slabs;       ///< empty: the scene's
     std::string renderer = "gl";
     std::string statistics; ///< file, empty for none
     std::string times;      ///< "A,B,..." [s] instead of frames; empty: none

@@ -50,6 +50,9 @@ nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool 
     if (withOverdraw) {
         json["covered_pixels"] = view.coveredPixels;
         json["shaded_fragments"] = view.shadedFragments;
+        json["blobs_listed"] = view.listedBlobs;
+        json["blobs_spilled"] = view.spilledBlobs;
+        json["fragments_spilled"] = view.spilledFragments;
         json["overdraw"] =
             view.coveredPixels == 0 ? 0.0 : double(view.shadedFragments) / double(view.coveredPixels);
     }

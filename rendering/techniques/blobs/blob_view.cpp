@@ -26,8 +26,8 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
     isKept_ = false;
     restingFrames_ = 0;
     const HostTargets& targets = in.request->targets;
-    builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.content,
-                   in.castsShadows);
+    builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.content, in.castsShadows,
+                   in.needsOrder);
     io.blobs = builder_.blobs();
     io.casters->insert(io.casters->end(), builder_.casters().begin(), builder_.casters().end());
     io.anyHeat = builder_.anyHeat();
@@ -204,6 +204,7 @@ void BlobView::addLights(FrameGraph& graph, const PassFrame& frame)
         blobs_.blobLights = BlobLightPass::addTo(graph, {blobs_.blobs, blobs_.blobLights, frame.lights,
                                                          &frame.view, uint32_t(builder_.blobs().size())})
                                 .blobLights;
+    blobs_.list = {blobs_.blobs, blobs_.blobLights, builder_.blobs(), blobs_.detail};
 }
 
 void BlobView::countOverdraw(FrameGraph& graph, const PassFrame& frame)

@@ -1,0 +1,133 @@
+/// @file fx_view_statistics.h
+/// What a view counts: the answer of fxView_GetStatistics() of fx_view.h, which includes this.
+///
+/// Threads: plain data. Ownership: the caller's.
+#ifndef FXSDK_FX_VIEW_STATISTICS_H
+#define FXSDK_FX_VIEW_STATISTICS_H
+
+#include "fxsdk/fx_base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Counters of the last frame of a view; counts are exact. Fill structSize with sizeof before the call.
+typedef struct FxViewStatistics
+{
+    /// Set by the caller.
+    uint32_t structSize;
+
+    /// Particles of media drawn.
+    uint32_t blobs;
+
+    /// Particles of media outside the view.
+    uint32_t blobsCulled;
+
+    /// Particles of media dropped because a value was not finite.
+    uint32_t blobsNonFinite;
+
+    /// Passes executed.
+    uint32_t passes;
+
+    /// Draws and dispatches.
+    uint32_t drawCalls;
+
+    /// During the frame; 0 after fxContext_WarmUp().
+    uint32_t programsCompiled;
+
+    /// Reserved; 0.
+    uint32_t reserved;
+
+    /// Calls into GL during the frame.
+    uint64_t glCalls;
+
+    /// [byte] of GPU memory that the view holds.
+    uint64_t textureBytes;
+
+    /// Pixels, at layerScale, with at least one particle; with countOverdraw.
+    uint64_t coveredPixels;
+
+    /// Fragments of all particles, at layerScale; with countOverdraw.
+    uint64_t shadedFragments;
+
+    /// [1] glare: mean overflow per pixel in units of dazzleWhite, red, green, blue; with countOverdraw.
+    double overflow[3];
+
+    /// Allocations from the context's allocator during the frame.
+    uint64_t allocations;
+
+    /// Of the particles' covering rectangles, at layerScale; what fragmentBudget is compared with.
+    uint64_t estimatedFragments;
+
+    /// [1] in use: that of the settings, or less to keep fragmentBudget.
+    float layerScale;
+
+    /// 1: camera, settings and scene are as in the last frame, and its gathered, sorted and uploaded data are
+    /// reused; 0: not.
+    uint32_t keptLists;
+
+    /// [byte] of particles, written to the GPU for the frame.
+    uint64_t uploadedBytes;
+
+    /// Particles sorted by distance or age for the frame.
+    uint64_t sortedParticles;
+
+    /// [byte] of the textures and buffers of the frame's passes without sharing of memory.
+    uint64_t unsharedBytes;
+
+    /// [byte] of the same with sharing between resources of disjoint lifetimes.
+    uint64_t sharedBytes;
+
+    /// Particles of media that lodBias left out.
+    uint32_t blobsThinned;
+
+    /// Groups of particles of media by the share that lodBias keeps: all; at least half; at least an eighth;
+    /// less.
+    uint32_t lodGroups[4];
+
+    /// Effects drawn as impostors.
+    uint32_t impostors;
+
+    /// Impostors re-rendered for the frame.
+    uint32_t impostorsTaken;
+
+    /// Particles computed on the GPU for the frame, as the capacity of their emitters.
+    uint32_t gpuParticles;
+
+    /// Sprites, meshes and pieces of ribbons that lodBias left out.
+    uint64_t particlesThinned;
+
+    /// [byte] of unchanged sprites, meshes and ribbons that were not uploaded again, while others of the step
+    /// were.
+    uint64_t keptRowBytes;
+
+    /// [byte] of the same that were not uploaded because another instance of the same simulation has uploaded
+    /// them.
+    uint64_t sharedRowBytes;
+
+    /// Sprites drawn, without those that lodBias left out. Emitters on the GPU count with their capacity, as
+    /// their number of living particles is not read back.
+    uint64_t sprites;
+
+    /// Meshes, counted as sprites.
+    uint64_t meshes;
+
+    /// Pieces of ribbons between two points, counted as sprites.
+    uint64_t ribbonPieces;
+
+    /// Particles of media in the lists of all tiles of 16 x 16 pixels at layerScale, counted in each; of
+    /// FX_COMPOSITION_SLABS with countOverdraw.
+    uint64_t listedBlobs;
+
+    /// The same that were left out because the lists were full: the picture lacks them.
+    uint64_t spilledBlobs;
+
+    /// Fragments of sprites, meshes, ribbons and impostors that were left out, likewise.
+    uint64_t spilledFragments;
+} FxViewStatistics;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,234 @@
+#include "rendering/compositions/slabs/slab_passes.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace fx::render {
+
+namespace {
+
+constexpr ProgramDesc program(const char* defines)
+{
+    return {"slabs", "slabs/slabs.vert.glsl", "slabs/slabs.frag.glsl", nullptr, defines};
+}
+
+// index = (16 slabs) * 4 + detail * 2 + layers
+constexpr ProgramDesc kPrograms[kSlabPrograms] = {
+    program("FX_SLABS=6 FX_DETAIL=0 FX_LAYERS=0"),  program("FX_SLABS=6 FX_DETAIL=0 FX_LAYERS=1"),
+    program("FX_SLABS=6 FX_DETAIL=1 FX_LAYERS=0"),  program("FX_SLABS=6 FX_DETAIL=1 FX_LAYERS=1"),
+    program("FX_SLABS=16 FX_DETAIL=0 FX_LAYERS=0"), program("FX_SLABS=16 FX_DETAIL=0 FX_LAYERS=1"),
+    program("FX_SLABS=16 FX_DETAIL=1 FX_LAYERS=0"), program("FX_SLABS=16 FX_DETAIL=1 FX_LAYERS=1"),
+};
+
+constexpr size_t kCardBytes = 32;
+constexpr size_t kTileBytes = 16;
+constexpr uint32_t kBallColumns = 1024; ///< as in shaders/slabs/slab_balls.glsl
+constexpr int kBallTexels = 7;          ///< likewise
+constexpr uint32_t kListColumns = 4096; ///< likewise
+
+int tilesAlong(int texels)
+{
+    return (texels + kSlabTile - 1) / kSlabTile;
+}
+
+size_t headWords(int width, int height)
+{
+    return 4 + size_t(tilesAlong(width)) * size_t(tilesAlong(height)) + size_t(width) * size_t(height);
+}
+
+ResourceId makeBuffer(FrameGraph::Builder& builder, std::string_view name, size_t bytes)
+{
+    return builder.write(builder.create(BufferDesc{name, std::bit_ceil(bytes)}));
+}
+
+} // namespace
+
+const ProgramDesc& slabProgram(int slabs, bool detail, bool layers)
+{
+    return kPrograms[(slabs > 6 ? 4 : 0) + (detail ? 2 : 0) + (layers ? 1 : 0)];
+}
+
+const ProgramDesc& slabProgramAt(size_t index)
+{
+    return kPrograms[index];
+}
+
+CardLists SlabCardPass::addTo(FrameGraph& graph, const Inputs& in)
+{
+    CardLists cards;
+    if (in.batches.empty())
+        return cards;
+    graph.addPass("slab cards", [&](FrameGraph::Builder& builder) {
+        const MediaPass::Inputs& media = *in.media;
+        for (const DrawBatch& batch : in.batches)
+            batch.source->read(builder);
+        builder.read(media.distance);
+        media.lights.read(builder);
+        const size_t words = headWords(media.width, media.height);
+        cards.heads = builder.write(builder.create(BufferDesc{"card heads", words * 4}));
+        cards.nodes = makeBuffer(builder, "cards", size_t(in.capacity) * kCardBytes);
+        const ResourceId fragments =
+            builder.write(builder.create({"cards of texels", media.width, media.height, Format::R32F}));
+        return [media, cards, fragments, words, batches = in.batches](Backend& backend) {
+            const BufferBinding buffers[] = {{kCardHeadBinding, cards.heads},
+                                             {kCardNodeBinding, cards.nodes}};
+            DispatchCall empty;
+            empty.program = &kSlabCardsProgram;
+            empty.buffers = buffers;
+            empty.groups[0] = uint32_t((words + 63) / 64);
+            backend.dispatch(empty);
+            backend.clear(fragments, {0.0f, 0.0f, 0.0f, 0.0f});
+            MediaTarget target{&media.view, media.distance, {&fragments, 1},
+                               false,       media.isSmall,  media.lights};
+            target.cards = cards;
+            for (const DrawBatch& batch : batches)
+                batch.source->draw(backend, batch, target);
+        };
+    });
+    return cards;
+}
+
+ResourceId SlabBallPass::addTo(FrameGraph& graph, const BallList& list, const ViewBlock& view)
+{
+    ResourceId texture;
+    if (list.instances.empty())
+        return texture;
+    graph.addPass("slab balls", [&](FrameGraph::Builder& builder) {
+        builder.read(list.balls);
+        builder.read(list.lights);
+        const uint32_t count = uint32_t(list.instances.size());
+        const int rows = int(std::bit_ceil((count + kBallColumns - 1) / kBallColumns)) * kBallTexels;
+        texture =
+            builder.write(builder.create({"balls as texels", int(kBallColumns), rows, Format::RGBA32F}));
+        ViewBlock block = view;
+        block.pass.y = float(count); // exact up to 2^24
+        return [block, texture, count, given = list.balls, lights = list.lights](Backend& backend) {
+            const BufferBinding buffers[] = {{0, given}, {kBlobLightBinding, lights}};
+            const ImageBinding images[] = {{0, texture}};
+            DispatchCall call;
+            call.program = &kSlabBallsProgram;
+            call.buffers = buffers;
+            call.images = images;
+            call.uniforms = asUniforms(block);
+            call.groups[0] = (count + 63) / 64;
+            backend.dispatch(call);
+        };
+    });
+    return texture;
+}
+
+SlabTilePass::Outputs SlabTilePass::addTo(FrameGraph& graph, const Inputs& in)
+{
+    Outputs out;
+    const uint32_t columns = uint32_t(tilesAlong(in.width)), rows = uint32_t(tilesAlong(in.height));
+    const size_t tiles = size_t(columns) * rows;
+    const uint64_t room = std::clamp<uint64_t>(in.entries, 1, kMostListedBalls);
+    ResourceId rects;
+    graph.addPass("slab upload", [&](FrameGraph::Builder& builder) {
+        rects = makeBuffer(builder, "tiles of balls", std::max<size_t>(in.rects.size_bytes(), 64));
+        out.tiles = makeBuffer(builder, "slab tiles", sizeof(SlabTileCounts) + tiles * kTileBytes);
+        return [rects, tiles = out.tiles, given = in.rects](Backend& backend) {
+            const SlabTileCounts none{6, 0, {0, 0}, 0, 0, {0, 0}};
+            backend.upload(rects, std::as_bytes(given));
+            backend.upload(tiles, asUniforms(none));
+        };
+    });
+    graph.addPass("slab tiles", [&](FrameGraph::Builder& builder) {
+        builder.read(rects);
+        if (in.cards.valid())
+            builder.read(in.cards.heads);
+        out.tiles = builder.write(out.tiles);
+        const int listRows = int(std::bit_ceil(uint32_t((room + kListColumns - 1) / kListColumns)));
+        out.lists =
+            builder.write(builder.create({"balls of tiles", int(kListColumns), listRows, Format::R32UI}));
+        const uint64_t most = in.entries <= kMostListedBalls ? in.rects.size() : kMostListedBalls / tiles;
+        const int32_t counts[4] = {int32_t(in.rects.size()), int32_t(columns), int32_t(most),
+                                   in.cards.valid() ? 1 : 0};
+        struct Block
+        {
+            int32_t counts[4];
+        } block;
+        std::copy_n(counts, 4, block.counts);
+        return [block, rects, out, columns, rows, cards = in.cards](Backend& backend) {
+            const BufferBinding buffers[] = {
+                {1, rects},
+                {2, out.tiles},
+                {kCardHeadBinding, cards.valid() ? cards.heads : out.tiles}}; // something has to be bound
+            DispatchCall call;
+            call.program = &kSlabTilesProgram;
+            const ImageBinding images[] = {{0, out.lists}};
+            call.buffers = buffers;
+            call.images = images;
+            call.uniforms = asUniforms(block);
+            call.groups[0] = columns;
+            call.groups[1] = rows;
+            backend.dispatch(call);
+        };
+    });
+    return out;
+}
+
+MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const MediaPass::Outputs& under)
+{
+    MediaPass::Outputs out = under;
+    graph.addPass("slabs", [&](FrameGraph::Builder& builder) {
+        const MediaPass::Inputs& media = *in.media;
+        const size_t targetCount = media.layers ? size_t(MediaPass::LayerTargets) : 1;
+        const bool isFirst = !(media.layers ? under.layers[0] : under.media).valid();
+        for (const ResourceId id : {in.balls, in.cards.heads, in.cards.nodes})
+            if (id.valid())
+                builder.read(id);
+        builder.read(in.tiles.tiles);
+        builder.read(in.tiles.lists);
+        builder.read(media.distance);
+        media.lights.read(builder);
+        std::array<ResourceId, MediaPass::LayerTargets> targets;
+        for (size_t i = 0; i < targetCount; ++i) {
+            const ResourceId before = media.layers ? under.layers[i] : under.media;
+            targets[i] = builder.write(
+                isFirst ? builder.create(mediaTargetDesc(media.layers, i, media.width, media.height))
+                        : before);
+        }
+        if (media.layers)
+            out.layers = targets;
+        else
+            out.media = targets[0];
+        return [view = media.view, layers = media.layers, distance = media.distance, lights = media.lights,
+                balls = in.balls, cards = in.cards, tiles = in.tiles,
+                program = &slabProgram(in.slabs, in.detail, media.layers), targets, targetCount,
+                isFirst](Backend& backend) {
+            for (size_t i = 0; isFirst && i < targetCount; ++i)
+                backend.clear(targets[i], {0.0f, 0.0f, 0.0f, 0.0f});
+            ViewBlock block = view;
+            block.pass.y = cards.valid() ? 1.0f : 0.0f;
+            TextureBinding textures[5] = {{0, distance}, {2, tiles.lists}};
+            size_t textureCount = 2;
+            if (balls.valid())
+                textures[textureCount++] = {1, balls};
+            if (lights.planes.valid())
+                textures[textureCount++] = lights.textureBinding();
+            if (lights.hostShadow.valid())
+                textures[textureCount++] = lights.hostShadowBinding();
+            const auto orTiles = [&](ResourceId id) { return id.valid() ? id : tiles.tiles; }; // never read
+            BufferBinding buffers[4] = {{2, tiles.tiles},
+                                        {kCardHeadBinding, orTiles(cards.heads)},
+                                        {kCardNodeBinding, orTiles(cards.nodes)}};
+            size_t bufferCount = 3;
+            if (lights.lights.valid())
+                buffers[bufferCount++] = lights.bufferBinding();
+            DrawCall call;
+            call.program = program;
+            call.targets = {targets.data(), targetCount};
+            call.textures = {textures, textureCount};
+            call.buffers = {buffers, bufferCount};
+            call.uniforms = asUniforms(block);
+            call.blend = Blend::Premultiplied;
+            call.vertices = 6;
+            call.indirect = tiles.tiles;
+            backend.draw(call);
+        };
+    });
+    return out;
+}
+
+} // namespace fx::render

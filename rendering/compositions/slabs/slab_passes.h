@@ -1,0 +1,106 @@
+/// @file slab_passes.h
+/// The passes that put media together in slabs across each ray.
+#pragma once
+
+#include "rendering/compositions/slabs/slab_tiles.h"
+#include "rendering/passes/media_pass.h"
+
+namespace fx::render {
+
+constexpr size_t kSlabPrograms = 2 * 2 * 2;
+/// @param slabs 6 or 16
+const ProgramDesc& slabProgram(int slabs, bool detail, bool layers);
+const ProgramDesc& slabProgramAt(size_t index);
+
+inline constexpr ProgramDesc kSlabCardsProgram{"slab cards", nullptr, nullptr, "slabs/slab_cards.comp.glsl",
+                                               nullptr};
+inline constexpr ProgramDesc kSlabBallsProgram{"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl",
+                                               nullptr};
+inline constexpr ProgramDesc kSlabTilesProgram{"slab tiles", nullptr, nullptr, "slabs/slab_tiles.comp.glsl",
+                                               nullptr};
+
+constexpr uint64_t kMostListedBalls = uint64_t(1) << 23; ///< entries of all lists of a frame, of 4 bytes
+constexpr uint64_t kMostCards = uint64_t(1) << 21;       ///< fragments of cards of a frame, of 32 bytes
+
+/// Gathers the fragments of cards, in one list a texel. Which order they are drawn in does not matter.
+///
+/// reads   what the sources read
+///         distance  [m] along the ray to opaque geometry
+/// writes  cards     lists, and which tiles have any
+class SlabCardPass
+{
+public:
+    struct Inputs
+    {
+        std::span<const DrawBatch> batches; ///< of sources without balls; must stay, as must their sources
+        const MediaPass::Inputs* media;     ///< of the composition
+        uint64_t capacity;                  ///< fragments; more are left out and counted
+    };
+    [[nodiscard]] static CardLists addTo(FrameGraph& graph, const Inputs& in);
+};
+
+/// Balls and their lights as texels.
+///
+/// reads   list     balls, and what BlobLightPass has written for them
+/// writes  texture  RGBA32F, layout of shaders/slabs/slab_balls.glsl; invalid without balls
+class SlabBallPass
+{
+public:
+    [[nodiscard]] static ResourceId addTo(FrameGraph& graph, const BallList& list, const ViewBlock& view);
+};
+
+/// Lists the balls of each tile of 16 x 16 texels, in their order, and the tiles that show something.
+///
+/// reads   rects  which tiles each ball may cover
+///         cards
+/// writes  tiles  arguments of a draw of one square a tile, counters, and each tile's part of the lists
+///         lists  R32UI numbers of balls
+class SlabTilePass
+{
+public:
+    struct Inputs
+    {
+        std::span<const TileRect> rects; ///< must stay until the graph has executed
+        uint64_t entries;                ///< tiles of all of them
+        int width, height;               ///< [texel]
+        CardLists cards;
+    };
+    struct Outputs
+    {
+        ResourceId tiles, lists;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+/// What SlabTilePass counts, from the beginning of `tiles`.
+struct SlabTileCounts
+{
+    uint32_t vertices, tiles, reserved[2];
+    uint32_t listed, spilled, unused[2];
+};
+static_assert(sizeof(SlabTileCounts) == 32);
+
+/// Sums up all media of a texel in slabs across its ray, and puts these together front to back. Formulas:
+/// kernel-quantile, kernel-moment, slab-light.
+///
+/// reads   what SlabBallPass, SlabTilePass and SlabCardPass have written
+///         distance  [m] along the ray to opaque geometry
+/// writes  media     as the media pass, drawn over `under`
+/// Tiles without balls and cards cost nothing. Keeps no state.
+class SlabPass
+{
+public:
+    struct Inputs
+    {
+        const MediaPass::Inputs* media;
+        ResourceId balls; ///< invalid without any
+        bool detail;      ///< some of them have procedural detail, and it is drawn
+        SlabTilePass::Outputs tiles;
+        CardLists cards;
+        int slabs; ///< 6 or 16
+    };
+    [[nodiscard]] static MediaPass::Outputs addTo(FrameGraph& graph, const Inputs& in,
+                                                  const MediaPass::Outputs& under);
+};
+
+} // namespace fx::render

@@ -1,0 +1,17 @@
+/// @file composition_names.h
+/// What compositions are called in scene files and options.
+#pragma once
+
+#include "rendering/frame/view_types.h"
+
+#include <string_view>
+#include <utility>
+
+namespace fx::render {
+
+inline constexpr std::pair<std::string_view, Composition> kCompositionNames[] = {
+    {"sorted", Composition::Sorted},
+    {"slabs", Composition::Slabs},
+};
+
+} // namespace fx::render

@@ -1,0 +1,20 @@
+// Balls of medium as texels, which software renderers read several times faster than buffers. A ball has kBallTexels of them,
+// one below the other; kBallColumns balls stand in a row. Written by slabs/slab_balls.comp.glsl.
+const int kBallColumns = 1024;
+const int kBallTexels = 7;
+const int kPlace = 0;   // xyz [m] center relative to the eye; w radius [m], of what is no smaller than a texel
+const int kMedium = 1;  // x optical depth of the chord through the middle; y radius [m]; z layer * 2 + share of fire; w detail [1]
+const int kEmitted = 2; // rgb [exposed]; w power of temperature by which it follows the detail
+const int kScatter = 3; // rgb albedo; w mean cosine of the phase function
+const int kLight = 4;   // rgb light that changes little within the ball [exposed]
+const int kSlope = 5;   // xyz relative change of it [1/m]
+const int kDetail = 6;  // x seed [0, 1); y noise periods across the radius
+
+ivec2 ballTexel(uint ball, int texel)
+{
+    return ivec2(int(ball) % kBallColumns, int(ball) / kBallColumns * kBallTexels + texel);
+}
+
+// Lists of balls are texels too, kListColumns in a row.
+const int kListColumns = 4096;
+ivec2 listTexel(int entry) { return ivec2(entry % kListColumns, entry / kListColumns); }

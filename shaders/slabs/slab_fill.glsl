@@ -1,0 +1,180 @@
+// Sums of all that lies in some neighboring slabs of a ray. Needs shared/light_slices.glsl, formulas/kernel_moment.fx.h,
+// formulas/henyey_greenstein.fx.h and slabs/slab_window.glsl.
+
+#if FX_LAYERS
+const int kLayers = 3;
+#else
+const int kLayers = 1;
+#endif
+
+struct SlabSums
+{
+    float depth;       // [1]
+    float moment;      // [1] of the depth, from -1/2 to 1/2 of it
+    vec3 light[kLayers]; // emitted, of each layer
+    vec3 slope[kLayers]; // first moment of that
+#if FX_LAYERS
+    vec3 share;        // [1] depth of fire, smoke and dust
+#endif
+};
+
+// What a ball sends along a ray, where it is thin.
+struct BallLight
+{
+    vec3 emitted;  // by itself
+    vec3 smoothly; // scattered, in the middle of the chord
+    float slope;   // [1/m] change of that along the ray, relative to `base`
+    float base;    // [1]
+    vec3 sun;      // scattered where nothing shadows the sun
+};
+
+BallLight lightOf(SlabRay ray, Chord chord, uint ball)
+{
+    vec4 scatter = texelFetch(balls, ballTexel(ball, kScatter), 0);
+    vec3 slope = texelFetch(balls, ballTexel(ball, kSlope), 0).xyz;
+    BallLight light;
+    light.emitted = texelFetch(balls, ballTexel(ball, kEmitted), 0).rgb;
+    light.smoothly = texelFetch(balls, ballTexel(ball, kLight), 0).rgb;
+    light.base = 1.0 + dot(slope, chord.across);
+    light.slope = dot(slope, ray.direction);
+    float phase = fxHenyeyGreenstein(dot(lights[0].place.xyz, ray.direction), scatter.w);
+    light.sun = lights[0].color.rgb * scatter.rgb * phase;
+    return light;
+}
+
+void addTo(inout SlabSums sums, int layer, float depth, float moment, vec3 light)
+{
+    sums.light[layer] += depth * light;
+    sums.slope[layer] += moment * light;
+}
+
+#if FX_LAYERS
+// Opacity of each layer; emitted light is always fire's.
+vec3 sharesOf(float layer)
+{
+    float number = floor(layer * 0.5);
+    float fire = number < 0.5 ? 1.0 : layer - 2.0 * number;
+    vec3 ofLayer = vec3(number < 0.5, number > 0.5 && number < 1.5, number > 1.5);
+    return fire * vec3(1.0, 0.0, 0.0) + (1.0 - fire) * ofLayer;
+}
+#endif
+
+void addBall(inout SlabSums sums, BallLight ball, float layers, float depth, float moment, vec3 scattered)
+{
+    sums.depth += depth;
+    sums.moment += moment;
+#if FX_LAYERS
+    int layer = int(layers * 0.5);
+    addTo(sums, 0, depth, moment, ball.emitted + (layer == 0 ? scattered : vec3(0.0)));
+    addTo(sums, 1, depth, moment, layer == 1 ? scattered : vec3(0.0));
+    addTo(sums, 2, depth, moment, layer == 2 ? scattered : vec3(0.0));
+    sums.share += depth * sharesOf(layers);
+#else
+    addTo(sums, 0, depth, moment, ball.emitted + scattered);
+#endif
+}
+
+void addCard(inout SlabSums sums, vec4 light, float depth, float share, float place)
+{
+    sums.depth += share * depth;
+    sums.moment += share * depth * place;
+#if FX_LAYERS
+    vec3 ofLayer = vec3(light.w < 0.5, light.w > 0.5 && light.w < 1.5, light.w > 1.5);
+    for (int i = 0; i < kLayers; ++i)
+        addTo(sums, i, share, share * place, ofLayer[i] * light.rgb);
+    sums.share += share * depth * ofLayer;
+#else
+    addTo(sums, 0, share, share * place, light.rgb);
+#endif
+}
+
+// Share of the sun that reaches a point of the ray.
+float sunAt(SlabRay ray, float t)
+{
+    float sum = 1.0;
+    bool isDark = lights[0].color.r + lights[0].color.g + lights[0].color.b <= 0.0;
+    for (int i = 0; i < (isDark || lightCounts.z == 0 ? 0 : 1); ++i) // software renderers skip a loop without turns
+        sum = exp(-sunDepth(ray.origin + t * ray.direction).x) * hostShadow(ray.origin + t * ray.direction);
+    return lightCounts.z == 0 ? 0.0 : sum; // then it is in blobLights
+}
+
+#if FX_DETAIL
+// Turned by the seed so that no two balls share a lattice; as in blobs/media.vert.glsl.
+mat3 detailAxes(float seed, float periods)
+{
+    float a = 6.2831853 * fract(seed * 7.31);
+    float b = 6.2831853 * fract(seed * 23.17);
+    mat3 aroundY = mat3(cos(a), 0.0, -sin(a), 0.0, 1.0, 0.0, sin(a), 0.0, cos(a));
+    mat3 aroundX = mat3(1.0, 0.0, 0.0, 0.0, cos(b), sin(b), 0.0, -sin(b), cos(b));
+    return periods * (aroundX * aroundY);
+}
+
+// One sample of the detail stands for the whole path, as where balls are drawn. medium: texel of the ball
+void addDetail(SlabRay ray, uint ball, vec4 medium, inout Chord chord, inout BallLight light)
+{
+    vec2 detail = texelFetch(balls, ballTexel(ball, kDetail), 0).xy;
+    float power = texelFetch(balls, ballTexel(ball, kEmitted), 0).w;
+    float front = max(chord.tc - chord.w, ray.t0);
+    float back = max(min(chord.tc + chord.w, ray.t1), front);
+    float share = fxKernelPassed(placeOn(chord, back)) - fxKernelPassed(placeOn(chord, front));
+    float seen = mix(front, back, 0.5 / (1.0 + 0.5 * chord.depth * share));
+    vec3 relative = (chord.across + (seen - chord.tc) * ray.direction) / medium.y;
+    vec3 p = detailAxes(detail.x, detail.y) * relative + detail.x * vec3(61.3, 37.7, 83.1);
+    float n = medium.w > 0.0 ? fxDetailNoise(p.x, p.y, p.z) : 0.0;
+    chord.depth *= medium.w > 0.0 ? max(1.0 + medium.w * (2.2 * n - 0.25), 0.0) : 1.0;
+    light.emitted *= exp2(power * medium.w * 0.3 * n);
+}
+#endif
+
+// Fills kGroup slabs whose kGroup + 1 edges are given [m].
+void fill(SlabRay ray, float edges[kGroup + 1], out SlabSums sums[kGroup])
+{
+    float sun[kGroup + 1];
+    for (int k = 0; k <= kGroup; ++k)
+        sun[k] = sunAt(ray, edges[k]);
+    for (int k = 0; k < kGroup; ++k) {
+        sums[k].depth = sums[k].moment = 0.0;
+        for (int l = 0; l < kLayers; ++l)
+            sums[k].light[l] = sums[k].slope[l] = vec3(0.0);
+#if FX_LAYERS
+        sums[k].share = vec3(0.0);
+#endif
+    }
+    for (int i = 0; i < tileList.y; ++i) {
+        uint ball = ballOfTile(i);
+        vec4 medium = texelFetch(balls, ballTexel(ball, kMedium), 0);
+        Chord chord = chordOf(ray, texelFetch(balls, ballTexel(ball, kPlace), 0), medium);
+        BallLight light = lightOf(ray, chord, ball);
+#if FX_DETAIL
+        addDetail(ray, ball, medium, chord, light);
+#endif
+        float u = placeOn(chord, edges[0]);
+        float passed = fxKernelPassed(u), moved = fxKernelMoment(u);
+        for (int k = 0; k < kGroup; ++k) {
+            float middle = 0.5 * (edges[k] + edges[k + 1]);
+            float perWidth = 1.0 / (edges[k + 1] - edges[k]);
+            u = placeOn(chord, edges[k + 1]);
+            float nextPassed = fxKernelPassed(u), nextMoved = fxKernelMoment(u);
+            float depth = chord.depth * (nextPassed - passed);
+            float moment = ((chord.tc - middle) * depth + chord.w * chord.depth * (nextMoved - moved)) * perWidth;
+            passed = nextPassed;
+            moved = nextMoved;
+            float along = clamp(middle - chord.tc, -chord.w, chord.w);
+            vec3 scattered = light.smoothly * max(light.base + light.slope * along, 0.0) +
+                             light.sun * (0.5 * (sun[k] + sun[k + 1]));
+            addBall(sums[k], light, medium.z, depth, moment, scattered);
+        }
+    }
+    for (uint card = ray.cards; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
+        vec4 light = cardNodes[card - 1u].light;
+        vec4 body = cardNodes[card - 1u].body;
+        vec2 interval = intervalOf(ray, body);
+        float perLength = 1.0 / (interval.y - interval.x);
+        for (int k = 0; k < kGroup; ++k) {
+            float from = clamp(edges[k], interval.x, interval.y);
+            float to = clamp(edges[k + 1], interval.x, interval.y);
+            float place = clamp((0.5 * (from + to - edges[k] - edges[k + 1])) / (edges[k + 1] - edges[k]), -0.5, 0.5);
+            addCard(sums[k], light, body.y, (to - from) * perLength, place);
+        }
+    }
+}

@@ -1,0 +1,132 @@
+// What a ray meets, and which part of it matters. Needs shared/view_block.glsl, shared/card_nodes.glsl, slabs/slab_balls.glsl
+// and formulas/kernel_quantile.fx.h.
+layout(binding = 0) uniform sampler2D sceneDistance; // [m] along the ray to the opaque surface, +inf for none
+layout(binding = 1) uniform sampler2D balls;
+layout(binding = 2) uniform usampler2D lists;
+flat in ivec2 tileList; // first entry and entries
+
+const float kLeastDepth = 0.002; // [1] before the window
+const float kMostDepth = 7.0;    // [1] up to its end
+const int kBins = 8;             // of each of the two passes that find it
+
+struct SlabRay
+{
+    vec3 origin;    // [m] relative to the eye
+    vec3 direction; // unit
+    float t0, t1;   // [m] where the visible ray begins and ends
+    uint cards;     // number of the first node, counted from 1
+};
+
+SlabRay slabRay()
+{
+    SlabRay ray;
+    float lengthPerDepth;
+    viewRay(gl_FragCoord.xy, ray.origin, ray.direction, lengthPerDepth);
+    ray.t0 = rayOriginX.w * lengthPerDepth;
+    ray.t1 = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r;
+    ray.cards = 0u;
+    if (pass.y > 0.5)
+        ray.cards = cardHeads[cardHeadAt(ivec2(gl_FragCoord.xy), ivec2(rayDirectionX.w, rayDirectionY.w))];
+    return ray;
+}
+
+// The chord of a ball.
+struct Chord
+{
+    vec3 across;   // [m] from the center to the nearest point of the ray
+    float tc;      // [m] ray parameter of that point
+    float w;       // [m] half the chord, > 0
+    float perHalf; // [1/m] 1 / w
+    float depth;   // [1] optical depth of the whole chord, 0 beside the ball
+};
+
+// Number of a ball of the tile.
+uint ballOfTile(int i) { return texelFetch(lists, listTexel(tileList.x + i), 0).r; }
+
+// place, medium: texels of the ball
+Chord chordOf(SlabRay ray, vec4 place, vec4 medium)
+{
+    Chord chord;
+    vec3 toCenter = place.xyz - ray.origin;
+    chord.tc = dot(toCenter, ray.direction);
+    chord.across = chord.tc * ray.direction - toCenter;
+    float h = length(chord.across);
+    float q2 = max((place.w - h) * (place.w + h), 0.0) / (place.w * place.w);
+    float q = sqrt(q2);
+    chord.w = place.w * max(q, 1e-6);
+    chord.perHalf = 1.0 / chord.w;
+    chord.depth = medium.x * q2 * q2 * q;
+    return chord;
+}
+
+Chord chordOfTile(SlabRay ray, int i)
+{
+    uint ball = ballOfTile(i);
+    return chordOf(ray, texelFetch(balls, ballTexel(ball, kPlace), 0), texelFetch(balls, ballTexel(ball, kMedium), 0));
+}
+
+// Where on a chord a ray parameter lies, in units of half the chord.
+float placeOn(Chord chord, float t)
+{
+    return clamp((t - chord.tc) * chord.perHalf, -1.0, 1.0);
+}
+
+// Interval of a card along the ray, of a length > 0; none of it is behind what hides.
+vec2 intervalOf(SlabRay ray, vec4 body)
+{
+    float back = min(body.x + 0.5 * body.z, max(ray.t1, body.x));
+    float front = min(max(body.x - 0.5 * body.z, ray.t0), body.x);
+    return vec2(front, max(back, front + 1e-6 * max(abs(front), 1e-6)));
+}
+
+// From the first thing on the ray to the end of the last.
+vec2 rangeOf(SlabRay ray)
+{
+    vec2 range = vec2(1e30, -1e30);
+    for (int i = 0; i < tileList.y; ++i) {
+        Chord chord = chordOfTile(ray, i);
+        float front = max(chord.tc - chord.w, ray.t0);
+        float back = min(chord.tc + chord.w, ray.t1);
+        bool isMet = chord.depth > 0.0 && front < back;
+        range.x = isMet ? min(range.x, front) : range.x;
+        range.y = isMet ? max(range.y, back) : range.y;
+    }
+    for (uint card = ray.cards; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
+        vec2 interval = intervalOf(ray, cardNodes[card - 1u].body);
+        range = vec2(min(range.x, interval.x), max(range.y, interval.y));
+    }
+    return range;
+}
+
+// Narrows a range to the bins from that in which the depth passes kLeastDepth to that in which it passes kMostDepth.
+// start: where the depth is counted from.
+vec2 narrowed(SlabRay ray, float start, vec2 range)
+{
+    float passed[kBins + 1];
+    float width = (range.y - range.x) / float(kBins);
+    for (int k = 0; k <= kBins; ++k)
+        passed[k] = 0.0;
+    for (int i = 0; i < tileList.y; ++i) {
+        Chord chord = chordOfTile(ray, i);
+        float begin = fxKernelPassed(placeOn(chord, start));
+        for (int k = 0; k <= kBins; ++k)
+            passed[k] += chord.depth * (fxKernelPassed(placeOn(chord, range.x + float(k) * width)) - begin);
+    }
+    for (uint card = ray.cards; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
+        vec4 body = cardNodes[card - 1u].body;
+        vec2 interval = intervalOf(ray, body);
+        float perLength = 1.0 / (interval.y - interval.x);
+        for (int k = 0; k <= kBins; ++k)
+            passed[k] += body.y * clamp((range.x + float(k) * width - interval.x) * perLength, 0.0, 1.0);
+    }
+    vec2 narrow = vec2(range.x, range.y);
+    for (int k = 1; k < kBins; ++k) {
+        float t = range.x + float(k) * width;
+        narrow.x = passed[k] < kLeastDepth ? t : narrow.x;
+    }
+    for (int k = kBins - 1; k > 0; --k) {
+        float t = range.x + float(k) * width;
+        narrow.y = passed[k] >= kMostDepth ? t : narrow.y;
+    }
+    return narrow;
+}
