@@ -138,31 +138,28 @@ void FieldPlan::chooseVoxels(const FieldPlanInputs& in)
         const float side = std::cbrt(size.x * size.y * size.z);
         const float depth = camera.orthographic ? 1.0f : distanceToBox(effect.low, effect.high);
         const float pixels = side * pixelsPerSlope / std::max(depth, 1e-3f * side);
-        lattices_[i].voxel = side / float(voxelsAcross(pixels, in.resolution));
+        float smallest = std::numeric_limits<float>::max();
+        for (uint32_t ball = effect.begin; ball < effect.end; ++ball)
+            smallest = std::min(smallest, in.balls[ball].centerRadius.w);
+        const float wanted = side / float(voxelsAcross(pixels, in.resolution));
+        if (effect.end > effect.begin)
+            lattices_[i].voxel = quantized(std::max(wanted, smallest / kVoxelsPerRadius));
     }
-    for (size_t i = 0; i < in.balls.size(); ++i) { // smallest radius of each effect, in place of a bound
-        Lattice& lattice = lattices_[in.effectOf[i]];
-        const float radius = in.balls[i].centerRadius.w;
-        lattice.low.x = lattice.hasBalls ? std::min(lattice.low.x, radius) : radius;
-        lattice.hasBalls = true;
-    }
-    for (Lattice& lattice : lattices_)
-        lattice.voxel = quantized(std::max(lattice.voxel, lattice.low.x / kVoxelsPerRadius));
 }
 
 /// Boxes around the balls that can be seen, as wide as voxels make them.
 void FieldPlan::bound(const FieldPlanInputs& in)
 {
-    for (Lattice& lattice : lattices_) {
+    for (size_t i = 0; i < lattices_.size(); ++i) {
+        Lattice& lattice = lattices_[i];
         lattice.low = glm::vec3(std::numeric_limits<float>::max());
         lattice.high = -lattice.low;
-    }
-    for (size_t i = 0; i < in.balls.size(); ++i) {
-        Lattice& lattice = lattices_[in.effectOf[i]];
-        const glm::vec3 center(in.balls[i].centerRadius);
-        const float radius = std::max(in.balls[i].centerRadius.w, leastRadius(lattice.voxel)) * kTouch;
-        lattice.low = glm::min(lattice.low, center - radius);
-        lattice.high = glm::max(lattice.high, center + radius);
+        for (uint32_t ball = in.effects[i].begin; ball < in.effects[i].end; ++ball) {
+            const glm::vec4& place = in.balls[ball].centerRadius;
+            const float radius = std::max(place.w, leastRadius(lattice.voxel)) * kTouch;
+            lattice.low = glm::min(lattice.low, glm::vec3(place) - radius);
+            lattice.high = glm::max(lattice.high, glm::vec3(place) + radius);
+        }
     }
 }
 
@@ -197,8 +194,8 @@ bool FieldPlan::place(const FieldPlanInputs& in)
 {
     fields_.clear();
     table_.clear();
-    for (Lattice& lattice : lattices_)
-        if (lattice.hasBalls && !placeField(lattice, *in.camera))
+    for (size_t i = 0; i < lattices_.size(); ++i)
+        if (in.effects[i].end > in.effects[i].begin && !placeField(lattices_[i], *in.camera))
             return false;
     const uint32_t across = uint32_t(std::clamp(in.resolution, kFewestVoxels, kMostVoxels) / kBrickCells);
     return countBalls(in) <= (in.mostBricks > 0 ? in.mostBricks : across * across * across);
@@ -208,10 +205,11 @@ bool FieldPlan::place(const FieldPlanInputs& in)
 /// @return bricks
 uint32_t FieldPlan::countBalls(const FieldPlanInputs& in)
 {
-    for (size_t i = 0; i < in.balls.size(); ++i) {
-        const FieldBlock& field = fields_[lattices_[in.effectOf[i]].field];
-        BrickRange(field, in.balls[i]).forEach(field, [&](size_t index) { ++table_[index]; });
-    }
+    for (size_t e = 0; e < in.effects.size(); ++e)
+        for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i) {
+            const FieldBlock& field = fields_[lattices_[e].field];
+            BrickRange(field, in.balls[i]).forEach(field, [&](size_t index) { ++table_[index]; });
+        }
     const ViewVolume volume(*in.camera);
     uint32_t bricks = 0;
     for (const FieldBlock& field : fields_) {
@@ -266,24 +264,28 @@ void FieldPlan::listBricks(const FieldPlanInputs& in)
 
 void FieldPlan::listBalls(const FieldPlanInputs& in)
 {
-    for (size_t i = 0; i < in.balls.size(); ++i) {
-        const FieldBlock& field = fields_[lattices_[in.effectOf[i]].field];
-        const float radius = std::max(in.balls[i].centerRadius.w, field.limits.x);
-        const float fineness = field.corner.w * field.corner.w / (radius * radius);
-        const float peak = kPeak * in.balls[i].medium.x / (radius * radius * radius) *
-                           formula::fxVoxelKernel(0.0f, fineness);
-        BrickRange(field, in.balls[i]).forEach(field, [&](size_t index) {
-            if (table_[index] == 0)
-                return;
-            FieldBrickBlock& brick = bricks_[table_[index] - 1];
-            balls_[brick.first + brick.count++] = uint32_t(i);
-            peaks_[table_[index] - 1] += peak;
-        });
-    }
+    for (size_t e = 0; e < in.effects.size(); ++e)
+        for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i)
+            listBall(fields_[lattices_[e].field], in.balls[i], i);
     for (size_t i = 0; i < bricks_.size(); ++i) {
         float& most = fields_[bricks_[i].field].limits.y;
         most = std::max(most, peaks_[i]);
     }
+}
+
+void FieldPlan::listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number)
+{
+    const float radius = std::max(ball.centerRadius.w, field.limits.x);
+    const float fineness = field.corner.w * field.corner.w / (radius * radius);
+    const float peak =
+        kPeak * ball.medium.x / (radius * radius * radius) * formula::fxVoxelKernel(0.0f, fineness);
+    BrickRange(field, ball).forEach(field, [&](size_t index) {
+        if (table_[index] == 0)
+            return;
+        FieldBrickBlock& brick = bricks_[table_[index] - 1];
+        balls_[brick.first + brick.count++] = number;
+        peaks_[table_[index] - 1] += peak;
+    });
 }
 
 glm::vec3 FieldPlan::middleOf(const FieldBrickBlock& brick) const

@@ -23,8 +23,7 @@ namespace fx::render {
 struct FieldPlanInputs
 {
     std::span<const BlobInstance> balls; ///< those that can be seen
-    std::span<const uint32_t> effectOf;  ///< of each ball, index into `effects`
-    std::span<const BlobEffect> effects;
+    std::span<const BlobEffect> effects; ///< of all balls, in their order
     const CameraGeometry* camera;
     int width, height;       ///< [pixel] of the picture
     int resolution = 96;     ///< voxels along the side of an effect's box as a cube, 16..256
@@ -63,7 +62,6 @@ private:
         glm::vec3 low{0.0f};  ///< [m] of all balls that can be seen, relative to the eye
         glm::vec3 high{0.0f}; ///< [m]
         uint32_t field = 0;   ///< number, of those that have balls
-        bool hasBalls = false;
     };
 
     void chooseVoxels(const FieldPlanInputs& in);
@@ -72,6 +70,7 @@ private:
     bool placeField(Lattice& lattice, const CameraGeometry& camera);
     uint32_t countBalls(const FieldPlanInputs& in);
     void listBalls(const FieldPlanInputs& in);
+    void listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number);
     void listBricks(const FieldPlanInputs& in);
     void listTiles(const FieldPlanInputs& in);
     void markTiles(const FieldPlanInputs& in, const FieldBrickBlock& brick);

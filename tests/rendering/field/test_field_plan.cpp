@@ -67,7 +67,7 @@ TEST(FieldPlan, bricksHoldAllMediumThatTheViewSees)
                 const FieldBrickBlock& brick = plan.bricks()[number - 1];
                 FieldScene of = scene;
                 of.balls.clear();
-                of.effectOf.assign(brick.count, 0u);
+                of.effects[0].end = brick.count;
                 for (uint32_t k = 0; k < brick.count; ++k)
                     of.balls.push_back(scene.balls[plan.balls()[brick.first + k]]);
                 EXPECT_EQ(sampleAt(of, 0, place, field), all) << "same balls, same order";
@@ -106,7 +106,7 @@ TEST(FieldPlan, sidesOfVoxelsDependOnTheWholeEffectNotOnWhatIsInView)
     const FieldScene all(balls, cameraAt({0, 0, 9}, {0, 0, 0}));
     FieldScene half = all;
     half.balls.resize(75);
-    half.effectOf.resize(75);
+    half.effects[0].end = 75;
     float smallest[2] = {1e9f, 1e9f};
     for (size_t i = 0; i < all.balls.size(); ++i)
         for (size_t k = i < 75 ? 0 : 1; k < 2; ++k)
@@ -169,7 +169,7 @@ TEST(FieldPlan, smallBallsAreWidenedToWhatVoxelsHold)
     double sum = 0.0; // the cross section, kept by the sum over the lattice
     FieldScene one = scene;
     one.balls.resize(1);
-    one.effectOf.resize(1);
+    one.effects[0].end = 1;
     for (const FieldBrickBlock& brick : plan.bricks())
         for (int i = 0; i < 512; ++i)
             sum += sampleAt(one, 0, placeOfSample(plan, brick, {i % 8, i / 8 % 8, i / 64}), field);
