@@ -18,9 +18,20 @@ struct FieldBlock
 {
     glm::vec4 corner;  ///< xyz [m] of the first sample relative to the eye; w side of a voxel [m]
     glm::ivec4 bricks; ///< xyz along each axis; w first entry in the table of bricks
-    glm::vec4 limits;  ///< x least radius of a ball [m]; y no extinction is larger [1/m]
+    glm::vec4 limits;  ///< x least radius of a ball [m]; y no extinction is larger [1/m]; z number of its
+                       ///< detail + 1, 0: none
 };
 static_assert(sizeof(FieldBlock) == 48);
+
+/// The detail of one field; shaders/field/field_detail.glsl reads this layout.
+struct FieldDetailBlock
+{
+    glm::vec4 rows[6]; ///< coordinates in cells of the generations, without what balls carry: dot(xyz, p) + w
+    glm::vec4 erosion; ///< x size of lumps [m]; y, z thinnest, densest; w ramp
+    glm::vec4 noise;   ///< x gain; y weight of the second generation; z cooling; w glow
+    glm::vec4 lumps;   ///< xy size of the generations' lumps [m]; z factor that keeps the whole; w octaves
+};
+static_assert(sizeof(FieldDetailBlock) == 144);
 
 /// A brick that holds medium. Its number is its place in the textures.
 struct FieldBrickBlock

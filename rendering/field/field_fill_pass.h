@@ -12,6 +12,8 @@ namespace fx::render {
 ///         fields     buffer of FieldBlock
 ///         bricks     buffer of FieldBrickBlock
 ///         brickBalls buffer of numbers of balls
+///         materials  buffer of BlobMaterial, one a ball; details of FieldDetailBlock; lumpTile of
+///         LumpTilePass
 /// writes  textures   what the balls emit, absorb and scatter. Each sample is written by one invocation,
 /// which adds
 ///                    its balls in the order of the list, so that equal inputs give equal bits
@@ -23,7 +25,8 @@ public:
     {
         ResourceId balls, fields, bricks, brickBalls;
         FieldTextures textures;
-        uint32_t brickCount; ///< > 0
+        uint32_t brickCount;                                    ///< > 0
+        ResourceId materials = {}, details = {}, lumpTile = {}; ///< invalid: no field has detail
     };
     struct Outputs
     {
@@ -32,7 +35,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// With what layers need, or without.
-const ProgramDesc& fieldFillProgram(bool layers);
+/// With what layers and detail need, or without.
+const ProgramDesc& fieldFillProgram(bool layers, bool detail);
 
 } // namespace fx::render

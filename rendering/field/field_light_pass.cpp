@@ -5,14 +5,16 @@ namespace fx::render {
 namespace {
 
 constexpr ProgramDesc kPrograms[] = {
-    {"field light", nullptr, nullptr, "field/field_light.comp.glsl", "FX_LAYERS=0"},
-    {"field light", nullptr, nullptr, "field/field_light.comp.glsl", "FX_LAYERS=1"}};
+    {"field light", nullptr, nullptr, "field/field_light.comp.glsl", "FX_LAYERS=0\nFX_DETAIL=0"},
+    {"field light", nullptr, nullptr, "field/field_light.comp.glsl", "FX_LAYERS=1\nFX_DETAIL=0"},
+    {"field light", nullptr, nullptr, "field/field_light.comp.glsl", "FX_LAYERS=0\nFX_DETAIL=1"},
+    {"field light", nullptr, nullptr, "field/field_light.comp.glsl", "FX_LAYERS=1\nFX_DETAIL=1"}};
 
 } // namespace
 
-const ProgramDesc& fieldLightProgram(bool layers)
+const ProgramDesc& fieldLightProgram(bool layers, bool detail)
 {
-    return kPrograms[layers ? 1 : 0];
+    return kPrograms[(layers ? 1 : 0) + (detail ? 2 : 0)];
 }
 
 FieldLightPass::Outputs FieldLightPass::addTo(FrameGraph& graph, const Inputs& in)
@@ -37,7 +39,7 @@ FieldLightPass::Outputs FieldLightPass::addTo(FrameGraph& graph, const Inputs& i
             const ImageBinding images[] = {{0, textures.medium}, {1, textures.scatter}};
             const BufferBinding buffers[] = {{0, in.fields}, {2, in.bricks}, in.lights.bufferBinding()};
             DispatchCall call;
-            call.program = &fieldLightProgram(textures.shares.valid());
+            call.program = &fieldLightProgram(textures.shares.valid(), textures.material[0].valid());
             call.textures = {planes, count};
             call.images = images;
             call.buffers = buffers;

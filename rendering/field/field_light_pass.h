@@ -37,7 +37,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// With what layers need, or without.
-const ProgramDesc& fieldLightProgram(bool layers);
+/// With what layers and detail need, or without.
+const ProgramDesc& fieldLightProgram(bool layers, bool detail);
 
 } // namespace fx::render

@@ -164,7 +164,7 @@ void FieldPlan::bound(const FieldPlanInputs& in)
 }
 
 /// The box of bricks of one field.  @return false: it has too many
-bool FieldPlan::placeField(Lattice& lattice, const CameraGeometry& camera)
+bool FieldPlan::placeField(Lattice& lattice, int detail, const CameraGeometry& camera)
 {
     const double side = double(lattice.voxel) * kBrickCells;
     FieldBlock field{};
@@ -184,6 +184,7 @@ bool FieldPlan::placeField(Lattice& lattice, const CameraGeometry& camera)
     field.corner = glm::vec4(glm::vec3(corner), lattice.voxel);
     field.bricks.w = int(table_.size());
     field.limits.x = leastRadius(lattice.voxel);
+    field.limits.z = float(detail + 1);
     table_.resize(table_.size() + size_t(count), 0u);
     lattice.field = uint32_t(fields_.size());
     fields_.push_back(field);
@@ -195,7 +196,8 @@ bool FieldPlan::place(const FieldPlanInputs& in)
     fields_.clear();
     table_.clear();
     for (size_t i = 0; i < lattices_.size(); ++i)
-        if (in.effects[i].end > in.effects[i].begin && !placeField(lattices_[i], *in.camera))
+        if (in.effects[i].end > in.effects[i].begin &&
+            !placeField(lattices_[i], in.effects[i].detail, *in.camera))
             return false;
     const uint32_t across = uint32_t(std::clamp(in.resolution, kFewestVoxels, kMostVoxels) / kBrickCells);
     return countBalls(in) <= (in.mostBricks > 0 ? in.mostBricks : across * across * across);

@@ -67,7 +67,7 @@ private:
     void chooseVoxels(const FieldPlanInputs& in);
     void bound(const FieldPlanInputs& in);
     bool place(const FieldPlanInputs& in); ///< false: too many bricks
-    bool placeField(Lattice& lattice, const CameraGeometry& camera);
+    bool placeField(Lattice& lattice, int detail, const CameraGeometry& camera);
     uint32_t countBalls(const FieldPlanInputs& in);
     void listBalls(const FieldPlanInputs& in);
     void listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number);

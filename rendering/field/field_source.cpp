@@ -4,17 +4,22 @@ namespace fx::render {
 
 namespace {
 
-constexpr ProgramDesc kPrograms[] = {
-    {"field march", "field/field_march.vert.glsl", "field/field_march.frag.glsl", nullptr, "FX_LAYERS=0"},
-    {"field march", "field/field_march.vert.glsl", "field/field_march.frag.glsl", nullptr, "FX_LAYERS=1"}};
+constexpr ProgramDesc kPrograms[] = {{"field march", "field/field_march.vert.glsl",
+                                      "field/field_march.frag.glsl", nullptr, "FX_LAYERS=0\nFX_DETAIL=0"},
+                                     {"field march", "field/field_march.vert.glsl",
+                                      "field/field_march.frag.glsl", nullptr, "FX_LAYERS=1\nFX_DETAIL=0"},
+                                     {"field march", "field/field_march.vert.glsl",
+                                      "field/field_march.frag.glsl", nullptr, "FX_LAYERS=0\nFX_DETAIL=1"},
+                                     {"field march", "field/field_march.vert.glsl",
+                                      "field/field_march.frag.glsl", nullptr, "FX_LAYERS=1\nFX_DETAIL=1"}};
 
 constexpr float kFar = 1e30f; ///< [m]
 
 } // namespace
 
-const ProgramDesc& fieldMarchProgram(bool layers)
+const ProgramDesc& fieldMarchProgram(bool layers, bool detail)
 {
-    return kPrograms[layers ? 1 : 0];
+    return kPrograms[(layers ? 1 : 0) + (detail ? 2 : 0)];
 }
 
 /// The first and the last shell go on, so that no rounding leaves anything out.
@@ -43,8 +48,8 @@ DrawStream FieldSource::stream() const
 
 void FieldSource::read(FrameGraph::Builder& builder) const
 {
-    for (const ResourceId id :
-         {textures.medium, textures.scatter, textures.shares, fields, table, tiles, tileFields})
+    for (const ResourceId id : {textures.medium, textures.scatter, textures.shares, textures.material[0],
+                                textures.material[1], fields, table, tiles, tileFields, details, lumpTile})
         if (id.valid())
             builder.read(id);
 }
@@ -54,16 +59,23 @@ void FieldSource::draw(Backend& backend, const DrawBatch& batch, const MediaTarg
     ViewBlock view = *target.view;
     view.pass.y = edges_[batch.first + batch.count];
     view.pass.z = edges_[batch.first];
-    const TextureBinding images[] = {{0, target.distance},
-                                     {1, textures.medium, Sampling::Linear},
-                                     {2, textures.scatter, Sampling::Linear},
-                                     {3, textures.shares, Sampling::Linear}};
-    const BufferBinding buffers[] = {{1, fields}, {2, table}, {3, tiles}, {4, tileFields}};
+    const bool detail = details.valid();
+    TextureBinding images[7] = {{0, target.distance}, {1, textures.medium, Sampling::Linear}};
+    size_t count = 2;
+    if (target.layers || detail)
+        images[count++] = {2, textures.scatter, Sampling::Linear};
+    if (target.layers)
+        images[count++] = {3, textures.shares, Sampling::Linear};
+    for (uint32_t g = 0; detail && g < 2; ++g)
+        images[count++] = {4 + g, textures.material[g], Sampling::Linear};
+    if (detail)
+        images[count++] = {6, lumpTile, Sampling::LinearRepeat};
+    const BufferBinding buffers[] = {{1, fields}, {2, table}, {3, tiles}, {4, tileFields}, {5, details}};
     DrawCall call;
-    call.program = &fieldMarchProgram(target.layers);
+    call.program = &fieldMarchProgram(target.layers, detail);
     call.targets = target.targets;
-    call.textures = std::span(images).first(target.layers ? 4 : 2);
-    call.buffers = buffers;
+    call.textures = std::span(images).first(count);
+    call.buffers = std::span(buffers).first(detail ? 5 : 4);
     call.uniforms = asUniforms(view);
     call.blend = Blend::Premultiplied;
     call.vertices = 6;

@@ -11,8 +11,8 @@
 
 namespace fx::render {
 
-/// With light sorted by layer, or not.
-const ProgramDesc& fieldMarchProgram(bool layers);
+/// With light sorted by layer, or not; with detail, or not.
+const ProgramDesc& fieldMarchProgram(bool layers, bool detail);
 
 /// Draws the fields as a stream of shells around the eye, farthest first, so that what is no field is drawn
 /// between them by its distance. Neighboring shells are marched through in one go: then there is one sequence
@@ -31,6 +31,8 @@ public:
 
     FieldTextures textures;
     ResourceId fields, table, tiles, tileFields; ///< buffers of what FieldPlan lists
+    ResourceId details;                          ///< buffer of FieldDetailBlock; invalid: no field has detail
+    ResourceId lumpTile;                         ///< periodic cube of lumps, R32F
     uint32_t tileCount = 0;
 
 private:

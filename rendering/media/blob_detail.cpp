@@ -3,8 +3,10 @@
 #include "foundation/snapshot/material_kind.h"
 #include "rendering/frame/snapshot_match.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace fx::render {
@@ -20,7 +22,39 @@ double phaseOf(const base::SnapshotGroup& group)
     return double(group.constants()[constant::Generation]) + double(group.constants()[constant::Fade]);
 }
 
+constexpr size_t kMostLookedAt = 128;   ///< balls
+constexpr float kMostFactor = 4.0f;     ///< more would make a solid of what is left of thin medium
+constexpr float kPeak = 1.04445431f;    ///< kernel-optical-depth (1)
+constexpr float kCorner = 0.333333333f; ///< [radius] along each axis: distance from the center 3^-1/2
+
+/// [1/m] of all balls.
+float extinctionAt(std::span<const MediumCaster> balls, const glm::vec3& p)
+{
+    float sum = 0;
+    for (const MediumCaster& ball : balls) {
+        const glm::vec3 d = p - ball.center;
+        const float q = std::max(1.0f - glm::dot(d, d) / (ball.radius * ball.radius), 0.0f);
+        sum += ball.crossSection / (ball.radius * ball.radius * ball.radius) * q * q;
+    }
+    return kPeak * sum;
+}
+
 } // namespace
+
+float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls)
+{
+    constexpr glm::vec3 kCorners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    const size_t stride = (balls.size() + kMostLookedAt - 1) / kMostLookedAt;
+    double before = 0, after = 0;
+    for (size_t i = 0; i < balls.size(); i += stride)
+        for (const glm::vec3& corner : kCorners) {
+            const float extinction =
+                extinctionAt(balls, balls[i].center + balls[i].radius * kCorner * corner) * detail.scale;
+            before += double(balls[i].crossSection);
+            after += double(balls[i].crossSection * keptShare(detail.numbers, extinction));
+        }
+    return after * double(kMostFactor) > before ? float(before / after) : kMostFactor;
+}
 
 BlobDetail::BlobDetail(const base::SnapshotPair& snapshots, size_t group, float t)
 {

@@ -4,6 +4,7 @@
 
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/field_detail/field_detail_numbers.h"
+#include "rendering/lights/medium_caster.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace fx::render {
 
@@ -22,7 +24,15 @@ struct GroupDetail
         toCells[2]; ///< coordinates in cells of the generations, without what blobs carry: toCells p + first
     glm::vec3 first[2]; ///< [cell] p in m relative to the eye, world axes
     float scale = 1;    ///< [1] metres of the world over those of the group
+    float factor = 1;   ///< [1] by which what is left is multiplied, so that the whole is kept
 };
+
+/// GroupDetail::factor for balls of medium: the integral of the summed extinction over that of what is left
+/// of it on average. Of up to 128 balls four points are looked at, at the corners of a tetrahedron whose
+/// distance from the center is the kernel's root mean square: an integral over the ball that is exact for
+/// polynomials of second degree. At most 4.
+/// @param balls all of the group, seen or not
+float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls);
 
 /// Reads the group of the kind "material" that follows a group of blobs.
 class BlobDetail

@@ -131,14 +131,11 @@ public:
     /// Whether what is beside the view is left out.
     void cullToView(bool isCulled) { isCulled_ = isCulled; }
 
-    /// @param detail of the group  @param outDetails null: blobs have none
+    /// @param detail of the group
     void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds,
-             const BlobDetail& detail, std::pmr::vector<GroupDetail>* outDetails)
+             const BlobDetail& detail)
     {
         const base::Placement place = placementAt(newer, older, t, camera_.eye);
-        const bool isDetailed = outDetails && detail.isGiven();
-        if (isDetailed)
-            outDetails->push_back(detail.groupDetail(place));
         level_ = lod_ ? lod_->levelOf(newer.info(), place) : LodLevel();
         const std::span<const float> constants = newer.constants();
         ElementReader reader(newer, older, t, stepSeconds);
@@ -163,10 +160,8 @@ public:
             if (!(blob.crossSection > 0.0f && blob.radius > 0.0f))
                 continue;
             medium_.push_back({blob.center, blob.radius, blob.crossSection * shadowWeight});
-            if (isDetailed) {
-                blob.detail = int(outDetails->size()) - 1;
+            if (detail.isGiven())
                 blob.carried = reader.carried(detail);
-            }
             const float shownWeight = rank < share_ ? weightOf(rank / share_) : 0.0f; // uniform again
             if (shownWeight == 0.0f)
                 continue;
@@ -294,14 +289,26 @@ ImpostorPlan planImpostor(const base::SnapshotPair& snapshots, size_t first, flo
     return impostors.plan(subject);
 }
 
+/// Neighboring groups without detail are one run.
+void addRun(const BlobRun& run, std::pmr::vector<BlobRun>& ioRuns)
+{
+    const bool goesOn = run.detail < 0 && !ioRuns.empty() && ioRuns.back().instance == run.instance &&
+                        ioRuns.back().detail < 0;
+    if (!goesOn) {
+        ioRuns.push_back(run);
+        return;
+    }
+    ioRuns.back().visibleEnd = run.visibleEnd;
+    ioRuns.back().mediumEnd = run.mediumEnd;
+}
+
 } // namespace
 
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<MediumCaster>& outMedium,
                          std::pmr::vector<InstanceBlobs>& outInstances, float share, LevelOfDetail* lod,
-                         ImpostorField* impostors, bool castsShadows,
-                         std::pmr::vector<GroupDetail>* outDetails)
+                         ImpostorField* impostors, bool castsShadows, FieldGather* outFields)
 {
     GatherCounts counts;
     if (!snapshots.newer)
@@ -320,8 +327,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         if (outInstances.empty() || outInstances.back().instance != group.info().instance) {
             const ImpostorPlan plan =
                 impostors ? planImpostor(snapshots, g, t, camera, height, *impostors) : ImpostorPlan();
-            outInstances.push_back({group.info().instance, outVisible.size(), outVisible.size(), plan,
-                                    outMedium.size(), outMedium.size()});
+            outInstances.push_back({group.info().instance, outVisible.size(), outVisible.size(), plan});
             gather.cullToView(!plan.isTaken);
             if (plan.blobShare <= 0.0f && !plan.isTaken)
                 far = farCasters(newer, g);
@@ -329,13 +335,23 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         const ImpostorPlan& plan = outInstances.back().plan;
         const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
         const base::SnapshotGroup* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
-        const BlobDetail detail = outDetails ? BlobDetail(snapshots, g, t) : BlobDetail();
+        const BlobDetail detail = outFields ? BlobDetail(snapshots, g, t) : BlobDetail();
+        const size_t visibleBegin = outVisible.size(), mediumBegin = outMedium.size();
         if (plan.blobShare > 0.0f || plan.isTaken)
-            gather.run(group, older, t, stepSeconds, detail, outDetails);
+            gather.run(group, older, t, stepSeconds, detail);
         else if (castsShadows)
             gather.runFar(group, older, t, stepSeconds, far);
         outInstances.back().visibleEnd = outVisible.size();
-        outInstances.back().mediumEnd = outMedium.size();
+        if (!outFields)
+            continue;
+        if (detail.isGiven()) {
+            outFields->details.push_back(detail.groupDetail(placementAt(group, older, t, camera.eye)));
+            outFields->details.back().factor =
+                wholeFactor(outFields->details.back(), std::span(outMedium).subspan(mediumBegin));
+        }
+        addRun({outInstances.size() - 1, detail.isGiven() ? int(outFields->details.size()) - 1 : -1,
+                visibleBegin, outVisible.size(), mediumBegin, outMedium.size()},
+               outFields->runs);
     }
     return counts;
 }

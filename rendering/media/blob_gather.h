@@ -43,8 +43,24 @@ struct InstanceBlobs
 {
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
-    ImpostorPlan plan;             ///< what of it is drawn as a picture
-    size_t mediumBegin, mediumEnd; ///< of all, seen or not
+    ImpostorPlan plan; ///< what of it is drawn as a picture
+};
+
+/// Blobs that follow each other in an instance: all of a group with detail, or of neighboring groups without.
+struct BlobRun
+{
+    size_t instance;                 ///< number in the list of instances
+    int detail;                      ///< number of the group's detail; -1: none
+    size_t visibleBegin, visibleEnd; ///< of those that can be seen
+    size_t mediumBegin, mediumEnd;   ///< of all, seen or not
+};
+
+/// What fields of blobs need besides.
+struct FieldGather
+{
+    explicit FieldGather(std::pmr::memory_resource* memory) : details(memory), runs(memory) {}
+    std::pmr::vector<GroupDetail> details;
+    std::pmr::vector<BlobRun> runs;
 };
 
 /// What a gather left out.
@@ -72,12 +88,12 @@ struct GatherCounts
 /// gathered with all that is beside the view.
 /// @param lod thins out groups that are small on the picture, for shadows too; null: none
 /// @param castsShadows whether what is drawn by a picture alone casts a shadow
-/// @param outDetails gets the detail of each group that has one; null: blobs have none
+/// @param outFields gets the detail of groups, and runs of blobs; null: they are not needed
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<MediumCaster>& outMedium,
                          std::pmr::vector<InstanceBlobs>& outInstances, float share = 1.0f,
                          LevelOfDetail* lod = nullptr, ImpostorField* impostors = nullptr,
-                         bool castsShadows = true, std::pmr::vector<GroupDetail>* outDetails = nullptr);
+                         bool castsShadows = true, FieldGather* outFields = nullptr);
 
 } // namespace fx::render

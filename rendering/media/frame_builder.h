@@ -33,6 +33,9 @@ public:
     std::span<const BlobInstance> blobs() const { return sorted_; } ///< farthest first, unless not sorted
     /// Of blobs(); none where they are sorted.
     std::span<const BlobEffect> effects() const { return effects_; }
+    /// What blobs() carry for the detail of their fields, and that detail; none where they are sorted.
+    std::span<const BlobMaterial> materials() const { return materials_; }
+    std::span<const GroupDetail> details() const { return fields_.details; }
     bool anyHeat() const { return anyHeat_; }     ///< some blob bends light
     bool anyDetail() const { return anyDetail_; } ///< some blob has procedural detail
     /// All that casts shadows, seen or not.
@@ -53,7 +56,9 @@ public:
 
 private:
     void shade(const ViewSettings& settings, const CameraGeometry& camera, bool isSorted);
-    void addEffect(const InstanceBlobs& instance, size_t begin);
+    void shade(const GatheredBlob& blob, const ImpostorPlan& plan, float exposure,
+               const CameraGeometry& camera);
+    void addEffect(const BlobRun& run, size_t begin);
     void sort(const CameraGeometry& camera, bool isSorted);
     void beginImpostors(const FrameRequest& request, const ViewSettings& settings,
                         const CameraGeometry& camera, uint64_t content);
@@ -64,6 +69,8 @@ private:
     std::pmr::vector<MediumCaster> casters_;
     std::pmr::vector<InstanceBlobs> instances_;
     std::pmr::vector<BlobInstance> shaded_;
+    FieldGather fields_;
+    std::pmr::vector<BlobMaterial> materials_;
     std::pmr::vector<BlobEffect> effects_;
     std::pmr::vector<BlobInstance> sorted_;
     std::pmr::vector<float> distances_;

@@ -22,11 +22,19 @@ struct BlobInstance
 };
 static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
 
+/// What a ball carries for the detail of its field.
+struct BlobMaterial
+{
+    glm::vec4 carried[2]; ///< xyz [cell] coordinates of both generations
+};
+static_assert(sizeof(BlobMaterial) == 32);
+
 /// Balls of one instance that stand together in a list.
 struct BlobEffect
 {
     uint32_t begin, end; ///< in the list
     glm::vec3 low, high; ///< [m] box around all of its balls, seen or not, relative to the eye, world axes
+    int detail = -1;     ///< number of the detail of their field; -1: none
 };
 
 } // namespace fx::render

@@ -6,7 +6,7 @@
 #include "field/field_blocks.glsl"
 
 // Light that each sample of the bricks scatters to the eye. FX_LAYERS 0 adds it to what the medium emits, so that a ray
-// looks up one texture; FX_LAYERS 1 keeps it apart, in place of albedo and phase function.
+// looks up one texture; FX_LAYERS 1 and FX_DETAIL 1 keep it apart, in place of albedo and phase function.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Fields { VoxelField fields[]; };
 layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
@@ -34,7 +34,7 @@ void main()
             vec3 toEye = viewAxis.w > 0.5 ? -viewAxis.xyz : -p / max(length(p), 1e-20);
             source = skySource(p, own.rgb) + scatteredLight(p, toEye, own.rgb, own.a);
         }
-#if FX_LAYERS
+#if FX_LAYERS || FX_DETAIL
         imageStore(scatter, corner + s, vec4(source * (before.a / field.limits.y), 0.0));
 #else
         imageStore(medium, corner + s, vec4(before.rgb + source * before.a, before.a));

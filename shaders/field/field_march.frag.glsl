@@ -1,5 +1,8 @@
 #include "shared/view_block.glsl"
 #include "field/field_blocks.glsl"
+#if FX_DETAIL
+#include "field/field_detail.glsl"
+#endif
 #include "field/field_sample.glsl"
 
 // Light of the sum of all fields along one ray, from the eye on. Between two samples extinction is linear in the distance and
@@ -31,8 +34,9 @@ void main()
     float lengthPerDepth;
     viewRay(gl_FragCoord.xy, origin, direction, lengthPerDepth);
     float t = max(rayOriginX.w * lengthPerDepth, pass.y);
+    float pixel = 1.0 / (lengthPerDepth * sunDirection.w);
     float end = min(texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r, pass.z);
-    FieldSample before = sampleFields(origin, direction, t, tileRange);
+    FieldSample before = sampleFields(origin, direction, t, tileRange, pixel);
     float transmittance = 1.0;
 #if FX_LAYERS
     vec3 fire = vec3(0.0), smoke = vec3(0.0), dust = vec3(0.0), covered = vec3(0.0);
@@ -44,7 +48,7 @@ void main()
 #endif
     for (int i = 0; i < kMostSteps && t < end && before.room < kNever && transmittance > opaque; ++i) {
         float next = min(t + before.room, end);
-        FieldSample now = sampleFields(origin, direction, next, tileRange);
+        FieldSample now = sampleFields(origin, direction, next, tileRange, pixel);
         float d = before.isEmpty ? 0.0 : 0.5 * (before.medium.a + now.medium.a) * (next - t);
         float a = exp(-d);
         float far = farWeight(d, a);

@@ -8,14 +8,25 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {
-    {"field upload", "volume"}, {"field fill", "volume"}, {"field light", "volume"}};
+constexpr TimedPass kTimed[] = {{"field upload", "volume"},
+                                {"lump tile", "volume"},
+                                {"field slices", "volume"},
+                                {"field fill", "volume"},
+                                {"field light", "volume"}};
 
 std::span<const ProgramDesc* const> programs()
 {
-    static const std::array<const ProgramDesc*, 6> all{&fieldFillProgram(false),  &fieldFillProgram(true),
-                                                       &fieldLightProgram(false), &fieldLightProgram(true),
-                                                       &fieldMarchProgram(false), &fieldMarchProgram(true)};
+    static const auto all = [] {
+        std::array<const ProgramDesc*, 14> list{&kLumpTileProgram, &kFieldSlicesProgram};
+        size_t end = 2;
+        for (const bool detail : {false, true})
+            for (const bool layers : {false, true})
+                for (const ProgramDesc* program :
+                     {&fieldFillProgram(layers, detail), &fieldLightProgram(layers, detail),
+                      &fieldMarchProgram(layers, detail)})
+                    list[end++] = program;
+        return list;
+    }();
     return all;
 }
 

@@ -1,5 +1,7 @@
 #include "rendering/compositions/volume/volume_view.h"
 
+#include "rendering/lights/slices/light_list.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -8,19 +10,46 @@ namespace fx::render {
 namespace {
 
 constexpr size_t kBricksOfALayer = size_t(kBrickColumns) * kBrickColumns;
-constexpr std::string_view kListNames[] = {"fields",      "field bricks", "field table",
-                                           "field balls", "field tiles",  "fields of tiles"};
-constexpr std::string_view kTextureNames[] = {"field medium", "field scatter", "field shares"};
+constexpr std::string_view kListNames[] = {"fields",        "field bricks",    "field table",
+                                           "field balls",   "field tiles",     "fields of tiles",
+                                           "field details", "field materials", "field light stacks"};
+constexpr std::string_view kTextureNames[] = {"field medium", "field scatter", "field shares",
+                                              "field material 0", "field material 1"};
+
+/// What the GPU gets of the detail of a group.
+FieldDetailBlock blockOf(const GroupDetail& detail)
+{
+    const FieldDetailNumbers& numbers = detail.numbers;
+    FieldDetailBlock block;
+    for (int g = 0; g < 2; ++g)
+        for (int row = 0; row < 3; ++row)
+            block.rows[3 * g + row] = {detail.toCells[g][0][row], detail.toCells[g][1][row],
+                                       detail.toCells[g][2][row], detail.first[g][row]};
+    block.erosion = {numbers.length() * detail.scale, numbers.thinnest, numbers.densest, numbers.ramp};
+    block.noise = {numbers.gain, numbers.fade, numbers.cooling, numbers.glow};
+    const auto size = [&](size_t g) {
+        return detail.scale * numbers.generations[g].length / numbers.generations[g].growth;
+    };
+    block.lumps = {size(0), size(1), detail.factor, float(kMostDetailOctaves)};
+    return block;
+}
 
 } // namespace
 
-VolumeView::VolumeView(const TechniqueSetup& setup) : device_(*setup.device), plan_(setup.memory) {}
+VolumeView::VolumeView(const TechniqueSetup& setup)
+    : device_(*setup.device), plan_(setup.memory), details_(setup.memory)
+{}
 
 base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
 {
     isKept_ = false;
+    stacks_ = {};
     std::erase_if(*io.streams, [](const DrawStream& stream) { return stream.source->balls() != nullptr; });
     const HostTargets& targets = in.request->targets;
+    details_.clear();
+    for (const GroupDetail& detail : io.details)
+        details_.push_back(blockOf(detail));
+    materials_ = details_.empty() ? std::span<const BlobMaterial>() : io.materials;
     plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0});
     if (plan_.isEmpty())
         return {};
@@ -32,8 +61,10 @@ base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
 
 std::array<std::span<const std::byte>, VolumeView::Lists> VolumeView::lists() const
 {
-    return {std::as_bytes(plan_.fields()), std::as_bytes(plan_.bricks()), std::as_bytes(plan_.table()),
-            std::as_bytes(plan_.balls()),  std::as_bytes(plan_.tiles()),  std::as_bytes(plan_.tileFields())};
+    return {
+        std::as_bytes(plan_.fields()),      std::as_bytes(plan_.bricks()), std::as_bytes(plan_.table()),
+        std::as_bytes(plan_.balls()),       std::as_bytes(plan_.tiles()),  std::as_bytes(plan_.tileFields()),
+        std::as_bytes(std::span(details_)), std::as_bytes(materials_),     stacks_};
 }
 
 base::Status VolumeView::makeRoom(bool layers)
@@ -44,51 +75,87 @@ base::Status VolumeView::makeRoom(bool layers)
                 render::makeRoom(device_, buffers_[i], wanted[i].size(), kListNames[i].data());
             !status)
             return status;
-    return makeTextures(layers ? 3 : 2);
+    for (size_t i = 0; i < textures_.size(); ++i)
+        if (base::Status status = isUsed(i, layers) ? makeTexture(i) : base::Status(); !status)
+            return status;
+    return details_.empty() ? base::Status() : makeLumpTile();
 }
 
-/// A half more than is needed when they grow, so that they do not grow in each frame.
-base::Status VolumeView::makeTextures(size_t count)
+/// Whether a texture is needed.
+bool VolumeView::isUsed(size_t texture, bool layers) const
+{
+    return texture < 2 || (texture == 2 ? layers : !details_.empty());
+}
+
+/// A half more than is needed when it grows, so that it does not grow in each frame.
+base::Status VolumeView::makeTexture(size_t i)
 {
     const int layers = int((plan_.bricks().size() + kBricksOfALayer - 1) / kBricksOfALayer);
     const int side = kBrickColumns * kBrickSamples;
-    for (size_t i = 0; i < count; ++i) {
-        const int there = textures_[i].name() != 0 ? textures_[i].depth() / kBrickSamples : 0;
-        if (there >= layers)
-            continue;
-        const int most = std::max(device_.limits().volumeSize / kBrickSamples, layers);
-        const int wanted = there > 0 ? std::min(layers + layers / 2, most) : layers;
-        textures_[i] = {};
-        auto created = GlTexture::createVolume(device_, side, side, wanted * kBrickSamples,
-                                               glInternalFormat(kFieldFormats[i]), kTextureNames[i].data());
-        if (!created)
-            return created.status();
-        textures_[i] = std::move(*created);
-    }
+    const int there = textures_[i].name() != 0 ? textures_[i].depth() / kBrickSamples : 0;
+    if (there >= layers)
+        return {};
+    const int most = std::max(device_.limits().volumeSize / kBrickSamples, layers);
+    const int wanted = there > 0 ? std::min(layers + layers / 2, most) : layers;
+    textures_[i] = {};
+    auto created = GlTexture::createVolume(device_, side, side, wanted * kBrickSamples,
+                                           glInternalFormat(kFieldFormats[i]), kTextureNames[i].data());
+    if (!created)
+        return created.status();
+    textures_[i] = std::move(*created);
     return {};
 }
 
-void VolumeView::importAll(FrameGraph& graph)
+base::Status VolumeView::makeLumpTile()
+{
+    if (lumpTile_.name() != 0)
+        return {};
+    auto created = GlTexture::createVolume(device_, kLumpTileTexels, kLumpTileTexels, kLumpTileTexels,
+                                           glInternalFormat(Format::R32F), "lump tile");
+    if (!created)
+        return created.status();
+    lumpTile_ = std::move(*created);
+    hasLumps_ = false;
+    return {};
+}
+
+void VolumeView::importAll(FrameGraph& graph, bool layers)
 {
     const auto sizes = lists();
     for (size_t i = 0; i < Lists; ++i)
-        ids_[i] = graph.importBuffer({kListNames[i], std::bit_ceil(sizes[i].size())}, buffers_[i].name());
+        ids_[i] = sizes[i].empty() ? ResourceId()
+                                   : graph.importBuffer({kListNames[i], std::bit_ceil(sizes[i].size())},
+                                                        buffers_[i].name());
     const auto texture = [&](size_t i) {
-        return graph.importTexture(
-            {kTextureNames[i], textures_[i].width(), textures_[i].height(), kFieldFormats[i]},
-            textures_[i].name());
+        return isUsed(i, layers) ? graph.importTexture({kTextureNames[i], textures_[i].width(),
+                                                        textures_[i].height(), kFieldFormats[i]},
+                                                       textures_[i].name())
+                                 : ResourceId();
     };
-    source_.textures = {texture(0), texture(1), {}};
+    source_.textures.medium = texture(0);
+    source_.textures.scatter = texture(1);
+    source_.textures.shares = texture(2);
+    source_.textures.material[0] = texture(3);
+    source_.textures.material[1] = texture(4);
+    source_.lumpTile = {};
+    if (details_.empty())
+        return;
+    source_.lumpTile =
+        graph.importTexture({"lump tile", kLumpTileTexels, kLumpTileTexels, Format::R32F}, lumpTile_.name());
+    if (!hasLumps_)
+        source_.lumpTile = LumpTilePass::addTo(graph, source_.lumpTile);
+    hasLumps_ = true;
 }
 
 void VolumeView::upload(FrameGraph& graph)
 {
     graph.addPass("field upload", [&](FrameGraph::Builder& builder) {
         for (ResourceId& id : ids_)
-            id = builder.write(id);
+            id = id.valid() ? builder.write(id) : id;
         return [ids = ids_, contents = lists()](Backend& backend) {
             for (size_t i = 0; i < Lists; ++i)
-                backend.upload(ids[i], contents[i]);
+                if (ids[i].valid())
+                    backend.upload(ids[i], contents[i]);
         };
     });
 }
@@ -98,18 +165,28 @@ void VolumeView::addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame)
 {
     if (stage != PassStage::Upload || plan_.isEmpty())
         return;
-    importAll(graph);
-    if (frame.settings->layerOutputs)
-        source_.textures.shares = graph.importTexture(
-            {kTextureNames[2], textures_[2].width(), textures_[2].height(), kFieldFormats[2]},
-            textures_[2].name());
-    if (!isKept_)
+    stacks_ = details_.empty() ? std::span<const std::byte>() : frame.lights.stacks;
+    if (base::Status status =
+            render::makeRoom(device_, buffers_[Stacks], stacks_.size(), "field light stacks");
+        !status)
+        stacks_ = {}; // light is that of smooth balls
+    importAll(graph, frame.settings->layerOutputs);
+    const bool corrects =
+        !stacks_.empty() && frame.lights.planes.valid() && corrected_ != frame.lights.filled;
+    if (!isKept_ || corrects)
         upload(graph);
-    if (!isKept_ || frame.lights.hostShadow.valid()) {
+    if (!isKept_ || corrects || frame.lights.hostShadow.valid()) {
         const uint32_t bricks = uint32_t(plan_.bricks().size());
         source_.textures = FieldFillPass::addTo(graph, {frame.blobs, ids_[Fields], ids_[Bricks], ids_[Balls],
-                                                        source_.textures, bricks})
+                                                        source_.textures, bricks, ids_[Materials],
+                                                        ids_[Details], source_.lumpTile})
                                .textures;
+        if (corrects) {
+            frame.lights = FieldSlicesPass::addTo(
+                graph, {ids_[Fields], ids_[Table], source_.textures.material[1], ids_[Stacks], frame.lights,
+                        uint32_t(plan_.fields().size()), uint32_t(stacks_.size() / sizeof(SliceStackBlock))});
+            corrected_ = frame.lights.filled;
+        }
         source_.textures = FieldLightPass::addTo(graph, {ids_[Fields], ids_[Bricks], source_.textures,
                                                          frame.lights, &frame.view, bricks})
                                .textures;
@@ -118,6 +195,7 @@ void VolumeView::addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame)
     source_.table = ids_[Table];
     source_.tiles = ids_[Tiles];
     source_.tileFields = ids_[TileFields];
+    source_.details = ids_[Details];
 }
 
 void VolumeView::endFrame(bool)
@@ -138,6 +216,7 @@ void VolumeView::release()
 {
     buffers_ = {};
     textures_ = {};
+    lumpTile_ = {};
 }
 
 uint64_t VolumeView::bytes() const
@@ -147,7 +226,7 @@ uint64_t VolumeView::bytes() const
         sum += buffer.bytes();
     for (const GlTexture& texture : textures_)
         sum += texture.name() != 0 ? texture.bytes() : 0;
-    return sum;
+    return sum + (lumpTile_.name() != 0 ? lumpTile_.bytes() : 0);
 }
 
 } // namespace fx::render

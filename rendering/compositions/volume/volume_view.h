@@ -6,7 +6,9 @@
 #include "rendering/field/field_fill_pass.h"
 #include "rendering/field/field_light_pass.h"
 #include "rendering/field/field_plan.h"
+#include "rendering/field/field_slices_pass.h"
 #include "rendering/field/field_source.h"
+#include "rendering/field/lump_tile_pass.h"
 #include "rendering/gl/gl_buffer.h"
 #include "rendering/gl/gl_texture.h"
 
@@ -44,19 +46,30 @@ private:
         Balls,
         Tiles,
         TileFields,
+        Details, ///< none where no field has detail, as the next
+        Materials,
+        Stacks, ///< of the lights
         Lists
     };
 
     std::array<std::span<const std::byte>, Lists> lists() const;
     base::Status makeRoom(bool layers);
-    base::Status makeTextures(size_t count);
+    bool isUsed(size_t texture, bool layers) const;
+    base::Status makeTexture(size_t i);
+    base::Status makeLumpTile();
     void release();
-    void importAll(FrameGraph& graph);
+    void importAll(FrameGraph& graph, bool layers);
     void upload(FrameGraph& graph);
 
     GlDevice& device_;
     FieldPlan plan_;
     FieldSource source_;
+    std::pmr::vector<FieldDetailBlock> details_;
+    std::span<const std::byte> stacks_;       ///< SliceStackBlocks of the frame
+    uint64_t corrected_ = 0;                  ///< filling of the light slices that has the detail
+    std::span<const BlobMaterial> materials_; ///< of the frame
+    GlTexture lumpTile_;                      ///< nothing before detail is seen
+    bool hasLumps_ = false;                   ///< it is filled
     std::array<GlBuffer, Lists> buffers_; ///< last, so that what is in them is still there in the next frame
     std::array<ResourceId, Lists> ids_;   ///< of the frame
     std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< likewise
