@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <numeric>
 
 namespace fx::render {
@@ -88,11 +89,26 @@ void FrameBuilder::shade(const GatheredBlob& blob, const ImpostorPlan& plan, flo
 
 void FrameBuilder::addEffect(const BlobRun& run, size_t begin)
 {
-    BlobEffect effect{uint32_t(begin), uint32_t(shaded_.size()), shaded_[begin].centerRadius,
-                      shaded_[begin].centerRadius, run.detail};
-    for (size_t i = run.mediumBegin; i < run.mediumEnd; ++i) {
-        effect.low = glm::min(effect.low, casters_[i].center - casters_[i].radius);
-        effect.high = glm::max(effect.high, casters_[i].center + casters_[i].radius);
+    BlobEffect effect{uint32_t(begin),
+                      uint32_t(shaded_.size()),
+                      shaded_[begin].centerRadius,
+                      shaded_[begin].centerRadius,
+                      shaded_[begin].centerRadius.w,
+                      run.detail};
+    const auto casters = std::span(casters_).subspan(run.mediumBegin, run.mediumEnd - run.mediumBegin);
+    radii_.clear();
+    float left = 0.0f;
+    for (const MediumCaster& caster : casters) {
+        effect.low = glm::min(effect.low, caster.center - caster.radius);
+        effect.high = glm::max(effect.high, caster.center + caster.radius);
+        radii_.push_back({caster.radius, caster.crossSection});
+        left += 0.25f * caster.crossSection;
+    }
+    std::ranges::sort(radii_);
+    for (const auto& [radius, crossSection] : radii_) {
+        effect.radius = radius;
+        if ((left -= crossSection) <= 0.0f)
+            break;
     }
     effects_.push_back(effect);
 }

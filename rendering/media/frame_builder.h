@@ -11,6 +11,7 @@
 
 #include <memory_resource>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace fx::render {
@@ -72,6 +73,7 @@ private:
     FieldGather fields_;
     std::pmr::vector<BlobMaterial> materials_;
     std::pmr::vector<BlobEffect> effects_;
+    std::pmr::vector<std::pair<float, float>> radii_; ///< scratch: radius and cross section
     std::pmr::vector<BlobInstance> sorted_;
     std::pmr::vector<float> distances_;
     DepthSort depthSort_;

@@ -34,6 +34,7 @@ struct BlobEffect
 {
     uint32_t begin, end; ///< in the list
     glm::vec3 low, high; ///< [m] box around all of its balls, seen or not, relative to the eye, world axes
+    float radius;        ///< [m] of its balls, seen or not: smaller ones have a quarter of the cross section
     int detail = -1;     ///< number of the detail of their field; -1: none
 };
 

@@ -8,11 +8,9 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {{"field upload", "volume"},
-                                {"lump tile", "volume"},
-                                {"field slices", "volume"},
-                                {"field fill", "volume"},
-                                {"field light", "volume"}};
+constexpr TimedPass kTimed[] = {{"loose blob upload", "volume"}, {"field upload", "volume"},
+                                {"lump tile", "volume"},         {"field slices", "volume"},
+                                {"field fill", "volume"},        {"field light", "volume"}};
 
 std::span<const ProgramDesc* const> programs()
 {

@@ -1,6 +1,9 @@
 #include "rendering/compositions/volume/volume_view.h"
 
 #include "rendering/lights/slices/light_list.h"
+#include "rendering/passes/blob_light_pass.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -37,7 +40,8 @@ FieldDetailBlock blockOf(const GroupDetail& detail)
 } // namespace
 
 VolumeView::VolumeView(const TechniqueSetup& setup)
-    : device_(*setup.device), plan_(setup.memory), details_(setup.memory)
+    : device_(*setup.device), plan_(setup.memory), details_(setup.memory), looseSort_(setup.memory),
+      looseDistances_(setup.memory), looseBlobs_(setup.memory)
 {}
 
 base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
@@ -51,12 +55,43 @@ base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
         details_.push_back(blockOf(detail));
     materials_ = details_.empty() ? std::span<const BlobMaterial>() : io.materials;
     plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0});
-    if (plan_.isEmpty())
-        return {};
-    source_.placeShells(plan_.nearest(), plan_.farthest());
-    source_.tileCount = uint32_t(plan_.tiles().size());
-    io.streams->push_back(source_.stream());
+    sortLoose(in, io.blobs);
+    if (!looseBlobs_.empty())
+        io.streams->push_back(looseStream());
+    if (!plan_.isEmpty()) {
+        source_.placeShells(plan_.nearest(), plan_.farthest());
+        source_.tileCount = uint32_t(plan_.tiles().size());
+        io.streams->push_back(source_.stream());
+    }
     return makeRoom(in.settings->layerOutputs);
+}
+
+void VolumeView::sortLoose(const GatherInputs& in, std::span<const BlobInstance> blobs)
+{
+    looseDistances_.clear();
+    bool anyDetail = false;
+    for (const uint32_t number : plan_.loose()) {
+        const glm::vec3 center(blobs[number].centerRadius);
+        looseDistances_.push_back(in.camera->orthographic ? glm::dot(center, in.camera->forward)
+                                                          : glm::length(center));
+        anyDetail = anyDetail || blobs[number].medium.z > 0.0f;
+    }
+    looseOrder_ = looseSort_.farthestFirst(looseDistances_);
+    looseBlobs_.clear();
+    for (const uint32_t index : looseOrder_)
+        looseBlobs_.push_back(blobs[plan_.loose()[index]]);
+    looseSource_.form = in.settings->form;
+    looseSource_.detail = in.settings->detail && anyDetail;
+}
+
+DrawStream VolumeView::looseStream() const
+{
+    DrawStream stream;
+    stream.count = uint32_t(looseOrder_.size());
+    stream.distances = looseDistances_.data();
+    stream.order = looseOrder_.data();
+    stream.source = &looseSource_;
+    return stream;
 }
 
 std::array<std::span<const std::byte>, VolumeView::Lists> VolumeView::lists() const
@@ -75,10 +110,15 @@ base::Status VolumeView::makeRoom(bool layers)
                 render::makeRoom(device_, buffers_[i], wanted[i].size(), kListNames[i].data());
             !status)
             return status;
-    for (size_t i = 0; i < textures_.size(); ++i)
-        if (base::Status status = isUsed(i, layers) ? makeTexture(i) : base::Status(); !status)
-            return status;
-    return details_.empty() ? base::Status() : makeLumpTile();
+    const size_t loose = looseBlobs_.size();
+    base::Status status =
+        render::makeRoom(device_, looseBuffer_, loose * sizeof(BlobInstance), "loose blobs");
+    if (status)
+        status = render::makeRoom(device_, looseLights_, loose * kBlobLightBytes, "loose blob lights");
+    for (size_t i = 0; status && i < textures_.size(); ++i)
+        if (isUsed(i, layers))
+            status = makeTexture(i);
+    return status && !details_.empty() ? makeLumpTile() : status;
 }
 
 /// Whether a texture is needed.
@@ -160,11 +200,40 @@ void VolumeView::upload(FrameGraph& graph)
     });
 }
 
-/// The textures hold the light of a frame that was kept; the host's shadow map may have changed under it.
 void VolumeView::addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame)
 {
-    if (stage != PassStage::Upload || plan_.isEmpty())
+    if (stage != PassStage::Upload)
         return;
+    if (!looseBlobs_.empty())
+        addLoose(graph, frame);
+    if (!plan_.isEmpty())
+        addFields(graph, frame);
+}
+
+void VolumeView::addLoose(FrameGraph& graph, const PassFrame& frame)
+{
+    const std::span<const BlobInstance> blobs = looseBlobs_;
+    looseSource_.blobs =
+        graph.importBuffer({"loose blobs", std::bit_ceil(blobs.size_bytes())}, looseBuffer_.name());
+    looseSource_.blobLights = graph.importBuffer(
+        {"loose blob lights", std::bit_ceil(blobs.size() * kBlobLightBytes)}, looseLights_.name());
+    if (!isKept_)
+        graph.addPass("loose blob upload", [&](FrameGraph::Builder& builder) {
+            looseSource_.blobs = builder.write(looseSource_.blobs);
+            return [buffer = looseSource_.blobs, blobs](Backend& backend) {
+                backend.upload(buffer, std::as_bytes(blobs));
+            };
+        });
+    if (!isKept_ || frame.lights.hostShadow.valid())
+        looseSource_.blobLights =
+            BlobLightPass::addTo(graph, {looseSource_.blobs, looseSource_.blobLights, frame.lights,
+                                         &frame.view, uint32_t(blobs.size())})
+                .blobLights;
+}
+
+/// The textures hold the light of a frame that was kept; the host's shadow map may have changed under it.
+void VolumeView::addFields(FrameGraph& graph, PassFrame& frame)
+{
     stacks_ = details_.empty() ? std::span<const std::byte>() : frame.lights.stacks;
     if (base::Status status =
             render::makeRoom(device_, buffers_[Stacks], stacks_.size(), "field light stacks");
@@ -198,9 +267,16 @@ void VolumeView::addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame)
     source_.details = ids_[Details];
 }
 
+/// What the frame was to write once is not there.
+void VolumeView::forget()
+{
+    hasLumps_ = false;
+    corrected_ = 0;
+}
+
 void VolumeView::endFrame(bool)
 {
-    unused_ = plan_.isEmpty() ? unused_ + 1 : 0;
+    unused_ = plan_.isEmpty() && looseBlobs_.empty() ? unused_ + 1 : 0;
     if (unused_ == kIdleFrames)
         release();
 }
@@ -208,6 +284,7 @@ void VolumeView::endFrame(bool)
 void VolumeView::rest()
 {
     plan_.clear();
+    looseBlobs_.clear();
     if (++unused_ == kIdleFrames)
         release();
 }
@@ -215,13 +292,15 @@ void VolumeView::rest()
 void VolumeView::release()
 {
     buffers_ = {};
+    looseBuffer_ = {};
+    looseLights_ = {};
     textures_ = {};
     lumpTile_ = {};
 }
 
 uint64_t VolumeView::bytes() const
 {
-    uint64_t sum = 0;
+    uint64_t sum = looseBuffer_.bytes() + looseLights_.bytes();
     for (const GlBuffer& buffer : buffers_)
         sum += buffer.bytes();
     for (const GlTexture& texture : textures_)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rendering/compositions/media_composition.h"
+#include "rendering/draw_order/depth_sort.h"
 #include "rendering/field/field_fill_pass.h"
 #include "rendering/field/field_light_pass.h"
 #include "rendering/field/field_plan.h"
@@ -11,6 +12,7 @@
 #include "rendering/field/lump_tile_pass.h"
 #include "rendering/gl/gl_buffer.h"
 #include "rendering/gl/gl_texture.h"
+#include "rendering/passes/blob_source.h"
 
 #include <array>
 
@@ -32,6 +34,7 @@ public:
     {
         return under;
     }
+    void forget() override;
     void endFrame(bool succeeded) override;
     void rest() override;
     uint64_t bytes() const override;
@@ -53,6 +56,8 @@ private:
     };
 
     std::array<std::span<const std::byte>, Lists> lists() const;
+    void sortLoose(const GatherInputs& in, std::span<const BlobInstance> blobs);
+    DrawStream looseStream() const;
     base::Status makeRoom(bool layers);
     bool isUsed(size_t texture, bool layers) const;
     base::Status makeTexture(size_t i);
@@ -60,6 +65,8 @@ private:
     void release();
     void importAll(FrameGraph& graph, bool layers);
     void upload(FrameGraph& graph);
+    void addFields(FrameGraph& graph, PassFrame& frame);
+    void addLoose(FrameGraph& graph, const PassFrame& frame);
 
     GlDevice& device_;
     FieldPlan plan_;
@@ -70,6 +77,12 @@ private:
     std::span<const BlobMaterial> materials_; ///< of the frame
     GlTexture lumpTile_;                      ///< nothing before detail is seen
     bool hasLumps_ = false;                   ///< it is filled
+    BlobSource looseSource_;                  ///< of balls that are too small for voxels
+    DepthSort looseSort_;
+    std::pmr::vector<float> looseDistances_;
+    std::pmr::vector<BlobInstance> looseBlobs_; ///< farthest first
+    std::span<const uint32_t> looseOrder_;
+    GlBuffer looseBuffer_, looseLights_;
     std::array<GlBuffer, Lists> buffers_; ///< last, so that what is in them is still there in the next frame
     std::array<ResourceId, Lists> ids_;   ///< of the frame
     std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< likewise

@@ -12,6 +12,25 @@ namespace fx::test {
 
 using namespace render;
 
+namespace {
+
+/// Smaller balls have a quarter of the cross section.
+float quarterRadius(std::span<const BlobInstance> balls)
+{
+    std::vector<std::pair<float, float>> radii;
+    float left = 0.0f, radius = 0.0f;
+    for (const BlobInstance& ball : balls) {
+        radii.push_back({ball.centerRadius.w, ball.medium.x});
+        left += 0.25f * ball.medium.x;
+    }
+    std::ranges::sort(radii);
+    for (size_t i = 0; i < radii.size() && left > 0.0f; left -= radii[i++].second)
+        radius = radii[i].first;
+    return radius;
+}
+
+} // namespace
+
 FieldScene::FieldScene(const std::vector<FieldBall>& world, const CameraView& view)
     : camera(cameraGeometry(view))
 {
@@ -30,12 +49,14 @@ FieldScene::FieldScene(const std::vector<FieldBall>& world, const CameraView& vi
         const float most = std::numeric_limits<float>::max();
         const uint32_t count = uint32_t(balls.size());
         while (effects.size() <= ball.effect)
-            effects.push_back({count - 1, count - 1, glm::vec3(most), glm::vec3(-most)});
+            effects.push_back({count - 1, count - 1, glm::vec3(most), glm::vec3(-most), 0.0f});
         effects[ball.effect].end = count;
         BlobEffect& effect = effects[ball.effect];
         effect.low = glm::min(effect.low, center - ball.radius);
         effect.high = glm::max(effect.high, center + ball.radius);
     }
+    for (BlobEffect& effect : effects)
+        effect.radius = quarterRadius(std::span(balls).subspan(effect.begin, effect.end - effect.begin));
 }
 
 FieldPlanInputs FieldScene::inputs(int width, int height, int resolution) const

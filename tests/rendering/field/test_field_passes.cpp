@@ -1,6 +1,9 @@
 // Balls summed into voxels on the GPU against sums in double, and rays through the voxels against closed
 // forms.
+#include "benchmarks/scenes/cards.h"
 #include "rendering/frame/view_block.h"
+#include "rendering/reference/integral/reference_integral.h"
+#include "rendering/stage/stage_camera.h"
 #include "shaders/formulas/formula.h"
 #include "tests/rendering/field/field_fixture.h"
 
@@ -290,4 +293,77 @@ TEST_F(FieldTest, layersCoverAsMuchAsTheLightDoes)
     const std::vector<float> depth = march(view, {.layers = true}, MediaPass::OpticalDepth);
     for (size_t i = 0; i < depth.size(); ++i)
         ASSERT_NEAR(std::exp(-double(depth[i])), 1.0 - double(plain[4 * i + 3]), 2e-4) << i;
+}
+
+namespace {
+
+/// The scene of the curves of `fx accuracy billboards`: parallel rays along z over 2.4 m x 1.6 m, on the
+/// right half up to a ground that rises through the balls.
+struct CardScene
+{
+    std::vector<FieldBall> balls;
+    std::vector<float> walls;
+    std::vector<std::array<double, 3>> exact;
+
+    explicit CardScene(uint32_t count)
+    {
+        for (const cli::Card& card : cli::overlappingCards(count)) {
+            FieldBall ball;
+            ball.center = {-card.x, card.y, card.z}; // the camera looks along z, so that its right is -x
+            ball.radius = card.radius;
+            ball.crossSection = card.crossSection;
+            ball.emission = {card.emission[0], card.emission[1], card.emission[2]};
+            balls.push_back(ball);
+        }
+        for (int y = 0; y < kFieldHeight; ++y)
+            for (int x = 0; x < kFieldWidth; ++x)
+                addPixel((x + 0.5 - 0.5 * kFieldWidth) * 2.4 / kFieldWidth,
+                         (y + 0.5 - 0.5 * kFieldHeight) * 2.4 / kFieldWidth);
+    }
+
+private:
+    void addPixel(double px, double py)
+    {
+        walls.push_back(px < 0.0 ? std::numeric_limits<float>::infinity() : float(2.0 + 0.8 * py));
+        std::vector<RayBlob<double>> met;
+        for (const FieldBall& ball : balls) {
+            const double dx = ball.center.x + px, dy = ball.center.y - py, r = double(ball.radius);
+            const double chord2 = r * r - dx * dx - dy * dy;
+            if (chord2 > 0.0)
+                met.push_back({ball.center.z,
+                               chord2,
+                               r,
+                               double(ball.crossSection) * 1.04445431404056 / (r * r * r),
+                               {double(ball.emission.x), double(ball.emission.y), double(ball.emission.z)},
+                               uint32_t(met.size())});
+        }
+        const auto exponential = [](double x) { return std::exp(x); };
+        ReferenceIntegral<double, decltype(exponential)> integral(
+            met, {0.0, double(walls.back()), {}}, 2, false, 1e-9, [](double x) { return std::sqrt(x); },
+            exponential);
+        exact.push_back(integral.light());
+    }
+};
+
+} // namespace
+
+TEST_F(FieldTest, ballsThatOverlapAreTheIntegralThroughTheirSum)
+{
+    const CardScene scene(270);
+    const CameraView view = orthographicView({{0, 0, 0}, {0, 0, 1}}, 1.6f, 1.5f, 0.0f, 10.0f);
+    double brightest = 0.0;
+    for (const auto& light : scene.exact)
+        brightest = std::max({brightest, light[0], light[1], light[2]});
+    Window window;
+    window.walls = scene.walls;
+    for (const auto& [resolution, bound] : {std::pair(64, 0.08), {128, 0.06}}) {
+        const std::vector<float> drawn = picture(scene.balls, view, resolution, window);
+        std::vector<double> errors; // over max(channel, 5 % of the brightest)
+        for (size_t i = 0; i < scene.exact.size(); ++i)
+            for (size_t c = 0; c < 3; ++c)
+                errors.push_back(std::abs(double(drawn[4 * i + c]) - scene.exact[i][c]) /
+                                 std::max(scene.exact[i][c], 0.05 * brightest));
+        std::sort(errors.begin(), errors.end());
+        EXPECT_LE(errors[errors.size() * 99 / 100], bound) << resolution;
+    }
 }
