@@ -2,6 +2,7 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/gpu_particles.h"
+#include "foundation/snapshot/material_kind.h"
 #include "fxsdk/presets/emitters/emitter_technique.h"
 #include "fxsdk/presets/fragments/fragments_technique.h"
 #if FXSDK_WITH_SPH
@@ -41,6 +42,7 @@ constexpr Technique kTechniques[] = {
     kGasTechnique,
 #endif
     {.name = "spherical billboards", .kind = &base::kBlobKind, .passes = kMediaPasses},
+    {.name = "detail of fields", .kind = &base::kMaterialKind},
     {.name = "sprites and meshes", .kind = &base::kParticleKind, .passes = kParticlePasses},
     {.name = "particles on the GPU", .kind = &base::kGpuParticleKind, .passes = kGpuPasses},
     {.name = "ribbons", .kind = &base::kRibbonKind, .passes = kMediaPasses},

@@ -18,6 +18,13 @@ PAGE = ROOT / "docs/howto/particles.md"
 TABLE = re.compile(r"<!-- members: (\S+) -->\n(.*?)<!-- end -->", re.S)
 
 
+def with_parts(schema):
+    """Objects that several techniques share stand in files of their own."""
+    if "x-part" in schema:
+        return json.loads((EFFECT.parent / schema["x-part"]).read_text())
+    return {name: with_parts(value) if isinstance(value, dict) else value for name, value in schema.items()}
+
+
 def members_of(schema):
     return schema.get("items", schema).get("properties")
 
@@ -60,7 +67,7 @@ def table(members):
 
 
 def main(arguments):
-    tables = {path: table(members) for path, members in objects(json.loads(SCHEMA.read_text()))}
+    tables = {path: table(members) for path, members in objects(with_parts(json.loads(SCHEMA.read_text())))}
     tables["effect"] = table(json.loads(EFFECT.read_text())["properties"])
     page = PAGE.read_text()
     faults = [f"{PAGE.name}: no table of {path}" for path in tables if f"<!-- members: {path} -->" not in page]

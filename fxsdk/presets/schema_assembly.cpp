@@ -79,11 +79,13 @@ Schema expandKind(const std::string& kind, const Schema& number)
     return tripleOf(number); // color, vector
 }
 
-/// Replaces the kinds in `schema` and everything below it.
+/// Replaces the kinds and the parts that techniques share in `schema` and everything below it.
 void expand(Schema& schema)
 {
     if (!schema.is_structured())
         return;
+    if (schema.is_object() && schema.contains("x-part"))
+        schema = textNamed(schema["x-part"].get<std::string>());
     for (Schema& part : schema)
         expand(part);
     if (!schema.is_object() || !schema.contains("x-kind"))

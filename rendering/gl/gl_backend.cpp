@@ -269,7 +269,8 @@ void GlBackend::dispatch(const DispatchCall& call)
         const uint32_t name = nameOrFail(binding.texture, true, "bound as image");
         if (!name || !inRange(binding.unit, kImageUnits, "image unit"))
             return;
-        device_.gl.BindImageTexture(binding.unit, name, 0, GL_FALSE, 0, GL_READ_WRITE,
+        // layered: all of a texture of three dimensions; others have one layer
+        device_.gl.BindImageTexture(binding.unit, name, 0, GL_TRUE, 0, GL_READ_WRITE,
                                     glInternalFormat(graph_->resource(binding.texture).format));
     }
     if (hasDrawn_ && writesAny(call.buffers)) // what earlier draws read must not change under them

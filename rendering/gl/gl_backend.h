@@ -41,7 +41,7 @@ class GlBackend final : public Backend
 {
 public:
     static constexpr uint32_t kTextureUnits = 8;    ///< units 0..7
-    static constexpr uint32_t kImageUnits = 4;      ///< units 0..3
+    static constexpr uint32_t kImageUnits = 5;      ///< units 0..4
     static constexpr uint32_t kStorageBindings = 8; ///< bindings 0..7
     static constexpr uint32_t kUniformBindings = 2; ///< bindings 0 (of the call itself) and 1
     static constexpr uint32_t kColorTargets = 8;    ///< what every OpenGL 4.5 offers

@@ -76,6 +76,7 @@ base::Status GlDevice::readLimits()
                                                ", " + limits_.versionText + ")"};
     }
     limits_.textureSize = integer(GL_MAX_TEXTURE_SIZE);
+    limits_.volumeSize = integer(GL_MAX_3D_TEXTURE_SIZE);
     limits_.uniformAlignment = integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
     limits_.uniformBlockBytes = integer(GL_MAX_UNIFORM_BLOCK_SIZE);
     limits_.storageAlignment = integer(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);

@@ -27,6 +27,7 @@ struct GlLimits
 {
     int version = 0;           ///< 10 major + minor
     int textureSize = 0;       ///< [pixel] largest width and height
+    int volumeSize = 0;        ///< [pixel] largest side of a texture of three dimensions
     int uniformAlignment = 0;  ///< [byte] of offsets into uniform buffers
     int uniformBlockBytes = 0; ///< [byte] largest uniform block
     int storageAlignment = 0;  ///< [byte] of offsets into storage buffers

@@ -28,6 +28,7 @@ GlSampler createSampler(GlDevice& device, Sampling sampling)
     device.gl.SamplerParameteri(name, GL_TEXTURE_MAG_FILTER, filter);
     device.gl.SamplerParameteri(name, GL_TEXTURE_WRAP_S, wrap);
     device.gl.SamplerParameteri(name, GL_TEXTURE_WRAP_T, wrap);
+    device.gl.SamplerParameteri(name, GL_TEXTURE_WRAP_R, wrap);
     return {device, name};
 }
 

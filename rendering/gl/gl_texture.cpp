@@ -2,6 +2,7 @@
 
 #include "rendering/gl/gl_device.h"
 
+#include <algorithm>
 #include <string>
 
 namespace fx::render {
@@ -61,24 +62,55 @@ base::Result<GlTexture> GlTexture::create(GlDevice& device, int width, int heigh
         return base::Status(base::Code::InvalidArgument,
                             what + ": sides must be from 1 to " + std::to_string(largest));
 
-    GlFunctions& gl = device.gl;
     (void)device.takeError(label); // what is pending is not ours
     GlTexture texture;
-    texture.device_ = &device;
-    gl.CreateTextures(GL_TEXTURE_2D, 1, &texture.name_);
-    gl.TextureStorage2D(texture.name_, 1, internalFormat, width, height);
-    if (base::Status status = device.takeError(what); !status)
-        return status;
-    gl.TextureParameteri(texture.name_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TextureParameteri(texture.name_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl.TextureParameteri(texture.name_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TextureParameteri(texture.name_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    gl.ObjectLabel(GL_TEXTURE, texture.name_, -1, label);
     texture.width_ = width;
     texture.height_ = height;
     texture.internalFormat_ = internalFormat;
-    device.countTextureBytes(static_cast<int64_t>(texture.bytes()));
+    device.gl.CreateTextures(GL_TEXTURE_2D, 1, &texture.name_);
+    device.gl.TextureStorage2D(texture.name_, 1, internalFormat, width, height);
+    if (base::Status status = texture.finish(device, what, label); !status)
+        return status;
     return texture;
+}
+
+base::Result<GlTexture> GlTexture::createVolume(GlDevice& device, int width, int height, int depth,
+                                                GLenum internalFormat, const char* label)
+{
+    const int largest = device.limits().volumeSize;
+    const std::string what = "texture '" + std::string(label) + "' of " + std::to_string(width) + "x" +
+                             std::to_string(height) + "x" + std::to_string(depth) + " texels";
+    if (std::min({width, height, depth}) < 1 || std::max({width, height, depth}) > largest)
+        return base::Status(base::Code::InvalidArgument,
+                            what + ": sides must be from 1 to " + std::to_string(largest));
+    (void)device.takeError(label); // what is pending is not ours
+    GlTexture texture;
+    texture.width_ = width;
+    texture.height_ = height;
+    texture.depth_ = depth;
+    texture.internalFormat_ = internalFormat;
+    device.gl.CreateTextures(GL_TEXTURE_3D, 1, &texture.name_);
+    device.gl.TextureStorage3D(texture.name_, 1, internalFormat, width, height, depth);
+    if (base::Status status = texture.finish(device, what, label); !status)
+        return status;
+    return texture;
+}
+
+/// What all of them share, once they have storage.
+base::Status GlTexture::finish(GlDevice& device, const std::string& what, const char* label)
+{
+    GlFunctions& gl = device.gl;
+    base::Status status = device.takeError(what);
+    device_ = &device;
+    device.countTextureBytes(static_cast<int64_t>(bytes()));
+    if (!status)
+        return status;
+    gl.TextureParameteri(name_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TextureParameteri(name_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        gl.TextureParameteri(name_, wrap, GL_CLAMP_TO_EDGE);
+    gl.ObjectLabel(GL_TEXTURE, name_, -1, label);
+    return {};
 }
 
 GlTexture::~GlTexture()
@@ -95,13 +127,15 @@ GlTexture& GlTexture::operator=(GlTexture&& other) noexcept
     std::swap(name_, other.name_);
     std::swap(width_, other.width_);
     std::swap(height_, other.height_);
+    std::swap(depth_, other.depth_);
     std::swap(internalFormat_, other.internalFormat_);
     return *this;
 }
 
 uint64_t GlTexture::bytes() const
 {
-    return static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_) * texelBytes(internalFormat_);
+    return static_cast<uint64_t>(width_) * static_cast<uint64_t>(height_) * static_cast<uint64_t>(depth_) *
+           texelBytes(internalFormat_);
 }
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file gl_texture.h
-/// A two-dimensional texture without mipmaps, in immutable storage.
+/// A texture of two or three dimensions without mipmaps, in immutable storage.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -8,6 +8,7 @@
 #include <GL/glcorearb.h>
 
 #include <cstdint>
+#include <string>
 #include <utility>
 
 namespace fx::render {
@@ -25,6 +26,11 @@ public:
     static base::Result<GlTexture> create(GlDevice& device, int width, int height, GLenum internalFormat,
                                           const char* label);
 
+    /// The same with three dimensions.
+    /// @return InvalidArgument when a side is not in [1, limits().volumeSize], OutOfMemory
+    static base::Result<GlTexture> createVolume(GlDevice& device, int width, int height, int depth,
+                                                GLenum internalFormat, const char* label);
+
     GlTexture() = default;
     ~GlTexture();
     GlTexture(GlTexture&& other) noexcept { *this = std::move(other); }
@@ -33,14 +39,18 @@ public:
     uint32_t name() const { return name_; }
     int width() const { return width_; }   ///< [pixel]
     int height() const { return height_; } ///< [pixel]
+    int depth() const { return depth_; }   ///< [pixel] 1 with two dimensions
     GLenum internalFormat() const { return internalFormat_; }
     uint64_t bytes() const; ///< [byte] of its texels, 0 when it holds nothing
 
 private:
+    base::Status finish(GlDevice& device, const std::string& what, const char* label);
+
     GlDevice* device_ = nullptr;
     uint32_t name_ = 0;
     int width_ = 0;
     int height_ = 0;
+    int depth_ = 1;
     GLenum internalFormat_ = 0;
 };
 

@@ -285,7 +285,7 @@ constexpr GlTouchedState kTable[] = {
     {"GL_TEXTURE_BINDING_2D (units 0 to 7)", GL_TEXTURE_BINDING_2D, 8, saveUnit, restoreTexture},
     {"GL_TEXTURE_BINDING_2D_ARRAY (units 0 to 7)", GL_TEXTURE_BINDING_2D_ARRAY, 8, saveUnit, restoreTexture},
     {"GL_SAMPLER_BINDING (units 0 to 7)", GL_SAMPLER_BINDING, 8, saveUnit, restoreSampler},
-    {"GL_IMAGE_BINDING_* (units 0 to 3)", 0, 4, saveImage, restoreImage},
+    {"GL_IMAGE_BINDING_* (units 0 to 4)", 0, 5, saveImage, restoreImage},
     {"GL_UNIFORM_BUFFER_BINDING, _START, _SIZE (bindings 0 and 1)", GL_UNIFORM_BUFFER, 2, saveIndexedBuffer,
      restoreIndexedBuffer},
     {"GL_SHADER_STORAGE_BUFFER_BINDING, _START, _SIZE (bindings 0 to 7)", GL_SHADER_STORAGE_BUFFER, 8,

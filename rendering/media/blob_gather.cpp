@@ -66,6 +66,10 @@ public:
         return hasOld_ || !older_ ? p : p - vector(column::VelocityX) * ((1.0f - t_) * stepSeconds_);
     }
     uint64_t id() const { return newer_.ids()[i_]; }
+    std::array<glm::vec3, 2> carried(const BlobDetail& detail) const
+    {
+        return detail.carried(i_, j_, hasOld_, position());
+    }
 
 private:
     const base::SnapshotGroup& newer_;
@@ -127,7 +131,9 @@ public:
     /// Whether what is beside the view is left out.
     void cullToView(bool isCulled) { isCulled_ = isCulled; }
 
-    void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds)
+    /// @param detail of the group
+    void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds,
+             const BlobDetail& detail)
     {
         const base::Placement place = placementAt(newer, older, t, camera_.eye);
         level_ = lod_ ? lod_->levelOf(newer.info(), place) : LodLevel();
@@ -154,6 +160,8 @@ public:
             if (!(blob.crossSection > 0.0f && blob.radius > 0.0f))
                 continue;
             medium_.push_back({blob.center, blob.radius, blob.crossSection * shadowWeight});
+            if (detail.isGiven())
+                blob.carried = reader.carried(detail);
             const float shownWeight = rank < share_ ? weightOf(rank / share_) : 0.0f; // uniform again
             if (shownWeight == 0.0f)
                 continue;
@@ -281,13 +289,26 @@ ImpostorPlan planImpostor(const base::SnapshotPair& snapshots, size_t first, flo
     return impostors.plan(subject);
 }
 
+/// Neighboring groups without detail are one run.
+void addRun(const BlobRun& run, std::pmr::vector<BlobRun>& ioRuns)
+{
+    const bool goesOn = run.detail < 0 && !ioRuns.empty() && ioRuns.back().instance == run.instance &&
+                        ioRuns.back().detail < 0;
+    if (!goesOn) {
+        ioRuns.push_back(run);
+        return;
+    }
+    ioRuns.back().visibleEnd = run.visibleEnd;
+    ioRuns.back().mediumEnd = run.mediumEnd;
+}
+
 } // namespace
 
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<MediumCaster>& outMedium,
                          std::pmr::vector<InstanceBlobs>& outInstances, float share, LevelOfDetail* lod,
-                         ImpostorField* impostors, bool castsShadows)
+                         ImpostorField* impostors, bool castsShadows, FieldGather* outFields)
 {
     GatherCounts counts;
     if (!snapshots.newer)
@@ -314,11 +335,23 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         const ImpostorPlan& plan = outInstances.back().plan;
         const size_t same = findSameGroup(snapshots.older, newer.name(g), g);
         const base::SnapshotGroup* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
+        const BlobDetail detail = outFields ? BlobDetail(snapshots, g, t) : BlobDetail();
+        const size_t visibleBegin = outVisible.size(), mediumBegin = outMedium.size();
         if (plan.blobShare > 0.0f || plan.isTaken)
-            gather.run(group, older, t, stepSeconds);
+            gather.run(group, older, t, stepSeconds, detail);
         else if (castsShadows)
             gather.runFar(group, older, t, stepSeconds, far);
         outInstances.back().visibleEnd = outVisible.size();
+        if (!outFields)
+            continue;
+        if (detail.isGiven()) {
+            outFields->details.push_back(detail.groupDetail(placementAt(group, older, t, camera.eye)));
+            outFields->details.back().factor =
+                wholeFactor(outFields->details.back(), std::span(outMedium).subspan(mediumBegin));
+        }
+        addRun({outInstances.size() - 1, detail.isGiven() ? int(outFields->details.size()) - 1 : -1,
+                visibleBegin, outVisible.size(), mediumBegin, outMedium.size()},
+               outFields->runs);
     }
     return counts;
 }

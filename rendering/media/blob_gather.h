@@ -8,6 +8,7 @@
 #include "rendering/lights/medium_caster.h"
 #include "rendering/lod/impostor_field.h"
 #include "rendering/lod/level_of_detail.h"
+#include "rendering/media/blob_detail.h"
 
 #include <glm/vec3.hpp>
 
@@ -20,19 +21,21 @@ namespace fx::render {
 /// A blob as seen from the eye, before light.
 struct GatheredBlob
 {
-    glm::vec3 center;   ///< [m] relative to the eye, world axes
-    float radius;       ///< [m] > 0
-    float crossSection; ///< [m2] > 0
-    float temperature;  ///< [K]
-    glm::vec3 albedo;   ///< [1]
-    glm::vec3 emission; ///< [cd/m2] besides the black body
-    float fireShare;    ///< [1]
-    float heat;         ///< [K]
-    float seed;         ///< [0, 1) of procedural detail, from the id
-    float detailAmount; ///< [1]
-    float detailScale;  ///< [1]
-    float anisotropy;   ///< [1]
-    uint32_t layer;     ///< MediaLayer
+    glm::vec3 center;                   ///< [m] relative to the eye, world axes
+    float radius;                       ///< [m] > 0
+    float crossSection;                 ///< [m2] > 0
+    float temperature;                  ///< [K]
+    glm::vec3 albedo;                   ///< [1]
+    glm::vec3 emission;                 ///< [cd/m2] besides the black body
+    float fireShare;                    ///< [1]
+    float heat;                         ///< [K]
+    float seed;                         ///< [0, 1) of procedural detail, from the id
+    float detailAmount;                 ///< [1]
+    float detailScale;                  ///< [1]
+    float anisotropy;                   ///< [1]
+    uint32_t layer;                     ///< MediaLayer
+    int detail = -1;                    ///< number of its group's detail; -1: it has none
+    std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
 };
 
 /// Blobs of one instance, as a range of those that can be seen.
@@ -41,6 +44,23 @@ struct InstanceBlobs
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
     ImpostorPlan plan; ///< what of it is drawn as a picture
+};
+
+/// Blobs that follow each other in an instance: all of a group with detail, or of neighboring groups without.
+struct BlobRun
+{
+    size_t instance;                 ///< number in the list of instances
+    int detail;                      ///< number of the group's detail; -1: none
+    size_t visibleBegin, visibleEnd; ///< of those that can be seen
+    size_t mediumBegin, mediumEnd;   ///< of all, seen or not
+};
+
+/// What fields of blobs need besides.
+struct FieldGather
+{
+    explicit FieldGather(std::pmr::memory_resource* memory) : details(memory), runs(memory) {}
+    std::pmr::vector<GroupDetail> details;
+    std::pmr::vector<BlobRun> runs;
 };
 
 /// What a gather left out.
@@ -68,11 +88,12 @@ struct GatherCounts
 /// gathered with all that is beside the view.
 /// @param lod thins out groups that are small on the picture, for shadows too; null: none
 /// @param castsShadows whether what is drawn by a picture alone casts a shadow
+/// @param outFields gets the detail of groups, and runs of blobs; null: they are not needed
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<MediumCaster>& outMedium,
                          std::pmr::vector<InstanceBlobs>& outInstances, float share = 1.0f,
                          LevelOfDetail* lod = nullptr, ImpostorField* impostors = nullptr,
-                         bool castsShadows = true);
+                         bool castsShadows = true, FieldGather* outFields = nullptr);
 
 } // namespace fx::render

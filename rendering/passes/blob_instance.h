@@ -2,9 +2,11 @@
 /// A blob as the GPU gets it; shaders/shared/blob_instance.glsl reads this layout.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <cstddef>
+#include <cstdint>
 
 namespace fx::render {
 
@@ -19,5 +21,21 @@ struct BlobInstance
                    ///< or -1 minus those of a ball in a picture, which is lit in its center alone
 };
 static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
+
+/// What a ball carries for the detail of its field.
+struct BlobMaterial
+{
+    glm::vec4 carried[2]; ///< xyz [cell] coordinates of both generations
+};
+static_assert(sizeof(BlobMaterial) == 32);
+
+/// Balls of one instance that stand together in a list.
+struct BlobEffect
+{
+    uint32_t begin, end; ///< in the list
+    glm::vec3 low, high; ///< [m] box around all of its balls, seen or not, relative to the eye, world axes
+    float radius;        ///< [m] of its balls, seen or not: smaller ones have a quarter of the cross section
+    int detail = -1;     ///< number of the detail of their field; -1: none
+};
 
 } // namespace fx::render

@@ -7,6 +7,8 @@
 #include <glm/vec4.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 namespace fx::render {
 
@@ -41,9 +43,12 @@ constexpr uint32_t kHostShadowUnit = 6;    ///< texture unit of the host's shado
 
 struct LightBindings
 {
-    ResourceId lights = {};     ///< buffer with a LightListBlock; invalid: nothing is lit
-    ResourceId planes = {};     ///< RG32F optical depths; invalid: media cast no shadow
-    ResourceId hostShadow = {}; ///< depth; invalid: the host's surfaces cast no shadow on media
+    ResourceId lights = {};                 ///< buffer with a LightListBlock; invalid: nothing is lit
+    ResourceId planes = {};                 ///< RG32F optical depths; invalid: media cast no shadow
+    ResourceId hostShadow = {};             ///< depth; invalid: the host's surfaces cast no shadow on media
+    std::span<const std::byte> stacks = {}; ///< SliceStackBlocks of the planes
+    int mostTexels = 0;                     ///< [texel] side of the largest plane
+    uint64_t filled = 0;                    ///< differs where the planes have been filled anew
 
     void read(FrameGraph::Builder& builder) const
     {

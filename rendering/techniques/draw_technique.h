@@ -20,6 +20,7 @@
 #include "rendering/lights/effect_lights.h"
 #include "rendering/lights/medium_caster.h"
 #include "rendering/lod/level_of_detail.h"
+#include "rendering/media/blob_detail.h"
 #include "rendering/passes/blob_instance.h"
 #include "rendering/passes/light_bindings.h"
 #include "rendering/passes/media_source.h"
@@ -63,6 +64,9 @@ struct GatheredFrame
     std::pmr::vector<MediumCaster>* casters = nullptr; ///< all media that cast shadows, relative to the eye
     FragmentCounts fragments{};                        ///< estimated, of what the media pass draws
     std::span<const BlobInstance> blobs{};             ///< balls of medium
+    std::span<const BlobEffect> effects{};             ///< of those, if they come in the order of instances
+    std::span<const BlobMaterial> materials{};         ///< what those carry for detail, likewise
+    std::span<const GroupDetail> details{};            ///< of effects, likewise
     bool anyHeat = false;                              ///< some of those bend light
 };
 

@@ -41,16 +41,19 @@ FX_FORMULA_SPACE_BEGIN
 // clang-format off: the order is that of use
 #include "shaders/formulas/black_body_contrast.fx.h"
 #include "shaders/formulas/detail_noise.fx.h"
+#include "shaders/formulas/field_detail.fx.h"
 #include "shaders/formulas/heat_stream.fx.h"
 #include "shaders/formulas/henyey_greenstein.fx.h"
 #include "shaders/formulas/kernel_moment.fx.h"
 #include "shaders/formulas/kernel_optical_depth.fx.h"
 #include "shaders/formulas/kernel_quantile.fx.h"
+#include "shaders/formulas/lump_noise.fx.h"
 #include "shaders/formulas/multiple_scattering.fx.h"
 #include "shaders/formulas/sensor_law.fx.h"
 #include "shaders/formulas/slab_light.fx.h"
 #include "shaders/formulas/sphere_path.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
+#include "shaders/formulas/voxel_kernel.fx.h"
 // clang-format on
 } // namespace fx::formula
 #undef FX_REAL
@@ -63,14 +66,17 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/kernel_optical_depth.fx.h"
 #include "shaders/formulas/kernel_moment.fx.h"
 #include "shaders/formulas/kernel_quantile.fx.h"
+#include "shaders/formulas/lump_noise.fx.h"
 #include "shaders/formulas/black_body_contrast.fx.h"
 #include "shaders/formulas/detail_noise.fx.h"
+#include "shaders/formulas/field_detail.fx.h"
 #include "shaders/formulas/heat_stream.fx.h"
 #include "shaders/formulas/henyey_greenstein.fx.h"
 #include "shaders/formulas/multiple_scattering.fx.h"
 #include "shaders/formulas/sensor_law.fx.h"
 #include "shaders/formulas/slab_light.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
+#include "shaders/formulas/voxel_kernel.fx.h"
 // clang-format on
 } // namespace fx::formula64
 #undef FX_REAL

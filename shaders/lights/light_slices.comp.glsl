@@ -1,5 +1,6 @@
 #include "formulas/sphere_path.fx.h"
 #include "formulas/kernel_optical_depth.fx.h"
+#include "lights/slice_stack.glsl"
 
 // Optical depth of all balls of medium between a light and each texel of its planes. One invocation a column of texels;
 // a workgroup has 8 x 8 neighboring columns and first finds the balls that any of them can meet.
@@ -10,46 +11,13 @@ struct MediumCaster
     vec4 centerRadius; // xyz [m] relative to the eye; w radius [m]
     vec4 medium;       // x cross section [m2]
 };
-struct SliceStack
-{
-    vec4 origin; // xyz [m] corner of the first plane, or the light's place; w distance of two planes [m]
-    vec4 right;  // xyz [m] one texel to the right; w 0 flat planes, 1 shells around `origin`
-    vec4 up;     // xyz [m] one texel up; w distance of the first shell from `origin` [m]
-    vec4 along;  // xyz direction in which parallel light goes; w distance from a point up to which media do not count [m]
-    vec4 tiles;  // xy texel of the first plane in the atlas; z texels along a side; w planes
-};
 layout(std430, binding = 0) readonly buffer Casters { MediumCaster casters[]; };
 layout(std430, binding = 1) readonly buffer Stacks { SliceStack stacks[]; };
 layout(rg32f, binding = 0) uniform writeonly image2D slices; // r optical depth up to a plane; g from it to the next
 layout(std140, binding = 0) uniform SliceBlock { ivec4 casterCount; };
 
 const int kMostPlanes = 128;
-const int kTileColumns = 8;
 shared uint met[2]; // one bit a ball of the batch of 64
-
-// Inverse of the octahedral map; places a little outside of [-1, 1]^2 fold back to where the map goes on.
-vec3 octahedralDirection(vec2 p)
-{
-    if (abs(p.x) > 1.0)
-        p = vec2((p.x > 0.0 ? 2.0 : -2.0) - p.x, -p.y);
-    if (abs(p.y) > 1.0)
-        p = vec2(-p.x, (p.y > 0.0 ? 2.0 : -2.0) - p.y);
-    vec3 d = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (d.z < 0.0)
-        d.xy = vec2((1.0 - abs(p.y)) * (p.x >= 0.0 ? 1.0 : -1.0), (1.0 - abs(p.x)) * (p.y >= 0.0 ? 1.0 : -1.0));
-    return normalize(d);
-}
-
-void rayOf(SliceStack stack, vec2 texel, out vec3 start, out vec3 direction)
-{
-    start = stack.origin.xyz;
-    if (stack.right.w < 0.5) {
-        start += texel.x * stack.right.xyz + texel.y * stack.up.xyz;
-        direction = stack.along.xyz;
-    } else {
-        direction = octahedralDirection(2.0 * (texel - 1.0) / (stack.tiles.z - 2.0) - 1.0);
-    }
-}
 
 // Whether a column of the workgroup can meet a ball. `middle` is the ray in the middle of all columns; `reach` the largest
 // distance of another one from it: in metres, or for shells in metres a metre of distance.

@@ -1,6 +1,7 @@
 #include "simulation/emitters/emitter_def.h"
 
 #include "foundation/snapshot/gpu_particles.h"
+#include "foundation/snapshot/material_kind.h"
 #include "foundation/snapshot/particle_kind.h"
 #include "simulation/gpu_programs/gpu_program.h"
 #include "simulation/particles/particle_program.h"
@@ -39,6 +40,8 @@ bool EmitterDef::publishes(const base::KindDesc& kind) const
         return light.given;
     if (kind == base::kGpuParticleKind)
         return gpuObstacle(*this).empty();
+    if (kind == base::kMaterialKind)
+        return hasDetail();
     return isAppearanceOf(appearance.kind, kind);
 }
 

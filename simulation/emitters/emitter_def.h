@@ -2,6 +2,7 @@
 /// The definition of an emitter: its settings as a recipe of solvers.
 #pragma once
 
+#include "simulation/detail/field_detail.h"
 #include "simulation/particles/emitter_settings.h"
 #include "simulation/solver/solver.h"
 
@@ -33,6 +34,7 @@ private:
 struct EmitterDef final : SolverDef, EmitterSettings
 {
     SharedProgram program;
+    FieldDetail detail; ///< of a medium
 
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
@@ -41,6 +43,8 @@ struct EmitterDef final : SolverDef, EmitterSettings
     double workOf(const StepLoad& load) const override;
     bool publishes(const base::KindDesc& kind) const override;
     bool bendsLight() const override { return appearance.kind == AppearanceKind::Medium && heat > 0.0f; }
+    /// Whether its particles carry coordinates for the detail of their field.
+    bool hasDetail() const { return detail.given && appearance.kind == AppearanceKind::Medium; }
     std::shared_ptr<const base::GpuParticleProgram> gpuProgram() const override;
     Influence influence() const override;
     bool collides() const override;
@@ -49,7 +53,7 @@ struct EmitterDef final : SolverDef, EmitterSettings
     CatchUp catchUp() const override
     {
         const bool isAlone = !fed && events.empty() && !inWorld && !(trail.lifetime > 0.0f);
-        return isBallistic() && isAlone ? CatchUp::Analytic : CatchUp::Replay;
+        return isBallistic() && isAlone && !hasDetail() ? CatchUp::Analytic : CatchUp::Replay;
     }
     float reach(float gravity, float wind, float seconds) const override
     {

@@ -34,6 +34,8 @@ void EmitterSolver::passOver(const StepContext& context, base::Ticks tick)
     const BirthWindow past{now_, tick, double(context.parameters->intensity), context.parameters->emitting};
     store_.clear(store_.next() + schedule_.advance(past, {}).total);
     now_ = tick;
+    if (detail_)
+        detail_->begin(store_.next(), now_);
     listenAgain();
 }
 

@@ -2,6 +2,7 @@
 
 #include "foundation/memory/out_of_memory.h"
 #include "foundation/random/philox.h"
+#include "foundation/snapshot/material_kind.h"
 #include "foundation/tasks/parallel_rows.h"
 #include "simulation/emitters/pools/spawn_batch.h"
 #include "simulation/particles/birth_kernel.h"
@@ -52,9 +53,9 @@ bool EmitterDef::collides() const
 std::unique_ptr<Solver> EmitterDef::create(const base::SnapshotSchema& schema, const Quality&,
                                            std::pmr::memory_resource* memory) const
 {
-    const EmitterKinds kinds{schema.find(base::kBlobKind.name), schema.find(base::kParticleKind.name),
-                             schema.find(base::kRibbonKind.name), schema.find(base::kLightKind.name),
-                             schema.find(base::kGpuParticleKind.name)};
+    const EmitterKinds kinds{schema.find(base::kBlobKind.name),        schema.find(base::kParticleKind.name),
+                             schema.find(base::kRibbonKind.name),      schema.find(base::kLightKind.name),
+                             schema.find(base::kGpuParticleKind.name), schema.find(base::kMaterialKind.name)};
     try {
         return std::make_unique<EmitterSolver>(*this, kinds, memory);
     } catch (const std::bad_alloc&) {
@@ -84,6 +85,8 @@ uint64_t EmitterSolver::bytesOf(const EmitterDef& def, const ParticleProgram& pr
         bytes += rows * sizeof(Light);
     if (def.appearance.kind == AppearanceKind::Medium)
         bytes += rows * sizeof(uint32_t);
+    if (def.hasDetail())
+        bytes += MaterialCoordinates::bytesOf(def.maxParticles);
     return bytes;
 }
 
@@ -102,14 +105,16 @@ EmitterSolver::EmitterSolver(const EmitterDef& def, const EmitterKinds& kinds,
     const bool isSmall = store_.capacity() <= kFewRows && !program_.gpu;
     const bool isDrawn =
         def.appearance.kind == AppearanceKind::Sprite || def.appearance.kind == AppearanceKind::Mesh;
-    bornWithMany_ =
-        isSmall && program_.ballistic && !def.inWorld && !isLinked() && !(def.trail.lifetime > 0.0f);
+    bornWithMany_ = isSmall && program_.ballistic && !def.inWorld && !isLinked() &&
+                    !(def.trail.lifetime > 0.0f) && !def.hasDetail();
     publishesWithMany_ = isSmall && isDrawn && !def.inWorld && kinds.particle != base::kNoKind &&
                          !(def.trail.lifetime > 0.0f) && !def.light.given;
     poolable_ = isPoolable();
     if (def.trail.lifetime > 0.0f)
         trails_.emplace(def.trail, store_.capacity(), memory);
     isDivided_ = isLinked() || trails_ || store_.capacity() > kFewRows;
+    if (def.hasDetail())
+        detail_.emplace(def, store_.capacity(), memory);
     if (def.inWorld)
         space_.emplace();
     if (def.light.given)
@@ -128,6 +133,8 @@ void EmitterSolver::begin(const StepContext& context)
     motionBegin_ = 0;
     varied_ = false;
     started_ = true;
+    if (detail_)
+        detail_->begin(0, 0);
     if (gpu_)
         gpu_->clear({context.seed, context.solverIndex}, 0, 0, conditions_.pull);
 }
@@ -221,6 +228,8 @@ void EmitterSolver::openStep(const StepContext& context)
 void EmitterSolver::closeStep(const StepContext& context)
 {
     open_.tick = -1;
+    if (detail_)
+        detail_->follow(appearanceJob(), context);
     if (!context.spawnBatch || !context.spawnBatch->waitsFor(*this))
         endStep(*context.counters);
     offerToGpu(open_.droppedBefore, open_.isWanted);
@@ -384,7 +393,7 @@ bool EmitterSolver::canSeek(const StepContext& context, base::Ticks tick) const
     const bool isForwards = tick >= now_ || !started_;
     if (isForwards && restsThrough(context, tick))
         return true;
-    if (!program_.ballistic || isLinked() || trails_)
+    if (!program_.ballistic || isLinked() || trails_ || detail_) // coordinates are known from steps alone
         return false;
     if (!space_)
         return isForwards || (!varied_ && conditionsOf(context) == conditions_);

@@ -5,6 +5,7 @@
 #include "simulation/emitters/births/birth_schedule.h"
 #include "simulation/emitters/births/moved_space.h"
 #include "simulation/emitters/emitter_def.h"
+#include "simulation/emitters/emitter_detail.h"
 #include "simulation/emitters/events/event_scan.h"
 #include "simulation/emitters/pools/emitter_pools.h"
 #include "simulation/gpu_programs/gpu_emitter.h"
@@ -28,6 +29,7 @@ struct EmitterKinds
     base::KindId ribbon = base::kNoKind;
     base::KindId light = base::kNoKind;
     base::KindId gpuParticle = base::kNoKind;
+    base::KindId material = base::kNoKind;
 };
 
 /// Steps particles that do not feel each other. The set of particles, their birth ticks and their rows depend
@@ -293,6 +295,9 @@ private:
     void collectLiving(PublicationPlace& place, base::WorkBudget& work) const;
     bool publishMedium(const base::GroupInfo& base, base::FrameSnapshot& snapshot, PublicationPlace& place,
                        base::WorkBudget& work) const;
+    bool hasMaterial() const { return detail_ && kinds_.material != base::kNoKind; }
+    void writeMaterial(uint32_t begin, uint32_t end, const base::SnapshotGroup& blobs,
+                       base::SnapshotGroup& material) const;
     void writeMedium(uint32_t solver, uint32_t begin, uint32_t end, class BlobWriter& writer) const;
 
     // What every step and publication of a small emitter reads stands together.
@@ -315,6 +320,7 @@ private:
     std::shared_ptr<const ParticleProgram> shared_;
     EventInterest interest_;
     std::optional<RibbonStore> trails_;
+    std::optional<EmitterDetail> detail_;    ///< of a medium with detail of its field
     std::optional<MovedSpace> space_;        ///< of particles that stay where they are
     std::optional<GpuEmitter> gpu_;          ///< where the GPU could compute the particles
     BirthKey key_{};                         ///< of the last step

@@ -31,6 +31,8 @@ void EmitterSolver::saveState(StateWriter& writer, bool withRows) const
         space_->save(writer);
     if (trails_)
         trails_->save(writer);
+    if (detail_ && withRows)
+        detail_->save(writer, store_, now_);
 }
 
 void EmitterSolver::restore(StateReader& reader)
@@ -54,6 +56,8 @@ void EmitterSolver::restore(StateReader& reader)
         space_->restore(reader);
     if (trails_)
         trails_->restore(reader, store_, now_);
+    if (detail_)
+        detail_->restore(reader, store_, now_);
 }
 
 } // namespace fx::sim

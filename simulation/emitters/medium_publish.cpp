@@ -144,15 +144,32 @@ bool EmitterSolver::publishMedium(const base::GroupInfo& base, base::FrameSnapsh
     if (place.part == kOpen) {
         BlobWriter writer(snapshot, base, kinds_.blob, place.count, store_.capacity());
         writeConstants(def_, writer);
+        if (hasMaterial())
+            detail_->open(now_, kinds_.material, store_.capacity(), snapshot);
         place.row = 0;
         place.part = kWrite;
     }
-    BlobWriter writer(snapshot.editGroup(snapshot.addedCount() - 1), snapshot.secondsBack());
+    const size_t last = snapshot.addedCount() - 1;
+    base::SnapshotGroup& blobs = snapshot.editGroup(hasMaterial() ? last - 1 : last);
+    BlobWriter writer(blobs, snapshot.secondsBack());
     const uint32_t rows = work.affords(emitter_work::kMedium, place.count - place.row);
     writeMedium(base.solver, place.row, place.row + rows, writer);
+    if (hasMaterial())
+        writeMaterial(place.row, place.row + rows, blobs, snapshot.editGroup(last));
     place.row += rows;
     work.spend(uint64_t(emitter_work::kMedium * double(rows)));
     return place.row == place.count;
+}
+
+/// The coordinates of the elements [begin, end), which have been written to `blobs`.
+void EmitterSolver::writeMaterial(uint32_t begin, uint32_t end, const base::SnapshotGroup& blobs,
+                                  base::SnapshotGroup& material) const
+{
+    for (uint32_t i = begin; i < end; ++i) {
+        detail_->write(rowsByBirth_[i], i, material);
+        material.editIds()[i] = blobs.ids()[i];
+    }
+    material.editInfo().bounds = blobs.info().bounds;
 }
 
 /// The elements [begin, end) of the group.

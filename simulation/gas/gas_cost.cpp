@@ -12,7 +12,7 @@ constexpr double kActiveShare = 0.5; ///< [1] of the particles whose rates a sub
 
 uint64_t GasDef::bytes() const
 {
-    return kGasBytes * uint64_t(particles);
+    return kGasBytes * uint64_t(particles) + (detail.given ? MaterialCoordinates::bytesOf(particles) : 0);
 }
 
 /// The first step is the most expensive: the charge is as small and as hot as it will ever be.

@@ -4,7 +4,9 @@
 
 #include "foundation/math/curve.h"
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/material_kind.h"
 #include "simulation/combustion/materials.h"
+#include "simulation/detail/field_detail.h"
 #include "simulation/solver/solver.h"
 
 #include <glm/vec3.hpp>
@@ -50,13 +52,17 @@ struct GasDef final : SolverDef
     float detailAmount = 0.8f;
     float detailScale = 1.5f;
     float anisotropy = 0.3f;
+    FieldDetail detail;
 
     std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                    std::pmr::memory_resource* memory) const override;
     uint32_t capacity() const override { return particles; }
     uint64_t bytes() const override;
     double workOf(const StepLoad& load) const override;
-    bool publishes(const base::KindDesc& kind) const override { return kind == base::kBlobKind; }
+    bool publishes(const base::KindDesc& kind) const override
+    {
+        return kind == base::kBlobKind || (detail.given && kind == base::kMaterialKind);
+    }
     bool bendsLight() const override { return heat > 0.0f; }
     bool collides() const override { return true; }
     CatchUp catchUp() const override { return CatchUp::Authoritative; }

@@ -41,6 +41,8 @@ void GasSolver::publish(const base::GroupInfo& base, base::FrameSnapshot& snapsh
     for (uint32_t id = 0; id < elementCount(); ++id)
         writer.ids()[id] = blobId(base.solver, id);
     writer.closeBounds();
+    if (detail_ && material_ != base::kNoKind)
+        detail_->publish(material_, particles_, snapshot);
 }
 
 void GasSolver::writeMotion(BlobWriter& writer) const

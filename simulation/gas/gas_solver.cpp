@@ -2,6 +2,7 @@
 
 #include "foundation/math/elementary.h"
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/material_kind.h"
 #include "foundation/tasks/parallel_rows.h"
 #include "simulation/gas/gas_exchange.h"
 #include "simulation/gas/gas_release.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fx::sim {
 
@@ -96,18 +98,22 @@ double evenSupport(double radius, uint32_t particles, double neighbors)
 std::unique_ptr<Solver> GasDef::create(const base::SnapshotSchema& schema, const Quality& quality,
                                        std::pmr::memory_resource* memory) const
 {
-    return std::make_unique<GasSolver>(*this, quality, schema.find(base::kBlobKind.name), memory);
+    return std::make_unique<GasSolver>(*this, quality, schema.find(base::kBlobKind.name),
+                                       schema.find(base::kMaterialKind.name), memory);
 }
 
-GasSolver::GasSolver(const GasDef& def, const Quality& quality, base::KindId kind,
+GasSolver::GasSolver(const GasDef& def, const Quality& quality, base::KindId kind, base::KindId material,
                      std::pmr::memory_resource* memory)
-    : def_(def), quality_(quality), kind_(kind),
+    : def_(def), quality_(quality), kind_(kind), material_(material),
       plan_(planCharge(*def.material, def.energy, double(def.pressureRatio))),
       thermodynamics_{plan_.gamma, def.material->gasConstant, AmbientAir{}},
       particles_(particlesOf(def, quality)), gas_(dynamicsOf(def, plan_, quality), memory),
       parcels_(memory, particles_), scratch_(memory, particles_), memory_(memory),
       released_(def.start > 0.0f ? base::toTicks(std::min(double(def.start), 1e9)) : 0)
-{}
+{
+    if (def.detail.given)
+        detail_.emplace(def.detail, def.growth, particles_, memory);
+}
 
 /// Whether the step releases the gas, and what that counts is better spent in the next update.
 bool GasSolver::waitsForRelease(const StepContext& context, const base::WorkBudget& work) const
@@ -161,6 +167,8 @@ bool GasSolver::proceed(const StepContext& context, base::WorkBudget& work)
         open_.left = open_.slice < open_.left ? open_.left - open_.slice : 0.0;
         open_.slice = 0.0;
     }
+    if (detail_)
+        detail_->follow(std::as_const(gas_).view(), open_.seconds, *context.scratch);
     open_ = {};
     retireWhenDissolved();
     return true;
@@ -194,6 +202,8 @@ bool GasSolver::release(const StepContext& context)
     const std::span<glm::vec3> before = ways(context);
     std::fill(before.begin(), before.end(), def_.position); // all ways begin there: none leads through a wall
     settle(context, 0.0f, before);
+    if (detail_)
+        detail_->begin(std::as_const(gas_).view(), *context.scratch);
     context.counters->born += particles_;
     return true;
 }

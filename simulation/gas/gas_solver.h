@@ -4,9 +4,12 @@
 
 #include "simulation/gas/gas_air.h"
 #include "simulation/gas/gas_def.h"
+#include "simulation/gas/gas_detail.h"
 #include "simulation/gas/gas_parcels.h"
 #include "simulation/solver/budgeted_solver.h"
 #include "simulation/sph/dynamics/gas_dynamics.h"
+
+#include <optional>
 
 namespace fx::sim {
 
@@ -32,7 +35,8 @@ class GasSolver final : public Solver, public BudgetedSolver
 public:
     /// @param def outlives the solver
     /// @param kind of the groups it publishes
-    GasSolver(const GasDef& def, const Quality& quality, base::KindId kind,
+    /// @param material kind of those with coordinates for detail
+    GasSolver(const GasDef& def, const Quality& quality, base::KindId kind, base::KindId material,
               std::pmr::memory_resource* memory);
 
     void step(const StepContext& context) override
@@ -88,11 +92,13 @@ private:
     const GasDef& def_;
     Quality quality_;
     base::KindId kind_;
+    base::KindId material_;
     ChargePlan plan_; ///< at the def's energy
     GasThermodynamics thermodynamics_;
     uint32_t particles_;
     GasDynamics<float> gas_;
     GasParcels parcels_;
+    std::optional<GasDetail> detail_;   ///< where the preset gives detail of the field
     base::Column<GasParticle> scratch_; ///< of the release
     std::pmr::memory_resource* memory_;
     base::Column<glm::vec3> ways_; ///< [m] where the way of each parcel began; made when geometry is met

@@ -22,6 +22,8 @@ void GasSolver::save(StateWriter& writer) const
     }
     writer.values(parcels_.vigor.first(particles_));
     writer.values(parcels_.presence.first(particles_));
+    if (detail_)
+        detail_->save(writer, particles_);
 }
 
 void GasSolver::restore(StateReader& reader)
@@ -48,6 +50,8 @@ void GasSolver::restore(StateReader& reader)
     }
     reader.values(parcels_.vigor.first(particles_));
     reader.values(parcels_.presence.first(particles_));
+    if (detail_)
+        detail_->restore(reader, particles_);
 }
 
 } // namespace fx::sim

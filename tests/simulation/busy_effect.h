@@ -7,14 +7,15 @@
 
 namespace fx::test {
 
-/// @param particles of each solver's capacity
-inline std::shared_ptr<sim::EffectDef> busyEffect(uint32_t particles)
+/// @param particles of each solver's capacity  @param detailed media carry coordinates
+inline std::shared_ptr<sim::EffectDef> busyEffect(uint32_t particles, bool detailed = false)
 {
     auto effect = std::make_shared<sim::EffectDef>();
     effect->wind = {1, 0, 0.5f};
     auto gas = std::make_unique<sim::GasDef>();
     gas->particles = particles / 4;
     gas->position = {0, 1, 0};
+    gas->detail.given = detailed;
     effect->solvers.push_back(std::move(gas));
 
     auto sparks = rateEmitter(float(particles), 0.8f);
@@ -22,6 +23,7 @@ inline std::shared_ptr<sim::EffectDef> busyEffect(uint32_t particles)
     sparks->emission.bursts = {{0.0f, particles / 2}, {0.4f, particles / 3}};
     sparks->shape = sim::EmitterShape::Sphere;
     sparks->size = {0.5f, 0, 0};
+    sparks->detail.given = detailed;
     sparks->speed = {1, 12};
     sparks->temperature = {800, 1800};
     sparks->forces = {1.0f, 0.8f, 0.1f, {0, 0, 0}, 2.0f, 1.0f, 0.3f, 0.4f, 0.2f};

@@ -5,6 +5,7 @@
 #include "foundation/memory/host_memory.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/frame_snapshot.h"
+#include "foundation/snapshot/material_kind.h"
 #include "foundation/snapshot/particle_kind.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/world/world.h"
@@ -71,6 +72,7 @@ private:
         base::SnapshotSchema schema;
         schema.add(base::kBlobKind);
         schema.add(base::kParticleKind);
+        schema.add(base::kMaterialKind);
         return schema;
     }
 

@@ -9,12 +9,13 @@ using namespace fx::test;
 namespace {
 
 /// Hash of every tenth state of a second.
-std::vector<uint64_t> history(std::unique_ptr<base::TaskRunner> tasks, uint64_t seed = 1)
+std::vector<uint64_t> history(std::unique_ptr<base::TaskRunner> tasks, uint64_t seed = 1,
+                              bool detailed = false)
 {
     Stage stage(std::move(tasks));
     sim::InstanceStart start;
     start.seed = seed;
-    stage.add(start, busyEffect(1000));
+    stage.add(start, busyEffect(1000, detailed));
     std::vector<uint64_t> hashes;
     for (int i = 0; i < 6; ++i) {
         stage.play(10);
@@ -42,6 +43,15 @@ TEST(Determinism, everyThreadCountGivesTheSameBits)
     const std::vector<uint64_t> want = history(base::makeSerialRunner());
     for (const uint32_t threads : {1u, 2u, 3u, 8u})
         EXPECT_EQ(history(base::makeTbbRunner(threads)), want) << threads;
+}
+
+TEST(Determinism, soDoCoordinatesForDetail)
+{
+    const RealThreads threadsOfAnyMachine(8);
+    const std::vector<uint64_t> want = history(base::makeSerialRunner(), 1, true);
+    EXPECT_NE(want, history(base::makeSerialRunner()));
+    for (const uint32_t threads : {2u, 8u})
+        EXPECT_EQ(history(base::makeTbbRunner(threads), 1, true), want) << threads;
 }
 
 TEST(Determinism, anyWayOfCuttingLoopsGivesTheSameBits)

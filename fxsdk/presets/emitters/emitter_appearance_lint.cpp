@@ -94,7 +94,7 @@ void lintDrawn(const PresetValue& element, const sim::EmitterDef& emitter)
                                       "\"alignment\": \"velocity\"");
     warnOfAll(element,
               {"opticalDepth", "crossSection", "temperatureOverLife", "albedoOverLife", "emissionOverLife",
-               "fireShare", "heat", "detailAmount", "detailScale", "anisotropy", "shutter"},
+               "fireShare", "heat", "detailAmount", "detailScale", "detail", "anisotropy", "shutter"},
               "on the kind \"" + nameOf(appearance, "kind", "") +
                   "\", it is of the kind \"medium\"; take it out");
 }

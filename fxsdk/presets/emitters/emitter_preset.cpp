@@ -3,6 +3,7 @@
 #include "fxsdk/presets/emitters/emitter_events_preset.h"
 #include "fxsdk/presets/emitters/emitter_parts_preset.h"
 #include "fxsdk/presets/emitters/emitter_technique.h"
+#include "fxsdk/presets/field_detail_preset.h"
 
 #include <array>
 #include <limits>
@@ -48,6 +49,7 @@ void readMedium(const PresetValue& element, sim::EmitterDef& emitter)
     element.read("detailScale", emitter.detailScale);
     element.read("anisotropy", emitter.anisotropy);
     element.read("shutter", emitter.shutter);
+    readFieldDetail(element, emitter.detail);
 }
 
 void readCurves(const PresetValue& element, sim::EmitterDef& emitter)

@@ -1,6 +1,7 @@
 #include "fxsdk/presets/gas/gas_technique.h"
 
 #include "embedded/gas_schema.h"
+#include "fxsdk/presets/field_detail_preset.h"
 #include "simulation/combustion/charge_plan.h"
 #include "simulation/gas/gas_def.h"
 
@@ -61,6 +62,7 @@ void readOptics(const PresetValue& element, sim::GasDef& gas)
     element.read("detailAmount", gas.detailAmount);
     element.read("detailScale", gas.detailScale);
     element.read("anisotropy", gas.anisotropy);
+    readFieldDetail(element, gas.detail);
 }
 
 constexpr double kPrewarmShare = 0.1; // [1] of the first step's work in those of a prewarm

@@ -92,6 +92,9 @@ LightBindings ViewLights::addPasses(FrameGraph& graph)
     if (!list_.stacks().empty() && atlas_.name() != 0)
         bindings.planes = graph.importTexture(
             {"light slices", atlas_.width(), atlas_.height(), Format::RG32F}, atlas_.name());
+    bindings.stacks = std::as_bytes(list_.stackBlocks());
+    bindings.mostTexels = list_.mostTexels();
+    bindings.filled = wanted_;
     if (!bindings.planes.valid() || filled_ == wanted_)
         return bindings;
     ResourceId casters, stacks;

@@ -69,8 +69,9 @@ struct Bench
 
 TEST(SolverState, eachSolverContinuesBitForBitFromAnyMoment)
 {
-    const auto effect = busyEffect(200);
-    for (const auto& def : effect->solvers)
+    const auto plain = busyEffect(200), detailed = busyEffect(200, true);
+    for (const auto& def : {plain->solvers[0].get(), plain->solvers[1].get(), detailed->solvers[0].get(),
+                            detailed->solvers[1].get()})
         for (const int before : {0, 1, 24, 25, 60}) {
             Bench original(*def);
             original.play(before);
@@ -102,7 +103,7 @@ TEST(SolverState, aRestoredSolverForgetsWhatItWas)
 
 TEST(SolverState, everyCutIsRefused)
 {
-    const auto effect = busyEffect(80);
+    const auto effect = busyEffect(80, true);
     for (const auto& def : effect->solvers) {
         Bench original(*def), other(*def);
         original.play(5);

@@ -1,0 +1,69 @@
+/// @file material_kind.h
+/// The kind "material": coordinates that balls of medium carry, from which the detail of their summed field
+/// is read, so that it moves with the medium. Vocabulary of the techniques that publish media and of the
+/// passes that draw them as fields; the snapshot container does not include this.
+///
+/// A group of this kind follows the group of the kind "blob" of the same solver, and has the same elements in
+/// the same order. A solver publishes it only where its preset gives detail of the field.
+///
+/// There are two generations of coordinates. The generation of number n has the columns Place0 for even n,
+/// Place1 for odd n. At a point x its coordinate is the mean of growth (x - position) + place over the balls
+/// there, weighted by their extinction; over the generation's length it goes into the noise. Of the two, the
+/// younger has the weight Fade, the older 1 - Fade. Between two snapshots the sum of number and weight
+/// changes linearly; the place of a ball is constant while the generation lives.
+#pragma once
+
+#include "foundation/snapshot/snapshot_schema.h"
+
+namespace fx::base {
+
+/// Columns of the kind, in order.
+namespace material_column {
+enum : size_t
+{
+    Place0X,
+    Place0Y,
+    Place0Z,
+    Place1X,
+    Place1Y,
+    Place1Z,
+    Count
+};
+}
+
+/// Constants of a group, in order.
+namespace material_constant {
+enum : size_t
+{
+    Generation, ///< [1] number of the younger generation modulo kGenerationCycle
+    Fade,       ///< [1] its weight, 0 .. 1
+    Length0,    ///< [m] size of the largest lumps of the generation in the columns Place0
+    Length1,    ///< [m] the same of Place1
+    Growth0,    ///< [1] radii of balls at the birth of that generation over their radii now
+    Growth1,
+    Thinnest, ///< [1] optical depth of a lump up to which the medium is eroded away
+    Densest,  ///< [1] optical depth of a lump from which on none of it is
+    Ramp,     ///< [1] width of the threshold: small is crisp
+    Gain,     ///< [1] amplitude of each octave of the noise over that of the one before
+    Cooling,  ///< [1] share of the temperature that is lost at the surface of lumps
+    Glow,     ///< [1] by how much a lump of unit deviation is hotter
+    Count
+};
+}
+
+constexpr uint32_t kGenerationCycle = 1u << 20; ///< exact in a float
+
+inline constexpr ColumnDesc kMaterialColumns[material_column::Count] = {
+    {"place0X", "m"}, {"place0Y", "m"}, {"place0Z", "m"},
+    {"place1X", "m"}, {"place1Y", "m"}, {"place1Z", "m"},
+};
+
+inline constexpr ColumnDesc kMaterialConstants[material_constant::Count] = {
+    {"generation", "1"}, {"fade", "1"},    {"length0", "m"},  {"length1", "m"},
+    {"growth0", "1"},    {"growth1", "1"}, {"thinnest", "1"}, {"densest", "1"},
+    {"ramp", "1"},       {"gain", "1"},    {"cooling", "1"},  {"glow", "1"},
+};
+
+inline constexpr KindDesc kMaterialKind{"material", kMaterialColumns, kMaterialConstants};
+
+} // namespace fx::base

@@ -1,0 +1,13 @@
+/// @file field_detail_preset.h
+/// The member "detail" of media (schema/field_detail.schema.json), which several techniques have.
+#pragma once
+
+#include "fxsdk/presets/preset_value.h"
+#include "simulation/detail/field_detail.h"
+
+namespace fx::preset {
+
+/// Reads the member "detail" of `element`; without it `out` stays as it is.
+void readFieldDetail(const PresetValue& element, sim::FieldDetail& out);
+
+} // namespace fx::preset

@@ -1,0 +1,47 @@
+#include "rendering/compositions/volume/volume_composition.h"
+
+#include "rendering/compositions/volume/volume_view.h"
+
+#include <array>
+
+namespace fx::render {
+
+namespace {
+
+constexpr TimedPass kTimed[] = {{"loose blob upload", "volume"}, {"field upload", "volume"},
+                                {"lump tile", "volume"},         {"field slices", "volume"},
+                                {"field fill", "volume"},        {"field light", "volume"}};
+
+std::span<const ProgramDesc* const> programs()
+{
+    static const auto all = [] {
+        std::array<const ProgramDesc*, 14> list{&kLumpTileProgram, &kFieldSlicesProgram};
+        size_t end = 2;
+        for (const bool detail : {false, true})
+            for (const bool layers : {false, true})
+                for (const ProgramDesc* program :
+                     {&fieldFillProgram(layers, detail), &fieldLightProgram(layers, detail),
+                      &fieldMarchProgram(layers, detail)})
+                    list[end++] = program;
+        return list;
+    }();
+    return all;
+}
+
+std::unique_ptr<CompositionView> create(const TechniqueSetup& setup)
+{
+    return std::make_unique<VolumeView>(setup);
+}
+
+} // namespace
+
+constexpr MediaComposition kVolumeComposition{
+    .value = Composition::Volume,
+    .meaning = "balls of an effect summed up in voxels, through which rays march; no order of balls is seen",
+    .needsOrder = false,
+    .create = create,
+    .programs = programs,
+    .timedPasses = kTimed,
+};
+
+} // namespace fx::render

@@ -1,0 +1,58 @@
+/// @file field_blocks.h
+/// Voxel fields as the GPU gets them; shaders/field/field_blocks.glsl reads these layouts.
+#pragma once
+
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace fx::render {
+
+constexpr int kBrickCells = 8;                 ///< cells between samples along a side of a brick
+constexpr int kBrickSamples = kBrickCells + 1; ///< those on the faces are in the neighbors as well
+constexpr int kBrickColumns = 16;              ///< bricks of the textures along x and along y
+
+/// A lattice of cubes, divided into bricks.
+struct FieldBlock
+{
+    glm::vec4 corner;  ///< xyz [m] of the first sample relative to the eye; w side of a voxel [m]
+    glm::ivec4 bricks; ///< xyz along each axis; w first entry in the table of bricks
+    glm::vec4 limits;  ///< x least radius of a ball [m]; y no extinction is larger [1/m]; z number of its
+                       ///< detail + 1, 0: none
+};
+static_assert(sizeof(FieldBlock) == 48);
+
+/// The detail of one field; shaders/field/field_detail.glsl reads this layout.
+struct FieldDetailBlock
+{
+    glm::vec4 rows[6]; ///< coordinates in cells of the generations, without what balls carry: dot(xyz, p) + w
+    glm::vec4 erosion; ///< x size of lumps [m]; y, z thinnest, densest; w ramp
+    glm::vec4 noise;   ///< x gain; y weight of the second generation; z cooling; w glow
+    glm::vec4 lumps;   ///< xy size of the generations' lumps [m]; z factor that keeps the whole; w octaves
+};
+static_assert(sizeof(FieldDetailBlock) == 144);
+
+/// A brick that holds medium. Its number is its place in the textures.
+struct FieldBrickBlock
+{
+    uint32_t field;
+    uint32_t place; ///< in bricks of its field: x + 1024 y + 1024^2 z
+    uint32_t first; ///< of its balls, in the list of numbers of balls
+    uint32_t count; ///< of its balls
+};
+static_assert(sizeof(FieldBrickBlock) == 16);
+
+constexpr int kFieldTileColumns = 32, kFieldTileRows = 18; ///< that the window is divided into
+
+/// A part of the window in which fields are seen.
+struct FieldTileBlock
+{
+    uint32_t place; ///< column + 256 row, from clip position -1, -1
+    uint32_t first; ///< of its fields, in the list of numbers of fields
+    uint32_t count; ///< of its fields
+    uint32_t unused;
+};
+static_assert(sizeof(FieldTileBlock) == 16);
+
+} // namespace fx::render

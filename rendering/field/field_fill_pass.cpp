@@ -1,0 +1,57 @@
+#include "rendering/field/field_fill_pass.h"
+
+namespace fx::render {
+
+namespace {
+
+constexpr ProgramDesc kPrograms[] = {
+    {"field fill", nullptr, nullptr, "field/field_fill.comp.glsl", "FX_LAYERS=0\nFX_DETAIL=0"},
+    {"field fill", nullptr, nullptr, "field/field_fill.comp.glsl", "FX_LAYERS=1\nFX_DETAIL=0"},
+    {"field fill", nullptr, nullptr, "field/field_fill.comp.glsl", "FX_LAYERS=0\nFX_DETAIL=1"},
+    {"field fill", nullptr, nullptr, "field/field_fill.comp.glsl", "FX_LAYERS=1\nFX_DETAIL=1"}};
+
+} // namespace
+
+const ProgramDesc& fieldFillProgram(bool layers, bool detail)
+{
+    return kPrograms[(layers ? 1 : 0) + (detail ? 2 : 0)];
+}
+
+FieldFillPass::Outputs FieldFillPass::addTo(FrameGraph& graph, const Inputs& in)
+{
+    Outputs out{in.textures};
+    graph.addPass("field fill", [&](FrameGraph::Builder& builder) {
+        for (const ResourceId buffer : {in.balls, in.fields, in.bricks, in.brickBalls})
+            builder.read(buffer);
+        for (const ResourceId id : {in.materials, in.details, in.lumpTile})
+            if (id.valid())
+                builder.read(id);
+        for (ResourceId* texture : {&out.textures.medium, &out.textures.scatter, &out.textures.shares,
+                                    &out.textures.material[0], &out.textures.material[1]})
+            if (texture->valid())
+                *texture = builder.write(*texture);
+        return [in, textures = out.textures](Backend& backend) {
+            const bool layers = textures.shares.valid();
+            const bool detail = in.materials.valid();
+            ImageBinding images[5] = {{0, textures.medium}, {1, textures.scatter}};
+            size_t count = 2;
+            if (layers)
+                images[count++] = {2, textures.shares};
+            for (uint32_t g = 0; detail && g < 2; ++g)
+                images[count++] = {3 + g, textures.material[g]};
+            const BufferBinding buffers[] = {{0, in.balls},      {1, in.fields},    {2, in.bricks},
+                                             {3, in.brickBalls}, {4, in.materials}, {5, in.details}};
+            const TextureBinding lumps[] = {{6, in.lumpTile, Sampling::LinearRepeat}};
+            DispatchCall call;
+            call.program = &fieldFillProgram(layers, detail);
+            call.images = std::span(images).first(count);
+            call.buffers = std::span(buffers).first(detail ? 6 : 4);
+            call.textures = std::span(lumps).first(detail ? 1 : 0);
+            call.groups[0] = in.brickCount;
+            backend.dispatch(call);
+        };
+    });
+    return out;
+}
+
+} // namespace fx::render

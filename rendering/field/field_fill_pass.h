@@ -1,0 +1,41 @@
+/// @file field_fill_pass.h
+/// The pass that sums the balls of each brick at its samples.
+#pragma once
+
+#include "rendering/field/field_textures.h"
+
+#include <cstdint>
+
+namespace fx::render {
+
+/// reads   balls      buffer of BlobInstance
+///         fields     buffer of FieldBlock
+///         bricks     buffer of FieldBrickBlock
+///         brickBalls buffer of numbers of balls
+///         materials  buffer of BlobMaterial, one a ball; details of FieldDetailBlock; lumpTile of
+///         LumpTilePass
+/// writes  textures   what the balls emit, absorb and scatter. Each sample is written by one invocation,
+/// which adds
+///                    its balls in the order of the list, so that equal inputs give equal bits
+/// Formula: kernel-optical-depth (1).
+class FieldFillPass
+{
+public:
+    struct Inputs
+    {
+        ResourceId balls, fields, bricks, brickBalls;
+        FieldTextures textures;
+        uint32_t brickCount;                                    ///< > 0
+        ResourceId materials = {}, details = {}, lumpTile = {}; ///< invalid: no field has detail
+    };
+    struct Outputs
+    {
+        FieldTextures textures;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+/// With what layers and detail need, or without.
+const ProgramDesc& fieldFillProgram(bool layers, bool detail);
+
+} // namespace fx::render

@@ -1,0 +1,43 @@
+/// @file field_light_pass.h
+/// The pass that finds what light each sample of the bricks scatters to the eye.
+#pragma once
+
+#include "rendering/field/field_textures.h"
+#include "rendering/frame/view_block.h"
+#include "rendering/passes/light_bindings.h"
+
+#include <cstdint>
+
+namespace fx::render {
+
+/// Light of the sun, of points, of sky and ground, scattered once and again:
+/// shaders/shared/scattered_light.glsl, shaders/shared/sky_light.glsl.
+///
+/// reads   fields, bricks  as in FieldFillPass
+///         lights
+/// writes  textures        without layers, adds the light to what the medium emits; with them keeps it in
+/// `scatter`,
+///                         rgb over the field's largest extinction. Albedos are lost: fill again to light
+///                         again
+class FieldLightPass
+{
+public:
+    struct Inputs
+    {
+        ResourceId fields, bricks;
+        FieldTextures textures;
+        LightBindings lights;
+        const ViewBlock* view; ///< of the picture
+        uint32_t brickCount;   ///< > 0
+    };
+    struct Outputs
+    {
+        FieldTextures textures;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+/// With what layers and detail need, or without.
+const ProgramDesc& fieldLightProgram(bool layers, bool detail);
+
+} // namespace fx::render

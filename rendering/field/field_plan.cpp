@@ -1,0 +1,352 @@
+#include "rendering/field/field_plan.h"
+
+#include "rendering/frame/ball_window.h"
+#include "rendering/frame/view_volume.h"
+#include "shaders/formulas/formula.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fx::render {
+
+namespace {
+
+constexpr float kPeak =
+    1.04445431404056f;                  ///< extinction in the center of a ball over cross section / radius^3
+constexpr float kPixelsPerVoxel = 1.5f; ///< finer voxels would not be seen
+constexpr float kRadii = 16.0f;         ///< of balls along which there are as many voxels as asked for
+constexpr int kFewestVoxels = 16, kMostVoxels = 256; ///< along those
+constexpr float kLooseShare = 0.4f;                  ///< of an effect's radius: what is smaller stays a ball
+constexpr int kMostBricksAlong = 128;                ///< of a field, along an axis
+constexpr int64_t kMostBricksOfBox = 1 << 16;        ///< of a field, with the empty ones
+constexpr int kMostTries = 64;                       ///< to keep the budget of bricks
+constexpr float kLeastVoxel = 1e-4f;                 ///< [m]
+constexpr float kTouch = 1.0001f; ///< radii are compared with a margin, for what the GPU rounds
+constexpr uint32_t kUnseen = ~0u; ///< entry of the table: medium that no ray meets
+
+const float kStep = std::exp2(0.25f); ///< between the sides of voxels
+
+/// The nearest power of kStep.
+float quantized(float side)
+{
+    return std::exp2(std::round(4.0f * std::log2(side)) * 0.25f);
+}
+
+float brickReach(float voxel)
+{
+    return 0.5f * std::sqrt(3.0f) * float(kBrickCells) * voxel;
+}
+
+float distanceToBox(const glm::vec3& low, const glm::vec3& high)
+{
+    return glm::length(glm::max(glm::max(low, -high), glm::vec3(0.0f)));
+}
+
+/// The bricks that a ball may touch, in bricks of its field.
+struct BrickRange
+{
+    glm::ivec3 first, last;
+    glm::vec3 center; ///< in bricks
+    float radius;     ///< in bricks
+
+    BrickRange(const FieldBlock& field, const BlobInstance& ball)
+    {
+        const float side = field.corner.w * float(kBrickCells);
+        center = (glm::vec3(ball.centerRadius) - glm::vec3(field.corner)) / side;
+        radius = std::max(ball.centerRadius.w, field.limits.x) * kTouch / side;
+        const glm::ivec3 end = glm::ivec3(field.bricks) - 1;
+        first = glm::clamp(glm::ivec3(glm::floor(center - radius)), glm::ivec3(0), end);
+        last = glm::clamp(glm::ivec3(glm::floor(center + radius)), glm::ivec3(0), end);
+    }
+
+    bool touches(const glm::ivec3& brick) const
+    {
+        const glm::vec3 low(brick);
+        const glm::vec3 d = center - glm::clamp(center, low, low + 1.0f);
+        return glm::dot(d, d) < radius * radius;
+    }
+
+    /// Calls `visit(index)` with the entry of the table of each brick that the ball touches.
+    template <class Visit>
+    void forEach(const FieldBlock& field, Visit&& visit) const
+    {
+        for (int z = first.z; z <= last.z; ++z)
+            for (int y = first.y; y <= last.y; ++y)
+                for (int x = first.x; x <= last.x; ++x)
+                    if (touches({x, y, z}))
+                        visit(size_t(field.bricks.w + x + field.bricks.x * (y + field.bricks.y * z)));
+    }
+};
+
+} // namespace
+
+FieldPlan::FieldPlan(std::pmr::memory_resource* memory)
+    : lattices_(memory), fields_(memory), bricks_(memory), table_(memory), balls_(memory), loose_(memory),
+      peaks_(memory), stamps_(memory), seen_(memory), tiles_(memory), tileFields_(memory)
+{}
+
+void FieldPlan::clear()
+{
+    lattices_.clear();
+    fields_.clear();
+    bricks_.clear();
+    table_.clear();
+    balls_.clear();
+    loose_.clear();
+    tiles_.clear();
+    tileFields_.clear();
+}
+
+void FieldPlan::build(const FieldPlanInputs& in)
+{
+    clear();
+    if (in.balls.empty())
+        return;
+    chooseVoxels(in);
+    for (int i = 0; i < kMostTries && !place(in); ++i)
+        for (Lattice& lattice : lattices_)
+            lattice.voxel *= kStep;
+    listBricks(in);
+    listBalls(in);
+    listTiles(in);
+}
+
+bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect)
+{
+    return ball.centerRadius.w < kLooseShare * effect.radius;
+}
+
+/// From the whole effect, so that voxels stay as large when the view turns.
+void FieldPlan::chooseVoxels(const FieldPlanInputs& in)
+{
+    const CameraGeometry& camera = *in.camera;
+    const float pixelsPerSlope = 0.5f * float(in.height) * std::abs(camera.clipScale.y);
+    const float perRadius = float(std::clamp(in.resolution, kFewestVoxels, kMostVoxels)) / kRadii;
+    lattices_.assign(in.effects.size(), Lattice());
+    for (size_t i = 0; i < in.effects.size(); ++i) {
+        const BlobEffect& effect = in.effects[i];
+        const float depth = camera.orthographic ? 1.0f : distanceToBox(effect.low, effect.high);
+        const float pixel = depth / pixelsPerSlope; // [m]
+        lattices_[i].voxel =
+            quantized(std::max({effect.radius / perRadius, kPixelsPerVoxel * pixel, kLeastVoxel}));
+        for (uint32_t ball = effect.begin; ball < effect.end; ++ball)
+            if (isLoose(in.balls[ball], effect))
+                loose_.push_back(ball);
+    }
+}
+
+/// The box around the balls that can be seen, as wide as voxels make them.
+void FieldPlan::bound(Lattice& lattice, const FieldPlanInputs& in, const BlobEffect& effect)
+{
+    lattice.low = glm::vec3(std::numeric_limits<float>::max());
+    lattice.high = -lattice.low;
+    for (uint32_t ball = effect.begin; ball < effect.end; ++ball) {
+        if (isLoose(in.balls[ball], effect))
+            continue;
+        const glm::vec4& place = in.balls[ball].centerRadius;
+        const float radius = std::max(place.w, leastRadius(lattice.voxel)) * kTouch;
+        lattice.low = glm::min(lattice.low, glm::vec3(place) - radius);
+        lattice.high = glm::max(lattice.high, glm::vec3(place) + radius);
+    }
+}
+
+/// The box of bricks of one field.  @return false: it has too many
+bool FieldPlan::placeField(Lattice& lattice, int detail, const CameraGeometry& camera)
+{
+    const double side = double(lattice.voxel) * kBrickCells;
+    FieldBlock field{};
+    glm::dvec3 corner;
+    int64_t count = 1;
+    for (int a = 0; a < 3; ++a) {
+        const double first = std::floor((camera.eye[a] + double(lattice.low[a])) / side);
+        const double last = std::floor((camera.eye[a] + double(lattice.high[a])) / side);
+        if (last - first >= double(kMostBricksAlong))
+            return false;
+        field.bricks[a] = int(last - first) + 1;
+        corner[a] = first * side - camera.eye[a];
+        count *= field.bricks[a];
+    }
+    if (count > kMostBricksOfBox)
+        return false;
+    field.corner = glm::vec4(glm::vec3(corner), lattice.voxel);
+    field.bricks.w = int(table_.size());
+    field.limits.x = leastRadius(lattice.voxel);
+    field.limits.z = float(detail + 1);
+    table_.resize(table_.size() + size_t(count), 0u);
+    lattice.field = uint32_t(fields_.size());
+    fields_.push_back(field);
+    return true;
+}
+
+bool FieldPlan::place(const FieldPlanInputs& in)
+{
+    fields_.clear();
+    table_.clear();
+    for (size_t i = 0; i < lattices_.size(); ++i) {
+        Lattice& lattice = lattices_[i];
+        bound(lattice, in, in.effects[i]);
+        if (lattice.low.x > lattice.high.x)
+            continue; // it has no balls
+        for (int k = 0; k < kMostTries && !placeField(lattice, in.effects[i].detail, *in.camera); ++k) {
+            lattice.voxel *= kStep; // a wide effect
+            bound(lattice, in, in.effects[i]);
+        }
+    }
+    const uint32_t across = uint32_t(std::clamp(in.resolution, kFewestVoxels, kMostVoxels) / kBrickCells);
+    return countBalls(in) <= (in.mostBricks > 0 ? in.mostBricks : across * across * across);
+}
+
+/// Counts the balls of each brick in the table, and leaves out bricks that are not in the view.
+/// @return bricks
+uint32_t FieldPlan::countBalls(const FieldPlanInputs& in)
+{
+    for (size_t e = 0; e < in.effects.size(); ++e)
+        for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i) {
+            if (isLoose(in.balls[i], in.effects[e]))
+                continue;
+            const FieldBlock& field = fields_[lattices_[e].field];
+            BrickRange(field, in.balls[i]).forEach(field, [&](size_t index) { ++table_[index]; });
+        }
+    const ViewVolume volume(*in.camera);
+    uint32_t bricks = 0;
+    for (const FieldBlock& field : fields_) {
+        const float side = field.corner.w * float(kBrickCells);
+        size_t index = size_t(field.bricks.w);
+        for (int z = 0; z < field.bricks.z; ++z)
+            for (int y = 0; y < field.bricks.y; ++y)
+                for (int x = 0; x < field.bricks.x; ++x, ++index) {
+                    if (table_[index] == 0)
+                        continue;
+                    const glm::vec3 middle = glm::vec3(field.corner) + side * (glm::vec3(x, y, z) + 0.5f);
+                    if (volume.touches(middle, brickReach(field.corner.w)))
+                        ++bricks;
+                    else
+                        table_[index] = kUnseen;
+                }
+    }
+    return bricks;
+}
+
+/// Gives numbers to bricks in the order of the table. Their counts are those of countBalls().
+void FieldPlan::listBricks(const FieldPlanInputs& in)
+{
+    uint32_t firstBall = 0;
+    for (uint32_t f = 0; f < fields_.size(); ++f) {
+        const glm::ivec4& size = fields_[f].bricks;
+        size_t index = size_t(size.w);
+        for (int z = 0; z < size.z; ++z)
+            for (int y = 0; y < size.y; ++y)
+                for (int x = 0; x < size.x; ++x, ++index) {
+                    const uint32_t count = table_[index] == kUnseen ? 0u : table_[index];
+                    table_[index] = count > 0 ? uint32_t(bricks_.size()) + 1 : 0u;
+                    if (count == 0)
+                        continue;
+                    bricks_.push_back({f, uint32_t(x) | uint32_t(y) << 10 | uint32_t(z) << 20, firstBall, 0});
+                    firstBall += count;
+                }
+    }
+    balls_.resize(firstBall);
+    peaks_.assign(bricks_.size(), 0.0f);
+    nearest_ = std::numeric_limits<float>::max();
+    farthest_ = 0.0f;
+    for (const FieldBrickBlock& brick : bricks_) {
+        const glm::vec3 middle = middleOf(brick);
+        const float distance =
+            in.camera->orthographic ? glm::dot(middle, in.camera->forward) : glm::length(middle);
+        const float reach = brickReach(fields_[brick.field].corner.w);
+        nearest_ = std::min(nearest_, std::max(distance - reach, 0.0f));
+        farthest_ = std::max(farthest_, distance + reach);
+    }
+}
+
+void FieldPlan::listBalls(const FieldPlanInputs& in)
+{
+    for (size_t e = 0; e < in.effects.size(); ++e)
+        for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i)
+            if (!isLoose(in.balls[i], in.effects[e]))
+                listBall(fields_[lattices_[e].field], in.balls[i], i);
+    for (size_t i = 0; i < bricks_.size(); ++i) {
+        float& most = fields_[bricks_[i].field].limits.y;
+        most = std::max(most, peaks_[i]);
+    }
+}
+
+void FieldPlan::listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number)
+{
+    const float radius = std::max(ball.centerRadius.w, field.limits.x);
+    const float fineness = field.corner.w * field.corner.w / (radius * radius);
+    const float peak =
+        kPeak * ball.medium.x / (radius * radius * radius) * formula::fxVoxelKernel(0.0f, fineness);
+    BrickRange(field, ball).forEach(field, [&](size_t index) {
+        if (table_[index] == 0)
+            return;
+        FieldBrickBlock& brick = bricks_[table_[index] - 1];
+        balls_[brick.first + brick.count++] = number;
+        peaks_[table_[index] - 1] += peak;
+    });
+}
+
+glm::vec3 FieldPlan::middleOf(const FieldBrickBlock& brick) const
+{
+    const FieldBlock& field = fields_[brick.field];
+    const glm::vec3 place(brick.place & 1023u, (brick.place >> 10) & 1023u, brick.place >> 20);
+    return glm::vec3(field.corner) + field.corner.w * float(kBrickCells) * (place + 0.5f);
+}
+
+void FieldPlan::markTiles(const FieldPlanInputs& in, const FieldBrickBlock& brick)
+{
+    // layers smaller than the picture may reach beyond it by less than a texel of theirs, 4 pixels
+    const float margin = 8.0f / float(std::max(std::min(in.width, in.height), 1));
+    const CameraGeometry& camera = *in.camera;
+    const glm::vec3 middle = middleOf(brick);
+    const float reach = brickReach(fields_[brick.field].corner.w), depth = glm::dot(middle, camera.forward);
+    const int tiles[2] = {kFieldTileColumns, kFieldTileRows};
+    int first[2], last[2];
+    for (int axis = 0; axis < 2; ++axis) {
+        const float c = glm::dot(middle, axis == 0 ? camera.right : camera.up);
+        const auto [low, high] = clipRange(camera, axis, c, depth, reach);
+        if (high + margin < -1.0f || low - margin > 1.0f)
+            return;
+        const auto tileOf = [&](float clip) {
+            return int(std::clamp((0.5f + 0.5f * clip) * float(tiles[axis]), 0.0f, float(tiles[axis] - 1)));
+        };
+        first[axis] = tileOf(low - margin);
+        last[axis] = tileOf(high + margin);
+    }
+    for (int row = first[1]; row <= last[1]; ++row)
+        for (int column = first[0]; column <= last[0]; ++column) {
+            uint32_t& stamp = stamps_[size_t(row * kFieldTileColumns + column)];
+            if (stamp != brick.field + 1)
+                seen_.insert(seen_.end(), {uint32_t(row * kFieldTileColumns + column), brick.field});
+            stamp = brick.field + 1;
+        }
+}
+
+void FieldPlan::listTiles(const FieldPlanInputs& in)
+{
+    stamps_.assign(size_t(kFieldTileColumns * kFieldTileRows), 0u);
+    seen_.clear();
+    for (const FieldBrickBlock& brick : bricks_)
+        markTiles(in, brick);
+    std::ranges::fill(stamps_, 0u); // from here on: how many fields a tile has, then where its list goes on
+    for (size_t i = 0; i < seen_.size(); i += 2)
+        ++stamps_[seen_[i]];
+    uint32_t first = 0;
+    for (uint32_t tile = 0; tile < stamps_.size(); ++tile) {
+        if (stamps_[tile] == 0)
+            continue;
+        const uint32_t row = tile / kFieldTileColumns, column = tile % kFieldTileColumns;
+        tiles_.push_back({column | row << 8, first, stamps_[tile], 0});
+        first += stamps_[tile];
+        stamps_[tile] = tiles_.back().first;
+    }
+    tileFields_.resize(first);
+    for (size_t i = 0; i < seen_.size(); i += 2)
+        tileFields_[stamps_[seen_[i]]++] = seen_[i + 1];
+}
+
+} // namespace fx::render

@@ -1,0 +1,94 @@
+/// @file field_plan.h
+/// Where the voxels lie in which the balls of each effect are summed up: lattices, the bricks of them that
+/// hold medium, the balls of each brick, and the parts of the window in which a field is seen.
+///
+/// Lattices are fixed in the world, so that voxels do not swim when effect or eye moves; the sides of voxels
+/// are powers of 2^(1/4). A brick is there where a ball touches it and the view may see it. A sample sums the
+/// balls of its brick in the order of the list of balls, so that equal inputs give equal bits.
+#pragma once
+
+#include "rendering/field/field_blocks.h"
+#include "rendering/frame/view_block.h"
+#include "rendering/passes/blob_instance.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+struct FieldPlanInputs
+{
+    std::span<const BlobInstance> balls; ///< those that can be seen
+    std::span<const BlobEffect> effects; ///< of all balls, in their order
+    const CameraGeometry* camera;
+    int width, height;       ///< [pixel] of the picture
+    int resolution = 96;     ///< voxels along 16 radii of an effect's balls, 16..256
+    uint32_t mostBricks = 0; ///< of all fields together; 0: of a full cube of that many voxels
+};
+
+/// Keeps its memory from frame to frame. Threads: one at a time.
+class FieldPlan
+{
+public:
+    explicit FieldPlan(std::pmr::memory_resource* memory);
+
+    void build(const FieldPlanInputs& in);
+    void clear();
+
+    std::span<const FieldBlock> fields() const { return fields_; }
+    std::span<const FieldBrickBlock> bricks() const { return bricks_; }
+    /// One entry a brick of each field's box, x fastest: number of the brick + 1, or 0 where there is none.
+    std::span<const uint32_t> table() const { return table_; }
+    std::span<const uint32_t> balls() const { return balls_; } ///< of all bricks
+    std::span<const FieldTileBlock> tiles() const { return tiles_; }
+    std::span<const uint32_t> tileFields() const { return tileFields_; } ///< of all tiles
+    /// Balls that are too small for the voxels of their effect, in their order; no brick has them.
+    std::span<const uint32_t> loose() const { return loose_; }
+    float nearest() const { return nearest_; }   ///< [m] from the eye, along the axis of a parallel view
+    float farthest() const { return farthest_; } ///< [m]
+    bool isEmpty() const { return bricks_.empty(); }
+
+    /// [m] radius below which a ball is widened, its cross section kept: smaller ones fall between samples.
+    static float leastRadius(float voxel) { return 2.0f * voxel; }
+
+private:
+    struct Lattice
+    {
+        float voxel = 0.0f;   ///< [m]
+        glm::vec3 low{0.0f};  ///< [m] of all balls that can be seen, relative to the eye
+        glm::vec3 high{0.0f}; ///< [m]
+        uint32_t field = 0;   ///< number, of those that have balls
+    };
+
+    void chooseVoxels(const FieldPlanInputs& in);
+    static void bound(Lattice& lattice, const FieldPlanInputs& in, const BlobEffect& effect);
+    bool place(const FieldPlanInputs& in); ///< false: too many bricks
+    bool placeField(Lattice& lattice, int detail, const CameraGeometry& camera);
+    static bool isLoose(const BlobInstance& ball, const BlobEffect& effect);
+    uint32_t countBalls(const FieldPlanInputs& in);
+    void listBalls(const FieldPlanInputs& in);
+    void listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number);
+    void listBricks(const FieldPlanInputs& in);
+    void listTiles(const FieldPlanInputs& in);
+    void markTiles(const FieldPlanInputs& in, const FieldBrickBlock& brick);
+    glm::vec3 middleOf(const FieldBrickBlock& brick) const; ///< [m] relative to the eye
+
+    std::pmr::vector<Lattice> lattices_; ///< one an effect
+    std::pmr::vector<FieldBlock> fields_;
+    std::pmr::vector<FieldBrickBlock> bricks_;
+    std::pmr::vector<uint32_t> table_;
+    std::pmr::vector<uint32_t> balls_;
+    std::pmr::vector<uint32_t> loose_;
+    std::pmr::vector<float> peaks_;     ///< [1/m] of each brick: sum of what its balls have in their centers
+    std::pmr::vector<uint32_t> stamps_; ///< of tiles: number of the last field + 1
+    std::pmr::vector<uint32_t> seen_;   ///< pairs of tile and field, in the order of fields
+    std::pmr::vector<FieldTileBlock> tiles_;
+    std::pmr::vector<uint32_t> tileFields_;
+    float nearest_ = 0.0f, farthest_ = 0.0f;
+};
+
+} // namespace fx::render

@@ -1,0 +1,51 @@
+/// @file detailed_field.h
+/// The field of a group of balls with its detail, point by point: the plain and slow answer.
+#pragma once
+
+#include "foundation/snapshot/snapshot_group.h"
+#include "rendering/field_detail/field_detail_numbers.h"
+
+#include <span>
+#include <vector>
+
+namespace fx::render {
+
+/// A ball of medium with its carried coordinates.
+struct DetailedBall
+{
+    glm::vec3 center;   ///< [m]
+    float radius;       ///< [m] > 0
+    float crossSection; ///< [m2] >= 0
+    glm::vec3 place[2]; ///< [m] of both generations
+};
+
+/// In the space of the group. Const calls from any thread.
+class DetailedField
+{
+public:
+    /// @param tile outlives the field
+    DetailedField(std::vector<DetailedBall> balls, const FieldDetailNumbers& numbers, const LumpTile& tile);
+
+    SmoothMedium smoothAt(const glm::vec3& point) const;
+    /// With the factor that keeps the whole extinction.
+    float extinctionAt(const glm::vec3& point, float pixel, int octaves = kMostDetailOctaves) const;
+    MediumDetail at(const glm::vec3& point, float pixel, int octaves = kMostDetailOctaves) const;
+
+    /// Finds the factor by which what is left is multiplied so that the whole is what the smooth field has:
+    /// the sum of extinctions over that of what is left of them, at the points of a lattice.
+    /// @param spacing [m] of the lattice, at most half of the lumps
+    void keepWhole(float spacing);
+    float factor() const { return factor_; } ///< [1] > 0
+
+private:
+    std::vector<DetailedBall> balls_;
+    FieldDetailNumbers numbers_;
+    const LumpTile& tile_;
+    float factor_ = 1;
+};
+
+/// The balls of a group of the kind "blob" and of the group of the kind "material" that belongs to it.
+std::vector<DetailedBall> detailedBalls(const base::SnapshotGroup& blobs,
+                                        const base::SnapshotGroup& material);
+
+} // namespace fx::render

@@ -1,0 +1,105 @@
+#include "rendering/field_detail/field_detail_numbers.h"
+
+#include "foundation/snapshot/material_kind.h"
+#include "shaders/formulas/formula.h"
+
+#include <cmath>
+
+namespace fx::render {
+
+namespace {
+
+namespace constant = base::material_constant;
+
+constexpr uint32_t kOffset = 11; ///< purpose of lumpHash(), and the two that follow
+constexpr float kDeepest = 0.5f; ///< [1] s - 1 - w from which on nothing depends on the noise
+
+glm::vec3 offsetOf(uint32_t generation)
+{
+    const auto part = [&](uint32_t axis) {
+        return float(lumpHash(generation & 0xFFFFu, generation >> 16, 0, kOffset + axis)) * 0x1.0p-24f;
+    };
+    return float(kLumpCells) * glm::vec3(part(0), part(1), part(2));
+}
+
+/// Sum of octaves of deviation 1 at a place in cells.
+float octavesAt(const LumpTile& tile, glm::vec3 p, float length, float gain, float pixel, int octaves)
+{
+    float amplitude = 1, sum = 0, variance = 0;
+    for (int k = 0; k < octaves; ++k) {
+        const float band = formula::fxOctaveBand(length, pixel);
+        if (band > 0.0f)
+            sum += amplitude * band * tile.at(p);
+        variance += amplitude * amplitude; // of all octaves: those that are missing have their mean
+        p = {formula::fxNextOctaveX(p.x, p.z), formula::fxNextOctaveY(p.x, p.y, p.z),
+             formula::fxNextOctaveZ(p.x, p.y, p.z)};
+        amplitude *= gain;
+        length *= 1.0f / 2.03f;
+    }
+    return sum / std::sqrt(variance);
+}
+
+float placeOf(const FieldDetailNumbers& numbers, float extinction)
+{
+    return formula::fxDetailPlace(extinction, numbers.length(), numbers.thinnest, numbers.densest);
+}
+
+} // namespace
+
+float FieldDetailNumbers::length() const
+{
+    return (1.0f - fade) * generations[0].length / generations[0].growth +
+           fade * generations[1].length / generations[1].growth;
+}
+
+FieldDetailNumbers fieldDetailNumbers(std::span<const float> constants)
+{
+    FieldDetailNumbers numbers;
+    const auto younger = uint32_t(constants[constant::Generation]);
+    const size_t slot = younger % 2;
+    for (size_t g = 0; g < 2; ++g) {
+        numbers.generations[g].length = constants[constant::Length0 + g];
+        numbers.generations[g].growth = constants[constant::Growth0 + g];
+        const uint32_t number = g == slot ? younger : younger + base::kGenerationCycle - 1;
+        numbers.generations[g].offset = offsetOf(number % base::kGenerationCycle);
+    }
+    numbers.fade = slot == 1 ? constants[constant::Fade] : 1.0f - constants[constant::Fade];
+    numbers.thinnest = constants[constant::Thinnest];
+    numbers.densest = constants[constant::Densest];
+    numbers.ramp = constants[constant::Ramp];
+    numbers.gain = constants[constant::Gain];
+    numbers.cooling = constants[constant::Cooling];
+    numbers.glow = constants[constant::Glow];
+    return numbers;
+}
+
+MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, const SmoothMedium& medium,
+                      float pixel, int octaves)
+{
+    const float s = placeOf(numbers, medium.extinction);
+    if (s <= 0.0f)
+        return {0.0f, 1.0f, 0.0f};
+    if (s >= 1.0f + numbers.ramp + kDeepest)
+        return {}; // whole inside: no noise is needed
+    float z[2];
+    for (size_t g = 0; g < 2; ++g) {
+        const FieldDetailNumbers::Generation& own = numbers.generations[g];
+        z[g] = octavesAt(tile, medium.place[g] / own.length + own.offset, own.length / own.growth,
+                         numbers.gain, pixel, octaves);
+    }
+    MediumDetail detail;
+    detail.noise = formula::fxBlendGenerations(z[0], z[1], numbers.fade);
+    const float h = formula::fxDetailThreshold(detail.noise);
+    detail.share = formula::fxDetailShare(s, h, numbers.ramp) * formula::fxDetailGain(s, numbers.ramp);
+    detail.temperature =
+        formula::fxDetailTemperature(1.0f, s, h, numbers.ramp, detail.noise, numbers.cooling, numbers.glow);
+    return detail;
+}
+
+float keptShare(const FieldDetailNumbers& numbers, float extinction)
+{
+    const float s = placeOf(numbers, extinction);
+    return formula::fxDetailMean(s, numbers.ramp) * formula::fxDetailGain(s, numbers.ramp);
+}
+
+} // namespace fx::render

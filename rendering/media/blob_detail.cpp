@@ -1,0 +1,121 @@
+#include "rendering/media/blob_detail.h"
+
+#include "foundation/snapshot/material_kind.h"
+#include "rendering/frame/snapshot_match.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fx::render {
+
+namespace {
+
+namespace constant = base::material_constant;
+namespace column = base::material_column;
+
+/// Number and weight of the younger generation as one number that grows evenly.
+double phaseOf(const base::SnapshotGroup& group)
+{
+    return double(group.constants()[constant::Generation]) + double(group.constants()[constant::Fade]);
+}
+
+constexpr size_t kMostLookedAt = 128;   ///< balls
+constexpr float kMostFactor = 4.0f;     ///< more would make a solid of what is left of thin medium
+constexpr float kPeak = 1.04445431f;    ///< kernel-optical-depth (1)
+constexpr float kCorner = 0.333333333f; ///< [radius] along each axis: distance from the center 3^-1/2
+
+/// [1/m] of all balls.
+float extinctionAt(std::span<const MediumCaster> balls, const glm::vec3& p)
+{
+    float sum = 0;
+    for (const MediumCaster& ball : balls) {
+        const glm::vec3 d = p - ball.center;
+        const float q = std::max(1.0f - glm::dot(d, d) / (ball.radius * ball.radius), 0.0f);
+        sum += ball.crossSection / (ball.radius * ball.radius * ball.radius) * q * q;
+    }
+    return kPeak * sum;
+}
+
+} // namespace
+
+float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls)
+{
+    constexpr glm::vec3 kCorners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    const size_t stride = (balls.size() + kMostLookedAt - 1) / kMostLookedAt;
+    double before = 0, after = 0;
+    for (size_t i = 0; i < balls.size(); i += stride)
+        for (const glm::vec3& corner : kCorners) {
+            const float extinction =
+                extinctionAt(balls, balls[i].center + balls[i].radius * kCorner * corner) * detail.scale;
+            before += double(balls[i].crossSection);
+            after += double(balls[i].crossSection * keptShare(detail.numbers, extinction));
+        }
+    return after * double(kMostFactor) > before ? float(before / after) : kMostFactor;
+}
+
+BlobDetail::BlobDetail(const base::SnapshotPair& snapshots, size_t group, float t)
+{
+    const base::FrameSnapshot& newer = *snapshots.newer;
+    if (group + 1 >= newer.groupCount())
+        return;
+    const base::GroupName blobs = newer.name(group);
+    const base::GroupName name = newer.name(group + 1);
+    if (newer.schema().kind(name.kind) != base::kMaterialKind || name.instance != blobs.instance ||
+        name.solver != blobs.solver)
+        return;
+    chosen_ = newer_ = &newer.group(group + 1);
+    numbers_ = fieldDetailNumbers(chosen_->constants());
+    const size_t same = findSameGroup(snapshots.older, name, group + 1);
+    const base::SnapshotGroup* const older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
+    if (!older || older->count() == 0 || phaseOf(*older) > phaseOf(*newer_))
+        return;
+    const double phase = phaseOf(*older) + double(t) * (phaseOf(*newer_) - phaseOf(*older));
+    const float born = newer_->constants()[constant::Generation];
+    const bool isUnborn = std::floor(phase) < double(born);
+    if (isUnborn && older->constants()[constant::Generation] + 1.0f == born)
+        chosen_ = older;
+    std::array<float, constant::Count> constants;
+    for (size_t c = 0; c < constant::Count; ++c)
+        constants[c] = chosen_->constants()[c];
+    if (chosen_ == older || !isUnborn)
+        constants[constant::Fade] = float(phase - double(constants[constant::Generation]));
+    if (older->constants()[constant::Generation] == born)
+        for (const size_t c : {constant::Growth0, constant::Growth1})
+            constants[c] = older->constants()[c] + t * (newer_->constants()[c] - older->constants()[c]);
+    numbers_ = fieldDetailNumbers(constants);
+}
+
+GroupDetail BlobDetail::groupDetail(const base::Placement& place) const
+{
+    GroupDetail detail;
+    detail.numbers = numbers_;
+    detail.scale = place.scale;
+    const glm::mat3 toGroup = glm::transpose(glm::mat3_cast(place.rotation)) * (1.0f / place.scale);
+    for (size_t g = 0; g < 2; ++g) {
+        const FieldDetailNumbers::Generation& own = numbers_.generations[g];
+        detail.toCells[g] = toGroup * (own.growth / own.length);
+        detail.first[g] = own.offset - detail.toCells[g] * glm::vec3(place.position);
+    }
+    return detail;
+}
+
+std::array<glm::vec3, 2> BlobDetail::carried(size_t newer, size_t older, bool hasOlder,
+                                             const glm::vec3& position) const
+{
+    const bool isOlder = chosen_ != newer_ && hasOlder;
+    const base::SnapshotGroup& group = isOlder ? *chosen_ : *newer_;
+    const size_t i = isOlder ? older : newer;
+    std::array<glm::vec3, 2> result;
+    for (size_t g = 0; g < 2; ++g) {
+        const size_t first = column::Place0X + 3 * g;
+        const glm::vec3 place(group.column(first)[i], group.column(first + 1)[i], group.column(first + 2)[i]);
+        const FieldDetailNumbers::Generation& own = numbers_.generations[g];
+        result[g] = (place - own.growth * position) / own.length;
+    }
+    return result;
+}
+
+} // namespace fx::render

@@ -1,0 +1,60 @@
+/// @file blob_detail.h
+/// The detail of a group of blobs at a moment between two snapshots, relative to the eye.
+#pragma once
+
+#include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/field_detail/field_detail_numbers.h"
+#include "rendering/lights/medium_caster.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace fx::render {
+
+/// What all blobs of a group have in common.
+struct GroupDetail
+{
+    FieldDetailNumbers numbers; ///< lengths in the space of the group
+    glm::mat3
+        toCells[2]; ///< coordinates in cells of the generations, without what blobs carry: toCells p + first
+    glm::vec3 first[2]; ///< [cell] p in m relative to the eye, world axes
+    float scale = 1;    ///< [1] metres of the world over those of the group
+    float factor = 1;   ///< [1] by which what is left is multiplied, so that the whole is kept
+};
+
+/// GroupDetail::factor for balls of medium: the integral of the summed extinction over that of what is left
+/// of it on average. Of up to 128 balls four points are looked at, at the corners of a tetrahedron whose
+/// distance from the center is the kernel's root mean square: an integral over the ball that is exact for
+/// polynomials of second degree. At most 4.
+/// @param balls all of the group, seen or not
+float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls);
+
+/// Reads the group of the kind "material" that follows a group of blobs.
+class BlobDetail
+{
+public:
+    BlobDetail() = default; ///< none
+    /// @param group number of the group of blobs in the newer snapshot  @param t moment, 0 older .. 1 newer
+    BlobDetail(const base::SnapshotPair& snapshots, size_t group, float t);
+
+    bool isGiven() const { return chosen_ != nullptr; }
+    /// @param place of the group at the moment, relative to the eye
+    GroupDetail groupDetail(const base::Placement& place) const;
+    /// What a blob carries, in cells.
+    /// @param newer, older number of the blob in its group of blobs; older is not used when !hasOlder
+    /// @param position [m] of the blob at the moment, in the space of the group
+    std::array<glm::vec3, 2> carried(size_t newer, size_t older, bool hasOlder,
+                                     const glm::vec3& position) const;
+
+private:
+    const base::SnapshotGroup* newer_ = nullptr;
+    const base::SnapshotGroup* chosen_ = nullptr; ///< whose generations live at the moment
+    FieldDetailNumbers numbers_;
+};
+
+} // namespace fx::render

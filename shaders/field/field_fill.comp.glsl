@@ -1,0 +1,113 @@
+#include "formulas/voxel_kernel.fx.h"
+#include "shared/blob_instance.glsl"
+#include "field/field_blocks.glsl"
+
+// Sums the balls of each brick at its samples, in the order of its list: one workgroup a brick. What is added to a field
+// besides is one more image and one more sum here. FX_LAYERS 1 also keeps what the light is sorted by. One invocation has all
+// samples along z, so that a ball is read once for all of them.
+layout(local_size_x = 81) in;
+layout(std430, binding = 1) readonly buffer Fields { VoxelField fields[]; };
+layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
+layout(std430, binding = 3) readonly buffer BrickBalls { uint brickBalls[]; };
+layout(rgba32f, binding = 0) uniform writeonly image3D medium;  // rgb emitted light [exposed/m]; a extinction [1/m]
+layout(rgba16f, binding = 1) uniform writeonly image3D scatter; // rgb mean albedo; a mean cosine of the phase function
+#if FX_LAYERS
+layout(rgba16f, binding = 2) uniform writeonly image3D shares; // see field_sample.glsl
+#endif
+#if FX_DETAIL
+// Coordinates of two generations times extinction over the field's largest; a of the first: see field_detail.glsl
+layout(rgba16f, binding = 3) uniform writeonly image3D material0;
+layout(rgba16f, binding = 4) uniform writeonly image3D material1;
+#include "field/field_detail.glsl"
+struct BlobMaterial
+{
+    vec4 carried[2]; // xyz [cell]
+};
+layout(std430, binding = 4) readonly buffer Materials { BlobMaterial materials[]; };
+#endif
+
+const float kPeak = 1.04445431404056; // kernel-optical-depth (1), 105 / (32 pi)
+
+void main()
+{
+    FieldBrick brick = bricks[gl_WorkGroupID.x];
+    VoxelField field = fields[brick.field];
+    ivec3 first = sampleOfBrick(int(gl_LocalInvocationIndex));
+    vec3 places[kBrickSamples];
+    vec4 mediumSums[kBrickSamples], scatterSums[kBrickSamples];
+#if FX_LAYERS
+    vec4 shareSums[kBrickSamples];
+#endif
+#if FX_DETAIL
+    vec3 carriedSums0[kBrickSamples], carriedSums1[kBrickSamples];
+    vec2 powerSums[kBrickSamples]; // of light times its power of temperature; of light
+#endif
+    for (int z = 0; z < kBrickSamples; ++z) {
+        places[z] = placeOfSample(field, brick, first + ivec3(0, 0, z));
+        mediumSums[z] = scatterSums[z] = vec4(0.0);
+#if FX_LAYERS
+        shareSums[z] = vec4(0.0);
+#endif
+#if FX_DETAIL
+        carriedSums0[z] = carriedSums1[z] = vec3(0.0);
+        powerSums[z] = vec2(0.0);
+#endif
+    }
+    for (uint k = brick.first; k < brick.first + brick.count; ++k) {
+        uint number = brickBalls[k];
+        vec4 ball = blobs[number].centerRadius;
+        float radius = max(ball.w, field.limits.x);
+        float peak = kPeak * blobs[number].medium.x / (radius * radius * radius);
+        float perRadius2 = 1.0 / (radius * radius);
+        float fineness = field.corner.w * field.corner.w * perRadius2;
+        vec4 emitted = vec4(blobs[number].emission.rgb, 1.0);
+        vec4 scattering = blobs[number].scatter;
+#if FX_LAYERS
+        float layerShare = blobs[number].layer.x;
+        float layer = floor(layerShare * 0.5);
+        float fire = layer < 0.5 ? 1.0 : layerShare - 2.0 * layer;
+        bool isDust = layer > 1.5;
+        vec4 share = vec4(fire, isDust ? 1.0 - fire : 0.0, layer < 0.5, isDust);
+#endif
+#if FX_DETAIL
+        vec3 carried0 = materials[number].carried[0].xyz, carried1 = materials[number].carried[1].xyz;
+        float power = blobs[number].emission.w, bright = emitted.r + emitted.g + emitted.b;
+#endif
+        for (int z = 0; z < kBrickSamples; ++z) {
+            vec3 d = places[z] - ball.xyz;
+            float extinction = peak * fxVoxelKernel(dot(d, d) * perRadius2, fineness);
+            mediumSums[z] += extinction * emitted;
+            scatterSums[z] += extinction * scattering;
+#if FX_LAYERS
+            shareSums[z] += extinction * share;
+#endif
+#if FX_DETAIL
+            carriedSums0[z] += extinction * carried0;
+            carriedSums1[z] += extinction * carried1;
+            powerSums[z] += max(extinction, 0.0) * bright * vec2(power, 1.0);
+#endif
+        }
+    }
+    ivec3 texel = brickTexel(int(gl_WorkGroupID.x)) + first;
+    for (int z = 0; z < kBrickSamples; ++z) {
+        vec4 sum = mediumSums[z].a > 0.0 ? max(mediumSums[z], 0.0) : vec4(0.0); // rims are below 0, see voxel-kernel
+        imageStore(medium, texel + ivec3(0, 0, z), sum);
+        imageStore(scatter, texel + ivec3(0, 0, z), clamp(scatterSums[z] / max(sum.a, 1e-30), vec4(vec3(0.0), -1.0), vec4(1.0)));
+#if FX_LAYERS
+        imageStore(shares, texel + ivec3(0, 0, z), clamp(shareSums[z], vec4(0.0), vec4(sum.a)) / field.limits.y);
+#endif
+#if FX_DETAIL
+        float held = sum.a > 0.0 ? 1.0 / field.limits.y : 0.0;
+        // what detail changes of the extinction between samples, for light
+        float change = 0.0;
+        int detailed = field.limits.z > 0.5 && sum.a > 0.0 ? 1 : 0;
+        for (int once = 0; once < detailed; ++once) {
+            MediumDetail detail = detailOf(details[int(field.limits.z) - 1], sum.a, places[z], carriedSums0[z] / sum.a,
+                                           carriedSums1[z] / sum.a, 0.5 * field.corner.w);
+            change = (detail.share - 1.0) * sum.a * held;
+        }
+        imageStore(material0, texel + ivec3(0, 0, z), vec4(carriedSums0[z] * held, powerSums[z].x / max(powerSums[z].y, 1e-30)));
+        imageStore(material1, texel + ivec3(0, 0, z), vec4(carriedSums1[z] * held, change));
+#endif
+    }
+}

@@ -1,0 +1,43 @@
+#include "formulas/henyey_greenstein.fx.h"
+#include "formulas/multiple_scattering.fx.h"
+#include "shared/light_slices.glsl"
+#include "shared/scattered_light.glsl"
+#include "shared/sky_light.glsl"
+#include "field/field_blocks.glsl"
+
+// Light that each sample of the bricks scatters to the eye. FX_LAYERS 0 adds it to what the medium emits, so that a ray
+// looks up one texture; FX_LAYERS 1 and FX_DETAIL 1 keep it apart, in place of albedo and phase function.
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Fields { VoxelField fields[]; };
+layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
+layout(rgba32f, binding = 0) uniform image3D medium;
+layout(rgba16f, binding = 1) uniform image3D scatter;
+layout(std140, binding = 0) uniform FieldLightBlock
+{
+    vec4 viewAxis; // xyz in which the eye looks; w 1 orthographic
+};
+
+void main()
+{
+    FieldBrick brick = bricks[gl_WorkGroupID.x];
+    VoxelField field = fields[brick.field];
+    ivec3 corner = brickTexel(int(gl_WorkGroupID.x));
+    for (int i = int(gl_LocalInvocationIndex); i < kBrickSamples * kBrickSamples * kBrickSamples; i += 64) {
+        ivec3 s = sampleOfBrick(i);
+        vec4 before = imageLoad(medium, corner + s);
+        vec4 own = imageLoad(scatter, corner + s);
+        // a loop without turns is skipped by software renderers too, a branch is not
+        int turns = before.a > 0.0 && own.r + own.g + own.b > 0.0 ? 1 : 0;
+        vec3 source = vec3(0.0);
+        for (int turn = 0; turn < turns; ++turn) {
+            vec3 p = placeOfSample(field, brick, s);
+            vec3 toEye = viewAxis.w > 0.5 ? -viewAxis.xyz : -p / max(length(p), 1e-20);
+            source = skySource(p, toEye, own.rgb, own.a) + scatteredLight(p, toEye, own.rgb, own.a);
+        }
+#if FX_LAYERS || FX_DETAIL
+        imageStore(scatter, corner + s, vec4(source * (before.a / field.limits.y), 0.0));
+#else
+        imageStore(medium, corner + s, vec4(before.rgb + source * before.a, before.a));
+#endif
+    }
+}

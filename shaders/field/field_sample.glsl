@@ -1,0 +1,120 @@
+// The sum of all fields of a tile at a place. Needs field/field_blocks.glsl.
+layout(std430, binding = 1) readonly buffer Fields { VoxelField fields[]; };
+layout(std430, binding = 2) readonly buffer BrickTable { uint brickTable[]; }; // number of the brick + 1, or 0
+layout(std430, binding = 4) readonly buffer TileFields { uint tileFields[]; };
+layout(binding = 1) uniform sampler3D fieldMedium; // rgb emitted light [exposed/m]; a extinction [1/m]
+#if FX_LAYERS || FX_DETAIL
+layout(binding = 2) uniform sampler3D fieldScatter; // rgb scattered light over the field's largest extinction [exposed]
+#endif
+#if FX_DETAIL
+layout(binding = 4) uniform sampler3D fieldMaterial0; // rgb, as field_fill.comp.glsl; a power of temperature of what is emitted
+layout(binding = 5) uniform sampler3D fieldMaterial1;
+#endif
+#if FX_LAYERS
+layout(binding = 3) uniform sampler3D fieldShares;  // extinction seen as fire, as dust; of balls of fire, of dust; likewise
+#endif
+
+const float kVoxelsPerStep = 1.5; // more exact lookups than that change no picture: samples are what limits it
+const float kVoxelsPerLumpyStep = 0.6; // where detail is finer than voxels
+const float kNever = 1e20; // [m], [voxel]
+
+struct FieldSample
+{
+    vec4 medium; // rgb emitted light, without FX_LAYERS also what is scattered [exposed/m]; a extinction [1/m]
+#if FX_LAYERS
+    vec4 shares;    // [1/m]
+    vec3 scattered; // [exposed/m]
+#endif
+    bool isEmpty; // no field has a brick here
+    float room;   // [m] along the ray: one step, or up to where a brick may begin
+};
+
+// A place within a field, in voxels, and how a ray passes there.
+struct FieldPlace
+{
+    vec3 local;  // from the first sample
+    ivec3 brick;
+    uint number; // of the brick + 1, or 0
+    float room;  // [voxel] up to where a brick may begin, if there is none
+};
+
+FieldPlace placeInField(VoxelField field, vec3 p, vec3 perDirection)
+{
+    FieldPlace place;
+    place.local = (p - field.corner.xyz) / field.corner.w;
+    vec3 size = vec3(kBrickCells * field.bricks.xyz);
+    bool isInside = all(greaterThanEqual(place.local, vec3(0.0))) && all(lessThan(place.local, size));
+    place.brick = clamp(ivec3(floor(place.local / float(kBrickCells))), ivec3(0), field.bricks.xyz - 1);
+    int entry = field.bricks.w + place.brick.x + field.bricks.x * (place.brick.y + field.bricks.y * place.brick.z);
+    place.number = isInside ? brickTable[entry] : 0u;
+    vec3 low = isInside ? vec3(kBrickCells * place.brick) : vec3(0.0);
+    vec3 high = isInside ? low + float(kBrickCells) : size;
+    vec3 a = (low - place.local) * perDirection;
+    vec3 b = (high - place.local) * perDirection;
+    vec3 enter = min(a, b);
+    vec3 leave = max(a, b);
+    float first = max(max(enter.x, enter.y), enter.z);
+    float last = min(min(leave.x, leave.y), leave.z);
+    float entering = first > 0.0 && first <= last ? first : kNever;
+    place.room = (isInside ? max(last, 0.0) : entering) + 0.01; // beyond the face, whatever rounding does
+    return place;
+}
+
+// @param t [m] along the ray; tile first and number of fields in the list; pixel [1] width of a pixel over t
+FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, float pixel)
+{
+    FieldSample sum;
+    sum.medium = vec4(0.0);
+#if FX_LAYERS
+    sum.shares = vec4(0.0);
+    sum.scattered = vec3(0.0);
+#endif
+    sum.isEmpty = true;
+    sum.room = kNever;
+    vec3 safe = mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
+    vec3 p = origin + t * direction;
+    for (uint k = tile.x; k < tile.x + tile.y; ++k) {
+        VoxelField field = fields[tileFields[k]];
+        FieldPlace place = placeInField(field, p, 1.0 / safe);
+        // a loop without turns is skipped by software renderers too, a branch is not
+        int turns = place.number > 0u ? 1 : 0;
+        for (int turn = 0; turn < turns; ++turn) {
+            vec3 texel = vec3(brickTexel(int(place.number) - 1)) + 0.5 + place.local - vec3(kBrickCells * place.brick);
+            vec3 uv = texel / vec3(textureSize(fieldMedium, 0));
+            vec4 medium = textureLod(fieldMedium, uv, 0.0);
+            float kept = 1.0, voxels = kVoxelsPerStep;
+#if FX_LAYERS || FX_DETAIL
+            vec3 scattered = field.limits.y * textureLod(fieldScatter, uv, 0.0).rgb;
+#endif
+#if FX_DETAIL
+            int detailed = field.limits.z > 0.5 && medium.a > 0.0 ? 1 : 0;
+            for (int once = 0; once < detailed; ++once) {
+                vec4 material0 = textureLod(fieldMaterial0, uv, 0.0);
+                vec3 material1 = textureLod(fieldMaterial1, uv, 0.0).rgb;
+                float perMedium = field.limits.y / medium.a;
+                MediumDetail detail = detailOf(details[int(field.limits.z) - 1], medium.a, p, material0.rgb * perMedium,
+                                               material1 * perMedium, pixel * t);
+                kept = detail.share;
+                voxels = detail.isLumpy ? kVoxelsPerLumpyStep : kVoxelsPerStep;
+                medium.rgb *= pow(detail.temperature, material0.a);
+            }
+#if FX_LAYERS
+            sum.scattered += kept * scattered;
+#else
+            medium.rgb += scattered;
+#endif
+#elif FX_LAYERS
+            sum.scattered += scattered;
+#endif
+            sum.medium += kept * medium;
+            sum.room = min(sum.room, field.corner.w * voxels);
+#if FX_LAYERS
+            sum.shares += kept * field.limits.y * textureLod(fieldShares, uv, 0.0);
+#endif
+        }
+        sum.isEmpty = sum.isEmpty && turns == 0;
+        if (turns == 0)
+            sum.room = min(sum.room, place.room < kNever ? field.corner.w * place.room : kNever);
+    }
+    return sum;
+}

@@ -1,0 +1,63 @@
+#include "field/field_blocks.glsl"
+#include "lights/slice_stack.glsl"
+
+// Adds to the optical depths of light slices what detail makes of the fields: planes hold those of smooth balls. One invocation
+// a column of texels.
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 0) readonly buffer Fields { VoxelField fields[]; };
+layout(std430, binding = 1) readonly buffer Stacks { SliceStack stacks[]; };
+layout(std430, binding = 2) readonly buffer BrickTable { uint brickTable[]; };
+layout(binding = 1) uniform sampler3D fieldMaterial1; // a: change of extinction over the field's largest
+layout(rg32f, binding = 0) uniform image2D slices;    // r optical depth up to a plane; g from it to the next
+layout(std140, binding = 0) uniform FieldSliceBlock { ivec4 fieldCount; };
+
+const int kMostParts = 4; // of the way between two planes
+
+// [1/m] change of extinction by detail, of all fields
+float changeAt(vec3 p)
+{
+    float sum = 0.0;
+    for (int f = 0; f < fieldCount.x; ++f) {
+        VoxelField field = fields[f];
+        vec3 local = (p - field.corner.xyz) / field.corner.w;
+        vec3 size = vec3(kBrickCells * field.bricks.xyz);
+        bool isInside = field.limits.z > 0.5 && all(greaterThanEqual(local, vec3(0.0))) && all(lessThan(local, size));
+        ivec3 brick = clamp(ivec3(floor(local / float(kBrickCells))), ivec3(0), field.bricks.xyz - 1);
+        uint number = isInside ? brickTable[field.bricks.w + brick.x + field.bricks.x * (brick.y + field.bricks.y * brick.z)] : 0u;
+        // a loop without turns is skipped by software renderers too, a branch is not
+        int turns = number > 0u ? 1 : 0;
+        for (int turn = 0; turn < turns; ++turn) {
+            vec3 texel = vec3(brickTexel(int(number) - 1)) + 0.5 + local - vec3(kBrickCells * brick);
+            sum += field.limits.y * textureLod(fieldMaterial1, texel / vec3(textureSize(fieldMaterial1, 0)), 0.0).a;
+        }
+    }
+    return sum;
+}
+
+void main()
+{
+    SliceStack stack = stacks[gl_WorkGroupID.z];
+    if (float(gl_GlobalInvocationID.x) >= stack.tiles.z || float(gl_GlobalInvocationID.y) >= stack.tiles.z)
+        return;
+    vec3 start, direction;
+    rayOf(stack, vec2(gl_GlobalInvocationID.xy) + 0.5, start, direction);
+    ivec2 tile = ivec2(stack.tiles.xy) + ivec2(gl_GlobalInvocationID.xy);
+    int side = int(stack.tiles.z), planes = int(stack.tiles.w);
+    float spacing = stack.origin.w;
+    float finest = spacing;
+    for (int f = 0; f < fieldCount.x; ++f)
+        finest = min(finest, fields[f].corner.w);
+    int parts = clamp(int(ceil(spacing / finest)), 1, kMostParts);
+    float depth = 0.0;
+    for (int k = 0; k < planes; ++k) {
+        float between = 0.0; // from this plane to the next
+        float from = stack.up.w + float(k) * spacing;
+        for (int part = 0; k + 1 < planes && part < parts; ++part)
+            between += changeAt(start + (from + spacing * (float(part) + 0.5) / float(parts)) * direction);
+        between *= spacing / float(parts);
+        ivec2 texel = tile + side * ivec2(k % kTileColumns, k / kTileColumns);
+        vec2 smoothDepth = imageLoad(slices, texel).rg;
+        imageStore(slices, texel, vec4(max(smoothDepth.r + depth, 0.0), max(smoothDepth.g + between, 0.0), 0.0, 0.0));
+        depth += between;
+    }
+}

@@ -1,0 +1,60 @@
+/// @formula lump-noise
+/// Noise that looks like the surface of a billowing cloud: round lumps with sharp creases between them.
+///
+/// symbol    unit   meaning
+///   d2      1      square of the distance to the nearest feature point, in cells; cells have one point each
+///   q       1      gradient noise in the same cells
+///   x, y, z 1      position in cells
+///   l, p    m      size of a lump of an octave, width of a pixel there
+///   z0, z1  1      fields of two generations of coordinates, each of mean 0 and deviation 1
+///   f       1      weight of the second, 0..1
+/// @derivation
+///   Cellular noise is a paraboloid around each point, with creases where two meet; the magnitude of
+///   gradient noise adds furrows that follow no cell:
+///       B = 0.65 sat(1 - d2) + 0.35 sat(1.6 |q|)                                              (1)
+///   Each octave turns and shifts the one before, and is 2.03 times as fine, so that lattices do not meet:
+///       a turn about y by 36.8 degrees, a shift, a turn about x by 36.9 degrees               (2)
+///   An octave fades out between four and two pixels a lump:
+///       band = sat(l / (2 p) - 1)                                                             (3)
+///   Fields that are independent keep deviation 1 when they are blended by
+///       z = ((1 - f) z0 + f z1) / sqrt((1 - f)^2 + f^2)                                       (4)
+/// @source    [WOR96] cellular noise; [PER02] gradient noise; the mix is own
+/// @deviation none
+/// @valid     d2 >= 0, p > 0, 0 <= f <= 1
+/// @accuracy  GLSL and C++ agree within 1e-5 of (1), (3), (4) and within 1e-6 of |x| + |y| + |z| + 8 of (2)
+/// @tests     tests/rendering/core/test_field_detail_formulas.cpp
+FX_FORMULA(fxLump)(FX_REAL d2, FX_REAL q)
+{
+    FX_REAL zero = FX_REAL(0.0);
+    FX_REAL one = FX_REAL(1.0);
+    return FX_REAL(0.65) * clamp(one - d2, zero, one) +
+           FX_REAL(0.35) * clamp(FX_REAL(1.6) * abs(q), zero, one); // (1)
+}
+
+FX_FORMULA(fxNextOctaveX)(FX_REAL x, FX_REAL z)
+{
+    return FX_REAL(1.62) * x - FX_REAL(1.21) * z + FX_REAL(3.1); // (2)
+}
+
+FX_FORMULA(fxNextOctaveY)(FX_REAL x, FX_REAL y, FX_REAL z)
+{
+    FX_REAL turned = FX_REAL(1.21) * x + FX_REAL(1.62) * z + FX_REAL(4.4);
+    return FX_REAL(0.8) * (FX_REAL(2.03) * y + FX_REAL(1.7)) - FX_REAL(0.6) * turned; // (2)
+}
+
+FX_FORMULA(fxNextOctaveZ)(FX_REAL x, FX_REAL y, FX_REAL z)
+{
+    FX_REAL turned = FX_REAL(1.21) * x + FX_REAL(1.62) * z + FX_REAL(4.4);
+    return FX_REAL(0.6) * (FX_REAL(2.03) * y + FX_REAL(1.7)) + FX_REAL(0.8) * turned; // (2)
+}
+
+FX_FORMULA(fxOctaveBand)(FX_REAL l, FX_REAL p)
+{
+    return clamp(l / (FX_REAL(2.0) * p) - FX_REAL(1.0), FX_REAL(0.0), FX_REAL(1.0)); // (3)
+}
+
+FX_FORMULA(fxBlendGenerations)(FX_REAL z0, FX_REAL z1, FX_REAL f)
+{
+    FX_REAL e = FX_REAL(1.0) - f;
+    return (e * z0 + f * z1) / sqrt(e * e + f * f); // (4)
+}

@@ -1,0 +1,56 @@
+/// @file emitter_detail.h
+/// The coordinates for the detail of one emitter's medium, formula material-coordinates.
+#pragma once
+
+#include "simulation/detail/material_coordinates.h"
+#include "simulation/emitters/emitter_def.h"
+#include "simulation/particles/appearance_kernel.h"
+#include "simulation/solver/solver.h"
+
+namespace fx::sim {
+
+/// Rows are those of the particle store. Particles of an emitter do not feel each other, so there is no
+/// gradient to measure: its generations are born at fixed local times, at a rate that follows from its
+/// turbulence.
+class EmitterDetail
+{
+public:
+    EmitterDetail(const EmitterDef& def, uint32_t capacity, std::pmr::memory_resource* memory);
+
+    /// [tick] between two births: the turbulence of strength U and scale L has the strain 4.4 U / L, which is
+    /// the rms strain of an isotropic flow of one wave length.
+    static base::Ticks periodOf(const EmitterDef& def);
+
+    /// All particles with an index below `next` have their coordinates, or are gone.
+    void begin(uint64_t next, base::Ticks now);
+    /// A step has ended at job.now.
+    void follow(const AppearanceJob& job, const StepContext& context);
+    /// Adds the group that belongs to the group of blobs added last, without what is in the rows.
+    void open(base::Ticks now, base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot) const;
+    /// Row `row` of the store becomes element `to`.
+    void write(uint32_t row, uint32_t to, base::SnapshotGroup& group) const
+    {
+        for (size_t c = 0; c < MaterialCoordinates::kColumns; ++c)
+            group.editColumn(c)[to] = coordinates_.value(c, row);
+    }
+    /// Of the living rows.
+    void save(StateWriter& writer, const ParticleStore& store, base::Ticks now) const;
+    void restore(StateReader& reader, const ParticleStore& store, base::Ticks now);
+
+private:
+    uint64_t youngerAt(base::Ticks now) const { return uint64_t(now / period_) + 1; }
+    base::Ticks birthOf(uint64_t generation) const { return (base::Ticks(generation) - 1) * period_; }
+    void bear(const AppearanceJob& job, uint64_t generation);
+    void adopt(const AppearanceJob& job, const StepContext& context);
+    template <class F>
+    static void forEachLiving(const ParticleStore& store, base::Ticks now, F&& f);
+
+    const EmitterDef& def_;
+    base::Ticks period_;
+    DetailGenerations shared_;
+    uint64_t younger_ = 0; ///< generations up to it have coordinates
+    uint64_t next_ = 0;    ///< particles of smaller indices have them
+    MaterialCoordinates coordinates_;
+};
+
+} // namespace fx::sim

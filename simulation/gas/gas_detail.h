@@ -1,0 +1,42 @@
+/// @file gas_detail.h
+/// The coordinates for the detail of one gas, formula material-coordinates.
+#pragma once
+
+#include "simulation/detail/material_coordinates.h"
+#include "simulation/solver/solver.h"
+#include "simulation/sph/dynamics/gas_dynamics.h"
+
+namespace fx::sim {
+
+/// Rows are the ids of particles.
+class GasDetail
+{
+public:
+    /// @param growth [1] radius of a drawn ball over half the support of its particle
+    GasDetail(const FieldDetail& detail, float growth, uint32_t particles, std::pmr::memory_resource* memory)
+        : detail_(detail), growth_(growth), coordinates_(memory, particles)
+    {}
+
+    /// The gas has been released: both generations are born.
+    void begin(const GasView<const float>& gas, base::Arena& scratch);
+    /// The gas has flowed for `seconds`.
+    void follow(const GasView<const float>& gas, double seconds, base::Arena& scratch);
+    /// Adds the group that belongs to the group of blobs added last.
+    void publish(base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot) const;
+    void save(StateWriter& writer, uint32_t particles) const;
+    void restore(StateReader& reader, uint32_t particles);
+
+    /// S of (1) [1/s].
+    static double shearRate(const GasView<const float>& gas);
+
+private:
+    void bear(uint64_t generation, const GasView<const float>& gas);
+
+    const FieldDetail& detail_;
+    float growth_;
+    MaterialCoordinates coordinates_;
+    GenerationClock clock_;
+    DetailGenerations shared_;
+};
+
+} // namespace fx::sim

@@ -1,0 +1,56 @@
+/// @file field_scenes.h
+/// Balls of medium in the world for tests of voxel fields, and exact sums of them.
+#pragma once
+
+#include "rendering/field/field_plan.h"
+#include "rendering/frame/view_types.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace fx::test {
+
+struct FieldBall
+{
+    glm::dvec3 center{0.0}; ///< [m] world
+    float radius = 1.0f;
+    float crossSection = 1.0f;
+    glm::vec3 emission{0.0f}; ///< exposed
+    glm::vec3 albedo{0.0f};
+    float meanCosine = 0.0f;
+    uint32_t layer = 1; ///< smoke
+    float fireShare = 0.0f;
+    uint32_t effect = 0;
+};
+
+/// What a plan is made from, as a view gathers it.
+struct FieldScene
+{
+    std::vector<render::BlobInstance> balls;
+    std::vector<render::BlobEffect> effects;
+    render::CameraGeometry camera;
+
+    /// Balls of one effect come together, in their order.
+    FieldScene(const std::vector<FieldBall>& world, const render::CameraView& view);
+    render::FieldPlanInputs inputs(int width, int height, int resolution) const;
+};
+
+/// Balls in a box of a few meters around `middle`, of one effect.
+std::vector<FieldBall> randomBalls(uint32_t count, uint64_t seed, const glm::dvec3& middle,
+                                   uint32_t effect = 0);
+
+/// [1/m] of all balls of an effect at a place relative to the eye, in double, each times its weight; no
+/// weights: 1.
+double sumAt(const FieldScene& scene, uint32_t effect, const glm::dvec3& place,
+             const render::FieldBlock& field, const std::vector<double>& weights = {});
+/// The same without weights as a sample holds it: not below 0.
+double sampleAt(const FieldScene& scene, uint32_t effect, const glm::dvec3& place,
+                const render::FieldBlock& field);
+
+/// [m] relative to the eye, of a sample of a brick.
+glm::dvec3 placeOfSample(const render::FieldPlan& plan, const render::FieldBrickBlock& brick,
+                         const glm::ivec3& s);
+
+} // namespace fx::test

@@ -1,0 +1,224 @@
+// Where voxels lie: fixed in the world, fine enough, within the budget, and complete.
+#include "rendering/stage/stage_camera.h"
+#include "tests/rendering/field/field_scenes.h"
+
+#include <glm/common.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory_resource>
+#include <set>
+
+using namespace fx;
+using namespace fx::render;
+using namespace fx::test;
+
+namespace {
+
+constexpr int kWidth = 640, kHeight = 360;
+
+CameraView cameraAt(const glm::dvec3& position, const glm::dvec3& target)
+{
+    return perspectiveView({position, target}, 0.8f, float(kWidth) / float(kHeight), 0.1f);
+}
+
+FieldPlan planOf(const FieldScene& scene, int resolution, uint32_t mostBricks = 0)
+{
+    FieldPlan plan(std::pmr::new_delete_resource());
+    FieldPlanInputs in = scene.inputs(kWidth, kHeight, resolution);
+    in.mostBricks = mostBricks;
+    plan.build(in);
+    return plan;
+}
+
+} // namespace
+
+TEST(FieldPlan, noBallsMakeNoField)
+{
+    const FieldScene scene({}, cameraAt({0, 0, 8}, {0, 0, 0}));
+    const FieldPlan plan = planOf(scene, 64);
+    EXPECT_TRUE(plan.isEmpty());
+    EXPECT_TRUE(plan.tiles().empty());
+    EXPECT_TRUE(plan.fields().empty());
+}
+
+TEST(FieldPlan, bricksHoldAllMediumThatTheViewSees)
+{
+    const FieldScene scene(randomBalls(150, 5, glm::dvec3(0.0)), cameraAt({0, 0, 9}, {0, 0, 0}));
+    const FieldPlan plan = planOf(scene, 64);
+    ASSERT_EQ(plan.fields().size(), 1u);
+    const FieldBlock& field = plan.fields()[0];
+    size_t withMedium = 0, empty = 0;
+    const glm::ivec3 cells = glm::ivec3(field.bricks) * kBrickCells;
+    for (int z = 0; z < cells.z; ++z)
+        for (int y = 0; y < cells.y; ++y)
+            for (int x = 0; x < cells.x; ++x) {
+                const glm::ivec3 b = glm::ivec3(x, y, z) / kBrickCells;
+                const uint32_t number = plan.table()[size_t(field.bricks.w + b.x +
+                                                            field.bricks.x * (b.y + field.bricks.y * b.z))];
+                const glm::dvec3 place =
+                    glm::dvec3(field.corner) + double(field.corner.w) * glm::dvec3(x, y, z);
+                const double all = sampleAt(scene, 0, place, field);
+                if (number == 0) {
+                    EXPECT_EQ(all, 0.0);
+                    ++empty;
+                    continue;
+                }
+                const FieldBrickBlock& brick = plan.bricks()[number - 1];
+                FieldScene of = scene;
+                of.balls.clear();
+                of.effects[0].end = brick.count;
+                for (uint32_t k = 0; k < brick.count; ++k)
+                    of.balls.push_back(scene.balls[plan.balls()[brick.first + k]]);
+                EXPECT_EQ(sampleAt(of, 0, place, field), all) << "same balls, same order";
+                withMedium += all > 0.0;
+                EXPECT_LE(all, double(field.limits.y) * 1.0001);
+                if (HasFailure())
+                    return;
+            }
+    EXPECT_GT(withMedium, 1000u);
+    EXPECT_GT(empty, 1000u);
+}
+
+TEST(FieldPlan, voxelsKeepTheirPlacesInTheWorldWhenTheEyeMovesAndTurns)
+{
+    const std::vector<FieldBall> balls = randomBalls(150, 5, glm::dvec3(2000.0, 10.0, -3000.0));
+    const glm::dvec3 eyes[] = {{2000.0, 10.0, -2991.0}, {2000.03, 10.02, -2991.1}, {2000.7, 9.2, -2990.4}};
+    const glm::dvec3 targets[] = {{2000.0, 10.0, -3000.0}, {2001.0, 10.4, -3000.0}, {1999.0, 9.0, -3000.0}};
+    float voxel = 0.0f;
+    for (int i = 0; i < 3; ++i) {
+        const FieldScene scene(balls, cameraAt(eyes[i], targets[i]));
+        const FieldPlan plan = planOf(scene, 96);
+        ASSERT_FALSE(plan.isEmpty());
+        const FieldBlock& field = plan.fields()[0];
+        voxel = i == 0 ? field.corner.w : voxel;
+        EXPECT_EQ(field.corner.w, voxel);
+        for (int a = 0; a < 3; ++a) {
+            const double place = (scene.camera.eye[a] + double(field.corner[a])) / (8.0 * double(voxel));
+            EXPECT_NEAR(place, std::round(place), 1e-4) << "corner of a brick of the world's lattice";
+        }
+    }
+}
+
+TEST(FieldPlan, sidesOfVoxelsDependOnTheWholeEffectNotOnWhatIsInView)
+{
+    const std::vector<FieldBall> balls = randomBalls(150, 5, glm::dvec3(0.0));
+    const FieldScene all(balls, cameraAt({0, 0, 9}, {0, 0, 0}));
+    FieldScene half = all;
+    half.balls.resize(75);
+    half.effects[0].end = 75;
+    float smallest[2] = {1e9f, 1e9f};
+    for (size_t i = 0; i < all.balls.size(); ++i)
+        for (size_t k = i < 75 ? 0 : 1; k < 2; ++k)
+            smallest[k] = std::min(smallest[k], all.balls[i].centerRadius.w);
+    ASSERT_LT(smallest[0], 0.5f); // small balls in both
+    EXPECT_EQ(planOf(all, 64).fields()[0].corner.w, planOf(half, 64).fields()[0].corner.w);
+}
+
+TEST(FieldPlan, farAndSmallEffectsHaveFewerVoxels)
+{
+    const std::vector<FieldBall> balls = randomBalls(150, 5, glm::dvec3(0.0));
+    size_t before = ~size_t(0);
+    for (const double distance : {6.0, 30.0, 60.0, 120.0}) {
+        const FieldScene scene(balls, cameraAt({0, 0, distance}, {0, 0, 0}));
+        const size_t bricks = planOf(scene, 128).bricks().size();
+        EXPECT_LT(bricks, before) << distance;
+        before = bricks;
+    }
+}
+
+TEST(FieldPlan, manyEffectsStayWithinTheBudget)
+{
+    std::vector<FieldBall> balls;
+    for (uint32_t e = 0; e < 12; ++e)
+        for (const FieldBall& ball :
+             randomBalls(60, 10 + e, glm::dvec3(6.0 * (e % 4), 0.0, -5.0 * (e / 4)), e))
+            balls.push_back(ball);
+    const FieldScene scene(balls, cameraAt({9, 2, 12}, {9, 0, 0}));
+    for (const uint32_t most : {200u, 1000u, 4000u}) {
+        const FieldPlan plan = planOf(scene, 128, most);
+        EXPECT_EQ(plan.fields().size(), 12u);
+        EXPECT_LE(plan.bricks().size(), most);
+        EXPECT_GT(plan.bricks().size(), most / 4);
+    }
+}
+
+TEST(FieldPlan, ballsFarApartHaveNoVoxelsBetweenThem)
+{
+    std::vector<FieldBall> balls(2);
+    balls[0].center = {-40.0, 0.0, 0.0};
+    balls[1].center = {40.0, 0.0, 0.0};
+    const FieldScene scene(balls, cameraAt({0, 0, 120}, {0, 0, 0}));
+    const FieldPlan plan = planOf(scene, 128);
+    const glm::ivec3 size(plan.fields()[0].bricks);
+    EXPECT_GE(size.x, 8);
+    EXPECT_LE(plan.bricks().size(), size_t(2 * 27)); // widened balls at most
+}
+
+TEST(FieldPlan, ballsMuchSmallerThanTheOthersStayBalls)
+{
+    std::vector<FieldBall> balls = randomBalls(100, 5, glm::dvec3(0.0));
+    balls[7].radius = 0.02f;
+    balls[7].crossSection = 1e-4f;
+    const FieldScene scene(balls, cameraAt({0, 0, 9}, {0, 0, 0}));
+    const FieldPlan plan = planOf(scene, 64);
+    ASSERT_EQ(plan.loose().size(), 1u);
+    EXPECT_EQ(plan.loose()[0], 7u);
+    EXPECT_EQ(std::count(plan.balls().begin(), plan.balls().end(), 7u), 0);
+}
+
+TEST(FieldPlan, farBallsAreWidenedToWhatVoxelsHold)
+{
+    std::vector<FieldBall> balls(1);
+    const FieldScene scene(balls, cameraAt({0, 0, 600}, {0, 0, 0}));
+    const FieldPlan plan = planOf(scene, 96);
+    const FieldBlock& field = plan.fields()[0];
+    ASSERT_GT(field.limits.x, 1.5f) << "the control: voxels are nearly as large as the ball";
+    double sum = 0.0; // the cross section is kept by the sum over the lattice
+    for (const FieldBrickBlock& brick : plan.bricks())
+        for (int i = 0; i < 512; ++i)
+            sum += sampleAt(scene, 0, placeOfSample(plan, brick, {i % 8, i / 8 % 8, i / 64}), field);
+    EXPECT_NEAR(sum * std::pow(double(field.corner.w), 3.0), 1.0, 0.05);
+}
+
+TEST(FieldPlan, eachPartOfTheWindowListsTheFieldsThatAreSeenThere)
+{
+    std::vector<FieldBall> balls(2);
+    balls[0].center = {-5.0, 0.0, 0.0};
+    balls[1].center = {5.0, 0.0, 0.0};
+    balls[1].effect = 1;
+    const FieldScene scene(balls, cameraAt({0, 0, 20}, {0, 0, 0}));
+    const FieldPlan plan = planOf(scene, 64);
+    ASSERT_EQ(plan.fields().size(), 2u);
+    std::set<uint32_t> places;
+    size_t left = 0, right = 0;
+    for (const FieldTileBlock& tile : plan.tiles()) {
+        EXPECT_TRUE(places.insert(tile.place).second);
+        ASSERT_EQ(tile.count, 1u);
+        const uint32_t column = tile.place & 255u;
+        (column < kFieldTileColumns / 2 ? left : right) += 1;
+        EXPECT_EQ(plan.tileFields()[tile.first], column < kFieldTileColumns / 2 ? 0u : 1u);
+    }
+    EXPECT_GT(left, 4u);
+    EXPECT_EQ(left, right);
+    EXPECT_LT(plan.tiles().size(), size_t(kFieldTileColumns * kFieldTileRows) / 2);
+}
+
+TEST(FieldPlan, withTheEyeInsideAllOfTheWindowIsListed)
+{
+    std::vector<FieldBall> balls(1);
+    balls[0].radius = 5.0f;
+    const FieldScene scene(balls, cameraAt({0.1, 0.2, 0.3}, {0, 0, -1}));
+    const FieldPlan plan = planOf(scene, 64);
+    EXPECT_EQ(plan.tiles().size(), size_t(kFieldTileColumns * kFieldTileRows));
+    EXPECT_EQ(plan.nearest(), 0.0f);
+}
+
+TEST(FieldPlan, equalInputsGiveEqualPlans)
+{
+    const FieldScene scene(randomBalls(150, 5, glm::dvec3(0.0)), cameraAt({0, 0, 9}, {0, 0, 0}));
+    const FieldPlan a = planOf(scene, 64), b = planOf(scene, 64);
+    EXPECT_TRUE(std::equal(a.table().begin(), a.table().end(), b.table().begin(), b.table().end()));
+    EXPECT_TRUE(std::equal(a.balls().begin(), a.balls().end(), b.balls().begin(), b.balls().end()));
+}
