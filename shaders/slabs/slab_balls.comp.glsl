@@ -4,7 +4,7 @@
 
 // Balls to texels, with what of them is the same along all rays.
 layout(local_size_x = 64) in;
-layout(std430, binding = 6) readonly buffer BlobLights { vec4 blobLights[]; }; // three a blob, see lights/blob_light.comp.glsl
+layout(std430, binding = 6) readonly buffer BlobLights { vec4 blobLights[]; }; // pass.z a blob, see lights/blob_light.comp.glsl
 layout(rgba32f, binding = 0) uniform writeonly image2D balls;
 
 void main()
@@ -13,6 +13,7 @@ void main()
     if (ball >= uint(pass.y))
         return;
     BlobInstance blob = blobs[ball];
+    uint first = uint(pass.z) * ball;
     float away = length(blob.centerRadius.xyz);
     float radius = max(blob.centerRadius.w, pass.x * (rayOrigin.w > 0.5 ? 1.0 : away)); // a large texel must not lose small balls
     float detail = blob.medium.z * forward.w;
@@ -23,8 +24,8 @@ void main()
     imageStore(balls, ballTexel(ball, kMedium), vec4(depth, blob.centerRadius.w, blob.layer.x, detail));
     imageStore(balls, ballTexel(ball, kEmitted), blob.emission);
     imageStore(balls, ballTexel(ball, kScatter), blob.scatter);
-    imageStore(balls, ballTexel(ball, kLight), vec4(blobLights[3u * ball].rgb, 0.0));
-    imageStore(balls, ballTexel(ball, kSlope), vec4(blobLights[3u * ball + 1u].xyz / blob.centerRadius.w, 0.0));
+    imageStore(balls, ballTexel(ball, kLight), vec4(blobLights[first].rgb, 0.0));
+    imageStore(balls, ballTexel(ball, kSlope), vec4(blobLights[first + 1u].xyz / blob.centerRadius.w, 0.0));
     float periods = blob.lit.w < 0.0 ? -1.0 - blob.lit.w : blob.lit.w;
     imageStore(balls, ballTexel(ball, kDetail), vec4(blob.medium.w, periods, 0.0, 0.0));
 }

@@ -1,5 +1,7 @@
 #include "rendering/compositions/slabs/slab_passes.h"
 
+#include "rendering/passes/blob_light_pass.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -102,6 +104,7 @@ ResourceId SlabBallPass::addTo(FrameGraph& graph, const BallList& list, const Vi
             builder.write(builder.create({"balls as texels", int(kBallColumns), rows, Format::RGBA32F}));
         ViewBlock block = view;
         block.pass.y = float(count); // exact up to 2^24
+        block.pass.z = float(kBlobLightBytes / sizeof(glm::vec4));
         return [block, texture, count, given = list.balls, lights = list.lights](Backend& backend) {
             const BufferBinding buffers[] = {{0, given}, {kBlobLightBinding, lights}};
             const ImageBinding images[] = {{0, texture}};
