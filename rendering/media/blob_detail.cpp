@@ -44,7 +44,7 @@ float extinctionAt(std::span<const MediumCaster> balls, const glm::vec3& p)
 float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls)
 {
     constexpr glm::vec3 kCorners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    const size_t stride = (balls.size() + kMostLookedAt - 1) / kMostLookedAt;
+    const size_t stride = std::max<size_t>((balls.size() + kMostLookedAt - 1) / kMostLookedAt, 1);
     double before = 0, after = 0;
     for (size_t i = 0; i < balls.size(); i += stride)
         for (const glm::vec3& corner : kCorners) {
