@@ -16,6 +16,7 @@ static_assert(int(FX_BILLBOARD_CONSTANT) == int(fx::render::BillboardForm::Const
 static_assert(int(FX_BILLBOARD_KERNEL) == int(fx::render::BillboardForm::Kernel));
 static_assert(int(FX_COMPOSITION_SORTED) == int(fx::render::Composition::Sorted));
 static_assert(int(FX_COMPOSITION_SLABS) == int(fx::render::Composition::Slabs));
+static_assert(int(FX_COMPOSITION_VOLUME) == int(fx::render::Composition::Volume));
 
 constexpr float kBrightest = 1e6f;  // [cd/m2] and [lx]
 constexpr double kFarthest = 1e9;   // [m]
@@ -82,6 +83,7 @@ void checkComposition(fx::api::Checks& check, const FxViewSettings& given)
         given.composition <= 0xFFu && fx::render::findComposition(fx::render::Composition(given.composition));
     check.that(isThere, "settings.composition is none of FX_COMPOSITION_...");
     check.that(given.slabs == 6 || given.slabs == 16, "settings.slabs is not 6 or 16");
+    check.that(given.voxels >= 16 && given.voxels <= 256, "settings.voxels is not from 16 to 256");
 }
 
 void checkSunShadow(fx::api::Checks& check, const FxFrameDef& given)
@@ -152,6 +154,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     slices.multiple = given.multipleScattering != 0;
     settings.composition = render::Composition(given.composition);
     settings.slabs = int(given.slabs);
+    settings.voxels = int(given.voxels);
     outSettings = settings;
     return {};
 }

@@ -187,6 +187,9 @@ render::ViewSettings readView(const PresetValue& root)
     uint32_t slabs = uint32_t(view.slabs);
     root.read("slabs", slabs);
     view.slabs = int(slabs);
+    uint32_t voxels = uint32_t(view.voxels);
+    root.read("voxels", voxels);
+    view.voxels = int(voxels);
     root.read("detail", view.detail);
     root.read("toneMap", view.toneMap);
     return view;

@@ -1,6 +1,7 @@
 #include "rendering/compositions/media_compositions.h"
 
 #include "rendering/compositions/slabs/slab_composition.h"
+#include "rendering/compositions/volume/volume_composition.h"
 
 #include <algorithm>
 
@@ -15,7 +16,8 @@ constexpr MediaComposition kSortedComposition{
 
 constexpr const MediaComposition* kCompositions[] = {
     &kSortedComposition, //
-    &kSlabComposition,
+    &kSlabComposition,   //
+    &kVolumeComposition,
 };
 
 } // namespace

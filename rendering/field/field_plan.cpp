@@ -18,15 +18,15 @@ namespace {
 constexpr float kPeak =
     1.04445431404056f;                  ///< extinction in the center of a ball over cross section / radius^3
 constexpr float kPixelsPerVoxel = 1.5f; ///< finer voxels would not be seen
-constexpr int kFewestVoxels = 16;       ///< across
-constexpr int kMostVoxels = 256;        ///< across
-constexpr float kVoxelsPerRadius = 10.0f;     ///< more of the smallest ball would show nothing new
-constexpr int kMostBricksAlong = 128;         ///< of a field, along an axis
-constexpr int64_t kMostBricksOfBox = 1 << 16; ///< of a field, with the empty ones
-constexpr int kMostTries = 64;                ///< to keep the budget of bricks
-constexpr float kThinnest = 0.125f; ///< [1] of the longest side of a box: what its others count at least
-constexpr float kTouch = 1.0001f;   ///< radii are compared with a margin, for what the GPU rounds
-constexpr uint32_t kUnseen = ~0u;   ///< entry of the table: medium that no ray meets
+constexpr float kRadii = 16.0f;         ///< of balls along which there are as many voxels as asked for
+constexpr int kFewestVoxels = 16, kMostVoxels = 256; ///< along those
+constexpr float kLooseShare = 0.4f;                  ///< of an effect's radius: what is smaller stays a ball
+constexpr int kMostBricksAlong = 128;                ///< of a field, along an axis
+constexpr int64_t kMostBricksOfBox = 1 << 16;        ///< of a field, with the empty ones
+constexpr int kMostTries = 64;                       ///< to keep the budget of bricks
+constexpr float kLeastVoxel = 1e-4f;                 ///< [m]
+constexpr float kTouch = 1.0001f; ///< radii are compared with a margin, for what the GPU rounds
+constexpr uint32_t kUnseen = ~0u; ///< entry of the table: medium that no ray meets
 
 const float kStep = std::exp2(0.25f); ///< between the sides of voxels
 
@@ -85,8 +85,8 @@ struct BrickRange
 } // namespace
 
 FieldPlan::FieldPlan(std::pmr::memory_resource* memory)
-    : lattices_(memory), fields_(memory), bricks_(memory), table_(memory), balls_(memory), peaks_(memory),
-      stamps_(memory), seen_(memory), tiles_(memory), tileFields_(memory)
+    : lattices_(memory), fields_(memory), bricks_(memory), table_(memory), balls_(memory), loose_(memory),
+      peaks_(memory), stamps_(memory), seen_(memory), tiles_(memory), tileFields_(memory)
 {}
 
 void FieldPlan::clear()
@@ -96,15 +96,9 @@ void FieldPlan::clear()
     bricks_.clear();
     table_.clear();
     balls_.clear();
+    loose_.clear();
     tiles_.clear();
     tileFields_.clear();
-}
-
-int FieldPlan::voxelsAcross(float pixels, int resolution)
-{
-    const int most = std::clamp(resolution, kFewestVoxels, kMostVoxels);
-    const float wanted = pixels / kPixelsPerVoxel;
-    return wanted < float(most) ? std::max(int(wanted), kFewestVoxels) : most;
 }
 
 void FieldPlan::build(const FieldPlanInputs& in)
@@ -113,16 +107,17 @@ void FieldPlan::build(const FieldPlanInputs& in)
     if (in.balls.empty())
         return;
     chooseVoxels(in);
-    for (int i = 0; i < kMostTries; ++i) {
-        bound(in);
-        if (place(in))
-            break;
+    for (int i = 0; i < kMostTries && !place(in); ++i)
         for (Lattice& lattice : lattices_)
             lattice.voxel *= kStep;
-    }
     listBricks(in);
     listBalls(in);
     listTiles(in);
+}
+
+bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect)
+{
+    return ball.centerRadius.w < kLooseShare * effect.radius;
 }
 
 /// From the whole effect, so that voxels stay as large when the view turns.
@@ -130,39 +125,32 @@ void FieldPlan::chooseVoxels(const FieldPlanInputs& in)
 {
     const CameraGeometry& camera = *in.camera;
     const float pixelsPerSlope = 0.5f * float(in.height) * std::abs(camera.clipScale.y);
+    const float perRadius = float(std::clamp(in.resolution, kFewestVoxels, kMostVoxels)) / kRadii;
     lattices_.assign(in.effects.size(), Lattice());
     for (size_t i = 0; i < in.effects.size(); ++i) {
         const BlobEffect& effect = in.effects[i];
-        glm::vec3 size = glm::max(effect.high - effect.low, glm::vec3(1e-4f));
-        size = glm::max(size, kThinnest * std::max({size.x, size.y, size.z}));
-        const float side = std::cbrt(size.x * size.y * size.z);
         const float depth = camera.orthographic ? 1.0f : distanceToBox(effect.low, effect.high);
-        const float pixels = side * pixelsPerSlope / std::max(depth, 1e-3f * side);
-        lattices_[i].voxel = side / float(voxelsAcross(pixels, in.resolution));
+        const float pixel = depth / pixelsPerSlope; // [m]
+        lattices_[i].voxel =
+            quantized(std::max({effect.radius / perRadius, kPixelsPerVoxel * pixel, kLeastVoxel}));
+        for (uint32_t ball = effect.begin; ball < effect.end; ++ball)
+            if (isLoose(in.balls[ball], effect))
+                loose_.push_back(ball);
     }
-    for (size_t i = 0; i < in.balls.size(); ++i) { // smallest radius of each effect, in place of a bound
-        Lattice& lattice = lattices_[in.effectOf[i]];
-        const float radius = in.balls[i].centerRadius.w;
-        lattice.low.x = lattice.hasBalls ? std::min(lattice.low.x, radius) : radius;
-        lattice.hasBalls = true;
-    }
-    for (Lattice& lattice : lattices_)
-        lattice.voxel = quantized(std::max(lattice.voxel, lattice.low.x / kVoxelsPerRadius));
 }
 
-/// Boxes around the balls that can be seen, as wide as voxels make them.
-void FieldPlan::bound(const FieldPlanInputs& in)
+/// The box around the balls that can be seen, as wide as voxels make them.
+void FieldPlan::bound(Lattice& lattice, const FieldPlanInputs& in, const BlobEffect& effect)
 {
-    for (Lattice& lattice : lattices_) {
-        lattice.low = glm::vec3(std::numeric_limits<float>::max());
-        lattice.high = -lattice.low;
-    }
-    for (size_t i = 0; i < in.balls.size(); ++i) {
-        Lattice& lattice = lattices_[in.effectOf[i]];
-        const glm::vec3 center(in.balls[i].centerRadius);
-        const float radius = std::max(in.balls[i].centerRadius.w, leastRadius(lattice.voxel)) * kTouch;
-        lattice.low = glm::min(lattice.low, center - radius);
-        lattice.high = glm::max(lattice.high, center + radius);
+    lattice.low = glm::vec3(std::numeric_limits<float>::max());
+    lattice.high = -lattice.low;
+    for (uint32_t ball = effect.begin; ball < effect.end; ++ball) {
+        if (isLoose(in.balls[ball], effect))
+            continue;
+        const glm::vec4& place = in.balls[ball].centerRadius;
+        const float radius = std::max(place.w, leastRadius(lattice.voxel)) * kTouch;
+        lattice.low = glm::min(lattice.low, glm::vec3(place) - radius);
+        lattice.high = glm::max(lattice.high, glm::vec3(place) + radius);
     }
 }
 
@@ -197,9 +185,16 @@ bool FieldPlan::place(const FieldPlanInputs& in)
 {
     fields_.clear();
     table_.clear();
-    for (Lattice& lattice : lattices_)
-        if (lattice.hasBalls && !placeField(lattice, *in.camera))
-            return false;
+    for (size_t i = 0; i < lattices_.size(); ++i) {
+        Lattice& lattice = lattices_[i];
+        bound(lattice, in, in.effects[i]);
+        if (lattice.low.x > lattice.high.x)
+            continue; // it has no balls
+        for (int k = 0; k < kMostTries && !placeField(lattice, *in.camera); ++k) {
+            lattice.voxel *= kStep; // a wide effect
+            bound(lattice, in, in.effects[i]);
+        }
+    }
     const uint32_t across = uint32_t(std::clamp(in.resolution, kFewestVoxels, kMostVoxels) / kBrickCells);
     return countBalls(in) <= (in.mostBricks > 0 ? in.mostBricks : across * across * across);
 }
@@ -208,10 +203,13 @@ bool FieldPlan::place(const FieldPlanInputs& in)
 /// @return bricks
 uint32_t FieldPlan::countBalls(const FieldPlanInputs& in)
 {
-    for (size_t i = 0; i < in.balls.size(); ++i) {
-        const FieldBlock& field = fields_[lattices_[in.effectOf[i]].field];
-        BrickRange(field, in.balls[i]).forEach(field, [&](size_t index) { ++table_[index]; });
-    }
+    for (size_t e = 0; e < in.effects.size(); ++e)
+        for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i) {
+            if (isLoose(in.balls[i], in.effects[e]))
+                continue;
+            const FieldBlock& field = fields_[lattices_[e].field];
+            BrickRange(field, in.balls[i]).forEach(field, [&](size_t index) { ++table_[index]; });
+        }
     const ViewVolume volume(*in.camera);
     uint32_t bricks = 0;
     for (const FieldBlock& field : fields_) {
@@ -266,24 +264,29 @@ void FieldPlan::listBricks(const FieldPlanInputs& in)
 
 void FieldPlan::listBalls(const FieldPlanInputs& in)
 {
-    for (size_t i = 0; i < in.balls.size(); ++i) {
-        const FieldBlock& field = fields_[lattices_[in.effectOf[i]].field];
-        const float radius = std::max(in.balls[i].centerRadius.w, field.limits.x);
-        const float fineness = field.corner.w * field.corner.w / (radius * radius);
-        const float peak = kPeak * in.balls[i].medium.x / (radius * radius * radius) *
-                           formula::fxVoxelKernel(0.0f, fineness);
-        BrickRange(field, in.balls[i]).forEach(field, [&](size_t index) {
-            if (table_[index] == 0)
-                return;
-            FieldBrickBlock& brick = bricks_[table_[index] - 1];
-            balls_[brick.first + brick.count++] = uint32_t(i);
-            peaks_[table_[index] - 1] += peak;
-        });
-    }
+    for (size_t e = 0; e < in.effects.size(); ++e)
+        for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i)
+            if (!isLoose(in.balls[i], in.effects[e]))
+                listBall(fields_[lattices_[e].field], in.balls[i], i);
     for (size_t i = 0; i < bricks_.size(); ++i) {
         float& most = fields_[bricks_[i].field].limits.y;
         most = std::max(most, peaks_[i]);
     }
+}
+
+void FieldPlan::listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number)
+{
+    const float radius = std::max(ball.centerRadius.w, field.limits.x);
+    const float fineness = field.corner.w * field.corner.w / (radius * radius);
+    const float peak =
+        kPeak * ball.medium.x / (radius * radius * radius) * formula::fxVoxelKernel(0.0f, fineness);
+    BrickRange(field, ball).forEach(field, [&](size_t index) {
+        if (table_[index] == 0)
+            return;
+        FieldBrickBlock& brick = bricks_[table_[index] - 1];
+        balls_[brick.first + brick.count++] = number;
+        peaks_[table_[index] - 1] += peak;
+    });
 }
 
 glm::vec3 FieldPlan::middleOf(const FieldBrickBlock& brick) const

@@ -23,12 +23,11 @@ namespace fx::render {
 struct FieldPlanInputs
 {
     std::span<const BlobInstance> balls; ///< those that can be seen
-    std::span<const uint32_t> effectOf;  ///< of each ball, index into `effects`
-    std::span<const BlobEffect> effects;
+    std::span<const BlobEffect> effects; ///< of all balls, in their order
     const CameraGeometry* camera;
     int width, height;       ///< [pixel] of the picture
-    int resolution = 96;     ///< voxels along the side of an effect's box as a cube, 16..256
-    uint32_t mostBricks = 0; ///< of all fields together; 0: those of a full box of that resolution
+    int resolution = 96;     ///< voxels along 16 radii of an effect's balls, 16..256
+    uint32_t mostBricks = 0; ///< of all fields together; 0: of a full cube of that many voxels
 };
 
 /// Keeps its memory from frame to frame. Threads: one at a time.
@@ -47,12 +46,12 @@ public:
     std::span<const uint32_t> balls() const { return balls_; } ///< of all bricks
     std::span<const FieldTileBlock> tiles() const { return tiles_; }
     std::span<const uint32_t> tileFields() const { return tileFields_; } ///< of all tiles
+    /// Balls that are too small for the voxels of their effect, in their order; no brick has them.
+    std::span<const uint32_t> loose() const { return loose_; }
     float nearest() const { return nearest_; }   ///< [m] from the eye, along the axis of a parallel view
     float farthest() const { return farthest_; } ///< [m]
     bool isEmpty() const { return bricks_.empty(); }
 
-    /// Voxels of an effect that is drawn with so many pixels, along the side of its box as a cube.
-    static int voxelsAcross(float pixels, int resolution);
     /// [m] radius below which a ball is widened, its cross section kept: smaller ones fall between samples.
     static float leastRadius(float voxel) { return 2.0f * voxel; }
 
@@ -63,15 +62,16 @@ private:
         glm::vec3 low{0.0f};  ///< [m] of all balls that can be seen, relative to the eye
         glm::vec3 high{0.0f}; ///< [m]
         uint32_t field = 0;   ///< number, of those that have balls
-        bool hasBalls = false;
     };
 
     void chooseVoxels(const FieldPlanInputs& in);
-    void bound(const FieldPlanInputs& in);
+    static void bound(Lattice& lattice, const FieldPlanInputs& in, const BlobEffect& effect);
     bool place(const FieldPlanInputs& in); ///< false: too many bricks
     bool placeField(Lattice& lattice, const CameraGeometry& camera);
+    static bool isLoose(const BlobInstance& ball, const BlobEffect& effect);
     uint32_t countBalls(const FieldPlanInputs& in);
     void listBalls(const FieldPlanInputs& in);
+    void listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number);
     void listBricks(const FieldPlanInputs& in);
     void listTiles(const FieldPlanInputs& in);
     void markTiles(const FieldPlanInputs& in, const FieldBrickBlock& brick);
@@ -82,6 +82,7 @@ private:
     std::pmr::vector<FieldBrickBlock> bricks_;
     std::pmr::vector<uint32_t> table_;
     std::pmr::vector<uint32_t> balls_;
+    std::pmr::vector<uint32_t> loose_;
     std::pmr::vector<float> peaks_;     ///< [1/m] of each brick: sum of what its balls have in their centers
     std::pmr::vector<uint32_t> stamps_; ///< of tiles: number of the last field + 1
     std::pmr::vector<uint32_t> seen_;   ///< pairs of tile and field, in the order of fields

@@ -12,6 +12,7 @@ namespace fx::render {
 inline constexpr std::pair<std::string_view, Composition> kCompositionNames[] = {
     {"sorted", Composition::Sorted},
     {"slabs", Composition::Slabs},
+    {"volume", Composition::Volume},
 };
 
 } // namespace fx::render

@@ -47,6 +47,7 @@ enum class Composition : uint8_t
 {
     Sorted, ///< one ball or card after the other, farthest first
     Slabs,  ///< in slabs across each ray, in which all are summed up: no order is seen
+    Volume, ///< balls of an effect are summed up in voxels, through which rays march: no order is seen
 };
 
 /// One directional light, and light from everywhere.
@@ -152,6 +153,7 @@ struct ViewSettings
     BillboardForm form = BillboardForm::Kernel;
     Composition composition = Composition::Sorted;
     int slabs = 16;        ///< 6 or 16 along each ray, of Composition::Slabs
+    int voxels = 96;       ///< 16..256 along 16 radii of an effect's balls, of Composition::Volume
     bool saveState = true; ///< restore every GL state that is touched; false: the host does
     bool detail = true;    ///< procedural detail of blobs
     float particleShare =

@@ -4,6 +4,9 @@
 
 #include <string>
 
+#include <algorithm>
+#include <bit>
+
 namespace fx::render {
 
 base::Result<GlBuffer> GlBuffer::create(GlDevice& device, size_t bytes, const char* label)
@@ -40,6 +43,22 @@ GlBuffer& GlBuffer::operator=(GlBuffer&& other) noexcept
     std::swap(name_, other.name_);
     std::swap(bytes_, other.bytes_);
     return *this;
+}
+
+base::Status makeRoom(GlDevice& device, GlBuffer& ioBuffer, size_t bytes, const char* label)
+{
+    constexpr size_t kLeastBytes = 4096;
+    if (bytes == 0)
+        return {};
+    if (ioBuffer.bytes() >= bytes) {
+        device.gl.InvalidateBufferData(ioBuffer.name()); // the GPU may still read it: do not wait
+        return {};
+    }
+    auto created = GlBuffer::create(device, std::bit_ceil(std::max(bytes, kLeastBytes)), label);
+    if (!created)
+        return created.status();
+    ioBuffer = std::move(*created);
+    return {};
 }
 
 } // namespace fx::render

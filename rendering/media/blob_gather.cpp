@@ -306,7 +306,8 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         if (outInstances.empty() || outInstances.back().instance != group.info().instance) {
             const ImpostorPlan plan =
                 impostors ? planImpostor(snapshots, g, t, camera, height, *impostors) : ImpostorPlan();
-            outInstances.push_back({group.info().instance, outVisible.size(), outVisible.size(), plan});
+            outInstances.push_back({group.info().instance, outVisible.size(), outVisible.size(), plan,
+                                    outMedium.size(), outMedium.size()});
             gather.cullToView(!plan.isTaken);
             if (plan.blobShare <= 0.0f && !plan.isTaken)
                 far = farCasters(newer, g);
@@ -319,6 +320,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         else if (castsShadows)
             gather.runFar(group, older, t, stepSeconds, far);
         outInstances.back().visibleEnd = outVisible.size();
+        outInstances.back().mediumEnd = outMedium.size();
     }
     return counts;
 }

@@ -40,7 +40,8 @@ struct InstanceBlobs
 {
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
-    ImpostorPlan plan; ///< what of it is drawn as a picture
+    ImpostorPlan plan;             ///< what of it is drawn as a picture
+    size_t mediumBegin, mediumEnd; ///< of all, seen or not
 };
 
 /// What a gather left out.

@@ -6,15 +6,16 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <numeric>
 
 namespace fx::render {
 
 FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
-    : gathered_(memory), casters_(memory), instances_(memory), shaded_(memory), sorted_(memory),
-      distances_(memory), depthSort_(memory), impostors_(memory), impostorSort_(memory), takenSort_(memory),
-      sortedImpostors_(memory), taken_(memory), sortedTaken_(memory), takenDistances_(memory),
-      identity_(memory), takenTiles_(memory)
+    : gathered_(memory), casters_(memory), instances_(memory), shaded_(memory), effects_(memory),
+      sorted_(memory), distances_(memory), depthSort_(memory), impostors_(memory), impostorSort_(memory),
+      takenSort_(memory), sortedImpostors_(memory), taken_(memory), sortedTaken_(memory),
+      takenDistances_(memory), identity_(memory), takenTiles_(memory)
 {}
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,
@@ -28,7 +29,7 @@ void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest
     counts_ = gatherBlobs(snapshots, request.interpolation, camera, request.targets.height, gathered_,
                           casters_, instances_, settings.particleShare, &lod, &impostors_, castsShadows);
     impostors_.end();
-    shade(settings, camera);
+    shade(settings, camera, isSorted);
     sort(camera, isSorted);
     sortImpostors(camera);
 }
@@ -50,20 +51,48 @@ void FrameBuilder::beginImpostors(const FrameRequest& request, const ViewSetting
     mustForget_ = false;
 }
 
-void FrameBuilder::shade(const ViewSettings& settings, const CameraGeometry& camera)
+void FrameBuilder::shade(const ViewSettings& settings, const CameraGeometry& camera, bool isSorted)
 {
     const float exposure = exposureFromEv100(settings.exposureEv100);
     anyHeat_ = false;
     anyDetail_ = false;
     shaded_.clear();
+    effects_.clear();
     taken_.clear();
-    for (const InstanceBlobs& instance : instances_)
+    for (const InstanceBlobs& instance : instances_) {
+        const size_t begin = shaded_.size();
         for (size_t i = instance.visibleBegin; i < instance.visibleEnd; ++i) {
             const GatheredBlob& blob = gathered_[i];
             add(shadeBlob(blob, exposure), instance.plan, camera);
             anyHeat_ = anyHeat_ || (blob.heat > 0.0f && instance.plan.blobShare > 0.0f);
             anyDetail_ = anyDetail_ || blob.detailAmount > 0.0f;
         }
+        if (!isSorted && shaded_.size() > begin)
+            addEffect(instance, begin);
+    }
+}
+
+void FrameBuilder::addEffect(const InstanceBlobs& instance, size_t begin)
+{
+    BlobEffect effect{uint32_t(begin), uint32_t(shaded_.size()), shaded_[begin].centerRadius,
+                      shaded_[begin].centerRadius, shaded_[begin].centerRadius.w};
+    const auto casters =
+        std::span(casters_).subspan(instance.mediumBegin, instance.mediumEnd - instance.mediumBegin);
+    radii_.clear();
+    float left = 0.0f;
+    for (const MediumCaster& caster : casters) {
+        effect.low = glm::min(effect.low, caster.center - caster.radius);
+        effect.high = glm::max(effect.high, caster.center + caster.radius);
+        radii_.push_back({caster.radius, caster.crossSection});
+        left += 0.25f * caster.crossSection;
+    }
+    std::ranges::sort(radii_);
+    for (const auto& [radius, crossSection] : radii_) {
+        effect.radius = radius;
+        if ((left -= crossSection) <= 0.0f)
+            break;
+    }
+    effects_.push_back(effect);
 }
 
 /// To what is drawn, to a picture that is taken, or to both.

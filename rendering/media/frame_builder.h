@@ -11,6 +11,7 @@
 
 #include <memory_resource>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace fx::render {
@@ -31,8 +32,10 @@ public:
                bool castsShadows = true, bool isSorted = true);
 
     std::span<const BlobInstance> blobs() const { return sorted_; } ///< farthest first, unless not sorted
-    bool anyHeat() const { return anyHeat_; }                       ///< some blob bends light
-    bool anyDetail() const { return anyDetail_; }                   ///< some blob has procedural detail
+    /// Of blobs(); none where they are sorted.
+    std::span<const BlobEffect> effects() const { return effects_; }
+    bool anyHeat() const { return anyHeat_; }     ///< some blob bends light
+    bool anyDetail() const { return anyDetail_; } ///< some blob has procedural detail
     /// All that casts shadows, seen or not.
     std::span<const MediumCaster> casters() const { return casters_; }
     const GatherCounts& counts() const { return counts_; }
@@ -50,7 +53,8 @@ public:
     void forgetPictures() { mustForget_ = true; } ///< those of the last frame were not taken
 
 private:
-    void shade(const ViewSettings& settings, const CameraGeometry& camera);
+    void shade(const ViewSettings& settings, const CameraGeometry& camera, bool isSorted);
+    void addEffect(const InstanceBlobs& instance, size_t begin);
     void sort(const CameraGeometry& camera, bool isSorted);
     void beginImpostors(const FrameRequest& request, const ViewSettings& settings,
                         const CameraGeometry& camera, uint64_t content);
@@ -61,6 +65,8 @@ private:
     std::pmr::vector<MediumCaster> casters_;
     std::pmr::vector<InstanceBlobs> instances_;
     std::pmr::vector<BlobInstance> shaded_;
+    std::pmr::vector<BlobEffect> effects_;
+    std::pmr::vector<std::pair<float, float>> radii_; ///< scratch: radius and cross section
     std::pmr::vector<BlobInstance> sorted_;
     std::pmr::vector<float> distances_;
     DepthSort depthSort_;

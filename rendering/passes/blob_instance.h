@@ -22,11 +22,12 @@ struct BlobInstance
 };
 static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
 
-/// The box around all balls of one instance, seen or not.
+/// Balls of one instance that stand together in a list.
 struct BlobEffect
 {
-    uint64_t instance;
-    glm::vec3 low, high; ///< [m] relative to the eye, world axes; low > high: it has none
+    uint32_t begin, end; ///< in the list
+    glm::vec3 low, high; ///< [m] box around all of its balls, seen or not, relative to the eye, world axes
+    float radius;        ///< [m] of its balls, seen or not: smaller ones have a quarter of the cross section
 };
 
 } // namespace fx::render

@@ -63,6 +63,7 @@ struct GatheredFrame
     std::pmr::vector<MediumCaster>* casters = nullptr; ///< all media that cast shadows, relative to the eye
     FragmentCounts fragments{};                        ///< estimated, of what the media pass draws
     std::span<const BlobInstance> blobs{};             ///< balls of medium
+    std::span<const BlobEffect> effects{};             ///< of those, if they come in the order of instances
     bool anyHeat = false;                              ///< some of those bend light
 };
 

@@ -18,6 +18,7 @@ FrameKey frameKey(const RevisionPair& revisions, const FrameRequest& request, co
     key.particleShare = settings.particleShare;
     key.lod = settings.lod;
     key.composition = settings.composition;
+    key.voxels = settings.voxels;
     key.layerOutputs = settings.layerOutputs;
     key.assets = assets;
     return key;

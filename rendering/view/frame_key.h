@@ -25,6 +25,7 @@ struct FrameKey
     float particleShare = 1;
     LodSettings lod;
     Composition composition = Composition::Sorted;
+    int voxels = 0;
     bool layerOutputs = false;
     const base::AssetTable* assets = nullptr; ///< never followed
 

@@ -259,6 +259,8 @@ base::Status ViewRenderer::checkAll(const FrameRequest& request) const
                        std::to_string(int(settings_.composition)));
     if (settings_.slabs != 6 && settings_.slabs != 16)
         return invalid("settings: slabs are 6 or 16");
+    if (settings_.voxels < 16 || settings_.voxels > 256)
+        return invalid("settings: voxels are 16 to 256");
     for (const DrawTechnique* technique : impl_->techniques)
         if (base::Status status = technique->check ? technique->check(settings_) : base::Status(); !status)
             return status;

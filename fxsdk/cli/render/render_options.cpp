@@ -154,10 +154,13 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
         .add_option(
             "--composition", arguments.composition,
             "How media that overlap are put together instead of what the scene says: sorted, one over "
-            "the other; slabs, summed up in slabs across each ray")
+            "the other; slabs, summed up in slabs across each ray; volume, in voxels")
         ->check(oneOf(compositionNames()));
     command.add_option("--slabs", arguments.slabs, "Slabs along each ray of --composition slabs")
         ->check(oneOf({"6", "16"}));
+    command
+        .add_option("--voxels", arguments.voxels, "Voxels along 16 radii of balls of --composition volume")
+        ->check(CLI::Range(16, 256));
     command.add_option("--seed", arguments.seed, "Instance k gets the seed N + k instead of the file's")
         ->check(CLI::Validator(
             [](std::string& text) { return text.starts_with('-') ? "must not be negative" : ""; }, "UINT"));
@@ -303,6 +306,8 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
             settings.composition = value;
     if (!arguments.slabs.empty())
         settings.slabs = std::stoi(arguments.slabs);
+    if (!arguments.voxels.empty())
+        settings.voxels = std::stoi(arguments.voxels);
 
     const bool linear = kind == OutputKind::Exr;
     if (linear || arguments.noShimmer || arguments.quality == "low")

@@ -31,6 +31,7 @@ struct RenderArguments
     std::string form;        ///< empty: what quality says
     std::string composition; ///< empty: the scene's
     std::string slabs;       ///< empty: the scene's
+    std::string voxels;      ///< empty: the scene's
     std::string renderer = "gl";
     std::string statistics; ///< file, empty for none
     std::string times;      ///< "A,B,..." [s] instead of frames; empty: none

@@ -42,6 +42,7 @@ FxViewSettings toApi(const render::ViewSettings& settings)
     api.multipleScattering = settings.slices.multiple ? 1 : 0;
     api.composition = uint32_t(settings.composition);
     api.slabs = uint32_t(settings.slabs);
+    api.voxels = uint32_t(settings.voxels);
     return api;
 }
 

@@ -53,7 +53,9 @@ enum
 {
     FX_COMPOSITION_SORTED =
         0, ///< one particle over the other, farthest first; where they overlap, no order is right
-    FX_COMPOSITION_SLABS = 1 ///< summed up in slabs across the ray of each pixel: no order is seen
+    FX_COMPOSITION_SLABS = 1, ///< summed up in slabs across the ray of each pixel: no order is seen
+    FX_COMPOSITION_VOLUME =
+        2 ///< balls of an effect summed up in voxels, through which rays march: no order of balls is seen
 };
 
 /// Values of FxViewSettings::budgetClock.
@@ -190,6 +192,10 @@ typedef struct FxViewSettings
 
     /// 6 or 16 slabs along the ray of each pixel, of FX_COMPOSITION_SLABS; default 16.
     uint32_t slabs;
+
+    /// 16..256 voxels along 16 radii of an effect's balls, of FX_COMPOSITION_VOLUME; default 96. Effects that
+    /// are small on the picture get fewer.
+    uint32_t voxels;
 } FxViewSettings;
 
 /// Daylight exposure, no lights, all effects enabled.
@@ -222,6 +228,7 @@ static inline FxViewSettings fxDefaultViewSettings(void)
     settings.multipleScattering = 1;
     settings.composition = FX_COMPOSITION_SORTED;
     settings.slabs = 16;
+    settings.voxels = 96;
     return settings;
 }
 

@@ -13,12 +13,6 @@
 
 namespace fx::render {
 
-namespace {
-
-constexpr size_t kLeastBufferBytes = 4096;
-
-} // namespace
-
 BlobView::BlobView(const TechniqueSetup& setup) : device_(*setup.device), builder_(setup.memory) {}
 
 base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
@@ -29,6 +23,7 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
     builder_.build(*in.snapshots, *in.request, *in.settings, *in.camera, *in.lod, in.content, in.castsShadows,
                    in.needsOrder);
     io.blobs = builder_.blobs();
+    io.effects = builder_.effects();
     io.casters->insert(io.casters->end(), builder_.casters().begin(), builder_.casters().end());
     io.anyHeat = builder_.anyHeat();
     io.fragments = estimateFragments(builder_.blobs(), *in.camera, targets.width, targets.height);
@@ -40,10 +35,10 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
         io.streams->push_back(builder_.impostorStream());
         io.streams->back().source = &impostors_;
     }
-    if (base::Status status = makeRoom(blobBuffer_, builder_.blobs().size_bytes(), "blobs"); !status)
+    if (base::Status status = makeRoom(device_, blobBuffer_, builder_.blobs().size_bytes(), "blobs"); !status)
         return status;
     if (base::Status status =
-            makeRoom(lightBuffer_, builder_.blobs().size() * kBlobLightBytes, "blob lights");
+            makeRoom(device_, lightBuffer_, builder_.blobs().size() * kBlobLightBytes, "blob lights");
         !status)
         return status;
     return makeRoomForImpostors();
@@ -55,24 +50,10 @@ void BlobView::keep()
     restingFrames_ = 0;
 }
 
-base::Status BlobView::makeRoom(GlBuffer& buffer, size_t bytes, const char* label)
-{
-    if (bytes == 0)
-        return {};
-    if (buffer.bytes() >= bytes) {
-        device_.gl.InvalidateBufferData(buffer.name()); // the GPU may still read it: do not wait
-        return {};
-    }
-    auto created = GlBuffer::create(device_, std::bit_ceil(std::max(bytes, kLeastBufferBytes)), label);
-    if (!created)
-        return created.status();
-    buffer = std::move(*created);
-    return {};
-}
-
 base::Status BlobView::makeRoomForImpostors()
 {
-    if (base::Status status = makeRoom(impostorBuffer_, builder_.impostors().size_bytes(), "impostors");
+    if (base::Status status =
+            makeRoom(device_, impostorBuffer_, builder_.impostors().size_bytes(), "impostors");
         !status)
         return status;
     if (builder_.takenTiles().empty() || impostorAtlas_.name() != 0)

@@ -29,7 +29,6 @@ public:
     uint64_t bytes() const override;
 
 private:
-    base::Status makeRoom(GlBuffer& buffer, size_t bytes, const char* label);
     base::Status makeRoomForImpostors();
     void releaseBlobs();
     void releaseImpostors();

@@ -23,7 +23,7 @@ void FieldTest::importTextures()
 
 void FieldTest::fill(const FieldScene& scene, int resolution, bool layers)
 {
-    plan_.build(scene.inputs(kFieldWidth, kFieldHeight, resolution));
+    plan_.build(scene.inputs(16 * kFieldWidth, 16 * kFieldHeight, resolution));
     graph_->begin();
     volumes_.clear();
     const int depth = int(plan_.bricks().size() + 255) / 256;
@@ -60,8 +60,9 @@ std::vector<float> FieldTest::march(const CameraView& camera, const Window& wind
     // all shells but for the nearest, which ends at `from`
     const float before = (plan_.farthest() - window.from) / float(FieldSource::kShells - 1);
     source_.placeShells(window.from - before, plan_.farthest());
-    const std::vector<float> wall(size_t(kFieldWidth * kFieldHeight), window.wall);
-    const ResourceId distance = importScalar(kFieldWidth, kFieldHeight, wall);
+    const std::vector<float> same(size_t(kFieldWidth * kFieldHeight), window.wall);
+    const ResourceId distance =
+        importScalar(kFieldWidth, kFieldHeight, window.walls.empty() ? same : window.walls);
     const DrawBatch batch{0, 0, window.from > 0.0f ? FieldSource::kShells - 1 : FieldSource::kShells,
                           &source_};
     const auto out = MediaPass::addTo(*graph_,

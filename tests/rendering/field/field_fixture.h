@@ -24,9 +24,10 @@ protected:
         float wall = std::numeric_limits<float>::infinity(); ///< [m] along the ray, what is opaque
         float from = 0.0f;                                   ///< [m] along the ray
         bool layers = false;
+        std::vector<float> walls = {}; ///< of each pixel, in place of `wall`
     };
 
-    /// Plans and fills; textures stay for the test.
+    /// Plans as if for a large picture, and fills; textures stay for the test.
     void fill(const FieldScene& scene, int resolution, bool layers = false);
     /// RGBA of each pixel, or with layers of the target that is asked for.
     std::vector<float> march(const render::CameraView& camera, const Window& window,

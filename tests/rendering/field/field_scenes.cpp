@@ -12,10 +12,31 @@ namespace fx::test {
 
 using namespace render;
 
+namespace {
+
+/// Smaller balls have a quarter of the cross section.
+float quarterRadius(std::span<const BlobInstance> balls)
+{
+    std::vector<std::pair<float, float>> radii;
+    float left = 0.0f, radius = 0.0f;
+    for (const BlobInstance& ball : balls) {
+        radii.push_back({ball.centerRadius.w, ball.medium.x});
+        left += 0.25f * ball.medium.x;
+    }
+    std::ranges::sort(radii);
+    for (size_t i = 0; i < radii.size() && left > 0.0f; left -= radii[i++].second)
+        radius = radii[i].first;
+    return radius;
+}
+
+} // namespace
+
 FieldScene::FieldScene(const std::vector<FieldBall>& world, const CameraView& view)
     : camera(cameraGeometry(view))
 {
-    for (const FieldBall& ball : world) {
+    std::vector<FieldBall> ordered = world;
+    std::ranges::stable_sort(ordered, {}, &FieldBall::effect);
+    for (const FieldBall& ball : ordered) {
         BlobInstance blob{};
         const glm::vec3 center(ball.center - camera.eye);
         blob.centerRadius = {center, ball.radius};
@@ -25,19 +46,22 @@ FieldScene::FieldScene(const std::vector<FieldBall>& world, const CameraView& vi
         blob.emission = {ball.emission, 0.0f};
         blob.lit = {center, 0.0f};
         balls.push_back(blob);
-        effectOf.push_back(ball.effect);
         const float most = std::numeric_limits<float>::max();
+        const uint32_t count = uint32_t(balls.size());
         while (effects.size() <= ball.effect)
-            effects.push_back({effects.size(), glm::vec3(most), glm::vec3(-most)});
+            effects.push_back({count - 1, count - 1, glm::vec3(most), glm::vec3(-most), 0.0f});
+        effects[ball.effect].end = count;
         BlobEffect& effect = effects[ball.effect];
         effect.low = glm::min(effect.low, center - ball.radius);
         effect.high = glm::max(effect.high, center + ball.radius);
     }
+    for (BlobEffect& effect : effects)
+        effect.radius = quarterRadius(std::span(balls).subspan(effect.begin, effect.end - effect.begin));
 }
 
 FieldPlanInputs FieldScene::inputs(int width, int height, int resolution) const
 {
-    return {balls, effectOf, effects, &camera, width, height, resolution, 0};
+    return {balls, effects, &camera, width, height, resolution, 0};
 }
 
 std::vector<FieldBall> randomBalls(uint32_t count, uint64_t seed, const glm::dvec3& middle, uint32_t effect)
@@ -65,9 +89,7 @@ double sumAt(const FieldScene& scene, uint32_t effect, const glm::dvec3& place, 
              const std::vector<double>& weights)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < scene.balls.size(); ++i) {
-        if (scene.effectOf[i] != effect)
-            continue;
+    for (size_t i = scene.effects[effect].begin; i < scene.effects[effect].end; ++i) {
         const BlobInstance& ball = scene.balls[i];
         const double radius = std::max(ball.centerRadius.w, field.limits.x);
         const glm::dvec3 d = place - glm::dvec3(ball.centerRadius);

@@ -29,10 +29,10 @@ struct FieldBall
 struct FieldScene
 {
     std::vector<render::BlobInstance> balls;
-    std::vector<uint32_t> effectOf;
     std::vector<render::BlobEffect> effects;
     render::CameraGeometry camera;
 
+    /// Balls of one effect come together, in their order.
     FieldScene(const std::vector<FieldBall>& world, const render::CameraView& view);
     render::FieldPlanInputs inputs(int width, int height, int resolution) const;
 };

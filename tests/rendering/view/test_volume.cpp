@@ -1,0 +1,280 @@
+// Media summed up in voxels, as a view draws them: what overlaps against the integral through all balls,
+// layers, small layers, what a warm frame costs, and that nothing is there unless it is asked for.
+#include "rendering/reference/integral/reference_integral.h"
+#include "tests/rendering/gl/heap_counter.h"
+#include "tests/rendering/view/view_fixture.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace fx;
+using namespace fx::test;
+
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64;
+const render::CameraPose kPose{{0.0, 0.0, 6.0}, {0.0, 0.0, 0.0}, {0.0f, 1.0f, 0.0f}};
+
+class Volume : public ViewTest
+{
+protected:
+    void SetUp() override
+    {
+        ViewTest::SetUp();
+        makeTargets(kWidth, kHeight);
+        view_->settings().composition = render::Composition::Volume;
+        view_->settings().voxels = 160;
+    }
+
+    Picture drawn(const base::FrameSnapshot& snapshot, const render::CameraView& camera)
+    {
+        setPicture(std::vector<float>(size_t(kWidth) * kHeight * 4, 0.0f));
+        return render(snapshot, camera);
+    }
+    Picture drawn(const std::vector<TestBlob>& blobs, const render::CameraView& camera)
+    {
+        return drawn(snapshotOf(blobs), camera);
+    }
+
+    static render::CameraView camera(float nearDistance = 0.1f)
+    {
+        return render::perspectiveView(kPose, 1.0f, float(kWidth) / kHeight, nearDistance);
+    }
+    static render::CameraView parallel()
+    {
+        return render::orthographicView(kPose, 3.0f, float(kWidth) / kHeight, 0.0f, 20.0f);
+    }
+};
+
+/// Balls within a ball of radius 1.
+std::vector<TestBlob> cloud(size_t count, float radius, float opticalDepth)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> side(-1.0f, 1.0f), share(0.0f, 1.0f);
+    std::vector<TestBlob> blobs;
+    while (blobs.size() < count) {
+        TestBlob blob;
+        blob.center = {side(random), side(random), side(random)};
+        if (glm::dot(blob.center, blob.center) > 1.0f)
+            continue;
+        blob.radius = radius;
+        blob.crossSection = opticalDepth * 3.14159265f * radius * radius / 3.5f;
+        blob.emission = share(random);
+        blobs.push_back(blob);
+    }
+    return blobs;
+}
+
+/// Exact light along the ray of each pixel of parallel(), rows from the bottom.
+std::vector<double> exactLight(const std::vector<TestBlob>& blobs)
+{
+    const auto exponential = [](double x) { return std::exp(x); };
+    const auto root = [](double x) { return std::sqrt(x); };
+    std::vector<double> lights;
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+        const double x = (i % kWidth + 0.5 - 0.5 * kWidth) * 3.0 / kHeight;
+        const double y = (i / kWidth + 0.5 - 0.5 * kHeight) * 3.0 / kHeight;
+        std::vector<render::RayBlob<double>> met;
+        for (const TestBlob& blob : blobs) {
+            const double dx = double(blob.center.x) - x, dy = double(blob.center.y) - y,
+                         r = double(blob.radius);
+            const double chord2 = r * r - dx * dx - dy * dy, e = double(blob.emission);
+            const double middle = double(blob.crossSection) * 1.04445431404056 / (r * r * r);
+            if (chord2 > 0.0)
+                met.push_back(
+                    {6.0 - double(blob.center.z), chord2, r, middle, {e, e, e}, uint32_t(met.size())});
+        }
+        render::ReferenceIntegral<double, decltype(exponential)> integral(
+            met, {0.0, std::numeric_limits<double>::infinity(), {}}, 2, false, 1e-9, root, exponential);
+        lights.push_back(integral.light()[0]);
+    }
+    return lights;
+}
+
+/// 99th percentile of errors over max(light, 5 % of the brightest).
+double p99(const Picture& picture, const std::vector<double>& exact)
+{
+    const double brightest = *std::max_element(exact.begin(), exact.end());
+    std::vector<double> errors;
+    for (size_t i = 0; i < exact.size(); ++i)
+        errors.push_back(std::abs(double(picture.texels[4 * i]) - exact[i]) /
+                         std::max(exact[i], 0.05 * brightest));
+    std::sort(errors.begin(), errors.end());
+    return errors[errors.size() * 99 / 100];
+}
+
+float brightest(const Picture& picture)
+{
+    return *std::max_element(picture.texels.begin(), picture.texels.end());
+}
+
+} // namespace
+
+TEST_F(Volume, ballsThatOverlapAreTheIntegralThroughTheirSum)
+{
+    const std::vector<TestBlob> blobs = cloud(100, 0.4f, 0.3f);
+    const std::vector<double> exact = exactLight(blobs);
+    EXPECT_LT(p99(drawn(blobs, parallel()), exact), 0.15) << "a small picture has large voxels";
+    view_->settings().voxels = 16;
+    EXPECT_GT(p99(drawn(blobs, parallel()), exact), 0.3) << "the control";
+}
+
+TEST_F(Volume, noOrderOfBallsIsSeen)
+{
+    std::vector<TestBlob> blobs = cloud(270, 0.3f, 0.5f);
+    const Picture first = drawn(blobs, camera());
+    std::mt19937 random(1);
+    double most = 0.0;
+    for (int i = 0; i < 30; ++i) {
+        std::shuffle(blobs.begin(), blobs.end(), random);
+        most = std::max(most, maxDifference(drawn(blobs, camera()), first));
+    }
+    EXPECT_LT(most, double(brightest(first)) / 1023.0);
+}
+
+TEST_F(Volume, framesAreBitEqual)
+{
+    const base::FrameSnapshot snapshot = snapshotOf(cloud(100, 0.4f, 0.3f));
+    const Picture first = drawn(snapshot, camera());
+    EXPECT_EQ(maxDifference(drawn(snapshot, camera()), first), 0.0) << "kept";
+    EXPECT_EQ(maxDifference(drawn(cloud(100, 0.4f, 0.3f), camera()), first), 0.0) << "made anew";
+}
+
+TEST_F(Volume, theEyeMayBeInsideAndSurfacesCutTheMedium)
+{
+    const std::vector<TestBlob> inside{{{0.3f, 0.2f, 5.5f}, 1.5f, 3.0f, 1.0f}};
+    const Picture volume = drawn(inside, camera());
+    view_->settings().composition = render::Composition::Sorted;
+    EXPECT_LT(maxDifference(volume, drawn(inside, camera())), 0.02);
+    setDepth(std::vector<float>(size_t(kWidth) * kHeight, 1.0f - 0.1f / 5.8f));
+    const std::vector<TestBlob> cut{{{0.1f, -0.2f, 0.0f}, 1.5f, 3.0f, 1.0f}};
+    const Picture sorted = drawn(cut, camera());
+    view_->settings().composition = render::Composition::Volume;
+    EXPECT_LT(maxDifference(sorted, drawn(cut, camera())), 0.02);
+}
+
+TEST_F(Volume, layersOfOneBallAreThoseOfTheSortedForm)
+{
+    TestBlob ball{{0.1f, -0.2f, 0.0f}, 1.5f, 3.0f, 1.0f};
+    ball.albedo = 0.6f;
+    ball.fireShare = 0.25f;
+    view_->settings().layerOutputs = true;
+    view_->settings().lighting.skyLuminance = glm::vec3(1.0f);
+    for (const base::MediaLayer layer :
+         {base::MediaLayer::Fire, base::MediaLayer::Smoke, base::MediaLayer::Dust}) {
+        ball.layer = layer;
+        const auto targets = [&](render::Composition composition) {
+            view_->settings().composition = composition;
+            const Picture picture = drawn({ball}, camera());
+            const render::LayerTextures all = view_->layers();
+            std::vector<Picture> read_{picture};
+            for (const uint32_t texture : {all.fire, all.smoke, all.dust})
+                read_.push_back(read(texture));
+            for (const uint32_t texture : {all.depth, all.opticalDepth})
+                read_.push_back(read(texture, 1));
+            return read_;
+        };
+        const auto volume = targets(render::Composition::Volume),
+                   sorted = targets(render::Composition::Sorted);
+        const double tolerance[] = {0.03, 0.03, 0.03,
+                                    0.03, 0.5,  0.03}; // [m] of the depth: a ball has one point
+        for (size_t t = 0; t < volume.size(); ++t) {
+            double worst = 0.0;
+            for (size_t i = 0; i < volume[t].texels.size(); ++i) {
+                const size_t pixel = i * size_t(kWidth * kHeight) / volume[t].texels.size();
+                if (sorted[0].texels[4 * pixel + 3] > 0.05f)
+                    worst = std::max(worst, double(std::abs(volume[t].texels[i] - sorted[t].texels[i])));
+            }
+            EXPECT_LE(worst, tolerance[t]) << "target " << t << " of layer " << int(layer);
+        }
+    }
+}
+
+TEST_F(Volume, smallLayersLookTheSame)
+{
+    const std::vector<TestBlob> blobs = cloud(100, 0.4f, 0.3f);
+    const Picture full = drawn(blobs, camera());
+    view_->settings().layerDivisor = 2;
+    const Picture half = drawn(blobs, camera());
+    double mean = 0.0;
+    for (size_t i = 0; i < full.texels.size(); ++i)
+        mean += double(std::abs(full.texels[i] - half.texels[i])) / double(full.texels.size());
+    EXPECT_GT(brightest(full), 0.3f);
+    EXPECT_LT(mean, 0.01);
+}
+
+TEST_F(Volume, effectsThatOverlapHaveNoOrder)
+{
+    // the same two clouds as two instances, first one and then the other; they pass through each other
+    std::vector<TestBlob> a = cloud(100, 0.4f, 0.3f), b = cloud(60, 0.35f, 0.5f);
+    for (TestBlob& blob : b)
+        blob.center += glm::vec3(0.4f, 0.1f, 0.2f);
+    const auto of = [&](const std::vector<TestBlob>& first, const std::vector<TestBlob>& second) {
+        base::FrameSnapshot snapshot = snapshotOf(first);
+        const base::FrameSnapshot other = snapshotOf(second);
+        return std::pair(drawn(snapshot, camera()), drawn(other, camera()));
+    };
+    std::vector<TestBlob> ab = a, ba = b;
+    ab.insert(ab.end(), b.begin(), b.end());
+    ba.insert(ba.end(), a.begin(), a.end());
+    const auto [first, second] = of(ab, ba);
+    EXPECT_LT(maxDifference(first, second), double(brightest(first)) / 1023.0);
+}
+
+TEST_F(Volume, aWarmFrameAllocatesAndCompilesNothing)
+{
+    ASSERT_TRUE(view_->warmUp().ok());
+    view_->settings().lighting.skyLuminance = glm::vec3(1.0f);
+    std::vector<TestBlob> moved = cloud(100, 0.4f, 0.3f);
+    const base::FrameSnapshot first = snapshotOf(moved);
+    for (TestBlob& blob : moved)
+        blob.center.y += 0.01f;
+    const base::FrameSnapshot second = snapshotOf(moved);
+    render::FrameRequest request;
+    request.targets.color = color_->name();
+    request.targets.width = kWidth;
+    request.targets.height = kHeight;
+    request.camera = camera();
+    for (int frame = 0; frame < 15; ++frame) {
+        request.camera.origin.x = 0.001 * (frame % 3);
+        const base::SnapshotPair pair{frame % 2 == 0 ? &first : &second, nullptr};
+        render::HeapCounter counter;
+        const bool good = view_->render(pair, request).ok();
+        const int taken = counter.stop();
+        ASSERT_TRUE(good);
+        if (frame < 9)
+            continue;
+        EXPECT_EQ(taken, 0) << "frame " << frame;
+        EXPECT_EQ(view_->statistics().programsCompiled, 0u);
+    }
+}
+
+TEST_F(Volume, whatIsNotAskedForIsNotThere)
+{
+    const auto names = [&] {
+        std::string all;
+        for (const std::string_view pass : view_->executedPasses())
+            all += std::string(pass) + ",";
+        return all;
+    };
+    const std::vector<TestBlob> blobs = cloud(100, 0.4f, 0.3f);
+    view_->settings().composition = render::Composition::Sorted;
+    (void)drawn(blobs, camera());
+    EXPECT_EQ(names().find("field"), std::string::npos);
+    const uint64_t without = view_->statistics().textureBytes;
+    view_->settings().composition = render::Composition::Volume;
+    const base::FrameSnapshot snapshot = snapshotOf(blobs);
+    (void)drawn(snapshot, camera());
+    EXPECT_NE(names().find("field fill"), std::string::npos);
+    EXPECT_GT(view_->statistics().textureBytes, without + (1u << 20));
+    (void)drawn(snapshot, camera());
+    EXPECT_EQ(names().find("field"), std::string::npos) << "at rest the field is kept";
+    const base::FrameSnapshot nothing(&schema_, std::pmr::new_delete_resource());
+    for (int i = 0; i < 400; ++i)
+        (void)drawn(nothing, camera());
+    EXPECT_EQ(view_->statistics().textureBytes, 0u) << "given back";
+}
