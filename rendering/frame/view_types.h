@@ -153,7 +153,7 @@ struct ViewSettings
     BillboardForm form = BillboardForm::Kernel;
     Composition composition = Composition::Sorted;
     int slabs = 16;        ///< 6 or 16 along each ray, of Composition::Slabs
-    int voxels = 96; ///< 16..256 along 16 radii of an effect's balls, of Composition::Volume
+    int voxels = 96;       ///< 16..256 along 16 radii of an effect's balls, of Composition::Volume
     bool saveState = true; ///< restore every GL state that is touched; false: the host does
     bool detail = true;    ///< procedural detail of blobs
     float particleShare =

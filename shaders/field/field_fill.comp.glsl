@@ -90,11 +90,12 @@ void main()
     }
     ivec3 texel = brickTexel(int(gl_WorkGroupID.x)) + first;
     for (int z = 0; z < kBrickSamples; ++z) {
-        vec4 sum = mediumSums[z].a > 0.0 ? max(mediumSums[z], 0.0) : vec4(0.0); // rims are below 0, see voxel-kernel
-        imageStore(medium, texel + ivec3(0, 0, z), sum);
-        imageStore(scatter, texel + ivec3(0, 0, z), clamp(scatterSums[z] / max(sum.a, 1e-30), vec4(vec3(0.0), -1.0), vec4(1.0)));
+        float extinction = mediumSums[z].a; // below 0 at rims, see voxel-kernel
+        vec4 mean = scatterSums[z] / (extinction < 0.0 ? min(extinction, -1e-20) : max(extinction, 1e-20));
+        imageStore(medium, texel + ivec3(0, 0, z), mediumSums[z]);
+        imageStore(scatter, texel + ivec3(0, 0, z), clamp(mean, vec4(vec3(0.0), -1.0), vec4(1.0)));
 #if FX_LAYERS
-        imageStore(shares, texel + ivec3(0, 0, z), clamp(shareSums[z], vec4(0.0), vec4(sum.a)) / field.limits.y);
+        imageStore(shares, texel + ivec3(0, 0, z), shareSums[z] / field.limits.y);
 #endif
 #if FX_DETAIL
         float held = sum.a > 0.0 ? 1.0 / field.limits.y : 0.0;

@@ -27,7 +27,7 @@ void main()
         vec4 before = imageLoad(medium, corner + s);
         vec4 own = imageLoad(scatter, corner + s);
         // a loop without turns is skipped by software renderers too, a branch is not
-        int turns = before.a > 0.0 && own.r + own.g + own.b > 0.0 ? 1 : 0;
+        int turns = before.a != 0.0 && own.r + own.g + own.b > 0.0 ? 1 : 0;
         vec3 source = vec3(0.0);
         for (int turn = 0; turn < turns; ++turn) {
             vec3 p = placeOfSample(field, brick, s);

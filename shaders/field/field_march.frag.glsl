@@ -21,6 +21,8 @@ layout(location = 0) out vec4 light;
 const int kMostSteps = 4096;
 const float kOpaque = 1e-4; // transmittance behind which nothing is looked up
 
+const float kThin = 0.02; // optical depth
+
 // Share of a source at the far end of a step of optical depth d, a = exp(-d).
 float farWeight(float d, float a)
 {
@@ -53,22 +55,26 @@ void main()
         float a = exp(-d);
         float far = farWeight(d, a);
         float near = 1.0 - a - far;
-        // where one end has no medium, its source is that of the other
+        // thin: both ends count alike, whatever their signs
+        float thin = before.isEmpty ? 0.0 : 0.5 * (next - t) * (1.0 - d * (0.5 - d * 0.166666667));
+        // thick: where one end has no medium, its source is that of the other
         const float kShare = 1e-4;
-        float perBefore = transmittance * near / max(before.medium.a + kShare * now.medium.a, 1e-30);
-        float perNow = transmittance * far / max(now.medium.a + kShare * before.medium.a, 1e-30);
-        float weightBefore = perBefore + kShare * perNow;
-        float weightNow = perNow + kShare * perBefore;
+        float extinctionBefore = max(before.medium.a, 0.0), extinctionNow = max(now.medium.a, 0.0);
+        float perBefore = near / max(extinctionBefore + kShare * extinctionNow, 1e-30);
+        float perNow = far / max(extinctionNow + kShare * extinctionBefore, 1e-30);
+        bool isThin = d < kThin;
+        float weightBefore = transmittance * (isThin ? thin : before.medium.a > 0.0 ? perBefore + kShare * perNow : 0.0);
+        float weightNow = transmittance * (isThin ? thin : now.medium.a > 0.0 ? perNow + kShare * perBefore : 0.0);
 #if FX_LAYERS
         vec3 emitted = weightBefore * before.medium.rgb + weightNow * now.medium.rgb;
         vec3 scattered = weightBefore * before.scattered + weightNow * now.scattered;
         vec4 shares = weightBefore * before.shares + weightNow * now.shares; // [1] of the opacity
         float seen = weightBefore * before.medium.a + weightNow * now.medium.a;
-        float perSeen = 1.0 / max(seen, 1e-30);
+        float perSeen = seen > 1e-30 ? 1.0 / seen : 0.0;
         fire += emitted + scattered * (shares.z * perSeen);
         dust += scattered * (shares.w * perSeen);
-        smoke += scattered * (max(seen - shares.z - shares.w, 0.0) * perSeen);
-        covered += vec3(shares.x, max(seen - shares.x - shares.y, 0.0), shares.y);
+        smoke += scattered * ((seen - shares.z - shares.w) * perSeen);
+        covered += vec3(shares.x, seen - shares.x - shares.y, shares.y);
         moment += transmittance * (near * t + far * next);
         depthSum += d;
 #else
@@ -78,15 +84,15 @@ void main()
         t = next;
         before = now;
     }
-    float alpha = 1.0 - transmittance;
+    float alpha = max(1.0 - transmittance, 0.0); // rims may be below 0, see voxel-kernel
 #if FX_LAYERS
-    fireLight = vec4(fire, alpha);
-    smokeLight = vec4(smoke, alpha);
-    dustLight = vec4(dust, alpha);
-    coverage = vec4(covered, alpha);
-    depthMoment = vec4(moment, 0.0, 0.0, alpha);
-    opticalDepthSum = vec4(depthSum, 0.0, 0.0, 0.0);
+    fireLight = vec4(max(fire, vec3(0.0)), alpha);
+    smokeLight = vec4(max(smoke, vec3(0.0)), alpha);
+    dustLight = vec4(max(dust, vec3(0.0)), alpha);
+    coverage = vec4(max(covered, vec3(0.0)), alpha);
+    depthMoment = vec4(max(moment, 0.0), 0.0, 0.0, alpha);
+    opticalDepthSum = vec4(max(depthSum, 0.0), 0.0, 0.0, 0.0);
 #else
-    light = vec4(sum, alpha);
+    light = vec4(max(sum, vec3(0.0)), alpha);
 #endif
 }

@@ -15,8 +15,8 @@
 ///   so that a sample, over the extinction in the center of the kernel, is
 ///       q^2 + e (1 - 5/3 s^2) = q^2 + e (5 q - 2) / 3                                                (3)
 ///   within the support and 0 beyond. Its integral is that of the kernel, because the kernel's gradient is 0
-///   at the rim. Near the rim it is below 0 by up to 2/3 e: sums over all blobs are cut off at 0. That
-///   adds to a lone blob, the more the larger voxels are, so that e is replaced by
+///   at the rim. Near the rim it is below 0 by up to 2/3 e: the march sums with the sign. Where voxels are
+///   nearly as large as the ball the rim is not resolved, so that e is replaced by
 ///       e (1 - 4 e)                                                                                  (4)
 ///   which leaves the kernel as it is where its radius is 2 voxels.
 /// @source    [UBT96] eq. (1) for the kernel; the rest is elementary
@@ -24,8 +24,7 @@
 /// @valid     s2 >= 0; e = 0 is the kernel itself
 /// @accuracy  optical depth along a ray through the interpolated samples of one blob against the exact one,
 ///            rms over all rays that meet it, relative to the largest: about 0.01 for a radius of 4 voxels
-///            and 0.003 for 6, where plain samples have 0.02 and 0.01; the cross section of a lone blob is
-///            too large by 2 % at 4 voxels
+///            and 0.003 for 6, where plain samples have 0.02 and 0.01
 /// @tests     tests/rendering/field/test_field_plan.cpp
 FX_FORMULA(fxVoxelKernel)(FX_REAL s2, FX_REAL e)
 {

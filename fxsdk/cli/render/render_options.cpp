@@ -158,7 +158,8 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
         ->check(oneOf(compositionNames()));
     command.add_option("--slabs", arguments.slabs, "Slabs along each ray of --composition slabs")
         ->check(oneOf({"6", "16"}));
-    command.add_option("--voxels", arguments.voxels, "Voxels along 16 radii of balls of --composition volume")
+    command
+        .add_option("--voxels", arguments.voxels, "Voxels along 16 radii of balls of --composition volume")
         ->check(CLI::Range(16, 256));
     command.add_option("--seed", arguments.seed, "Instance k gets the seed N + k instead of the file's")
         ->check(CLI::Validator(

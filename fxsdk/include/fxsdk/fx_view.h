@@ -193,8 +193,8 @@ typedef struct FxViewSettings
     /// 6 or 16 slabs along the ray of each pixel, of FX_COMPOSITION_SLABS; default 16.
     uint32_t slabs;
 
-    /// 16..256 voxels along 16 radii of an effect's balls, of FX_COMPOSITION_VOLUME; default 96. Effects that are
-    /// small on the picture get fewer.
+    /// 16..256 voxels along 16 radii of an effect's balls, of FX_COMPOSITION_VOLUME; default 96. Effects that
+    /// are small on the picture get fewer.
     uint32_t voxels;
 } FxViewSettings;
 

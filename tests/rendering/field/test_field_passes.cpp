@@ -117,19 +117,20 @@ TEST_F(FieldTest, samplesAreTheSumsOfTheProcessor)
             const FieldBlock& field = plan_.fields()[effect];
             const glm::dvec3 place = placeOfSample(plan_, plan_.bricks()[b], s);
             const size_t texel = 4 * texelOf(b, s);
-            const double wanted = sampleAt(scene, effect, place, field);
+            const double wanted = sumAt(scene, effect, place, field);
             worst = std::max(worst, std::abs(double(medium[texel + 3]) - wanted));
             largest = std::max(largest, wanted);
             if (wanted < 0.05)
                 continue; // no mean of next to nothing
-            const auto check = [&](float got, const std::vector<double>& weights, double unit, double most) {
+            const auto check = [&](float got, const std::vector<double>& weights, double unit, double least,
+                                   double most) {
                 const double mean = sumAt(scene, effect, place, field, weights) / unit;
-                worstMean = std::max(worstMean, std::abs(double(got) - std::clamp(mean, 0.0, most)));
+                worstMean = std::max(worstMean, std::abs(double(got) - std::clamp(mean, least, most)));
             };
-            check(medium[texel] / medium[texel + 3], red, wanted, 1e9);
-            check(scatter[texel], albedo, wanted, 1.0);
-            check(scatter[texel + 3], meanCosine, wanted, 1.0);
-            check(shares[texel + 1], dust, double(field.limits.y), 1e9);
+            check(medium[texel] / medium[texel + 3], red, wanted, -1e9, 1e9);
+            check(scatter[texel], albedo, wanted, 0.0, 1.0);
+            check(scatter[texel + 3], meanCosine, wanted, -1.0, 1.0);
+            check(shares[texel + 1], dust, double(field.limits.y), -1e9, 1e9);
         }
     EXPECT_GT(largest, 0.5);
     EXPECT_LE(worst, 2e-5 * largest);
@@ -161,7 +162,7 @@ TEST_F(FieldTest, aLoneBallIsAsOpaqueAsItsKernel)
     const CameraView view = camera({0.3, 0.2, 4}, {0, 0, 0});
     for (const float crossSection : {0.05f, 1.0f, 20.0f}) {
         const FieldScene scene({loneBall(crossSection)}, view);
-        fill(scene, 64);
+        fill(scene, 160);
         const Errors errors = opacityErrors(march(view, {}), scene, view, 0.0f, 1e30f);
         EXPECT_LE(errors.largest, crossSection > 10.0f ? 0.06 : 0.005)
             << crossSection; // the rim of the opaque one
@@ -174,7 +175,7 @@ TEST_F(FieldTest, finerVoxelsAreMoreExact)
     const CameraView view = camera({0.3, 0.2, 6}, {0, 0, 0});
     const FieldScene scene(randomBalls(60, 5, glm::dvec3(0.0)), view);
     double before = 1.0;
-    for (const int resolution : {16, 32, 64}) {
+    for (const int resolution : {32, 64, 128}) {
         fill(scene, resolution);
         const double mean = opacityErrors(march(view, {}), scene, view, 0.0f, 1e30f).mean;
         EXPECT_LT(mean, 0.5 * before) << resolution;
@@ -187,20 +188,20 @@ TEST_F(FieldTest, mediumEndsAtWhatIsOpaqueAndBeginsAtTheNearPlane)
 {
     const CameraView view = camera({0.0, 0.0, 4}, {0, 0, 0});
     const FieldScene scene({loneBall(1.0f)}, view);
-    fill(scene, 64);
+    fill(scene, 160);
     for (const float wall : {3.2f, 3.9f, 4.4f})
         EXPECT_LE(opacityErrors(march(view, {wall}), scene, view, 0.0f, wall).largest, 0.02) << wall;
     EXPECT_EQ(largestOf(march(view, {2.5f})), 0.0) << "a wall before all medium";
     const CameraView inside = camera({0.2, 0.1, 0.3}, {0, 0, -1});
     const FieldScene around({loneBall(1.0f)}, inside);
-    fill(around, 64);
+    fill(around, 160);
     EXPECT_LE(opacityErrors(march(inside, {}), around, inside, 0.0f, 1e30f).largest, 0.02);
 }
 
 TEST_F(FieldTest, splittingARayLeavesItsTransmittance)
 {
     const CameraView view = camera({0.3, 0.2, 6}, {0, 0, 0});
-    fill(FieldScene(randomBalls(150, 5, glm::dvec3(0.0)), view), 64);
+    fill(FieldScene(randomBalls(150, 5, glm::dvec3(0.0)), view), 160);
     const std::vector<float> whole = march(view, {});
     for (const float cut : {5.0f, 5.73f, 6.4f}) {
         const std::vector<float> before = march(view, {cut});
@@ -219,7 +220,7 @@ TEST_F(FieldTest, aFurnaceOfOneTemperatureShowsItsOwnLight)
     const glm::vec3 glow(4.0f, 2.0f, 0.5f);
     for (FieldBall& ball : balls)
         ball.emission = glow;
-    const std::vector<float> drawn = picture(balls, camera({0.3, 0.2, 6}, {0, 0, 0}), 64, {});
+    const std::vector<float> drawn = picture(balls, camera({0.3, 0.2, 6}, {0, 0, 0}), 160, {});
     double worst = 0.0;
     for (size_t i = 0; i < drawn.size(); i += 4)
         for (int c = 0; c < 3; ++c)
@@ -289,7 +290,7 @@ TEST_F(FieldTest, layersCoverAsMuchAsTheLightDoes)
         worst = std::max(worst, std::abs(sum - double(coverage[i + 3])));
         worst = std::max(worst, std::abs(double(coverage[i + 3]) - double(plain[i + 3])));
     }
-    EXPECT_LE(worst, 5e-3) << "halves";
+    EXPECT_LE(worst, 1e-2) << "halves";
     const std::vector<float> depth = march(view, {.layers = true}, MediaPass::OpticalDepth);
     for (size_t i = 0; i < depth.size(); ++i)
         ASSERT_NEAR(std::exp(-double(depth[i])), 1.0 - double(plain[4 * i + 3]), 2e-4) << i;
@@ -356,7 +357,7 @@ TEST_F(FieldTest, ballsThatOverlapAreTheIntegralThroughTheirSum)
         brightest = std::max({brightest, light[0], light[1], light[2]});
     Window window;
     window.walls = scene.walls;
-    for (const auto& [resolution, bound] : {std::pair(64, 0.08), {128, 0.06}}) {
+    for (const auto& [resolution, bound] : {std::pair(96, 0.15), {128, 0.06}}) {
         const std::vector<float> drawn = picture(scene.balls, view, resolution, window);
         std::vector<double> errors; // over max(channel, 5 % of the brightest)
         for (size_t i = 0; i < scene.exact.size(); ++i)

@@ -27,7 +27,7 @@ protected:
         ViewTest::SetUp();
         makeTargets(kWidth, kHeight);
         view_->settings().composition = render::Composition::Volume;
-        view_->settings().voxels = 64;
+        view_->settings().voxels = 160;
     }
 
     Picture drawn(const base::FrameSnapshot& snapshot, const render::CameraView& camera)
