@@ -4,6 +4,8 @@
 
 #include "rendering/frame_graph/frame_graph.h"
 
+#include <array>
+
 namespace fx::render {
 
 /// Three-dimensional textures of kBrickColumns x kBrickColumns bricks a layer.
@@ -12,8 +14,8 @@ struct FieldTextures
     ResourceId medium = {}; ///< RGBA32F rgb emitted light [exposed/m]; a extinction [1/m]
     ResourceId scatter =
         {}; ///< RGBA16F mean albedo and mean cosine of the phase function; with layers then light
-    ResourceId shares = {};      ///< RGBA16F of the layers in the extinction; invalid without layers
-    ResourceId material[2] = {}; ///< RGBA16F coordinates that media carry; invalid without detail
+    ResourceId shares = {}; ///< RGBA16F of the layers in the extinction; invalid without layers
+    std::array<ResourceId, 2> material = {}; ///< RGBA16F coordinates that media carry; invalid without detail
 };
 
 constexpr Format kFieldFormats[] = {Format::RGBA32F, Format::RGBA16F, Format::RGBA16F, Format::RGBA16F,

@@ -4,6 +4,7 @@
 #include "rendering/field_detail/field_detail_numbers.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/gl/gl_texture.h"
+#include "rendering/stage/stage_camera.h"
 #include "shaders/formulas/formula.h"
 #include "tests/rendering/field/field_scenes.h"
 #include "tests/rendering/passes/post_pass_harness.h"
