@@ -2,8 +2,8 @@
 // compilers and their switches agree, scripts/check-all shows with the hashes that this program leaves beside
 // itself.
 #include "foundation/simd/instruction_set.h"
-#include "fxsdk/presets/preset_loader.h"
 #include "tests/api/api_fixture.h"
+#include "tests/api/library_names.h"
 #include "tests/foundation/real_threads.h"
 
 #include <fstream>
@@ -75,15 +75,6 @@ std::vector<uint64_t> play(const std::string& preset, const Way& way)
     return hashes;
 }
 
-std::vector<std::string> libraryNames()
-{
-    constexpr std::string_view kSuffix = ".fx.json";
-    std::vector<std::string> names;
-    for (const auto& entry : fx::preset::presetLibrary())
-        names.push_back("library:" + std::string(entry.name.substr(0, entry.name.size() - kSuffix.size())));
-    return names;
-}
-
 class LibraryDeterminism : public ::testing::Test
 {
 protected:
@@ -97,7 +88,7 @@ protected:
 TEST_F(LibraryDeterminism, workersFramesAndVectorsChangeNoBitOfAnyPreset)
 {
     const fx::test::RealThreads threadsOfAnyMachine(16);
-    for (const std::string& name : libraryNames()) {
+    for (const std::string& name : fx::test::libraryNames()) {
         const std::vector<uint64_t> want = play(name, kReference);
         for (const Way& way : otherWays())
             EXPECT_EQ(play(name, way), want) << name << ": " << way.what;
@@ -107,7 +98,7 @@ TEST_F(LibraryDeterminism, workersFramesAndVectorsChangeNoBitOfAnyPreset)
 TEST_F(LibraryDeterminism, theHashesAreKeptForComparisonWithOtherBuilds)
 {
     std::ofstream file(FX_LIBRARY_HASHES);
-    for (const std::string& name : libraryNames()) {
+    for (const std::string& name : fx::test::libraryNames()) {
         file << name << std::hex << std::setfill('0');
         for (const uint64_t hash : play(name, kReference))
             file << ' ' << std::setw(16) << hash;

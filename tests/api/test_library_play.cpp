@@ -1,8 +1,8 @@
 // Every preset of the library plays, is looked at, moved, saved and brought back. The checks are those of the
 // build: indices where the standard library asserts them (_GLIBCXX_ASSERTIONS, as in Debug builds), memory
 // and arithmetic under sanitizers.
-#include "fxsdk/presets/preset_loader.h"
 #include "tests/api/api_fixture.h"
+#include "tests/api/library_names.h"
 
 #include <string>
 #include <vector>
@@ -40,21 +40,12 @@ protected:
     }
 };
 
-std::vector<std::string> libraryNames()
-{
-    constexpr std::string_view kSuffix = ".fx.json";
-    std::vector<std::string> names;
-    for (const auto& entry : fx::preset::presetLibrary())
-        names.push_back(std::string(entry.name.substr(0, entry.name.size() - kSuffix.size())));
-    return names;
-}
-
 } // namespace
 
 TEST_F(LibraryPlay, everyPresetPlaysMovesAndComesBackFromASavedState)
 {
     const float rotation[4] = {0, 0, 0, 1};
-    for (const std::string& name : libraryNames()) {
+    for (const std::string& name : fx::test::libraryNames()) {
         SCOPED_TRACE(name);
         FxInstanceDef def = fxDefaultInstanceDef();
         ASSERT_EQ(fxLoadPresetLibrary(context_, name.c_str(), &def.preset), FX_OK) << fxGetLastErrorMessage();

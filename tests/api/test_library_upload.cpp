@@ -1,6 +1,6 @@
 // What a frame of each preset of the library sends over the bus and draws, at as many frames as steps and at
 // half as many.
-#include "fxsdk/presets/preset_loader.h"
+#include "tests/api/library_names.h"
 #include "tests/api/view_fixture.h"
 
 #include <algorithm>
@@ -79,11 +79,8 @@ protected:
 
 TEST_F(LibraryUpload, isAtMostThirtyTwoBytesARowAndFewTurns)
 {
-    constexpr std::string_view kSuffix = ".fx.json";
     uint64_t most = 0;
-    for (const auto& entry : fx::preset::presetLibrary()) {
-        const std::string name =
-            "library:" + std::string(entry.name.substr(0, entry.name.size() - kSuffix.size()));
+    for (const std::string& name : fx::test::libraryNames()) {
         for (const double rate : {60.0, 30.0}) {
             play(name);
             for (int step = 0; step < 20; ++step)

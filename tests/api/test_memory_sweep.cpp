@@ -1,7 +1,7 @@
 // Every request for memory of a host's day is refused in turn: creating, loading, updating, saving and
 // restoring. A call that fails changes nothing, loses nothing, and succeeds when it is repeated.
-#include "fxsdk/presets/preset_loader.h"
 #include "tests/api/api_fixture.h"
+#include "tests/api/library_names.h"
 #include "tests/api/memory_sweep.h"
 
 #include <string>
@@ -89,15 +89,6 @@ protected:
     FxScene* scene_ = nullptr;
 };
 
-std::vector<std::string> libraryNames()
-{
-    constexpr std::string_view kSuffix = ".fx.json";
-    std::vector<std::string> names;
-    for (const auto& entry : fx::preset::presetLibrary())
-        names.push_back(std::string(entry.name.substr(0, entry.name.size() - kSuffix.size())));
-    return names;
-}
-
 } // namespace
 
 TEST_F(MemorySweep, contextsAndScenesAreCreatedOrNot)
@@ -123,7 +114,7 @@ TEST_F(MemorySweep, instancesAreCreatedOrTheSceneIsAsItWas)
     const FxInstanceId gone = add("sparks");
     play(3);
     ASSERT_EQ(fxScene_DestroyInstance(scene_, gone), FX_OK); // its index is given out again
-    for (const char* preset : {"explosion", "fireworks", "debris", "smoke-column"})
+    for (const char* preset : {fx::test::kLargeEffect, "fireworks", "debris", "smoke-column"})
         for (const int64_t delay : {int64_t(0), int64_t(FX_TICKS_PER_SECOND)}) {
             SCOPED_TRACE(preset);
             FxInstanceDef def = instanceOf(preset);
@@ -157,7 +148,7 @@ TEST_F(MemorySweep, presetsAreLoadedOrNot)
     stats.structSize = sizeof stats;
     ASSERT_EQ(fxContext_GetMemoryStats(context_, &stats), FX_OK);
     uint32_t loaded = stats.presets;
-    for (const std::string& name : libraryNames()) {
+    for (const std::string& name : fx::test::libraryNames()) {
         SCOPED_TRACE(name);
         FxPresetId preset{};
         (void)refuseEach(
@@ -174,7 +165,7 @@ TEST_F(MemorySweep, presetsAreLoadedOrNot)
 
 TEST_F(MemorySweep, anUpdateTakesItsTimeAndTheNextOneWorks)
 {
-    for (const char* preset : {"explosion", "fireworks", "debris"})
+    for (const char* preset : {fx::test::kLargeEffect, "fireworks", "debris"})
         (void)add(preset);
     uint64_t failures = 0;
     for (const int frames : {0, 20}) {
@@ -197,7 +188,7 @@ TEST_F(MemorySweep, anUpdateTakesItsTimeAndTheNextOneWorks)
 
 TEST_F(MemorySweep, statesAreSavedAndRestoredOrTheSceneIsAsItWas)
 {
-    for (const char* preset : {"explosion", "fireworks", "burning-debris"})
+    for (const char* preset : {fx::test::kLargeEffect, "fireworks", "burning-debris"})
         (void)add(preset);
     play(10);
     std::vector<std::byte> saved = state();
@@ -214,7 +205,7 @@ TEST_F(MemorySweep, statesAreSavedAndRestoredOrTheSceneIsAsItWas)
 TEST_F(MemorySweep, instancesAreChangedOrTheSceneIsAsItWas)
 {
     const float rotation[4] = {0, 0, 0, 1};
-    for (const char* preset : {"explosion", "fireworks", "magic-trail"}) {
+    for (const char* preset : {fx::test::kLargeEffect, "fireworks", "magic-trail"}) {
         SCOPED_TRACE(preset);
         (void)add(preset); // shares a simulation with the next
         const FxInstanceId id = add(preset);

@@ -93,8 +93,6 @@ TEST_F(StateFields, noNumberMakesARestoreTakeMemoryThatTheStateDoesNotFill)
     constexpr size_t kMostTrials = 300; // of a preset
     for (const char* preset : {"fireworks", "magic-trail", "burning-debris", "gas-fire", "rain"}) {
         SCOPED_TRACE(preset);
-        if (!fx::test::kHasGas && preset == std::string("gas-fire"))
-            continue;
         add(preset);
         play(6);
         const std::vector<std::byte> state = savedState();

@@ -1,5 +1,5 @@
 // Objects of OpenGL that exist: a view takes all of its own with it, a context those that its views shared.
-#include "fxsdk/presets/preset_loader.h"
+#include "tests/api/library_names.h"
 #include "tests/api/view_fixture.h"
 
 #include <map>
@@ -72,15 +72,6 @@ private:
     int fences_ = 0;
 };
 
-std::vector<std::string> libraryNames()
-{
-    constexpr std::string_view kSuffix = ".fx.json";
-    std::vector<std::string> names;
-    for (const auto& entry : fx::preset::presetLibrary())
-        names.push_back(std::string(entry.name.substr(0, entry.name.size() - kSuffix.size())));
-    return names;
-}
-
 class ViewObjects : public fx::test::ViewApiTest
 {
 protected:
@@ -133,7 +124,7 @@ TEST_F(ViewObjects, ofAViewGoWithItWhateverItHasShown)
     FxContext* const context = makeContext(fences);
     ASSERT_EQ(fxContext_WarmUp(context), FX_OK) << fxGetLastErrorMessage();
     const Objects warm = objectsOf(gl_->loader());
-    for (const std::string& name : libraryNames()) {
+    for (const std::string& name : fx::test::libraryNames()) {
         SCOPED_TRACE(name);
         FxPresetId preset{};
         ASSERT_EQ(fxLoadPresetLibrary(context, name.c_str(), &preset), FX_OK) << fxGetLastErrorMessage();

@@ -3,6 +3,12 @@
 #include <algorithm>
 #include <new>
 
+#if FXSDK_WITH_SPH
+#define FX_FUZZ_GAS R"("gas": [{"particles": 40, "dissipation": 0}], )"
+#else
+#define FX_FUZZ_GAS ""
+#endif
+
 namespace fx::fuzz {
 
 namespace {
@@ -14,7 +20,7 @@ constexpr std::array<std::string_view, 7> kPresets{
     R"({"version": 1, "name": "flames", "ground": false, "offscreen": "replay", "emitters": [
         {"layer": "fire", "shape": "sphere", "size": 0.5, "emission": {"rate": 60}, "lifetime": 1, "radius": 0.5,
          "temperature": 1700, "heat": 1, "fireShare": 0.5, "detailAmount": 0.5, "forces": {"gravity": 0}}]})",
-    R"({"version": 1, "name": "blast", "gas": [{"particles": 40, "dissipation": 0}], "emitters": [
+    R"({"version": 1, "name": "blast", )" FX_FUZZ_GAS R"("emitters": [
         {"maxParticles": 64, "shape": "sphere", "size": 0.5, "emission": {"rate": 20}, "lifetime": 1, "speed": 2,
          "radius": 0.25, "forces": {"curlStrength": 1, "curlRate": 0.3, "bounce": 0.5}},
         {"maxParticles": 32, "emission": {"bursts": [{"time": 0.3, "count": 20}]}, "lifetime": 100}]})",

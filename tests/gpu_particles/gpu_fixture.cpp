@@ -31,9 +31,11 @@ std::string libraryText(const std::string& name, const char* compute)
 std::vector<std::string> libraryNames()
 {
     std::vector<std::string> names;
-    for (const base::EmbeddedText& text : preset::presetLibrary())
-        if (nlohmann::json::parse(text.text).contains("emitters"))
+    for (const base::EmbeddedText& text : preset::presetLibrary()) {
+        const auto document = nlohmann::json::parse(text.text);
+        if (document.contains("emitters") && (FXSDK_WITH_SPH || !document.contains("gas")))
             names.emplace_back(text.name);
+    }
     return names;
 }
 

@@ -136,6 +136,8 @@ TEST_P(EndlessPreset, isWarnedAboutWithTheMemberToChange)
 TEST(EffectCost, presetsOfTheLibraryNeedLittle)
 {
     for (const base::EmbeddedText& text : preset::presetLibrary()) {
+        if (!FXSDK_WITH_SPH && text.text.find("\"gas\"") != std::string_view::npos)
+            continue;
         const auto loaded = preset::loadPresetText(text.text, std::string(text.name));
         ASSERT_TRUE(loaded.ok()) << text.name << ": " << loaded.status().message();
         const sim::EffectCost& cost = loaded->effect->cost;
