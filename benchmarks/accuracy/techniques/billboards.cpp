@@ -91,11 +91,14 @@ struct GlSetting
 {
     std::string_view name;
     render::Composition composition;
-    int slabs;
+    int slabs = 16;
+    int voxels = 96;
 };
-constexpr GlSetting kGlSettings[] = {{"sorted", render::Composition::Sorted, 16},
+constexpr GlSetting kGlSettings[] = {{"sorted", render::Composition::Sorted},
                                      {"slabs-6", render::Composition::Slabs, 6},
-                                     {"slabs-16", render::Composition::Slabs, 16}};
+                                     {"slabs-16", render::Composition::Slabs, 16},
+                                     {"volume-64", render::Composition::Volume, 16, 64},
+                                     {"volume-128", render::Composition::Volume, 16, 128}};
 constexpr Form kForms[] = {Form::Kernel, Form::Planar, Form::Constant, Form::Integral};
 
 class BillboardAccuracy final : public AccuracyTechnique
@@ -214,6 +217,7 @@ base::Status BillboardAccuracy::drawByGl(const GlSetting& setting, double& outSe
             return status;
     picture_->settings().composition = setting.composition;
     picture_->settings().slabs = setting.slabs;
+    picture_->settings().voxels = setting.voxels;
     const bool isApart = isWrong_ && setting.composition == render::Composition::Sorted;
     const size_t atOnce = isApart ? 1 : cards_.size();
     outSeconds = 0;

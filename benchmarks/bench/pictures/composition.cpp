@@ -30,11 +30,14 @@ struct Setting
 {
     const char* name;
     render::Composition composition;
-    int slabs;
+    int slabs = 16;
+    int voxels = 96;
 };
-constexpr Setting kSettings[] = {{"sorted", render::Composition::Sorted, 16},
+constexpr Setting kSettings[] = {{"sorted", render::Composition::Sorted},
                                  {"slabs-6", render::Composition::Slabs, 6},
-                                 {"slabs-16", render::Composition::Slabs, 16}};
+                                 {"slabs-16", render::Composition::Slabs, 16},
+                                 {"volume-64", render::Composition::Volume, 16, 64},
+                                 {"volume-128", render::Composition::Volume, 16, 128}};
 
 /// The same cloud whatever the count: balls are the smaller the more there are, and all together as thick.
 std::vector<Card> cloudOf(uint32_t count)
@@ -49,6 +52,7 @@ double drawOnce(CardPicture& picture, const std::vector<Card>& cards, const Sett
 {
     picture.settings().composition = setting.composition;
     picture.settings().slabs = setting.slabs;
+    picture.settings().voxels = setting.voxels;
     const base::FrameSnapshot snapshot = picture.snapshotOf(cards); // each frame shows a new step
     picture.clear();
     double milliseconds = 0.0;
