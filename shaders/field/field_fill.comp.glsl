@@ -98,14 +98,14 @@ void main()
         imageStore(shares, texel + ivec3(0, 0, z), shareSums[z] / field.limits.y);
 #endif
 #if FX_DETAIL
-        float held = sum.a > 0.0 ? 1.0 / field.limits.y : 0.0;
+        float held = 1.0 / field.limits.y;
         // what detail changes of the extinction between samples, for light
         float change = 0.0;
-        int detailed = field.limits.z > 0.5 && sum.a > 0.0 ? 1 : 0;
+        int detailed = field.limits.z > 0.5 && extinction > 0.0 ? 1 : 0;
         for (int once = 0; once < detailed; ++once) {
-            MediumDetail detail = detailOf(details[int(field.limits.z) - 1], sum.a, places[z], carriedSums0[z] / sum.a,
-                                           carriedSums1[z] / sum.a, 0.5 * field.corner.w);
-            change = (detail.share - 1.0) * sum.a * held;
+            MediumDetail detail = detailOf(details[int(field.limits.z) - 1], extinction, places[z], carriedSums0[z] / extinction,
+                                           carriedSums1[z] / extinction, 0.5 * field.corner.w);
+            change = (detail.share - 1.0) * extinction * held;
         }
         imageStore(material0, texel + ivec3(0, 0, z), vec4(carriedSums0[z] * held, powerSums[z].x / max(powerSums[z].y, 1e-30)));
         imageStore(material1, texel + ivec3(0, 0, z), vec4(carriedSums1[z] * held, change));

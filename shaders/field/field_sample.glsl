@@ -82,7 +82,8 @@ FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, float
             vec3 texel = vec3(brickTexel(int(place.number) - 1)) + 0.5 + place.local - vec3(kBrickCells * place.brick);
             vec3 uv = texel / vec3(textureSize(fieldMedium, 0));
             vec4 medium = textureLod(fieldMedium, uv, 0.0);
-            float kept = 1.0, voxels = kVoxelsPerStep;
+            float kept = field.limits.z > 0.5 && medium.a <= 0.0 ? 0.0 : 1.0; // rims that are below 0 are eroded
+            float voxels = kVoxelsPerStep;
 #if FX_LAYERS || FX_DETAIL
             vec3 scattered = field.limits.y * textureLod(fieldScatter, uv, 0.0).rgb;
 #endif

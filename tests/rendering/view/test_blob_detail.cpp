@@ -34,8 +34,7 @@ protected:
     void fill(base::FrameSnapshot& snapshot, float generation, float fade, std::array<float, 2> places)
     {
         snapshot.begin(1, 1);
-        base::SnapshotGroup& blobs = snapshot.addGroup(blob_, 1);
-        blobs.editInfo().count = 1;
+        snapshot.addGroup(blob_, 1).editInfo().count = 1;
         base::SnapshotGroup& group = snapshot.addGroup(material_, 1);
         group.editInfo().count = 1;
         for (size_t c = 0; c < column::Count; ++c)
