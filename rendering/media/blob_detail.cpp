@@ -22,10 +22,17 @@ double phaseOf(const base::SnapshotGroup& group)
     return double(group.constants()[constant::Generation]) + double(group.constants()[constant::Fade]);
 }
 
-constexpr size_t kMostLookedAt = 128;   ///< balls
-constexpr float kMostFactor = 4.0f;     ///< more would make a solid of what is left of thin medium
-constexpr float kPeak = 1.04445431f;    ///< kernel-optical-depth (1)
-constexpr float kCorner = 0.333333333f; ///< [radius] along each axis: distance from the center 3^-1/2
+constexpr size_t kMostLookedAt = 128; ///< balls
+constexpr float kMostFactor = 4.0f;   ///< more would make a solid of what is left of thin medium
+constexpr float kPeak = 1.04445431f;  ///< kernel-optical-depth (1)
+
+/// Gauss's points for the kernel's weight r^2 (1 - r^2)^2 in r^2: moments up to the third are exact.
+struct Shell
+{
+    float corner; ///< [radius] along each axis, of the corners of a tetrahedron
+    float weight; ///< [1] of all four
+};
+constexpr Shell kShells[] = {{0.44424f, 0.37643f}, {-0.24300f, 0.62357f}};
 
 /// [1/m] of all balls.
 float extinctionAt(std::span<const MediumCaster> balls, const glm::vec3& p)
@@ -46,13 +53,15 @@ float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls
     constexpr glm::vec3 kCorners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     const size_t stride = std::max<size_t>((balls.size() + kMostLookedAt - 1) / kMostLookedAt, 1);
     double before = 0, after = 0;
-    for (size_t i = 0; i < balls.size(); i += stride)
-        for (const glm::vec3& corner : kCorners) {
-            const float extinction =
-                extinctionAt(balls, balls[i].center + balls[i].radius * kCorner * corner) * detail.scale;
-            before += double(balls[i].crossSection);
-            after += double(balls[i].crossSection * keptShare(detail.numbers, extinction));
-        }
+    for (size_t i = 0; i < balls.size(); i += stride) {
+        before += double(balls[i].crossSection);
+        for (const Shell& shell : kShells)
+            for (const glm::vec3& corner : kCorners) {
+                const glm::vec3 p = balls[i].center + balls[i].radius * shell.corner * corner;
+                const float kept = keptShare(detail.numbers, extinctionAt(balls, p) * detail.scale);
+                after += double(balls[i].crossSection * 0.25f * shell.weight * kept);
+            }
+    }
     return after * double(kMostFactor) > before ? float(before / after) : kMostFactor;
 }
 

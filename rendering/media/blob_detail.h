@@ -28,9 +28,8 @@ struct GroupDetail
 };
 
 /// GroupDetail::factor for balls of medium: the integral of the summed extinction over that of what is left
-/// of it on average. Of up to 128 balls four points are looked at, at the corners of a tetrahedron whose
-/// distance from the center is the kernel's root mean square: an integral over the ball that is exact for
-/// polynomials of second degree. At most 4.
+/// of it on average. Of up to 128 balls eight points are looked at, which integrate polynomials over the
+/// kernel. At most 4.
 /// @param balls all of the group, seen or not
 float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls);
 

@@ -101,7 +101,7 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
     for (BlobEffect& effect : scene.effects)
         effect.detail = 0;
     FieldPlan plan(memory_);
-    plan.build(scene.inputs(96, 64, 32));
+    plan.build(scene.inputs(1536, 1024, 96));
     std::vector<BlobMaterial> materials(scene.balls.size());
     for (size_t i = 0; i < materials.size(); ++i)
         for (int g = 0; g < 2; ++g)

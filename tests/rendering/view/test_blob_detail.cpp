@@ -45,7 +45,7 @@ protected:
                                    0.5f,       20.0f, 0.25f, 0.55f, 0.0f, 0.0f};
         std::copy(std::begin(constants), std::end(constants), group.editConstants().begin());
     }
-    BlobDetail at(float t) { return BlobDetail({&older_, &newer_}, 0, t); }
+    BlobDetail at(float t) { return BlobDetail({.newer = &newer_, .older = &older_}, 0, t); }
 
     base::HostMemory memory_;
     base::SnapshotSchema schema_;
@@ -86,7 +86,7 @@ TEST_F(BlobDetails, cellsFollowThePlacementOfTheGroup)
     place.position = {4.0, -1.0, 2.0};
     place.rotation = glm::angleAxis(0.7f, glm::normalize(glm::vec3(1, 2, 3)));
     place.scale = 2.5f;
-    const GroupDetail detail = BlobDetail({nullptr, &newer_}, 0, 1.0f).groupDetail(place);
+    const GroupDetail detail = BlobDetail({.newer = &newer_}, 0, 1.0f).groupDetail(place);
     const glm::vec3 local(0.3f, -0.8f, 1.4f);
     const glm::vec3 world = glm::vec3(place.position) + place.rotation * (local * place.scale);
     for (size_t g = 0; g < 2; ++g) {
@@ -101,7 +101,7 @@ TEST_F(BlobDetails, groupsWithoutCoordinatesHaveNone)
 {
     newer_.begin(1, 1);
     newer_.addGroup(blob_, 1).editInfo().count = 1;
-    EXPECT_FALSE(BlobDetail({nullptr, &newer_}, 0, 1.0f).isGiven());
+    EXPECT_FALSE(BlobDetail({.newer = &newer_}, 0, 1.0f).isGiven());
 }
 
 TEST(WholeFactor, isThatOfTheFieldItself)
