@@ -19,8 +19,11 @@ constexpr std::string_view kListNames[] = {"fields",        "field bricks",    "
 constexpr std::string_view kTextureNames[] = {"field medium", "field scatter", "field shares",
                                               "field material 0", "field material 1"};
 
+constexpr int kCoarseVoxels = 96; ///< fields of fewer voxels have kCoarseOctaves of detail
+constexpr int kCoarseOctaves = 3;
+
 /// What the GPU gets of the detail of a group.
-FieldDetailBlock blockOf(const GroupDetail& detail)
+FieldDetailBlock blockOf(const GroupDetail& detail, int octaves)
 {
     const FieldDetailNumbers& numbers = detail.numbers;
     FieldDetailBlock block;
@@ -33,7 +36,7 @@ FieldDetailBlock blockOf(const GroupDetail& detail)
     const auto size = [&](size_t g) {
         return detail.scale * numbers.generations[g].length / numbers.generations[g].growth;
     };
-    block.lumps = {size(0), size(1), detail.factor, float(kMostDetailOctaves)};
+    block.lumps = {size(0), size(1), detail.factor, float(octaves)};
     return block;
 }
 
@@ -51,8 +54,9 @@ base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
     std::erase_if(*io.streams, [](const DrawStream& stream) { return stream.source->balls() != nullptr; });
     const HostTargets& targets = in.request->targets;
     details_.clear();
+    const int octaves = in.settings->voxels < kCoarseVoxels ? kCoarseOctaves : kMostDetailOctaves;
     for (const GroupDetail& detail : io.details)
-        details_.push_back(blockOf(detail));
+        details_.push_back(blockOf(detail, octaves));
     materials_ = details_.empty() ? std::span<const BlobMaterial>() : io.materials;
     plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0});
     sortLoose(in, io.blobs);
