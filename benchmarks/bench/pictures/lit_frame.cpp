@@ -5,6 +5,7 @@
 // planes.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
+#include "benchmarks/measure/clocks.h"
 #include "benchmarks/scenes/lit_media.h"
 #include "benchmarks/scenes/quality_stage.h"
 #include "fxsdk/cli/scene/default_stage.h"
@@ -42,11 +43,11 @@ struct Cost
 
     void take(const std::function<void()>& work)
     {
-        const double processor = processorMilliseconds();
+        const double processor = processSeconds();
         const Clock::time_point start = Clock::now();
         work();
         wallMs = std::min(wallMs, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-        processorMs = std::min(processorMs, processorMilliseconds() - processor);
+        processorMs = std::min(processorMs, 1e3 * (processSeconds() - processor));
     }
 };
 
