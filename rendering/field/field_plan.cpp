@@ -21,12 +21,13 @@ constexpr float kPixelsPerVoxel = 1.5f; ///< finer voxels would not be seen
 constexpr float kRadii = 16.0f;         ///< of balls along which there are as many voxels as asked for
 constexpr int kFewestVoxels = 16, kMostVoxels = 256; ///< along those
 constexpr float kLooseShare = 0.4f;                  ///< of an effect's radius: what is smaller stays a ball
-constexpr int kMostBricksAlong = 128;                ///< of a field, along an axis
-constexpr int64_t kMostBricksOfBox = 1 << 16;        ///< of a field, with the empty ones
-constexpr int kMostTries = 64;                       ///< to keep the budget of bricks
-constexpr float kLeastVoxel = 1e-4f;                 ///< [m]
-constexpr float kTouch = 1.0001f; ///< radii are compared with a margin, for what the GPU rounds
-constexpr uint32_t kUnseen = ~0u; ///< entry of the table: medium that no ray meets
+constexpr float kLooseVoxels = 0.5f;  ///< likewise, of a voxel: it would be spread over 64 times its volume
+constexpr int kMostBricksAlong = 128; ///< of a field, along an axis
+constexpr int64_t kMostBricksOfBox = 1 << 16; ///< of a field, with the empty ones
+constexpr int kMostTries = 64;                ///< to keep the budget of bricks
+constexpr float kLeastVoxel = 1e-4f;          ///< [m]
+constexpr float kTouch = 1.0001f;             ///< radii are compared with a margin, for what the GPU rounds
+constexpr uint32_t kUnseen = ~0u;             ///< entry of the table: medium that no ray meets
 
 const float kStep = std::exp2(0.25f); ///< between the sides of voxels
 
@@ -115,9 +116,9 @@ void FieldPlan::build(const FieldPlanInputs& in)
     listTiles(in);
 }
 
-bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect)
+bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel)
 {
-    return ball.centerRadius.w < kLooseShare * effect.radius;
+    return ball.centerRadius.w < std::max(kLooseShare * effect.radius, kLooseVoxels * voxel);
 }
 
 /// From the whole effect, so that voxels stay as large when the view turns.
@@ -133,9 +134,6 @@ void FieldPlan::chooseVoxels(const FieldPlanInputs& in)
         const float pixel = depth / pixelsPerSlope; // [m]
         lattices_[i].voxel =
             quantized(std::max({effect.radius / perRadius, kPixelsPerVoxel * pixel, kLeastVoxel}));
-        for (uint32_t ball = effect.begin; ball < effect.end; ++ball)
-            if (isLoose(in.balls[ball], effect))
-                loose_.push_back(ball);
     }
 }
 
@@ -145,7 +143,7 @@ void FieldPlan::bound(Lattice& lattice, const FieldPlanInputs& in, const BlobEff
     lattice.low = glm::vec3(std::numeric_limits<float>::max());
     lattice.high = -lattice.low;
     for (uint32_t ball = effect.begin; ball < effect.end; ++ball) {
-        if (isLoose(in.balls[ball], effect))
+        if (isLoose(in.balls[ball], effect, lattice.voxel))
             continue;
         const glm::vec4& place = in.balls[ball].centerRadius;
         const float radius = std::max(place.w, leastRadius(lattice.voxel)) * kTouch;
@@ -189,9 +187,10 @@ bool FieldPlan::place(const FieldPlanInputs& in)
     for (size_t i = 0; i < lattices_.size(); ++i) {
         Lattice& lattice = lattices_[i];
         bound(lattice, in, in.effects[i]);
-        if (lattice.low.x > lattice.high.x)
-            continue; // it has no balls
-        for (int k = 0; k < kMostTries && !placeField(lattice, in.effects[i].detail, *in.camera); ++k) {
+        for (int k = 0;
+             k < kMostTries && lattice.hasBalls() && !placeField(lattice, in.effects[i].detail, *in.camera);
+             ++k)
+        {
             lattice.voxel *= kStep; // a wide effect
             bound(lattice, in, in.effects[i]);
         }
@@ -206,7 +205,7 @@ uint32_t FieldPlan::countBalls(const FieldPlanInputs& in)
 {
     for (size_t e = 0; e < in.effects.size(); ++e)
         for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i) {
-            if (isLoose(in.balls[i], in.effects[e]))
+            if (isLoose(in.balls[i], in.effects[e], lattices_[e].voxel))
                 continue;
             const FieldBlock& field = fields_[lattices_[e].field];
             BrickRange(field, in.balls[i]).forEach(field, [&](size_t index) { ++table_[index]; });
@@ -267,7 +266,9 @@ void FieldPlan::listBalls(const FieldPlanInputs& in)
 {
     for (size_t e = 0; e < in.effects.size(); ++e)
         for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i)
-            if (!isLoose(in.balls[i], in.effects[e]))
+            if (isLoose(in.balls[i], in.effects[e], lattices_[e].voxel))
+                loose_.push_back(i);
+            else
                 listBall(fields_[lattices_[e].field], in.balls[i], i);
     for (size_t i = 0; i < bricks_.size(); ++i) {
         float& most = fields_[bricks_[i].field].limits.y;

@@ -62,13 +62,15 @@ private:
         glm::vec3 low{0.0f};  ///< [m] of all balls that can be seen, relative to the eye
         glm::vec3 high{0.0f}; ///< [m]
         uint32_t field = 0;   ///< number, of those that have balls
+
+        bool hasBalls() const { return low.x <= high.x; }
     };
 
     void chooseVoxels(const FieldPlanInputs& in);
     static void bound(Lattice& lattice, const FieldPlanInputs& in, const BlobEffect& effect);
     bool place(const FieldPlanInputs& in); ///< false: too many bricks
     bool placeField(Lattice& lattice, int detail, const CameraGeometry& camera);
-    static bool isLoose(const BlobInstance& ball, const BlobEffect& effect);
+    static bool isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel);
     uint32_t countBalls(const FieldPlanInputs& in);
     void listBalls(const FieldPlanInputs& in);
     void listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number);

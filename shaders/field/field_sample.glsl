@@ -17,6 +17,8 @@ layout(binding = 3) uniform sampler3D fieldShares;  // extinction seen as fire, 
 const float kVoxelsPerStep = 1.5; // more exact lookups than that change no picture: samples are what limits it
 const float kVoxelsPerLumpyStep = 0.6; // where detail is finer than voxels
 const float kNever = 1e20; // [m], [voxel]
+const float kDepthPerStep = 0.4;     // optical depth of a step: in dense medium one or two samples would be all that is seen
+const float kLeastVoxelsPerStep = 0.1;
 
 struct FieldSample
 {
@@ -108,7 +110,7 @@ FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, float
             sum.scattered += scattered;
 #endif
             sum.medium += kept * medium;
-            sum.room = min(sum.room, field.corner.w * voxels);
+            sum.room = min(sum.room, field.corner.w * clamp(kDepthPerStep / (field.corner.w * max(kept * medium.a, 1e-20)), kLeastVoxelsPerStep, voxels));
 #if FX_LAYERS
             sum.shares += kept * field.limits.y * textureLod(fieldShares, uv, 0.0);
 #endif
