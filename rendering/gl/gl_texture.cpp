@@ -102,7 +102,8 @@ base::Status GlTexture::finish(GlDevice& device, const std::string& what, const 
     GlFunctions& gl = device.gl;
     base::Status status = device.takeError(what);
     device_ = &device;
-    device.countTextureBytes(static_cast<int64_t>(bytes()));
+    if (name_ != 0) // the destructor takes back what has a name
+        device.countTextureBytes(static_cast<int64_t>(bytes()));
     if (!status)
         return status;
     gl.TextureParameteri(name_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);

@@ -180,13 +180,24 @@ void saveUnit(const Gl& gl, GLenum what, uint32_t unit, Saved& out)
     out.integers[0] = integer(gl, what);
 }
 
-/// Only the unit's bindings of 2-D textures and arrays of them are ours: glBindTextureUnit(unit, 0) would
-/// also drop the host's cube map.
+GLenum targetOf(GLenum binding)
+{
+    switch (binding) {
+    case GL_TEXTURE_BINDING_2D:
+        return GL_TEXTURE_2D;
+    case GL_TEXTURE_BINDING_3D:
+        return GL_TEXTURE_3D;
+    default:
+        return GL_TEXTURE_2D_ARRAY;
+    }
+}
+
+/// Only the unit's bindings of 2-D textures, arrays of them and 3-D textures are ours:
+/// glBindTextureUnit(unit, 0) would also drop the host's cube map.
 void restoreTexture(const Gl& gl, GLenum what, uint32_t unit, const Saved& saved)
 {
     gl.ActiveTexture(GL_TEXTURE0 + unit);
-    gl.BindTexture(what == GL_TEXTURE_BINDING_2D ? GL_TEXTURE_2D : GL_TEXTURE_2D_ARRAY,
-                   asName(saved.integers[0]));
+    gl.BindTexture(targetOf(what), asName(saved.integers[0]));
 }
 
 void restoreSampler(const Gl& gl, GLenum, uint32_t unit, const Saved& saved)
@@ -284,6 +295,7 @@ constexpr GlTouchedState kTable[] = {
     {"GL_DRAW_FRAMEBUFFER_BINDING", GL_DRAW_FRAMEBUFFER_BINDING, 1, saveInteger, restoreDrawFramebuffer},
     {"GL_TEXTURE_BINDING_2D (units 0 to 7)", GL_TEXTURE_BINDING_2D, 8, saveUnit, restoreTexture},
     {"GL_TEXTURE_BINDING_2D_ARRAY (units 0 to 7)", GL_TEXTURE_BINDING_2D_ARRAY, 8, saveUnit, restoreTexture},
+    {"GL_TEXTURE_BINDING_3D (units 0 to 7)", GL_TEXTURE_BINDING_3D, 8, saveUnit, restoreTexture},
     {"GL_SAMPLER_BINDING (units 0 to 7)", GL_SAMPLER_BINDING, 8, saveUnit, restoreSampler},
     {"GL_IMAGE_BINDING_* (units 0 to 4)", 0, 5, saveImage, restoreImage},
     {"GL_UNIFORM_BUFFER_BINDING, _START, _SIZE (bindings 0 and 1)", GL_UNIFORM_BUFFER, 2, saveIndexedBuffer,

@@ -299,13 +299,14 @@ void GlHost::makeObjects()
     FX_LOAD(CREATETEXTURES, CreateTextures);
     FX_LOAD(TEXTURESTORAGE2D, TextureStorage2D);
     FX_LOAD(NAMEDFRAMEBUFFERTEXTURE, NamedFramebufferTexture);
-    const GLenum targets[] = {GL_TEXTURE_2D,       GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP,
-                              GL_TEXTURE_2D_ARRAY, GL_TEXTURE_2D, GL_TEXTURE_2D};
-    for (int i = 0; i < 6; ++i)
+    const GLenum targets[] = {GL_TEXTURE_2D, GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_2D_ARRAY,
+                              GL_TEXTURE_2D, GL_TEXTURE_2D, GL_TEXTURE_3D};
+    for (int i = 0; i < 7; ++i)
         CreateTextures(targets[i], 1, &textures_[i]);
     for (const int i : {0, 1, 2, 4})
         TextureStorage2D(textures_[i], 2, i == 4 ? GL_RGBA32F : GL_RGBA8, 16, 16);
     load<PFNGLTEXTURESTORAGE3DPROC>("glTextureStorage3D")(textures_[3], 2, GL_R32F, 16, 16, 3);
+    load<PFNGLTEXTURESTORAGE3DPROC>("glTextureStorage3D")(textures_[6], 1, GL_R32F, 4, 4, 4);
     TextureStorage2D(textures_[5], 1, GL_R32F, 16, 16);
     load<PFNGLCREATESAMPLERSPROC>("glCreateSamplers")(2, samplers_);
     load<PFNGLCREATEBUFFERSPROC>("glCreateBuffers")(3, buffers_);
@@ -350,6 +351,8 @@ void GlHost::bindTextures()
             BindTexture(GL_TEXTURE_2D, textures_[unit % 2]);
         BindTexture(GL_TEXTURE_CUBE_MAP, textures_[2]);
         BindTexture(GL_TEXTURE_2D_ARRAY, textures_[3]);
+        if (unit != 4)
+            BindTexture(GL_TEXTURE_3D, textures_[6]);
         if (unit != 5)
             BindSampler(unit, samplers_[unit % 2]);
     }
@@ -393,7 +396,7 @@ void GlHost::bindBuffers()
 
 void GlHost::release()
 {
-    load<PFNGLDELETETEXTURESPROC>("glDeleteTextures")(6, textures_);
+    load<PFNGLDELETETEXTURESPROC>("glDeleteTextures")(7, textures_);
     load<PFNGLDELETESAMPLERSPROC>("glDeleteSamplers")(2, samplers_);
     load<PFNGLDELETEBUFFERSPROC>("glDeleteBuffers")(3, buffers_);
     load<PFNGLDELETEFRAMEBUFFERSPROC>("glDeleteFramebuffers")(2, framebuffers_);

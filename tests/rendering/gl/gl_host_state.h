@@ -44,7 +44,7 @@ private:
     void bindBuffers();
 
     GlLoader loader_;
-    GLuint textures_[6] = {}; ///< 2-D, 2-D, cube, array, 2-D RGBA32F, 2-D R32F
+    GLuint textures_[7] = {}; ///< 2-D, 2-D, cube, array, 2-D RGBA32F, 2-D R32F, 3-D
     GLuint samplers_[2] = {};
     GLuint buffers_[3] = {};
     GLuint framebuffers_[2] = {};

@@ -26,6 +26,9 @@ protected:
         auto created = GlTexture::create(*device, 4, 4, GL_DEPTH_COMPONENT32F, "depth");
         ASSERT_TRUE(created.ok());
         depth = std::move(*created);
+        created = GlTexture::createVolume(*device, 4, 4, 4, GL_RGBA32F, "volume");
+        ASSERT_TRUE(created.ok());
+        volume = std::move(*created);
         host = std::make_unique<GlHost>(context->loader());
         host->makeHostile();
         ASSERT_EQ(device->gl.GetError(), static_cast<GLenum>(GL_NO_ERROR));
@@ -34,6 +37,7 @@ protected:
     void TearDown() override
     {
         depth = {};
+        volume = {};
         host->release();
         GlTest::TearDown();
     }
@@ -45,6 +49,7 @@ protected:
         const float half = 0.5f;
         device->gl.ClearTexImage(depth.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &half);
         graph.begin();
+        const ResourceId volumeIn = graph.importTexture({"volume", 4, 4, Format::RGBA32F}, volume.name());
         const ResourceId depthIn = graph.importTexture({"depth", 4, 4, Format::R32F}, depth.name());
         ResourceId drawn;
         graph.addPass("draws", [&](FrameGraph::Builder& builder) {
@@ -66,27 +71,31 @@ protected:
         });
         graph.addPass("dispatch", [&](FrameGraph::Builder& builder) {
             builder.read(drawn);
-            std::array<ResourceId, 4> made;
+            builder.read(volumeIn);
+            std::array<ResourceId, GlBackend::kImageUnits> made;
             for (ResourceId& image : made)
                 image = builder.write(builder.create(TextureDesc{"image", 4, 4, Format::RGBA32F}));
             result = made[1];
             const ResourceId buffer = builder.write(builder.create(BufferDesc{"buffer", 64}));
-            return [drawn, made, buffer](Backend& to) {
+            return [drawn, volumeIn, made, buffer](Backend& to) {
                 std::array<TextureBinding, 8> textures;
-                std::array<ImageBinding, 4> images;
+                std::array<TextureBinding, 8> volumes;
+                std::array<ImageBinding, GlBackend::kImageUnits> images;
                 std::array<BufferBinding, 8> buffers;
                 for (uint32_t i = 0; i < 8; ++i) {
                     textures[i] = {i, drawn};
+                    volumes[i] = {i, volumeIn};
                     buffers[i] = {i, buffer};
                 }
-                for (uint32_t i = 0; i < 4; ++i)
+                for (uint32_t i = 0; i < images.size(); ++i)
                     images[i] = {i, made[i]};
                 to.upload(buffer, asUniforms(FillBlock{}));
-                to.dispatch({.program = &kCompute,
-                             .textures = textures,
-                             .images = images,
-                             .buffers = buffers,
-                             .uniforms = asUniforms(FillBlock{})});
+                for (const auto& bound : {volumes, textures})
+                    to.dispatch({.program = &kCompute,
+                                 .textures = bound,
+                                 .images = images,
+                                 .buffers = buffers,
+                                 .uniforms = asUniforms(FillBlock{})});
             };
         });
         graph.keep(result);
@@ -102,7 +111,7 @@ protected:
             ASSERT_EQ(texels[i], wanted[i % 4]) << "component " << i;
     }
 
-    GlTexture depth;
+    GlTexture depth, volume;
     std::unique_ptr<GlHost> host;
     ResourceId result;
 };
