@@ -196,10 +196,9 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
             out.layers = targets;
         else
             out.media = targets[0];
-        return [view = media.view, layers = media.layers, distance = media.distance, lights = media.lights,
-                balls = in.balls, cards = in.cards, tiles = in.tiles,
-                program = &slabProgram(in.slabs, in.detail, media.layers), targets, targetCount,
-                isFirst](Backend& backend) {
+        return [view = media.view, distance = media.distance, lights = media.lights, balls = in.balls,
+                cards = in.cards, tiles = in.tiles, program = &slabProgram(in.slabs, in.detail, media.layers),
+                targets, targetCount, isFirst](Backend& backend) {
             for (size_t i = 0; isFirst && i < targetCount; ++i)
                 backend.clear(targets[i], {0.0f, 0.0f, 0.0f, 0.0f});
             ViewBlock block = view;
