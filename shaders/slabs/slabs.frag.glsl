@@ -10,7 +10,7 @@
 #include "slabs/slab_window.glsl"
 
 // All media along one ray, summed up in FX_SLABS slabs and put together front to back, premultiplied. FX_LAYERS as in
-// media.frag.glsl. kGroup slabs are filled at a time: fewer take fewer registers, but each group looks at all balls anew.
+// media.frag.glsl. kGroup slabs are filled at a time: fewer take fewer registers, but each group reads all balls again.
 #if FX_LAYERS && !FX_DETAIL
 const int kGroup = FX_SLABS == 6 ? 3 : 4;
 #else

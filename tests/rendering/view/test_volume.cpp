@@ -141,7 +141,7 @@ TEST_F(Volume, framesAreBitEqual)
     const base::FrameSnapshot snapshot = snapshotOf(cloud(100, 0.4f, 0.3f));
     const Picture first = drawn(snapshot, camera());
     EXPECT_EQ(maxDifference(drawn(snapshot, camera()), first), 0.0) << "kept";
-    EXPECT_EQ(maxDifference(drawn(cloud(100, 0.4f, 0.3f), camera()), first), 0.0) << "made anew";
+    EXPECT_EQ(maxDifference(drawn(cloud(100, 0.4f, 0.3f), camera()), first), 0.0) << "drawn again";
 }
 
 TEST_F(Volume, theEyeMayBeInsideAndSurfacesCutTheMedium)
