@@ -20,8 +20,8 @@ extern "C" {
 /// Values of the argument `kind` of fxView_GetMediaShadow(), and of FxLightCost::kind.
 enum
 {
-    FX_LIGHT_SUN = 0,   ///< FxViewSettings::sunDirection; index 0
-    FX_LIGHT_HOST = 1,  ///< index in the array of fxView_SetLights()
+    FX_LIGHT_SUN = 0,    ///< FxViewSettings::sunDirection; index 0
+    FX_LIGHT_HOST = 1,   ///< index in the array of fxView_SetLights()
     FX_LIGHT_EFFECT = 2, ///< index of fxView_GetEffectLight()
     FX_LIGHT_SKY = 3     ///< sky and ground; index 0, only in FxLightCost
 };
@@ -111,8 +111,8 @@ typedef struct FxLightCost
     /// [byte] of the planes.
     uint64_t bytes;
 
-    /// Along which media are integrated when the planes are filled. The time of that grows with them; `fx bench
-    /// slices` measures it.
+    /// Along which media are integrated when the planes are filled. The time of that grows with them; `fx
+    /// bench slices` measures it.
     uint64_t rays;
 } FxLightCost;
 
