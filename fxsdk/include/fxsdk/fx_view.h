@@ -197,9 +197,9 @@ typedef struct FxViewSettings
     /// are small on the picture get fewer.
     uint32_t voxels;
 
-    /// 1..16 frames of the view after which light slices follow media that move: shadows of media lag behind by
-    /// up to one frame less, and the passes that fill the planes are spared in between. Lights that move are
-    /// followed at once, media that come to rest in the next frame; default 1.
+    /// 1..16 frames of the view after which light slices follow media that move: shadows of media lag behind
+    /// by up to one frame less, and the passes that fill the planes are spared in between. Lights that move
+    /// are followed at once, media that come to rest in the next frame; default 1.
     uint32_t lightRefreshFrames;
 } FxViewSettings;
 
