@@ -15,8 +15,6 @@ namespace fx::render {
 
 namespace {
 
-constexpr float kPeak =
-    1.04445431404056f;                  ///< extinction in the center of a ball over cross section / radius^3
 constexpr float kPixelsPerVoxel = 1.5f; ///< finer voxels would not be seen
 constexpr float kRadii = 16.0f;         ///< of balls along which there are as many voxels as asked for
 constexpr int kFewestVoxels = 16, kMostVoxels = 256; ///< along those
@@ -280,8 +278,7 @@ void FieldPlan::listBall(const FieldBlock& field, const BlobInstance& ball, uint
 {
     const float radius = std::max(ball.centerRadius.w, field.limits.x);
     const float fineness = field.corner.w * field.corner.w / (radius * radius);
-    const float peak =
-        kPeak * ball.medium.x / (radius * radius * radius) * formula::fxVoxelKernel(0.0f, fineness);
+    const float peak = formula::fxKernelPeak(ball.medium.x, radius) * formula::fxVoxelKernel(0.0f, fineness);
     BrickRange(field, ball).forEach(field, [&](size_t index) {
         if (table_[index] == 0)
             return;

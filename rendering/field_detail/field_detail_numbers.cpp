@@ -3,6 +3,7 @@
 #include "foundation/snapshot/material_kind.h"
 #include "shaders/formulas/formula.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fx::render {
@@ -94,6 +95,23 @@ MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, c
     detail.temperature =
         formula::fxDetailTemperature(1.0f, s, h, numbers.ramp, detail.noise, numbers.cooling, numbers.glow);
     return detail;
+}
+
+/// k n grows up to the place where m = 1/6; from there its logarithm is convex in s, so that the largest
+/// value is at an end.
+float mostLeft(const FieldDetailNumbers& numbers, float most)
+{
+    constexpr float kMargin = 1.0f + 1e-5f;
+    const float w = numbers.ramp, s = placeOf(numbers, most);
+    if (s <= 0.0f)
+        return 0.0f;
+    const float capped = w > 1.0f / 3.0f ? std::sqrt(w / 3.0f) : 1.0f / 6.0f + 0.5f * w; // m = 1/6
+    const float atEnd = most * formula::fxDetailGain(s, w);
+    if (s <= capped)
+        return kMargin * atEnd;
+    const float extinction =
+        numbers.thinnest / numbers.length() * std::pow(numbers.densest / numbers.thinnest, capped);
+    return kMargin * std::max(atEnd, extinction * formula::fxDetailGain(capped, w));
 }
 
 float keptShare(const FieldDetailNumbers& numbers, float extinction)

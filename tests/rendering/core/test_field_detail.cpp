@@ -2,6 +2,7 @@
 #include "rendering/field_detail/detailed_field.h"
 
 #include "foundation/random/philox.h"
+#include "shaders/formulas/formula.h"
 
 #include <gtest/gtest.h>
 
@@ -137,6 +138,30 @@ TEST(FieldDetail, keepsTheMeanWhereAThinnerPartIsLeft)
                     .share);
         EXPECT_NEAR(sum / count, 1.0, 0.04) << extinction;
         EXPECT_NEAR(keptShare(numbers, extinction), 1.0f, 1e-5f);
+    }
+}
+
+TEST(FieldDetail, whatIsLeftStaysBelowItsBound)
+{
+    EXPECT_EQ(formula::fxDetailGain(0.0f, 0.25f), kMostDetailGain);
+    for (const float ramp : {0.05f, 0.25f, 0.4f, 1.0f}) {
+        FieldDetailNumbers numbers = fireball();
+        numbers.ramp = ramp;
+        float most = 0.0f; // of what thinner medium may have at most
+        for (float extinction = 0.3f; extinction < 3000.0f; extinction *= 1.01f) {
+            const float s =
+                formula::fxDetailPlace(extinction, numbers.length(), numbers.thinnest, numbers.densest);
+            most = std::max(most, s > 0.0f ? extinction * formula::fxDetailGain(s, ramp) : 0.0f);
+            const float bound = mostLeft(numbers, extinction);
+            EXPECT_GE(bound, most) << ramp << ' ' << extinction;
+            EXPECT_LE(bound, 1.03f * most) << ramp << ' ' << extinction;
+        }
+    }
+    for (uint64_t i = 0; i < 2000; ++i) {
+        const float extinction = 0.5f + 30.0f * anywhere(i, 1.0f, 4).x;
+        const MediumDetail detail =
+            detailAt(fireball(), tile(), mediumAt(extinction, anywhere(i, 300.0f)), 1e-3f, 5);
+        EXPECT_LE(extinction * detail.share, mostLeft(fireball(), extinction));
     }
 }
 
