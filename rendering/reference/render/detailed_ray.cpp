@@ -159,7 +159,7 @@ void DetailedRay::refine(const Sample& a, const Sample& m, const Sample& b, int 
     const glm::dvec3 light =
         length / 12.0 *
         glm::abs(4.0 * (p.sent.light + q.sent.light) - a.sent.light - b.sent.light - 6.0 * m.sent.light);
-    const double passing = std::exp(-depth_), allowed = tolerance_ * length * perLength_;
+    const double passing = std::exp(-depth_), allowed = tolerance_ * std::sqrt(length * perLength_);
     const bool isExact =
         std::abs(first + second - whole) * std::max(passing, kLeastSeen) <= allowed &&
         passing * largest(light) <= allowed * brightest_ &&                                    // (2)

@@ -23,15 +23,17 @@ namespace fx::render {
 /// @derivation
 ///   S(f) = (b - a)/6 (f(a) + 4 f(m) + f(b)) is Simpson's rule; S' the sum of the same for both halves    (1)
 ///   A piece is halved until, for k and for each channel of j,
-///       max(T(a), 1/1000) |S'(k) - S(k)| <= e (b - a)/L, T(a) |S'(j) - S(j)| <= e J (b - a)/L (2)
-///   and until its halves have an optical depth of at most 1/2, so that S(T j) is right. (3) Between three
-///   points k is the parabola through them: D(m) - D(a) = (b - a)/24 (5 k(a) + 8 k(m) - k(b)) (4) The first
-///   pieces are no longer than the least half chord of the balls that matter there, and than an eighth of the
-///   largest lumps.
+///       max(T(a), 1/1000) |S'(k) - S(k)| <= q e, T(a) |S'(j) - S(j)| <= q e J, q^2 = (b - a)/L        (2)
+///   which allows e in all where errors of pieces are independent, as those at kinks of the noise are,
+///   and until its halves have an optical depth of at most 1/2, so that S(T j) is right.                 (3)
+///   Between three points k is the parabola through them:
+///       D(m) - D(a) = (b - a)/24 (5 k(a) + 8 k(m) - k(b))                                               (4)
+///   The first pieces are no longer than the least half chord of the balls that matter there, and than an
+///   eighth of the largest lumps.
 /// @source    textbook; field-detail for k
 /// @deviation kinks of the noise are not sought: pieces with one are halved until (2) holds
 /// @valid     any number of balls
-/// @accuracy  |error of T| <= e, of light e J, of D e / max(T, 1/1000)
+/// @accuracy  root mean square over rays: of T at most e, of light e J, of D e / max(T, 1/1000)
 /// @tests     tests/rendering/reference/render/test_detailed_ray.cpp
 ///
 /// One for each thread.

@@ -101,12 +101,13 @@ void DetailMix::clear()
 
 void DetailMix::add(uint32_t place, double extinction)
 {
-    const MediumDetails::Ball& ball = medium_.ball(place);
-    if (ball.group < 0) {
+    const int32_t group = medium_.groupOf(place);
+    if (group < 0) {
         smooth_ += extinction;
         return;
     }
-    Sum& sum = sums_[size_t(ball.group)];
+    const MediumDetails::Ball& ball = medium_.ball(place);
+    Sum& sum = sums_[size_t(group)];
     sum.extinction += extinction;
     for (size_t g = 0; g < 2; ++g)
         sum.carried[g] += extinction * glm::dvec3(ball.carried[g]);
