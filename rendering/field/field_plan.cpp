@@ -23,6 +23,7 @@ constexpr float kLooseVoxels = 0.5f;  ///< likewise, of a voxel: it would be spr
 constexpr int kMostBricksAlong = 128; ///< of a field, along an axis
 constexpr int64_t kMostBricksOfBox = 1 << 16; ///< of a field, with the empty ones
 constexpr int kMostTries = 64;                ///< to keep the budget of bricks
+constexpr int kSmoothFirst = 8;               ///< of them, in which fields with detail stay as fine
 constexpr float kLeastVoxel = 1e-4f;          ///< [m]
 constexpr float kTouch = 1.0001f;             ///< radii are compared with a margin, for what the GPU rounds
 constexpr uint32_t kUnseen = ~0u;             ///< entry of the table: medium that no ray meets
@@ -106,12 +107,22 @@ void FieldPlan::build(const FieldPlanInputs& in)
     if (in.balls.empty())
         return;
     chooseVoxels(in);
+    const auto isDetailed = [](const BlobEffect& effect) { return effect.detail >= 0; };
+    const bool isMixed =
+        std::ranges::any_of(in.effects, isDetailed) && !std::ranges::all_of(in.effects, isDetailed);
     for (int i = 0; i < kMostTries && !place(in); ++i)
-        for (Lattice& lattice : lattices_)
-            lattice.voxel *= kStep;
+        enlargeVoxels(in, isMixed && i < kSmoothFirst);
     listBricks(in);
     listBalls(in);
     listTiles(in);
+}
+
+/// Smooth fields lose less by it than those with detail, whose thresholds depend on extinctions.
+void FieldPlan::enlargeVoxels(const FieldPlanInputs& in, bool smoothOnly)
+{
+    for (size_t i = 0; i < lattices_.size(); ++i)
+        if (!smoothOnly || in.effects[i].detail < 0)
+            lattices_[i].voxel *= kStep;
 }
 
 bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel)
