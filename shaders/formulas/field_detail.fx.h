@@ -66,11 +66,11 @@ FX_FORMULA(fxDetailPassed)(FX_REAL x, FX_REAL z, FX_REAL u)
 
 FX_FORMULA(fxDetailShareOver)(FX_REAL s, FX_REAL z, FX_REAL u, FX_REAL w)
 {
-    FX_REAL half = FX_REAL(0.5) * w;
-    FX_REAL away = FX_REAL(0.774596669241483) * half;
-    FX_REAL mean = (FX_REAL(5.0) * fxDetailPassed(s - half - away, z, u) +
-                    FX_REAL(8.0) * fxDetailPassed(s - half, z, u) +
-                    FX_REAL(5.0) * fxDetailPassed(s - half + away, z, u)) / FX_REAL(18.0); // (7)
+    FX_REAL middle = s - FX_REAL(0.5) * w;
+    FX_REAL away = FX_REAL(0.387298334620742) * w;
+    FX_REAL mean = (FX_REAL(5.0) * fxDetailPassed(middle - away, z, u) +
+                    FX_REAL(8.0) * fxDetailPassed(middle, z, u) +
+                    FX_REAL(5.0) * fxDetailPassed(middle + away, z, u)) / FX_REAL(18.0); // (7)
     FX_REAL own = fxDetailShare(s, fxDetailThreshold(z), w);
     return own + clamp(FX_REAL(4.0) * u, FX_REAL(0.0), FX_REAL(1.0)) * (mean - own);
 }
