@@ -102,6 +102,9 @@ struct SliceSettings
     int samples = 2;       ///< 1..4 points of a ray through a ball at which light is looked up
     bool multiple = true;  ///< light that is scattered more than once counts
 
+    bool snapped = true; ///< texels and planes keep their places in the world; false: they follow media and
+                         ///< eye, to measure what that does to the picture
+
     bool operator==(const SliceSettings&) const = default;
 };
 

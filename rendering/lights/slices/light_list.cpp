@@ -177,7 +177,8 @@ void LightList::addSun(const LightListInputs& in)
     light.place = glm::vec4(lighting.sunDirection, 0.0f);
     SliceStack stack;
     if (in.settings->slices.enabled && lighting.sunIlluminance != glm::vec3(0.0f) &&
-        fitParallelSlices(lighting.sunDirection, in.casters, in.eye, in.settings->slices.resolution, stack))
+        fitParallelSlices(lighting.sunDirection, in.casters, in.eye, in.settings->slices.resolution, stack,
+                          in.settings->slices.snapped))
         addStack(stack, light);
     add(light);
     origins_.push_back({LightKind::Sun, 0});
@@ -198,7 +199,8 @@ void LightList::addCascades(const LightListInputs& in)
             if (glm::length(caster.center) < 0.5f * side + caster.radius)
                 near_.push_back(caster);
         SliceStack stack;
-        if (!fitParallelSlices(lighting.sunDirection, near_, in.eye, in.settings->slices.resolution, stack) ||
+        if (!fitParallelSlices(lighting.sunDirection, near_, in.eye, in.settings->slices.resolution, stack,
+                               in.settings->slices.snapped) ||
             stack.texel >= coarserTexel)
             return;
         coarserTexel = stack.texel;
@@ -220,7 +222,7 @@ void LightList::addPoints(const LightListInputs& in)
         SliceStack stack;
         if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
             fitPointSlices(place, point.radius, in.casters, in.eye, partOf(in.settings->slices.resolution, 2),
-                           stack))
+                           stack, in.settings->slices.snapped))
         {
             stack.corner = point.position; // not by way of floats: it must not follow the eye
             addStack(stack, light);
@@ -243,7 +245,8 @@ void LightList::addSky(const LightListInputs& in)
             i == 0 ? glm::vec3(0, 1, 0)
                    : glm::vec3(across * std::cos(turn), kSkyAxisElevation, across * std::sin(turn));
         SliceStack stack;
-        if (!fitParallelSlices(axis, in.casters, in.eye, partOf(in.settings->slices.resolution, 4), stack))
+        if (!fitParallelSlices(axis, in.casters, in.eye, partOf(in.settings->slices.resolution, 4), stack,
+                               in.settings->slices.snapped))
             return;
         SliceLightBlock light{};
         light.place = glm::vec4(axis, 0.0f);

@@ -75,13 +75,15 @@ SliceRay sliceRay(const SliceStack& stack, float x, float y);
 /// sides are powers of 2^(1/4), the corner is a multiple of them.
 /// @param towards unit, to the light  @param eye [m] world position that casters are relative to
 /// @param asked brought to a usable resolution; no planes: no stack
+/// @param isSnapped false: sides and corner are those of the casters, to measure what keeping places does
 /// @return whether there are casters and planes
 bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters, const glm::dvec3& eye,
-                       const SliceResolution& asked, SliceStack& outStack);
+                       const SliceResolution& asked, SliceStack& outStack, bool isSnapped = true);
 
 /// Fits shells around a glowing ball, from the nearest to the farthest caster. Their distances are multiples
 /// of a power of 2^(1/4).  @param light [m] relative to the eye  @param radius [m] of the ball
 bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,
-                    const glm::dvec3& eye, const SliceResolution& asked, SliceStack& outStack);
+                    const glm::dvec3& eye, const SliceResolution& asked, SliceStack& outStack,
+                    bool isSnapped = true);
 
 } // namespace fx::render
