@@ -81,10 +81,16 @@ public:
     base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) override;
 
 private:
+    /// What a setting takes, and how bright its pictures are where the reference has media.
+    struct Seen
+    {
+        double seconds = 0.0;
+        double brightness = 0.0;
+    };
     base::Status start(const std::function<bool()>& stop);
     void addReference(const LitPicture& picture);
     base::Result<std::vector<double>> changesOf(const FlightSetting& setting,
-                                                const std::function<bool()>& stop, double& outSeconds);
+                                                const std::function<bool()>& stop, Seen& outSeen);
 
     std::string scene_;
     FlightSubject subject_;
@@ -136,8 +142,8 @@ base::Status FlightAccuracy::start(const std::function<bool()>& stop)
     return {};
 }
 
-base::Result<std::vector<double>>
-FlightAccuracy::changesOf(const FlightSetting& setting, const std::function<bool()>& stop, double& outSeconds)
+base::Result<std::vector<double>> FlightAccuracy::changesOf(const FlightSetting& setting,
+                                                            const std::function<bool()>& stop, Seen& outSeen)
 {
     render::SliceSettings slices;
     slices.multiple = false;
@@ -153,8 +159,10 @@ FlightAccuracy::changesOf(const FlightSetting& setting, const std::function<bool
         const auto picture = painter_->paint(flight_[k].blobs, flight_[k].view, slices);
         if (!picture.ok())
             return picture.status();
-        outSeconds += picture->seconds;
+        outSeen.seconds += picture->seconds;
         std::vector<float> light = luminanceOf(*picture);
+        const std::vector<float> black(light.size(), 0.0f);
+        outSeen.brightness += meanChange(black, light, covered_[k], covered_[k]) / double(flight_.size());
         if (k > 0)
             changes.push_back(meanChange(before, light, covered_[k - 1], covered_[k]));
         before = std::move(light);
@@ -168,21 +176,27 @@ base::Result<AccuracySample> FlightAccuracy::run(size_t index, const std::functi
         return status;
     const FlightSetting& setting = settingsOf(subject_)[index];
     AccuracySample sample;
-    const auto changes = changesOf(setting, stop, sample.seconds);
+    Seen seen;
+    const auto changes = changesOf(setting, stop, seen);
     if (!changes.ok())
         return changes.status();
     const ChangeJudgment judgment = judgeChanges(*changes, reference_, bound_);
+    sample.seconds = seen.seconds;
     storeErrors(judgment.excess, sample);
     sample.items = double(flight_.size());
     sample.isAsPromised = judgment.isKept() != setting.isControl;
-    sample.work = {{"pairs", judgment.excess.size()},      {"pairs_beyond", judgment.beyond},
-                   {"worst_pair", judgment.worst},         {"kept", judgment.isKept()},
-                   {"change_ratio", judgment.medianRatio}, {"change_reference", judgment.medianReference},
-                   {"brightness_reference", brightness_},  {"blobs", flight_.front().blobs.size()}};
+    sample.work = {{"pairs", judgment.excess.size()},
+                   {"pairs_beyond", judgment.beyond},
+                   {"worst_pair", judgment.worst},
+                   {"kept", judgment.isKept()},
+                   {"change_ratio", judgment.medianRatio},
+                   {"change_reference", judgment.medianReference},
+                   {"brightness_ratio", seen.brightness / brightness_},
+                   {"blobs", flight_.front().blobs.size()}};
     char note[96];
-    std::snprintf(note, sizeof note, "%zu of %zu beyond, worst %.2f at %zu, ratio %.3f%s", judgment.beyond,
-                  judgment.excess.size(), sample.errorMax, judgment.worst, judgment.medianRatio,
-                  setting.isControl ? ", control" : "");
+    std::snprintf(note, sizeof note, "%zu of %zu beyond, worst %.2f at %zu, ratio %.3f, brightness %.3f%s",
+                  judgment.beyond, judgment.excess.size(), sample.errorMax, judgment.worst,
+                  judgment.medianRatio, seen.brightness / brightness_, setting.isControl ? ", control" : "");
     sample.note = note;
     return sample;
 }
