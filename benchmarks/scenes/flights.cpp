@@ -220,35 +220,52 @@ base::Result<std::vector<FlightFrame>> effectFrames(const EffectFlight& flight, 
     return all;
 }
 
-/// Clouds over more than 40 m, where the sun's planes are so coarse that the neighborhood of the eye gets its
-/// own. Each drifts, and its balls circle in it.
-std::vector<render::MediumBlob> driftingClouds(uint64_t seed, double seconds)
+/// A cloud of large balls that circle in it.
+void addCloud(const glm::dvec3& middle, double spin, bench::Chance& chance,
+              std::vector<render::MediumBlob>& io)
 {
-    constexpr uint32_t kClouds = 7, kBalls = 24;
+    constexpr uint32_t kBalls = 26;
+    const uint64_t instance = io.empty() ? 1 : io.back().instance + 1;
+    for (uint32_t b = 0; b < kBalls; ++b) {
+        const glm::dvec3 place = glm::dvec3(5.0, 2.5, 5.0) * chance.inCube();
+        render::MediumBlob blob;
+        blob.center = middle + glm::dvec3(place.x * std::cos(spin) - place.z * std::sin(spin), place.y,
+                                          place.x * std::sin(spin) + place.z * std::cos(spin));
+        blob.radius = chance.between(1.6, 2.8);
+        blob.crossSection = 0.6 * blob.radius * blob.radius;
+        blob.albedo = glm::dvec3(0.9);
+        blob.anisotropy = 0.3;
+        blob.instance = instance;
+        io.push_back(blob);
+    }
+}
+
+/// Clouds over more than 40 m, where the sun's planes are so coarse that the neighborhood of the eye gets its
+/// own, and small balls that fly to and fro far outside of the picture, so that the extent of the media,
+/// which planes are fitted to, is another one in each frame.
+std::vector<render::MediumBlob> clouds(uint64_t seed, double seconds)
+{
+    constexpr uint32_t kClouds = 6, kFliers = 6;
     bench::Chance chance(seed);
     std::vector<render::MediumBlob> blobs;
     for (uint32_t c = 0; c < kClouds; ++c) {
-        const double turn = 2.0 * kPi * double(c) / double(kClouds);
-        const double away = c == 0 ? 0.0 : chance.between(14.0, 40.0);
-        const glm::dvec3 drift =
-            2.0 * glm::dvec3(chance.between(-1, 1), 0.2 * chance.between(-1, 1), chance.between(-1, 1));
-        const glm::dvec3 middle =
-            glm::dvec3(away * std::cos(turn), chance.between(3.0, 6.0), away * std::sin(turn)) +
-            seconds * drift;
-        const double spin = chance.between(0.2, 0.5);
-        for (uint32_t b = 0; b < kBalls; ++b) {
-            const glm::dvec3 place = glm::dvec3(4.0, 2.0, 4.0) * chance.inCube();
-            const double angle = spin * seconds;
-            render::MediumBlob blob;
-            blob.center = middle + glm::dvec3(place.x * std::cos(angle) - place.z * std::sin(angle), place.y,
-                                              place.x * std::sin(angle) + place.z * std::cos(angle));
-            blob.radius = chance.between(0.8, 2.0);
-            blob.crossSection = 1.5 * blob.radius * blob.radius;
-            blob.albedo = glm::dvec3(0.9);
-            blob.anisotropy = 0.3;
-            blob.instance = c + 1;
-            blobs.push_back(blob);
-        }
+        const double turn = kPi * (1.0 + (double(c) + 0.5) / double(kClouds)); // before the eye
+        const double away = chance.between(8.0, 24.0);
+        addCloud({away * std::cos(turn), chance.between(3.0, 6.0), away * std::sin(turn)},
+                 0.1 * chance.between(-1.0, 1.0) * seconds, chance, blobs);
+    }
+    for (uint32_t f = 0; f < kFliers; ++f) {
+        const double turn = 2.0 * kPi * (double(f) + 0.5) / double(kFliers), pace = chance.between(2.0, 3.0);
+        const double away = 54.0 + 10.0 * std::sin(pace * seconds + chance.between(0.0, 2.0 * kPi));
+        render::MediumBlob blob;
+        blob.center = {away * std::cos(turn), 5.0 + 4.0 * std::sin(1.3 * pace * seconds),
+                       away * std::sin(turn)};
+        blob.radius = 0.5;
+        blob.crossSection = 0.1;
+        blob.albedo = glm::dvec3(0.9);
+        blob.anisotropy = 0.3;
+        blob.instance = kClouds + 1;
+        blobs.push_back(blob);
     }
     return blobs;
 }
@@ -256,22 +273,22 @@ std::vector<render::MediumBlob> driftingClouds(uint64_t seed, double seconds)
 FlightFrame lightFrame(const LightFlight& flight, uint32_t k)
 {
     const double seconds = double(k) * kFrameSeconds, s = double(k) / double(flight.name.frames - 1);
-    FlightFrame frame{driftingClouds(flight.seed, seconds), {}};
+    FlightFrame frame{clouds(flight.seed, seconds), {}};
     LitView& view = frame.view;
-    view.eye = {-6.0, 6.0, 22.0};
-    view.target = {0.0, 4.0, 0.0};
+    view.eye = {0.0, 5.0, 6.0};
+    view.target = {0.0, 4.5, -10.0};
     double turn = 0.7;
     switch (flight.sweep) {
     case Sweep::Light:
         turn = 2.0 * kPi * s;
         break;
     case Sweep::Across:
-        view.eye += glm::dvec3(24.0 * (s - 0.5), 0.0, 0.0);
-        view.target.x += 24.0 * (s - 0.5);
+        view.eye += glm::dvec3(12.0 * (s - 0.5), 0.0, 0.0);
+        view.target.x += 12.0 * (s - 0.5);
         break;
     case Sweep::Into:
-        view.eye.z += -24.0 * s;
-        view.target.z += -24.0 * s;
+        view.eye.z += -12.0 * s;
+        view.target.z += -12.0 * s;
         break;
     }
     view.fovYDegrees = 60.0;

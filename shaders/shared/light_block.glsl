@@ -17,5 +17,5 @@ layout(std140, binding = 1) uniform Lights
     vec4 lightOfGround; // rgb exposed luminance from below
     vec4 hostShadowRows[3]; // texture coordinates and depth of p in the host's shadow map: dot(row.xyz, p) + row.w
     vec4 hostShadowEdge;    // xy radius of the soft edge in texture coordinates; z 1 nearer is smaller, -1 larger, 0 no map
-    SliceLight lights[21];
+    SliceLight lights[42]; // the second half: planes of the first half as they were, color.r what they still count
 };

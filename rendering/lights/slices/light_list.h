@@ -4,6 +4,7 @@
 
 #include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
+#include "rendering/lights/slices/slice_fades.h"
 #include "rendering/lights/slices/slice_stack.h"
 #include "rendering/passes/light_bindings.h"
 
@@ -54,10 +55,12 @@ struct LightListInputs
     glm::dvec3 eye;                       ///< [m] world
     std::span<const EffectLight> effects; ///< brightest first
     std::span<const MediumCaster> casters;
+    bool resetsHistory = false; ///< planes do not fade from those of the last frame
 };
 
 /// Lights of a frame in the order in which they get planes: the sun, then the others by the light that
-/// arrives at the casters, then the axes of the sky. Threads: one at a time. Equal inputs give equal bits.
+/// arrives at the casters, then the axes of the sky. Planes of other sides than in the last frame fade in.
+/// Threads: one at a time. Equal inputs give equal bits, after equal inputs.
 class LightList
 {
 public:
@@ -91,7 +94,9 @@ private:
     void addPoints(const LightListInputs& in);
     void addSky(const LightListInputs& in);
     void addCascades(const LightListInputs& in);
-    void addStack(const SliceStack& stack, SliceLightBlock& ioLight);
+    template <class Fit>
+    bool addStacks(const Fit& fit, bool isSnapped, size_t entry);
+    void addStack(const SliceStack& stack, size_t entry);
     void placeTiles();
 
     void add(const SliceLightBlock& light);
@@ -99,6 +104,7 @@ private:
     LightListBlock block_{};
     size_t count_ = 0;
     std::pmr::vector<LightOrigin> origins_;
+    SliceFades fades_;
     std::pmr::vector<SliceStack> stacks_;
     std::pmr::vector<size_t> stackLights_; ///< the light of each stack
     std::pmr::vector<SliceStackBlock> stackBlocks_;
