@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kFrameSeconds = 1.0 / 60.0;
+constexpr double kPace = 0.2; ///< of the eye: where the picture hardly moves, what jumps is seen
 constexpr double kFarAway = 1e4; ///< [m] on the way to the sun
 
 /// Where an eye goes, in radii of the media around their middle.
@@ -113,7 +114,7 @@ LitView viewAt(const EffectFlight& flight, const Whereabouts& around, double s)
     const double turn = chance.between(0.0, 2.0 * kPi);
     const glm::dvec3 side(std::cos(turn), 0.0, std::sin(turn)), across(-side.z, 0.0, side.x);
     const double height = chance.between(-0.2, 0.3);
-    const double t = 2.0 * s - 1.0;
+    const double t = kPace * (2.0 * s - 1.0);
     glm::dvec3 eye(0.0), target(0.0); // in radii
     switch (flight.motion) {
     case Motion::Orbit:

@@ -38,13 +38,6 @@ vec2 depthAtPlace(vec4 tiles, vec3 place)
     return vec2(before.r + (plane - float(lower)) * before.g, slicePlane(tiles, last, texel).r);
 }
 
-// Whether a place is inside of planes, where they know the depth up to it.
-bool isInside(vec4 tiles, vec3 place)
-{
-    return all(greaterThan(place, vec3(1.0, 1.0, 0.0))) &&
-           all(lessThan(place, vec3(tiles.z - 1.0, tiles.z - 1.0, tiles.w - 1.0)));
-}
-
 // Optical depth between parallel light number i and p [m, relative to the eye], and of all media on its line through p.
 vec2 parallelDepth(int i, vec3 p)
 {
@@ -58,24 +51,35 @@ vec2 parallelDepth(int i, vec3 p)
     return depth;
 }
 
-// The same of the sun, with the finest planes that know the place. Constant indices: software renderers read those at once.
+// [1] of what finer planes say of a place at a distance from the eye [m]: nothing from the rim of their ball on.
+float finerShare(SliceLight planes, float distance)
+{
+    const float kRim = 0.25; // of the radius
+    return planes.tiles.w > 0.5 ? clamp((planes.place.w - distance) / (kRim * planes.place.w), 0.0, 1.0) : 0.0;
+}
+
+// The same of the sun, with the finest planes that know the place, which give way to coarser ones towards the rim of theirs.
+// Constant indices: software renderers read those at once.
 vec2 sunDepth(vec3 p)
 {
     if (lights[0].tiles.w < 0.5)
         return vec2(0.0);
-    vec4 tiles = lights[0].tiles;
-    vec3 place = parallelPlace(lights[0], p);
-    vec3 finer = parallelPlace(lights[kFinerPlanes], p);
-    vec3 finest = parallelPlace(lights[kFinerPlanes + 1], p);
-    bool isInFiner = isInside(lights[kFinerPlanes].tiles, finer);
-    bool isInFinest = isInside(lights[kFinerPlanes + 1].tiles, finest);
-    place = isInFinest ? finest : isInFiner ? finer : place;
-    tiles = isInFinest ? lights[kFinerPlanes + 1].tiles : isInFiner ? lights[kFinerPlanes].tiles : tiles;
+    float away = length(p);
+    float finer = finerShare(lights[kFinerPlanes], away), finest = finerShare(lights[kFinerPlanes + 1], away);
+    bool isInFiner = finer > 0.0, isInFinest = finest > 0.0;
+    vec3 place = isInFinest  ? parallelPlace(lights[kFinerPlanes + 1], p)
+                 : isInFiner ? parallelPlace(lights[kFinerPlanes], p)
+                             : parallelPlace(lights[0], p);
+    vec4 tiles = isInFinest ? lights[kFinerPlanes + 1].tiles : isInFiner ? lights[kFinerPlanes].tiles : lights[0].tiles;
     vec2 depth = depthAtPlace(tiles, place);
     int before = kFadingEntries + (isInFinest ? kFinerPlanes + 1 : isInFiner ? kFinerPlanes : 0);
     int fades = lights[before].color.r > 0.0 ? 1 : 0;
     for (int k = 0; k < fades; ++k)
         depth = mix(depth, depthAtPlace(lights[before].tiles, parallelPlace(lights[before], p)), lights[before].color.r);
+    float share = isInFinest ? finest : isInFiner ? finer : 1.0;
+    int coarser = share < 1.0 ? 1 : 0;
+    for (int k = 0; k < coarser; ++k)
+        depth = mix(parallelDepth(isInFinest ? kFinerPlanes : 0, p), depth, share);
     return depth;
 }
 

@@ -4,6 +4,7 @@
 #include "foundation/math/hash.h"
 #include "rendering/frame/exposure.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -122,8 +123,7 @@ SortedPoints sortedPoints(const LightListInputs& in)
 } // namespace
 
 LightList::LightList(std::pmr::memory_resource* memory)
-    : origins_(memory), fades_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory),
-      near_(memory)
+    : origins_(memory), fades_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory)
 {}
 
 void LightList::build(const LightListInputs& in)
@@ -181,8 +181,9 @@ void LightList::addSun(const LightListInputs& in)
     SliceLightBlock light{};
     light.color = glm::vec4(lighting.sunIlluminance * exposureFromEv100(in.settings->exposureEv100), 0.0f);
     light.place = glm::vec4(lighting.sunDirection, 0.0f);
+    sunTexel_ = 0.0f;
     if (in.settings->slices.enabled && lighting.sunIlluminance != glm::vec3(0.0f))
-        addStacks(
+        sunTexel_ = addStacks(
             [&](const SliceFit& fit, SliceStack& outStack) {
                 return fitParallelSlices(lighting.sunDirection, in.casters, in.eye,
                                          in.settings->slices.resolution, outStack, fit);
@@ -192,31 +193,34 @@ void LightList::addSun(const LightListInputs& in)
     origins_.push_back({LightKind::Sun, 0});
 }
 
-/// The sun's planes of a wide scene are coarse. What is near the eye gets finer ones, in the last entries.
+/// The sun's planes of a wide scene are coarse. A ball around the eye gets finer ones, in the last entries.
+/// They are fitted to the ball, not to the media in it: these come and go while the eye moves.
 void LightList::addCascades(const LightListInputs& in)
 {
     const Lighting& lighting = in.settings->lighting;
-    if (stacks_.empty() || lighting.sunIlluminance == glm::vec3(0.0f))
+    if (sunTexel_ <= 0.0f)
         return;
-    float side = stacks_.front().texel * float(stacks_.front().resolution.texels);
-    float coarserTexel = stacks_.front().texel;
+    float side = sunTexel_ * float(stacks_.front().resolution.texels);
+    float coarserTexel = sunTexel_;
     for (count_ = kFinerPlanes; count_ < kMostLightEntries && side > kWideScene; ++count_) {
         side *= kCascadeRatio;
-        near_.clear();
-        for (const MediumCaster& caster : in.casters)
-            if (glm::length(caster.center) < 0.5f * side + caster.radius)
-                near_.push_back(caster);
-        const size_t stack = stacks_.size();
-        const bool isFiner = addStacks(
+        const MediumCaster around{glm::vec3(0.0f), 0.5f * side, 0.0f};
+        const bool hasMedia = std::ranges::any_of(in.casters, [&](const MediumCaster& caster) {
+            return glm::length(caster.center) < around.radius + caster.radius;
+        });
+        if (!hasMedia)
+            return;
+        const float texel = addStacks(
             [&](const SliceFit& fit, SliceStack& outStack) {
-                return fitParallelSlices(lighting.sunDirection, near_, in.eye, in.settings->slices.resolution,
-                                         outStack, fit) &&
+                return fitParallelSlices(lighting.sunDirection, {&around, 1}, in.eye,
+                                         in.settings->slices.resolution, outStack, fit) &&
                        outStack.texel < coarserTexel;
             },
             in.settings->slices.snapped, count_);
-        if (!isFiner)
+        if (texel <= 0.0f)
             return;
-        coarserTexel = stacks_[stack].texel;
+        block_.lights[count_].place.w = around.radius;
+        coarserTexel = texel;
     }
 }
 
@@ -258,13 +262,13 @@ void LightList::addSky(const LightListInputs& in)
         const glm::vec3 axis =
             i == 0 ? glm::vec3(0, 1, 0)
                    : glm::vec3(across * std::cos(turn), kSkyAxisElevation, across * std::sin(turn));
-        const bool isThere = addStacks(
+        const float texel = addStacks(
             [&](const SliceFit& fit, SliceStack& outStack) {
                 return fitParallelSlices(axis, in.casters, in.eye, partOf(in.settings->slices.resolution, 4),
                                          outStack, fit);
             },
             in.settings->slices.snapped, count_);
-        if (!isThere)
+        if (texel <= 0.0f)
             return;
         SliceLightBlock light{};
         light.place = glm::vec4(axis, 0.0f);
@@ -273,13 +277,14 @@ void LightList::addSky(const LightListInputs& in)
 }
 
 /// Planes of a light and, while they change their sides, those that it had before.
-/// @param fit makes a stack  @param entry of the block  @return whether there are any
+/// @param fit makes a stack  @param entry of the block  @return [m] side of texels, between that before and
+/// that now, so that what is made from it has no jumps either; 0: there are no planes
 template <class Fit>
-bool LightList::addStacks(const Fit& fit, bool isSnapped, size_t entry)
+float LightList::addStacks(const Fit& fit, bool isSnapped, size_t entry)
 {
     SliceStack stack;
     if (!fit(SliceFit{isSnapped}, stack))
-        return false;
+        return 0.0f;
     const SliceFade fade = isSnapped ? fades_.next(stack) : SliceFade();
     SliceStack before;
     const bool fades = fade.weight > 0.0f && fit(fade.before, before);
@@ -290,7 +295,7 @@ bool LightList::addStacks(const Fit& fit, bool isSnapped, size_t entry)
         addStack(before, entry + kFadingEntries);
         block_.lights[entry + kFadingEntries].color = glm::vec4(fade.weight, 0.0f, 0.0f, 0.0f);
     }
-    return true;
+    return fades ? glm::mix(stack.texel, before.texel, fade.weight) : stack.texel;
 }
 
 void LightList::addStack(const SliceStack& stack, size_t entry)

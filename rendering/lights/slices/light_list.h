@@ -95,7 +95,7 @@ private:
     void addSky(const LightListInputs& in);
     void addCascades(const LightListInputs& in);
     template <class Fit>
-    bool addStacks(const Fit& fit, bool isSnapped, size_t entry);
+    float addStacks(const Fit& fit, bool isSnapped, size_t entry);
     void addStack(const SliceStack& stack, size_t entry);
     void placeTiles();
 
@@ -105,10 +105,11 @@ private:
     size_t count_ = 0;
     std::pmr::vector<LightOrigin> origins_;
     SliceFades fades_;
+    float sunTexel_ =
+        0.0f; ///< [m] side of the sun's texels, between the one before and that now; 0: no planes
     std::pmr::vector<SliceStack> stacks_;
     std::pmr::vector<size_t> stackLights_; ///< the light of each stack
     std::pmr::vector<SliceStackBlock> stackBlocks_;
-    std::pmr::vector<MediumCaster> near_; ///< scratch: casters near the eye
     uint64_t placesRevision_ = 0;
     int atlasWidth_ = 0, atlasHeight_ = 0;
     int mostTexels_ = 0;
