@@ -103,6 +103,9 @@ struct SliceSettings
     bool multiple = true;  ///< light that is scattered more than once counts
     int refreshFrames = 1; ///< 1..16 frames after which planes follow media that move
 
+    bool snapped = true; ///< texels and planes keep their places in the world; false: they follow media and
+                         ///< eye, to measure what that does to the picture
+
     bool operator==(const SliceSettings&) const = default;
 };
 

@@ -58,11 +58,11 @@ vec3 skyOnBody(vec4 ball, vec3 place, vec3 normal)
         SliceLight axis = lights[i];
         float facing = isSurface ? dot(normal, axis.place.xyz) : 1.0;
         if (facing > 0.0) {
-            open.x += facing * exp(-parallelDepth(axis, beforeBall(axis, ball, place, axis.place.xyz)).x);
+            open.x += facing * exp(-parallelDepth(i, beforeBall(axis, ball, place, axis.place.xyz)).x);
             weight.x += facing;
         }
         if (facing < 0.0 || !isSurface) {
-            vec2 depth = parallelDepth(axis, beforeBall(axis, ball, place, -axis.place.xyz));
+            vec2 depth = parallelDepth(i, beforeBall(axis, ball, place, -axis.place.xyz));
             open.y += abs(facing) * exp(-max(depth.y - depth.x, 0.0));
             weight.y += abs(facing);
         }

@@ -4,6 +4,7 @@
 
 #include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
+#include "rendering/lights/slices/slice_fades.h"
 #include "rendering/lights/slices/slice_stack.h"
 #include "rendering/passes/light_bindings.h"
 
@@ -66,10 +67,12 @@ struct LightListInputs
     glm::dvec3 eye;                       ///< [m] world
     std::span<const EffectLight> effects; ///< brightest first
     std::span<const MediumCaster> casters;
+    bool resetsHistory = false; ///< planes do not fade from those of the last frame
 };
 
 /// Lights of a frame in the order in which they get planes: the sun, then the others by the light that
-/// arrives at the casters, then the axes of the sky. Threads: one at a time. Equal inputs give equal bits.
+/// arrives at the casters, then the axes of the sky. Planes of other sides than in the last frame fade in.
+/// Threads: one at a time. Equal inputs give equal bits, after equal inputs.
 class LightList
 {
 public:
@@ -106,7 +109,9 @@ private:
     void addPoints(const LightListInputs& in);
     void addSky(const LightListInputs& in);
     void addCascades(const LightListInputs& in);
-    void addStack(const SliceStack& stack, SliceLightBlock& ioLight);
+    template <class Fit>
+    float addStacks(const Fit& fit, bool isSnapped, size_t entry);
+    void addStack(const SliceStack& stack, size_t entry);
     void placeTiles();
 
     void add(const SliceLightBlock& light);
@@ -114,10 +119,12 @@ private:
     LightListBlock block_{};
     size_t count_ = 0;
     std::pmr::vector<LightOrigin> origins_;
+    SliceFades fades_;
+    float sunTexel_ =
+        0.0f; ///< [m] side of the sun's texels, between the one before and that now; 0: no planes
     std::pmr::vector<SliceStack> stacks_;
     std::pmr::vector<size_t> stackLights_; ///< the light of each stack
     std::pmr::vector<SliceStackBlock> stackBlocks_;
-    std::pmr::vector<MediumCaster> near_; ///< scratch: casters near the eye
     uint64_t placesRevision_ = 0;
     int atlasWidth_ = 0, atlasHeight_ = 0;
     int mostTexels_ = 0;

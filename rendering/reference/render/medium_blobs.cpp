@@ -106,6 +106,7 @@ private:
         blob.fireShare = glm::clamp(value(column::FireShare, i, old), 0.0, 1.0);
         blob.anisotropy = double(newer_.constants()[constant::Anisotropy]);
         blob.layer = base::MediaLayer(uint32_t(newer_.constants()[constant::Layer]));
+        blob.instance = newer_.info().instance;
         const glm::dvec3 streak =
             rotation * (velocity * scale) * double(newer_.constants()[constant::Shutter]);
         if (!isFinite(blob) || !base::isFinite(temperature) || !base::isFinite(glm::dot(streak, streak))) {
