@@ -15,8 +15,6 @@ namespace fx::render {
 
 namespace {
 
-constexpr float kPeak =
-    1.04445431404056f;                  ///< extinction in the center of a ball over cross section / radius^3
 constexpr float kPixelsPerVoxel = 1.5f; ///< finer voxels would not be seen
 constexpr float kRadii = 16.0f;         ///< of balls along which there are as many voxels as asked for
 constexpr int kFewestVoxels = 16, kMostVoxels = 256; ///< along those
@@ -25,6 +23,7 @@ constexpr float kLooseVoxels = 0.5f;  ///< likewise, of a voxel: it would be spr
 constexpr int kMostBricksAlong = 128; ///< of a field, along an axis
 constexpr int64_t kMostBricksOfBox = 1 << 16; ///< of a field, with the empty ones
 constexpr int kMostTries = 64;                ///< to keep the budget of bricks
+constexpr int kSmoothFirst = 8;               ///< of them, in which fields with detail stay as fine
 constexpr float kLeastVoxel = 1e-4f;          ///< [m]
 constexpr float kTouch = 1.0001f;             ///< radii are compared with a margin, for what the GPU rounds
 constexpr uint32_t kUnseen = ~0u;             ///< entry of the table: medium that no ray meets
@@ -108,12 +107,22 @@ void FieldPlan::build(const FieldPlanInputs& in)
     if (in.balls.empty())
         return;
     chooseVoxels(in);
+    const auto isDetailed = [](const BlobEffect& effect) { return effect.detail >= 0; };
+    const bool isMixed =
+        std::ranges::any_of(in.effects, isDetailed) && !std::ranges::all_of(in.effects, isDetailed);
     for (int i = 0; i < kMostTries && !place(in); ++i)
-        for (Lattice& lattice : lattices_)
-            lattice.voxel *= kStep;
-    listBricks(in);
+        enlargeVoxels(in, isMixed && i < kSmoothFirst);
+    listBricks();
     listBalls(in);
     listTiles(in);
+}
+
+/// Smooth fields lose less by it than those with detail, whose thresholds depend on extinctions.
+void FieldPlan::enlargeVoxels(const FieldPlanInputs& in, bool smoothOnly)
+{
+    for (size_t i = 0; i < lattices_.size(); ++i)
+        if (!smoothOnly || in.effects[i].detail < 0)
+            lattices_[i].voxel *= kStep;
 }
 
 bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel)
@@ -231,7 +240,7 @@ uint32_t FieldPlan::countBalls(const FieldPlanInputs& in)
 }
 
 /// Gives numbers to bricks in the order of the table. Their counts are those of countBalls().
-void FieldPlan::listBricks(const FieldPlanInputs& in)
+void FieldPlan::listBricks()
 {
     uint32_t firstBall = 0;
     for (uint32_t f = 0; f < fields_.size(); ++f) {
@@ -250,16 +259,6 @@ void FieldPlan::listBricks(const FieldPlanInputs& in)
     }
     balls_.resize(firstBall);
     peaks_.assign(bricks_.size(), 0.0f);
-    nearest_ = std::numeric_limits<float>::max();
-    farthest_ = 0.0f;
-    for (const FieldBrickBlock& brick : bricks_) {
-        const glm::vec3 middle = middleOf(brick);
-        const float distance =
-            in.camera->orthographic ? glm::dot(middle, in.camera->forward) : glm::length(middle);
-        const float reach = brickReach(fields_[brick.field].corner.w);
-        nearest_ = std::min(nearest_, std::max(distance - reach, 0.0f));
-        farthest_ = std::max(farthest_, distance + reach);
-    }
 }
 
 void FieldPlan::listBalls(const FieldPlanInputs& in)
@@ -280,8 +279,7 @@ void FieldPlan::listBall(const FieldBlock& field, const BlobInstance& ball, uint
 {
     const float radius = std::max(ball.centerRadius.w, field.limits.x);
     const float fineness = field.corner.w * field.corner.w / (radius * radius);
-    const float peak =
-        kPeak * ball.medium.x / (radius * radius * radius) * formula::fxVoxelKernel(0.0f, fineness);
+    const float peak = formula::fxKernelPeak(ball.medium.x, radius) * formula::fxVoxelKernel(0.0f, fineness);
     BrickRange(field, ball).forEach(field, [&](size_t index) {
         if (table_[index] == 0)
             return;
@@ -329,21 +327,17 @@ void FieldPlan::markTiles(const FieldPlanInputs& in, const FieldBrickBlock& bric
 
 void FieldPlan::listTiles(const FieldPlanInputs& in)
 {
-    stamps_.assign(size_t(kFieldTileColumns * kFieldTileRows), 0u);
+    stamps_.assign(size_t(kFieldTiles), 0u);
     seen_.clear();
     for (const FieldBrickBlock& brick : bricks_)
         markTiles(in, brick);
-    std::ranges::fill(stamps_, 0u); // from here on: how many fields a tile has, then where its list goes on
+    tiles_.assign(bricks_.empty() ? 0 : size_t(kFieldTiles), FieldTileBlock{0, 0});
     for (size_t i = 0; i < seen_.size(); i += 2)
-        ++stamps_[seen_[i]];
+        ++tiles_[seen_[i]].count;
     uint32_t first = 0;
-    for (uint32_t tile = 0; tile < stamps_.size(); ++tile) {
-        if (stamps_[tile] == 0)
-            continue;
-        const uint32_t row = tile / kFieldTileColumns, column = tile % kFieldTileColumns;
-        tiles_.push_back({column | row << 8, first, stamps_[tile], 0});
-        first += stamps_[tile];
-        stamps_[tile] = tiles_.back().first;
+    for (size_t tile = 0; tile < tiles_.size(); ++tile) {
+        tiles_[tile].first = stamps_[tile] = first; // from here on: where its list goes on
+        first += tiles_[tile].count;
     }
     tileFields_.resize(first);
     for (size_t i = 0; i < seen_.size(); i += 2)

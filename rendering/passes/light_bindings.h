@@ -52,7 +52,7 @@ struct LightBindings
     ResourceId hostShadow = {};             ///< depth; invalid: the host's surfaces cast no shadow on media
     std::span<const std::byte> stacks = {}; ///< SliceStackBlocks of the planes
     int mostTexels = 0;                     ///< [texel] side of the largest plane
-    uint64_t filled = 0;                    ///< differs where the planes have been filled anew
+    uint64_t filled = 0;                    ///< differs where the planes have been filled again
 
     void read(FrameGraph::Builder& builder) const
     {

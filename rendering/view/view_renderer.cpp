@@ -112,7 +112,7 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
         askWhetherParticlesAreComputed();
         return status;
     }
-    if (std::ranges::all_of(parts, [](const auto& part) { return part->isSettled(); }))
+    if (lights.isCurrent() && std::ranges::all_of(parts, [](const auto& part) { return part->isSettled(); }))
         key = wanted;
     return {};
 }

@@ -2,7 +2,7 @@
 #include "formulas/lump_noise.fx.h"
 
 // Detail of fields: what rendering/field_detail/field_detail_numbers.cpp computes on the processor. Layout of FieldDetailBlock
-// in rendering/field/field_detail_block.h.
+// in rendering/field/field_blocks.h. Needs field/field_blocks.glsl.
 struct FieldDetail
 {
     vec4 rows[6];  // coordinates in cells of the generations, without what balls carry: dot(row.xyz, p) + row.w
@@ -10,10 +10,21 @@ struct FieldDetail
     vec4 noise;    // x gain of an octave; y weight of the second generation; z cooling; w glow
     vec4 lumps;    // xy size of the generations' lumps in the world now [m]; z factor that keeps the whole; w octaves
 };
-layout(std430, binding = 5) readonly buffer FieldDetails { FieldDetail details[]; };
-layout(binding = 6) uniform sampler3D lumpTile;
+layout(binding = 10) uniform sampler3D lumpTile;
 
 const float kLumpCells = 8.0;
+
+// first: texel of field/field_blocks.glsl
+FieldDetail fieldDetail(int first)
+{
+    FieldDetail d;
+    for (int i = 0; i < 6; ++i)
+        d.rows[i] = fieldTexel(first + i);
+    d.erosion = fieldTexel(first + 6);
+    d.noise = fieldTexel(first + 7);
+    d.lumps = fieldTexel(first + 8);
+    return d;
+}
 
 struct MediumDetail
 {
@@ -22,10 +33,11 @@ struct MediumDetail
     bool isLumpy;      // noise shows here
 };
 
-// Octaves of one generation, of deviation 1. u in cells; size [m] of its lumps, pixel [m]
-float lumpOctaves(vec3 u, float size, float pixel, float gain, int octaves)
+// Octaves of one generation, of deviation 1. u in cells; size [m] of its lumps, pixel [m]; faded variance of octaves that are
+// finer than pixels
+float lumpOctaves(vec3 u, float size, float pixel, float gain, int octaves, out float faded)
 {
-    float amplitude = 1.0, sum = 0.0, variance = 0.0;
+    float amplitude = 1.0, sum = 0.0, variance = 0.0, shown = 0.0;
     for (int k = 0; k < octaves; ++k) {
         float band = fxOctaveBand(size, pixel);
         if (band <= 0.0) { // nor any that follows
@@ -34,32 +46,39 @@ float lumpOctaves(vec3 u, float size, float pixel, float gain, int octaves)
         }
         sum += amplitude * band * textureLod(lumpTile, u / kLumpCells + 0.5 / vec3(textureSize(lumpTile, 0)), 0.0).r;
         variance += amplitude * amplitude;
+        shown += amplitude * amplitude * band * band;
         u = vec3(fxNextOctaveX(u.x, u.z), fxNextOctaveY(u.x, u.y, u.z), fxNextOctaveZ(u.x, u.y, u.z));
         amplitude *= gain;
         size *= 1.0 / 2.03;
     }
+    faded = max(1.0 - shown / variance, 0.0);
     return sum * inversesqrt(variance);
 }
+
+// Whether noise shows where fxDetailPlace is s.
+bool hasLumps(FieldDetail d, float s) { return s > 0.0 && s < 1.5 + d.erosion.w; }
 
 // @param k [1/m] smooth extinction; p [m] relative to the eye; carried0, carried1 [cell] means of what balls carry
 MediumDetail detailOf(FieldDetail d, float k, vec3 p, vec3 carried0, vec3 carried1, float pixel)
 {
     float ramp = d.erosion.w;
     float s = fxDetailPlace(k, d.erosion.x, d.erosion.y, d.erosion.z);
-    float h = 0.5, z = 0.0;
+    float h = 0.5, z = 0.0, share = s > 0.0 ? 1.0 : 0.0;
     // a loop without turns is skipped by software renderers too, a branch is not
-    int turns = s > 0.0 && s < 1.5 + ramp ? 1 : 0;
+    int turns = hasLumps(d, s) ? 1 : 0;
     for (int turn = 0; turn < turns; ++turn) {
         vec3 u0 = vec3(dot(d.rows[0].xyz, p) + d.rows[0].w, dot(d.rows[1].xyz, p) + d.rows[1].w, dot(d.rows[2].xyz, p) + d.rows[2].w);
         vec3 u1 = vec3(dot(d.rows[3].xyz, p) + d.rows[3].w, dot(d.rows[4].xyz, p) + d.rows[4].w, dot(d.rows[5].xyz, p) + d.rows[5].w);
         int octaves = int(d.lumps.w);
-        float z0 = lumpOctaves(u0 + carried0, d.lumps.x, pixel, d.noise.x, octaves);
-        float z1 = lumpOctaves(u1 + carried1, d.lumps.y, pixel, d.noise.x, octaves);
+        float faded0, faded1;
+        float z0 = lumpOctaves(u0 + carried0, d.lumps.x, pixel, d.noise.x, octaves, faded0);
+        float z1 = lumpOctaves(u1 + carried1, d.lumps.y, pixel, d.noise.x, octaves, faded1);
         z = fxBlendGenerations(z0, z1, d.noise.y);
         h = fxDetailThreshold(z);
+        share = fxDetailShareOver(s, z, fxBlendFaded(faded0, faded1, d.noise.y), ramp);
     }
     MediumDetail detail;
-    detail.share = d.lumps.z * fxDetailShare(s, h, ramp) * fxDetailGain(s, ramp);
+    detail.share = d.lumps.z * share * fxDetailGain(s, ramp);
     detail.temperature = fxDetailTemperature(1.0, s, h, ramp, z, d.noise.z, d.noise.w);
     detail.isLumpy = turns > 0;
     return detail;

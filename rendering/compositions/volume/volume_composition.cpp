@@ -1,8 +1,9 @@
 #include "rendering/compositions/volume/volume_composition.h"
 
+#include "rendering/compositions/slabs/slab_composition.h"
 #include "rendering/compositions/volume/volume_view.h"
 
-#include <array>
+#include <vector>
 
 namespace fx::render {
 
@@ -10,19 +11,22 @@ namespace {
 
 constexpr TimedPass kTimed[] = {{"loose blob upload", "volume"}, {"field upload", "volume"},
                                 {"lump tile", "volume"},         {"field slices", "volume"},
-                                {"field fill", "volume"},        {"field light", "volume"}};
+                                {"field fill", "volume"},        {"field light", "volume"},
+                                {"field texels", "volume"},      {"field march", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
     static const auto all = [] {
-        std::array<const ProgramDesc*, 14> list{&kLumpTileProgram, &kFieldSlicesProgram};
-        size_t end = 2;
+        const std::span<const ProgramDesc* const> ofSlabs = kSlabComposition.programs(); // the loose
+        std::vector<const ProgramDesc*> list(ofSlabs.begin(), ofSlabs.end());
+        list.insert(list.end(), {&kLumpTileProgram, &kFieldSlicesProgram, &kFieldTexelProgram});
         for (const bool detail : {false, true})
             for (const bool layers : {false, true})
                 for (const ProgramDesc* program :
-                     {&fieldFillProgram(layers, detail), &fieldLightProgram(layers, detail),
-                      &fieldMarchProgram(layers, detail)})
-                    list[end++] = program;
+                     {&fieldFillProgram(layers, detail), &fieldLightProgram(layers, detail)})
+                    list.push_back(program);
+        for (size_t i = 0; i < kFieldMarchPrograms; ++i)
+            list.push_back(&fieldMarchProgramAt(i));
         return list;
     }();
     return all;

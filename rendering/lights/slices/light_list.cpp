@@ -319,6 +319,30 @@ void LightList::addStack(const SliceStack& stack, size_t entry)
     stackLights_.push_back(entry);
 }
 
+size_t LightList::costCount() const
+{
+    return size_t(block_.counts.x) + (block_.counts.y > 0 ? 1 : 0);
+}
+
+LightCost LightList::costOf(size_t light) const
+{
+    const auto points = size_t(block_.counts.x);
+    LightCost cost;
+    cost.origin = light < points ? origins_[light] : LightOrigin{LightKind::Sky, 0};
+    for (size_t i = 0; i < stacks_.size(); ++i) {
+        const size_t entry = stackLights_[i] >= kFinerPlanes ? 0 : stackLights_[i];
+        if (std::min(entry, points) != light)
+            continue;
+        const auto side = uint64_t(stacks_[i].resolution.texels);
+        const auto planes = uint64_t(stacks_[i].resolution.planes);
+        ++cost.stacks;
+        cost.planes += uint32_t(planes);
+        cost.texels += planes * side * side;
+        cost.rays += side * side;
+    }
+    return cost;
+}
+
 /// Stacks lie side by side in rows; each row is as high as its first stack, the largest.
 void LightList::placeTiles()
 {

@@ -25,7 +25,8 @@ struct SliceStackBlock
 };
 static_assert(sizeof(SliceStackBlock) == 5 * 16);
 
-constexpr int kSliceTileColumns = 8; ///< planes of a stack lie in rows of so many tiles
+constexpr uint64_t kSliceTexelBytes = 8; ///< depth and its slope towards the next plane, 32 bits each
+constexpr int kSliceTileColumns = 8;     ///< planes of a stack lie in rows of so many tiles
 constexpr size_t kFinerPlanes =
     kMostLightEntries - 2;     ///< first entry with finer planes of the sun near the eye
 constexpr size_t kSkyAxes = 6; ///< of an icosahedron: both ends of each are sampled, with equal weights
@@ -39,6 +40,7 @@ enum class LightKind : uint8_t
     Sun,
     Host,   ///< ViewSettings::hostLights
     Effect, ///< of what the snapshot holds
+    Sky,    ///< sky and ground, looked up along axes
 };
 
 /// Where a light of the list comes from.
@@ -46,6 +48,16 @@ struct LightOrigin
 {
     LightKind kind = LightKind::Sun;
     uint32_t index = 0; ///< of ViewSettings::hostLights, or of the effects' lights, brightest first
+};
+
+/// What the planes of a light take.
+struct LightCost
+{
+    LightOrigin origin;
+    uint32_t stacks = 0; ///< 0: it has no planes, and media cast no shadow in it
+    uint32_t planes = 0; ///< of all stacks
+    uint64_t texels = 0; ///< of all planes
+    uint64_t rays = 0;   ///< along which media are integrated when the planes are filled
 };
 
 /// What the lights of a frame are made from.
@@ -81,6 +93,9 @@ public:
     std::span<const LightOrigin> origins() const { return origins_; }
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
+    /// Of the first block().counts.x lights, and of the sky behind them where it has planes.
+    size_t costCount() const;
+    LightCost costOf(size_t light) const;
     uint64_t placesRevision() const
     {
         return placesRevision_;

@@ -4,6 +4,7 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/reference/render/medium_details.h"
 
 #include <glm/vec3.hpp>
 
@@ -30,6 +31,7 @@ struct MediumBlob
 struct MediumList
 {
     std::vector<MediumBlob> blobs;
+    MediumDetails details; ///< of `blobs`
     uint32_t nonFinite = 0;
 };
 
@@ -37,8 +39,8 @@ struct MediumList
 /// matched by id, interpolated, newborn ones carried back, moving ones drawn out along the shutter. Unlike
 /// there, nothing is culled or widened to a pixel, and positions are double.
 ///
-/// source = (1 - albedo) black body + emission. Procedural detail is a look of the GPU passes and is left
-/// out.
+/// source = (1 - albedo) black body + emission. The detail of fields is found as for these passes; that of
+/// balls by themselves (`detailAmount`) is a look of the GPU passes and is left out.
 /// @param interpolation 0 older .. 1 newer
 MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation);
 
