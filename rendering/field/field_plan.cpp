@@ -87,7 +87,7 @@ struct BrickRange
 
 FieldPlan::FieldPlan(std::pmr::memory_resource* memory)
     : lattices_(memory), fields_(memory), bricks_(memory), table_(memory), balls_(memory), loose_(memory),
-      peaks_(memory), stamps_(memory), seen_(memory), tiles_(memory), tileFields_(memory)
+      peaks_(memory), emitted_(memory), glow_(memory), stamps_(memory), seen_(memory), tiles_(memory), tileFields_(memory)
 {}
 
 void FieldPlan::clear()
@@ -100,6 +100,7 @@ void FieldPlan::clear()
     loose_.clear();
     tiles_.clear();
     tileFields_.clear();
+    glow_.clear();
 }
 
 void FieldPlan::build(const FieldPlanInputs& in)
@@ -114,6 +115,7 @@ void FieldPlan::build(const FieldPlanInputs& in)
     listBricks(in);
     listBalls(in);
     listTiles(in);
+    glow_.build(fields_, emitted_, in.camera->eye);
 }
 
 bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel)
@@ -264,12 +266,18 @@ void FieldPlan::listBricks(const FieldPlanInputs& in)
 
 void FieldPlan::listBalls(const FieldPlanInputs& in)
 {
+    emitted_.assign(fields_.size(), 0.0f);
     for (size_t e = 0; e < in.effects.size(); ++e)
-        for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i)
-            if (isLoose(in.balls[i], in.effects[e], lattices_[e].voxel))
+        for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i) {
+            const BlobInstance& ball = in.balls[i];
+            if (isLoose(ball, in.effects[e], lattices_[e].voxel)) {
                 loose_.push_back(i);
-            else
-                listBall(fields_[lattices_[e].field], in.balls[i], i);
+                continue;
+            }
+            listBall(fields_[lattices_[e].field], ball, i);
+            emitted_[lattices_[e].field] +=
+                ball.medium.x * (ball.emission.x + ball.emission.y + ball.emission.z) / 3.0f;
+        }
     for (size_t i = 0; i < bricks_.size(); ++i) {
         float& most = fields_[bricks_[i].field].limits.y;
         most = std::max(most, peaks_[i]);

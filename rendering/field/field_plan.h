@@ -8,6 +8,7 @@
 #pragma once
 
 #include "rendering/field/field_blocks.h"
+#include "rendering/field/field_glow_plan.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/passes/blob_instance.h"
 
@@ -48,6 +49,8 @@ public:
     std::span<const uint32_t> tileFields() const { return tileFields_; } ///< of all tiles
     /// Balls that are too small for the voxels of their effect, in their order; no brick has them.
     std::span<const uint32_t> loose() const { return loose_; }
+    /// In which the light that fields emit is spread; FieldBlock::limits names those of fields.
+    std::span<const FieldGlowBlock> glows() const { return glow_.grids(); }
     float nearest() const { return nearest_; }   ///< [m] from the eye, along the axis of a parallel view
     float farthest() const { return farthest_; } ///< [m]
     bool isEmpty() const { return bricks_.empty(); }
@@ -86,6 +89,8 @@ private:
     std::pmr::vector<uint32_t> balls_;
     std::pmr::vector<uint32_t> loose_;
     std::pmr::vector<float> peaks_;     ///< [1/m] of each brick: sum of what its balls have in their centers
+    std::pmr::vector<float> emitted_;   ///< [exposed m2] of each field
+    FieldGlowPlan glow_;
     std::pmr::vector<uint32_t> stamps_; ///< of tiles: number of the last field + 1
     std::pmr::vector<uint32_t> seen_;   ///< pairs of tile and field, in the order of fields
     std::pmr::vector<FieldTileBlock> tiles_;

@@ -99,7 +99,7 @@ FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, float
                                                material1 * perMedium, pixel * t);
                 kept = detail.share;
                 voxels = detail.isLumpy ? kVoxelsPerLumpyStep : kVoxelsPerStep;
-                medium.rgb *= pow(detail.temperature, material0.a);
+                medium.rgb = detailedLight(medium.rgb, detail, material0.a);
             }
 #if FX_LAYERS
             sum.scattered += kept * scattered;

@@ -10,13 +10,17 @@ namespace {
 
 constexpr TimedPass kTimed[] = {{"loose blob upload", "volume"}, {"field upload", "volume"},
                                 {"lump tile", "volume"},         {"field slices", "volume"},
-                                {"field fill", "volume"},        {"field light", "volume"}};
+                                {"field fill", "volume"},        {"field light", "volume"},
+                                {"glow upload", "volume"},       {"glow source", "volume"},
+                                {"glow rays", "volume"},         {"glow sum", "volume"}};
 
 std::span<const ProgramDesc* const> programs()
 {
     static const auto all = [] {
-        std::array<const ProgramDesc*, 14> list{&kLumpTileProgram, &kFieldSlicesProgram};
-        size_t end = 2;
+        std::array<const ProgramDesc*, 20> list{
+            &kLumpTileProgram,         &kFieldSlicesProgram,    &kGlowSourceAgainProgram,  &kGlowRaysProgram,
+            &glowSourceProgram(false), &glowSourceProgram(true), &glowSumProgram(false), &glowSumProgram(true)};
+        size_t end = 8;
         for (const bool detail : {false, true})
             for (const bool layers : {false, true})
                 for (const ProgramDesc* program :

@@ -43,8 +43,8 @@ FieldDetailBlock blockOf(const GroupDetail& detail, int octaves)
 } // namespace
 
 VolumeView::VolumeView(const TechniqueSetup& setup)
-    : device_(*setup.device), plan_(setup.memory), details_(setup.memory), looseSort_(setup.memory),
-      looseDistances_(setup.memory), looseBlobs_(setup.memory)
+    : device_(*setup.device), plan_(setup.memory), details_(setup.memory), glow_(*setup.device),
+      looseSort_(setup.memory), looseDistances_(setup.memory), looseBlobs_(setup.memory)
 {}
 
 base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
@@ -122,6 +122,8 @@ base::Status VolumeView::makeRoom(bool layers)
     for (size_t i = 0; status && i < textures_.size(); ++i)
         if (isUsed(i, layers))
             status = makeTexture(i);
+    if (status)
+        status = glow_.makeRoom(plan_.glows());
     return status && !details_.empty() ? makeLumpTile() : status;
 }
 
@@ -181,6 +183,7 @@ void VolumeView::importAll(FrameGraph& graph, bool layers)
     source_.textures.shares = texture(2);
     source_.textures.material[0] = texture(3);
     source_.textures.material[1] = texture(4);
+    glow_.importAll(graph, plan_.glows());
     source_.lumpTile = {};
     if (details_.empty())
         return;
@@ -260,9 +263,15 @@ void VolumeView::addFields(FrameGraph& graph, PassFrame& frame)
                         uint32_t(plan_.fields().size()), uint32_t(stacks_.size() / sizeof(SliceStackBlock))});
             corrected_ = frame.lights.filled;
         }
-        source_.textures = FieldLightPass::addTo(graph, {ids_[Fields], ids_[Bricks], source_.textures,
-                                                         frame.lights, &frame.view, bricks})
-                               .textures;
+        if (frame.lights.lights.valid())
+            glow_.addPasses(graph,
+                            {ids_[Fields], ids_[Table], {}, source_.textures, ids_[Details],
+                             source_.lumpTile, {}, uint32_t(plan_.fields().size()), 0},
+                            plan_.glows());
+        source_.textures =
+            FieldLightPass::addTo(graph, {ids_[Fields], ids_[Bricks], source_.textures, frame.lights,
+                                          &frame.view, bricks, glow_.light(), glow_.grids()})
+                .textures;
     }
     source_.fields = ids_[Fields];
     source_.table = ids_[Table];
@@ -300,11 +309,12 @@ void VolumeView::release()
     looseLights_ = {};
     textures_ = {};
     lumpTile_ = {};
+    glow_.release();
 }
 
 uint64_t VolumeView::bytes() const
 {
-    uint64_t sum = looseBuffer_.bytes() + looseLights_.bytes();
+    uint64_t sum = looseBuffer_.bytes() + looseLights_.bytes() + glow_.bytes();
     for (const GlBuffer& buffer : buffers_)
         sum += buffer.bytes();
     for (const GlTexture& texture : textures_)

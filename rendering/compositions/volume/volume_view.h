@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rendering/compositions/media_composition.h"
+#include "rendering/compositions/volume/volume_glow.h"
 #include "rendering/draw_order/depth_sort.h"
 #include "rendering/field/field_fill_pass.h"
 #include "rendering/field/field_light_pass.h"
@@ -75,6 +76,7 @@ private:
     std::span<const std::byte> stacks_;       ///< SliceStackBlocks of the frame
     uint64_t corrected_ = 0;                  ///< filling of the light slices that has the detail
     std::span<const BlobMaterial> materials_; ///< of the frame
+    VolumeGlow glow_;
     GlTexture lumpTile_;                      ///< nothing before detail is seen
     bool hasLumps_ = false;                   ///< it is filled
     BlobSource looseSource_;                  ///< of balls that are too small for voxels
