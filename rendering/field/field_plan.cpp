@@ -22,6 +22,7 @@ constexpr float kRadii = 16.0f;         ///< of balls along which there are as m
 constexpr int kFewestVoxels = 16, kMostVoxels = 256; ///< along those
 constexpr float kLooseShare = 0.4f;                  ///< of an effect's radius: what is smaller stays a ball
 constexpr float kLooseVoxels = 0.5f;  ///< likewise, of a voxel: it would be spread over 64 times its volume
+constexpr float kLoosePlain = 2.0f;   ///< likewise, of a field without detail, such as one of sparks: it would be widened
 constexpr int kMostBricksAlong = 128; ///< of a field, along an axis
 constexpr int64_t kMostBricksOfBox = 1 << 16; ///< of a field, with the empty ones
 constexpr int kMostTries = 64;                ///< to keep the budget of bricks
@@ -120,7 +121,8 @@ void FieldPlan::build(const FieldPlanInputs& in)
 
 bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel)
 {
-    return ball.centerRadius.w < std::max(kLooseShare * effect.radius, kLooseVoxels * voxel);
+    const float voxels = effect.detail < 0 ? kLoosePlain : kLooseVoxels;
+    return ball.centerRadius.w < std::max(kLooseShare * effect.radius, voxels * voxel);
 }
 
 /// From the whole effect, so that voxels stay as large when the view turns.
