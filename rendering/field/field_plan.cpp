@@ -22,7 +22,7 @@ constexpr float kRadii = 16.0f;         ///< of balls along which there are as m
 constexpr int kFewestVoxels = 16, kMostVoxels = 256; ///< along those
 constexpr float kLooseShare = 0.4f;                  ///< of an effect's radius: what is smaller stays a ball
 constexpr float kLooseVoxels = 0.5f;  ///< likewise, of a voxel: it would be spread over 64 times its volume
-constexpr float kLoosePlain = 2.0f;   ///< likewise, of a field without detail, such as one of sparks: it would be widened
+constexpr float kLooseFire = 1.5f;    ///< likewise, of fire: a spark is far brighter than what is around it
 constexpr int kMostBricksAlong = 128; ///< of a field, along an axis
 constexpr int64_t kMostBricksOfBox = 1 << 16; ///< of a field, with the empty ones
 constexpr int kMostTries = 64;                ///< to keep the budget of bricks
@@ -121,8 +121,8 @@ void FieldPlan::build(const FieldPlanInputs& in)
 
 bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel)
 {
-    const float voxels = effect.detail < 0 ? kLoosePlain : kLooseVoxels;
-    return ball.centerRadius.w < std::max(kLooseShare * effect.radius, voxels * voxel);
+    const bool isFire = ball.layer.x < 2.0f;
+    return ball.centerRadius.w < std::max(kLooseShare * effect.radius, (isFire ? kLooseFire : kLooseVoxels) * voxel);
 }
 
 /// From the whole effect, so that voxels stay as large when the view turns.

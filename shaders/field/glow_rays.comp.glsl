@@ -22,9 +22,10 @@ void main()
     float way = glows[grid].corner.w * length(vec3(direction));
     ivec3 corner = glowRayCorner(number) + ivec3(0, 0, kGlowCells * grid);
     vec3 radiance = vec3(0.0);
-    for (int i = 0; i < (isLine ? kGlowCells : 0); ++i) {
-        if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(kGlowCells))))
-            break;
+    int count = isLine ? kGlowCells : 0;
+    for (int a = 0; a < 3; ++a)
+        count = min(count, direction[a] > 0 ? kGlowCells - cell[a] : direction[a] < 0 ? cell[a] + 1 : kGlowCells);
+    for (int i = 0; i < count; ++i) {
         vec4 medium = texelFetch(cells, cell + ivec3(0, 0, kGlowCells * grid), 0);
         float tau = medium.a * way;
         float share = fxGlowShare(tau);

@@ -6,7 +6,7 @@
 
 // What the medium of each cell of the grids emits, extinguishes and scatters: the mean of the fields at some points of it, with
 // their detail. FX_AGAIN 1 replaces what is emitted by what the cell scatters of the light that it gets.
-layout(local_size_x = 4, local_size_y = 4, local_size_z = 2) in;
+layout(local_size_x = 8, local_size_y = 4, local_size_z = 2) in;
 layout(rgba32f, binding = 0) uniform image3D cells; // rgb emitted light [exposed/m]; a extinction [1/m]
 #if FX_AGAIN
 layout(binding = 3) uniform sampler3D glowScatter; // rgb [1/m] extinction times albedo

@@ -42,9 +42,9 @@ protected:
     render::FieldPlan plan_{memory_};
     render::FieldSource source_;
 
-private:
-    void importTextures();
+    void importTextures(); ///< those of fill(), in this frame
 
+private:
     std::vector<render::GlTexture> volumes_;
     std::vector<render::GlBuffer> lists_;
 };
