@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 namespace fx::render {
 
@@ -44,6 +45,11 @@ float roundedUp(float side)
 
 } // namespace
 
+bool FieldGlowPlan::brighter(const Source& a, const Source& b)
+{
+    return std::tie(a.emitted, a.low.x, a.low.y, a.low.z) > std::tie(b.emitted, b.low.x, b.low.y, b.low.z);
+}
+
 FieldGlowPlan::FieldGlowPlan(std::pmr::memory_resource* memory) : sources_(memory), grids_(memory) {}
 
 void FieldGlowPlan::build(std::span<FieldBlock> ioFields, std::span<const float> emitted,
@@ -53,7 +59,7 @@ void FieldGlowPlan::build(std::span<FieldBlock> ioFields, std::span<const float>
     for (FieldBlock& field : ioFields)
         field.limits.w = 0.0f;
     listSources(ioFields, emitted);
-    std::ranges::stable_sort(sources_, std::greater<>(), &Source::emitted);
+    std::ranges::sort(sources_, brighter);
     sources_.resize(std::min(sources_.size(), kMostGlowGrids));
     for (const Source& source : sources_)
         placeGrid(source, ioFields, eye);

@@ -40,6 +40,7 @@ private:
         float emitted;       ///< [exposed m2]
     };
 
+    static bool brighter(const Source& a, const Source& b); ///< or, of the same, in any fixed order
     void listSources(std::span<const FieldBlock> fields, std::span<const float> emitted);
     void placeGrid(const Source& source, std::span<FieldBlock> ioFields, const glm::dvec3& eye);
 

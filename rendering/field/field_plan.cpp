@@ -116,7 +116,8 @@ void FieldPlan::build(const FieldPlanInputs& in)
     listBricks(in);
     listBalls(in);
     listTiles(in);
-    glow_.build(fields_, emitted_, in.camera->eye);
+    if (in.glows)
+        glow_.build(fields_, emitted_, in.camera->eye);
 }
 
 bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel)

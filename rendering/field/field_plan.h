@@ -29,6 +29,7 @@ struct FieldPlanInputs
     int width, height;       ///< [pixel] of the picture
     int resolution = 96;     ///< voxels along 16 radii of an effect's balls, 16..256
     uint32_t mostBricks = 0; ///< of all fields together; 0: of a full cube of that many voxels
+    bool glows = true;       ///< fields that emit light the media around them: glows()
 };
 
 /// Keeps its memory from frame to frame. Threads: one at a time.

@@ -58,7 +58,8 @@ base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
     for (const GroupDetail& detail : io.details)
         details_.push_back(blockOf(detail, octaves));
     materials_ = details_.empty() ? std::span<const BlobMaterial>() : io.materials;
-    plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0});
+    plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0,
+                 in.settings->slices.multiple});
     sortLoose(in, io.blobs);
     if (!looseBlobs_.empty())
         io.streams->push_back(looseStream());

@@ -163,6 +163,7 @@ TEST_F(Volume, layersOfOneBallAreThoseOfTheSortedForm)
     ball.albedo = 0.6f;
     ball.fireShare = 0.25f;
     view_->settings().layerOutputs = true;
+    view_->settings().slices.multiple = false; // balls that are sorted do not light themselves
     view_->settings().lighting.skyLuminance = glm::vec3(1.0f);
     for (const base::MediaLayer layer :
          {base::MediaLayer::Fire, base::MediaLayer::Smoke, base::MediaLayer::Dust}) {
