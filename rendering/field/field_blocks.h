@@ -33,8 +33,8 @@ struct FieldDetailBlock
 };
 static_assert(sizeof(FieldDetailBlock) == 144);
 
-constexpr int kGlowCells = 32;                ///< along a side of a grid
-constexpr int kGlowRays[2] = {8, 4};          ///< grids beside each other that hold the rays of all directions
+constexpr int kGlowCells = 32;       ///< along a side of a grid
+constexpr int kGlowRays[2] = {8, 4}; ///< grids beside each other that hold the rays of all directions
 
 /// A grid in which the light that media emit is spread; shaders/field/field_glow.glsl reads this layout.
 struct FieldGlowBlock

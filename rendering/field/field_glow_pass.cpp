@@ -11,9 +11,8 @@ namespace {
 constexpr ProgramDesc kSources[] = {
     {"glow source", nullptr, nullptr, "field/glow_source.comp.glsl", "FX_AGAIN=0\nFX_DETAIL=0"},
     {"glow source", nullptr, nullptr, "field/glow_source.comp.glsl", "FX_AGAIN=0\nFX_DETAIL=1"}};
-constexpr ProgramDesc kSums[] = {
-    {"glow sum", nullptr, nullptr, "field/glow_sum.comp.glsl", "FX_AGAIN=0"},
-    {"glow sum", nullptr, nullptr, "field/glow_sum.comp.glsl", "FX_AGAIN=1"}};
+constexpr ProgramDesc kSums[] = {{"glow sum", nullptr, nullptr, "field/glow_sum.comp.glsl", "FX_AGAIN=0"},
+                                 {"glow sum", nullptr, nullptr, "field/glow_sum.comp.glsl", "FX_AGAIN=1"}};
 
 constexpr uint32_t kGroup[3] = {8, 4, 2}; ///< invocations, one a cell
 constexpr uint32_t kLineRows = 8;         ///< of a group of lines

@@ -13,8 +13,9 @@ namespace {
 
 /// [exposed] mean radiance at the distance of a field's size below which its light is not seen.
 constexpr float kDarkest = 1e-4f;
-constexpr float kMargin = 0.5f; ///< of a source's size, to each side: media farther away have its light as that of a point
-constexpr int kSpareCells = 2;  ///< of a grid that its place and the rounding of its cells may take
+constexpr float kMargin =
+    0.5f; ///< of a source's size, to each side: media farther away have its light as that of a point
+constexpr int kSpareCells = 2; ///< of a grid that its place and the rounding of its cells may take
 
 struct Box
 {

@@ -42,8 +42,8 @@ FieldLightPass::Outputs FieldLightPass::addTo(FrameGraph& graph, const Inputs& i
             if (in.glow.valid())
                 planes[count++] = {3, in.glow, Sampling::Linear};
             const ImageBinding images[] = {{0, textures.medium}, {1, textures.scatter}};
-            const BufferBinding buffers[] = {{0, in.fields}, {2, in.bricks}, in.lights.bufferBinding(),
-                                             {3, in.grids}};
+            const BufferBinding buffers[] = {
+                {0, in.fields}, {2, in.bricks}, in.lights.bufferBinding(), {3, in.grids}};
             DispatchCall call;
             call.program = &fieldLightProgram(textures.shares.valid(), textures.material[0].valid());
             call.textures = {planes, count};

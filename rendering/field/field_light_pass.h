@@ -28,8 +28,8 @@ public:
         ResourceId fields, bricks;
         FieldTextures textures;
         LightBindings lights;
-        const ViewBlock* view; ///< of the picture
-        uint32_t brickCount;   ///< > 0
+        const ViewBlock* view;            ///< of the picture
+        uint32_t brickCount;              ///< > 0
         ResourceId glow = {}, grids = {}; ///< invalid: no field has a grid
     };
     struct Outputs

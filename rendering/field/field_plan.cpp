@@ -88,7 +88,8 @@ struct BrickRange
 
 FieldPlan::FieldPlan(std::pmr::memory_resource* memory)
     : lattices_(memory), fields_(memory), bricks_(memory), table_(memory), balls_(memory), loose_(memory),
-      peaks_(memory), emitted_(memory), glow_(memory), stamps_(memory), seen_(memory), tiles_(memory), tileFields_(memory)
+      peaks_(memory), emitted_(memory), glow_(memory), stamps_(memory), seen_(memory), tiles_(memory),
+      tileFields_(memory)
 {}
 
 void FieldPlan::clear()
@@ -123,7 +124,8 @@ void FieldPlan::build(const FieldPlanInputs& in)
 bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel)
 {
     const bool isFire = ball.layer.x < 2.0f;
-    return ball.centerRadius.w < std::max(kLooseShare * effect.radius, (isFire ? kLooseFire : kLooseVoxels) * voxel);
+    return ball.centerRadius.w <
+           std::max(kLooseShare * effect.radius, (isFire ? kLooseFire : kLooseVoxels) * voxel);
 }
 
 /// From the whole effect, so that voxels stay as large when the view turns.

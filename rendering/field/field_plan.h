@@ -89,8 +89,8 @@ private:
     std::pmr::vector<uint32_t> table_;
     std::pmr::vector<uint32_t> balls_;
     std::pmr::vector<uint32_t> loose_;
-    std::pmr::vector<float> peaks_;     ///< [1/m] of each brick: sum of what its balls have in their centers
-    std::pmr::vector<float> emitted_;   ///< [exposed m2] of each field
+    std::pmr::vector<float> peaks_;   ///< [1/m] of each brick: sum of what its balls have in their centers
+    std::pmr::vector<float> emitted_; ///< [exposed m2] of each field
     FieldGlowPlan glow_;
     std::pmr::vector<uint32_t> stamps_; ///< of tiles: number of the last field + 1
     std::pmr::vector<uint32_t> seen_;   ///< pairs of tile and field, in the order of fields

@@ -18,8 +18,8 @@
 ///       band = sat(l / (2 p) - 1)                                                             (3)
 ///   Fields that are independent keep deviation 1 when they are blended by
 ///       z = ((1 - f) z0 + f z1) / sqrt((1 - f)^2 + f^2)                                       (4)
-///   Billows of one size look like grains. Below the octaves lie broad lumps, 2.6 times as large as the largest of
-///   them and 0.8 times as strong, read from the same lattice at
+///   Billows of one size look like grains. Below the octaves lie broad lumps, 2.6 times as large as the
+///   largest of them and 0.8 times as strong, read from the same lattice at
 ///       x / 2.6 + 5.3 along each axis                                                         (5)
 /// @source    [WOR96] cellular noise; [PER02] gradient noise; the mix is own
 /// @deviation none

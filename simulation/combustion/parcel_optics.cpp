@@ -23,9 +23,8 @@ double sooty(const FireParcel& parcel)
 
 ParcelOptics opticsOf(const Material& material, const FireParcel& parcel)
 {
-    const double soot =
-        parcel.ownMass * (material.flameSoot * sooty(parcel) * parcel.burning +
-                          material.smokeSoot * parcel.burnt); // (1)
+    const double soot = parcel.ownMass * (material.flameSoot * sooty(parcel) * parcel.burning +
+                                          material.smokeSoot * parcel.burnt); // (1)
     const double salt = parcel.ownMass * material.smokeSalt * parcel.burnt;
     const double bySoot = kSootOptics.extinction * soot;
     const double bySalt = kSaltOptics.extinction * salt;

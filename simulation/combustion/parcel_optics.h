@@ -21,7 +21,8 @@
 ///   S = K_s m_s + K_z m_z                                                             (2)
 ///   w = (a_s K_s m_s + a_z K_z m_z) / S                                               (3)
 ///   what absorbs emits as a black body of the parcel's temperature (Kirchhoff): (1 - w) B(T)
-/// @source    [MC00] for K_s, [BB06] for a_s, [GLA89]: soot forms above 1300 to 1650 K in flames, hence (0) for means
+/// @source    [MC00] for K_s, [BB06] for a_s, [GLA89]: soot forms above 1300 to 1650 K in flames, hence (0)
+/// for means
 /// @deviation gray in the visible; a_z and K_z are orders of magnitude
 /// @valid     fractions in 0..1
 /// @accuracy  double rounding

@@ -17,9 +17,10 @@ constexpr TimedPass kTimed[] = {{"loose blob upload", "volume"}, {"field upload"
 std::span<const ProgramDesc* const> programs()
 {
     static const auto all = [] {
-        std::array<const ProgramDesc*, 20> list{
-            &kLumpTileProgram,         &kFieldSlicesProgram,    &kGlowSourceAgainProgram,  &kGlowRaysProgram,
-            &glowSourceProgram(false), &glowSourceProgram(true), &glowSumProgram(false), &glowSumProgram(true)};
+        std::array<const ProgramDesc*, 20> list{&kLumpTileProgram,         &kFieldSlicesProgram,
+                                                &kGlowSourceAgainProgram,  &kGlowRaysProgram,
+                                                &glowSourceProgram(false), &glowSourceProgram(true),
+                                                &glowSumProgram(false),    &glowSumProgram(true)};
         size_t end = 8;
         for (const bool detail : {false, true})
             for (const bool layers : {false, true})

@@ -266,8 +266,15 @@ void VolumeView::addFields(FrameGraph& graph, PassFrame& frame)
         }
         if (frame.lights.lights.valid())
             glow_.addPasses(graph,
-                            {ids_[Fields], ids_[Table], {}, source_.textures, ids_[Details],
-                             source_.lumpTile, {}, uint32_t(plan_.fields().size()), 0},
+                            {ids_[Fields],
+                             ids_[Table],
+                             {},
+                             source_.textures,
+                             ids_[Details],
+                             source_.lumpTile,
+                             {},
+                             uint32_t(plan_.fields().size()),
+                             0},
                             plan_.glows());
         source_.textures =
             FieldLightPass::addTo(graph, {ids_[Fields], ids_[Bricks], source_.textures, frame.lights,

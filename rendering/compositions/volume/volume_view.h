@@ -77,9 +77,9 @@ private:
     uint64_t corrected_ = 0;                  ///< filling of the light slices that has the detail
     std::span<const BlobMaterial> materials_; ///< of the frame
     VolumeGlow glow_;
-    GlTexture lumpTile_;                      ///< nothing before detail is seen
-    bool hasLumps_ = false;                   ///< it is filled
-    BlobSource looseSource_;                  ///< of balls that are too small for voxels
+    GlTexture lumpTile_;     ///< nothing before detail is seen
+    bool hasLumps_ = false;  ///< it is filled
+    BlobSource looseSource_; ///< of balls that are too small for voxels
     DepthSort looseSort_;
     std::pmr::vector<float> looseDistances_;
     std::pmr::vector<BlobInstance> looseBlobs_; ///< farthest first

@@ -77,8 +77,9 @@ protected:
         ResourceId* const ids[] = {&in.glow.cells, &in.glow.scatter, &in.glow.rays, &in.glow.first,
                                    &in.glow.light};
         for (size_t i = 0; i < 5; ++i)
-            *ids[i] = graph_->importTexture({"glow", glowVolumes_[i].width(), glowVolumes_[i].height(), kFormats[i]},
-                                            glowVolumes_[i].name());
+            *ids[i] = graph_->importTexture(
+                {"glow", glowVolumes_[i].width(), glowVolumes_[i].height(), kFormats[i]},
+                glowVolumes_[i].name());
         execute(FieldGlowPass::addTo(*graph_, in).glow.light);
         first_ = read(3);
         light_ = read(4);
@@ -93,7 +94,10 @@ protected:
     {
         return glm::dvec3(corner_) + double(side_) * (glm::dvec3(cellOf(i)) + 0.5);
     }
-    glm::vec3 light(int i) const { return {light_[size_t(4 * i)], light_[size_t(4 * i + 1)], light_[size_t(4 * i + 2)]}; }
+    glm::vec3 light(int i) const
+    {
+        return {light_[size_t(4 * i)], light_[size_t(4 * i + 1)], light_[size_t(4 * i + 2)]};
+    }
 
     const glm::vec3 eye_{0.0f, 0.0f, 9.0f};
     const CameraView view_ = camera(glm::dvec3(eye_), {0, 0, 0});
@@ -115,7 +119,8 @@ TEST(FieldGlowFormulas, areThoseOfTheirComment)
     EXPECT_EQ(formula::fxGlowShare(0.0f), 1.0f);
     EXPECT_EQ(formula::fxGlowRest(0.0f), 0.5f);
     for (const float albedo : {0.0f, 0.2f, 0.9f})
-        EXPECT_NEAR(formula::fxGlowOrders((1.0f - albedo) * 7.0f, albedo * (1.0f - albedo) * 7.0f), 7.0f, 1e-5f);
+        EXPECT_NEAR(formula::fxGlowOrders((1.0f - albedo) * 7.0f, albedo * (1.0f - albedo) * 7.0f), 7.0f,
+                    1e-5f);
     EXPECT_EQ(formula::fxGlowOrders(0.0f, 0.0f), 0.0f);
 }
 
@@ -188,7 +193,8 @@ TEST_F(FieldGlow, ofARoundEmitterItIsTheSameOnAllSides)
     ASSERT_LT(glm::length(center), 1e-4) << "the middle of the grid is that of the ball";
     for (int i = 0; i < kCells; ++i) {
         const glm::ivec3 c = cellOf(i);
-        for (const glm::ivec3 other : {glm::ivec3(31 - c.x, c.y, c.z), glm::ivec3(c.y, c.x, c.z), glm::ivec3(c.z, c.y, c.x)})
+        for (const glm::ivec3 other :
+             {glm::ivec3(31 - c.x, c.y, c.z), glm::ivec3(c.y, c.x, c.z), glm::ivec3(c.z, c.y, c.x)})
             ASSERT_NEAR(light(i).r, light(indexOf(other)).r, 0.02f + 0.01f * light(i).r) << i;
     }
 }
@@ -213,7 +219,8 @@ TEST_F(FieldGlow, aPointThatStandsForTheMediumIsNotCountedOnceMore)
                                   {.lights = importBytes(std::as_bytes(std::span(&lights, 1)))},
                                   &view,
                                   uint32_t(plan_.bricks().size())};
-        in.glow = graph_->importTexture({"glow", kGlowCells, kGlowCells, Format::RGBA16F}, glowVolumes_[4].name());
+        in.glow =
+            graph_->importTexture({"glow", kGlowCells, kGlowCells, Format::RGBA16F}, glowVolumes_[4].name());
         in.grids = importBytes(std::as_bytes(plan_.glows()));
         if (!withGlow) {
             std::vector<FieldBlock> fields(plan_.fields().begin(), plan_.fields().end());
