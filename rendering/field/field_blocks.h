@@ -54,15 +54,14 @@ struct FieldBrickBlock
 static_assert(sizeof(FieldBrickBlock) == 16);
 
 constexpr int kFieldTileColumns = 32, kFieldTileRows = 18; ///< that the window is divided into
+constexpr int kFieldTiles = kFieldTileColumns * kFieldTileRows;
 
-/// A part of the window in which fields are seen.
+/// The fields that are seen in a part of the window.
 struct FieldTileBlock
 {
-    uint32_t place; ///< column + 256 row, from clip position -1, -1
-    uint32_t first; ///< of its fields, in the list of numbers of fields
-    uint32_t count; ///< of its fields
-    uint32_t unused;
+    uint32_t first; ///< in the list of numbers of fields
+    uint32_t count;
 };
-static_assert(sizeof(FieldTileBlock) == 16);
+static_assert(sizeof(FieldTileBlock) == 8);
 
 } // namespace fx::render

@@ -1,5 +1,7 @@
 #include "rendering/field/field_fill_pass.h"
 
+#include "rendering/field/field_texels.h"
+
 namespace fx::render {
 
 namespace {
@@ -21,32 +23,35 @@ FieldFillPass::Outputs FieldFillPass::addTo(FrameGraph& graph, const Inputs& in)
 {
     Outputs out{in.textures};
     graph.addPass("field fill", [&](FrameGraph::Builder& builder) {
-        for (const ResourceId buffer : {in.balls, in.fields, in.bricks, in.brickBalls})
-            builder.read(buffer);
-        for (const ResourceId id : {in.materials, in.details, in.lumpTile})
+        for (const ResourceId id : {in.balls, in.fieldTexels, in.bricks, in.brickBalls})
+            builder.read(id);
+        for (const ResourceId id : {in.materials, in.lumpTile})
             if (id.valid())
                 builder.read(id);
-        for (ResourceId* texture : {&out.textures.medium, &out.textures.scatter, &out.textures.shares,
-                                    &out.textures.material[0], &out.textures.material[1]})
+        for (ResourceId* texture :
+             {&out.textures.medium, &out.textures.scatter, &out.textures.shares, &out.textures.table,
+              &out.textures.material[0], &out.textures.material[1]})
             if (texture->valid())
                 *texture = builder.write(*texture);
         return [in, textures = out.textures](Backend& backend) {
             const bool layers = textures.shares.valid();
             const bool detail = in.materials.valid();
-            ImageBinding images[5] = {{0, textures.medium}, {1, textures.scatter}};
-            size_t count = 2;
+            backend.clear(textures.table, {0.0f, 0.0f, 0.0f, 0.0f});
+            ImageBinding images[6] = {{0, textures.medium}, {1, textures.scatter}, {5, textures.table}};
+            size_t count = 3;
             if (layers)
                 images[count++] = {2, textures.shares};
             for (uint32_t g = 0; detail && g < 2; ++g)
                 images[count++] = {3 + g, textures.material[g]};
-            const BufferBinding buffers[] = {{0, in.balls},      {1, in.fields},    {2, in.bricks},
-                                             {3, in.brickBalls}, {4, in.materials}, {5, in.details}};
-            const TextureBinding lumps[] = {{6, in.lumpTile, Sampling::LinearRepeat}};
+            const BufferBinding buffers[] = {
+                {0, in.balls}, {2, in.bricks}, {3, in.brickBalls}, {4, in.materials}};
+            const TextureBinding read[] = {{kFieldTexelUnit, in.fieldTexels},
+                                           {10, in.lumpTile, Sampling::LinearRepeat}};
             DispatchCall call;
             call.program = &fieldFillProgram(layers, detail);
             call.images = std::span(images).first(count);
-            call.buffers = std::span(buffers).first(detail ? 6 : 4);
-            call.textures = std::span(lumps).first(detail ? 1 : 0);
+            call.buffers = std::span(buffers).first(detail ? 4 : 3);
+            call.textures = std::span(read).first(detail ? 2 : 1);
             call.groups[0] = in.brickCount;
             backend.dispatch(call);
         };

@@ -8,25 +8,25 @@
 
 namespace fx::render {
 
-/// reads   balls      buffer of BlobInstance
-///         fields     buffer of FieldBlock
-///         bricks     buffer of FieldBrickBlock
-///         brickBalls buffer of numbers of balls
-///         materials  buffer of BlobMaterial, one a ball; details of FieldDetailBlock; lumpTile of
-///         LumpTilePass
-/// writes  textures   what the balls emit, absorb and scatter. Each sample is written by one invocation,
-/// which adds
-///                    its balls in the order of the list, so that equal inputs give equal bits
+/// reads   balls        buffer of BlobInstance
+///         fieldTexels  of FieldTexelPass
+///         bricks       buffer of FieldBrickBlock
+///         brickBalls   buffer of numbers of balls
+///         materials    buffer of BlobMaterial, one a ball; lumpTile of LumpTilePass
+/// writes  textures     what the balls emit, absorb and scatter, and the table of bricks. Each sample is
+/// written
+///                      by one invocation, which adds its balls in the order of the list, so that equal
+///                      inputs give equal bits
 /// Formula: kernel-optical-depth (1).
 class FieldFillPass
 {
 public:
     struct Inputs
     {
-        ResourceId balls, fields, bricks, brickBalls;
+        ResourceId balls, fieldTexels, bricks, brickBalls;
         FieldTextures textures;
-        uint32_t brickCount;                                    ///< > 0
-        ResourceId materials = {}, details = {}, lumpTile = {}; ///< invalid: no field has detail
+        uint32_t brickCount;                      ///< > 0
+        ResourceId materials = {}, lumpTile = {}; ///< invalid: no field has detail
     };
     struct Outputs
     {

@@ -1,6 +1,7 @@
 #include "rendering/field/field_glow_pass.h"
 
 #include "rendering/field/field_blocks.h"
+#include "rendering/field/field_texels.h"
 
 #include <glm/vec4.hpp>
 
@@ -28,27 +29,28 @@ void setGroups(DispatchCall& ioCall, uint32_t grids)
 void addSource(FrameGraph& graph, const FieldGlowPass::Inputs& in, GlowTextures& io)
 {
     graph.addPass("glow source", [&](FrameGraph::Builder& builder) {
-        for (const ResourceId id : {in.fields, in.table, in.grids, in.field.medium, in.field.scatter,
-                                    in.field.material[0], in.field.material[1], in.details, in.lumpTile})
+        for (const ResourceId id : {in.fieldTexels, in.field.table, in.grids, in.field.medium, in.field.scatter,
+                                    in.field.material[0], in.field.material[1], in.lumpTile})
             if (id.valid())
                 builder.read(id);
         io.cells = builder.write(io.cells);
         io.scatter = builder.write(io.scatter);
         return [in, io](Backend& backend) {
-            const bool detail = in.details.valid();
             const glm::ivec4 counts(int(in.fieldCount), 0, 0, 0);
             const TextureBinding textures[] = {{0, in.field.medium, Sampling::Linear},
                                                {1, in.field.scatter, Sampling::Linear},
+                                               {kFieldTexelUnit, in.fieldTexels},
+                                               {kBrickTableUnit, in.field.table},
                                                {2, in.field.material[0], Sampling::Linear},
                                                {3, in.field.material[1], Sampling::Linear},
-                                               {6, in.lumpTile, Sampling::LinearRepeat}};
+                                               {10, in.lumpTile, Sampling::LinearRepeat}};
             const ImageBinding images[] = {{0, io.cells}, {1, io.scatter}};
-            const BufferBinding buffers[] = {{0, in.fields}, {2, in.table}, {3, in.grids}, {5, in.details}};
+            const BufferBinding buffers[] = {{3, in.grids}};
             DispatchCall call;
-            call.program = &glowSourceProgram(detail);
-            call.textures = std::span(textures).first(detail ? 5 : 2);
+            call.program = &glowSourceProgram(in.detail);
+            call.textures = std::span(textures).first(in.detail ? 7 : 4);
             call.images = images;
-            call.buffers = std::span(buffers).first(detail ? 4 : 3);
+            call.buffers = buffers;
             call.uniforms = asUniforms(counts);
             setGroups(call, in.gridCount);
             backend.dispatch(call);

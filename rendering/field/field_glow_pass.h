@@ -21,10 +21,10 @@ struct GlowTextures
 
 /// Mean radiance in each cell of the light of all media of a grid, any number of times scattered.
 ///
-/// reads   fields, table  of FieldPlan
+/// reads   fieldTexels    of FieldTexelPass
 ///         grids          buffer of FieldGlowBlock
 ///         field          filled textures, not yet lit
-///         details, lumpTile  as FieldFillPass
+///         lumpTile       of LumpTilePass
 /// writes  all of GlowTextures; `light` is the result
 /// Formula: field-glow.
 class FieldGlowPass
@@ -32,9 +32,11 @@ class FieldGlowPass
 public:
     struct Inputs
     {
-        ResourceId fields, table, grids;
+        ResourceId fieldTexels;
         FieldTextures field;
-        ResourceId details, lumpTile; ///< invalid: no field has detail
+        ResourceId lumpTile; ///< not used without detail
+        bool detail;         ///< some field has detail
+        ResourceId grids;
         GlowTextures glow;
         uint32_t fieldCount; ///< > 0
         uint32_t gridCount;  ///< > 0

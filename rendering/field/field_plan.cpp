@@ -114,7 +114,7 @@ void FieldPlan::build(const FieldPlanInputs& in)
     for (int i = 0; i < kMostTries && !place(in); ++i)
         for (Lattice& lattice : lattices_)
             lattice.voxel *= kStep;
-    listBricks(in);
+    listBricks();
     listBalls(in);
     listTiles(in);
     if (in.glows)
@@ -238,7 +238,7 @@ uint32_t FieldPlan::countBalls(const FieldPlanInputs& in)
 }
 
 /// Gives numbers to bricks in the order of the table. Their counts are those of countBalls().
-void FieldPlan::listBricks(const FieldPlanInputs& in)
+void FieldPlan::listBricks()
 {
     uint32_t firstBall = 0;
     for (uint32_t f = 0; f < fields_.size(); ++f) {
@@ -257,16 +257,6 @@ void FieldPlan::listBricks(const FieldPlanInputs& in)
     }
     balls_.resize(firstBall);
     peaks_.assign(bricks_.size(), 0.0f);
-    nearest_ = std::numeric_limits<float>::max();
-    farthest_ = 0.0f;
-    for (const FieldBrickBlock& brick : bricks_) {
-        const glm::vec3 middle = middleOf(brick);
-        const float distance =
-            in.camera->orthographic ? glm::dot(middle, in.camera->forward) : glm::length(middle);
-        const float reach = brickReach(fields_[brick.field].corner.w);
-        nearest_ = std::min(nearest_, std::max(distance - reach, 0.0f));
-        farthest_ = std::max(farthest_, distance + reach);
-    }
 }
 
 void FieldPlan::listBalls(const FieldPlanInputs& in)
@@ -342,21 +332,17 @@ void FieldPlan::markTiles(const FieldPlanInputs& in, const FieldBrickBlock& bric
 
 void FieldPlan::listTiles(const FieldPlanInputs& in)
 {
-    stamps_.assign(size_t(kFieldTileColumns * kFieldTileRows), 0u);
+    stamps_.assign(size_t(kFieldTiles), 0u);
     seen_.clear();
     for (const FieldBrickBlock& brick : bricks_)
         markTiles(in, brick);
-    std::ranges::fill(stamps_, 0u); // from here on: how many fields a tile has, then where its list goes on
+    tiles_.assign(bricks_.empty() ? 0 : size_t(kFieldTiles), FieldTileBlock{0, 0});
     for (size_t i = 0; i < seen_.size(); i += 2)
-        ++stamps_[seen_[i]];
+        ++tiles_[seen_[i]].count;
     uint32_t first = 0;
-    for (uint32_t tile = 0; tile < stamps_.size(); ++tile) {
-        if (stamps_[tile] == 0)
-            continue;
-        const uint32_t row = tile / kFieldTileColumns, column = tile % kFieldTileColumns;
-        tiles_.push_back({column | row << 8, first, stamps_[tile], 0});
-        first += stamps_[tile];
-        stamps_[tile] = tiles_.back().first;
+    for (size_t tile = 0; tile < tiles_.size(); ++tile) {
+        tiles_[tile].first = stamps_[tile] = first; // from here on: where its list goes on
+        first += tiles_[tile].count;
     }
     tileFields_.resize(first);
     for (size_t i = 0; i < seen_.size(); i += 2)

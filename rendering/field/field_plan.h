@@ -46,14 +46,13 @@ public:
     /// One entry a brick of each field's box, x fastest: number of the brick + 1, or 0 where there is none.
     std::span<const uint32_t> table() const { return table_; }
     std::span<const uint32_t> balls() const { return balls_; } ///< of all bricks
+    /// One a part of the window, from clip position -1, -1, x fastest; none without bricks.
     std::span<const FieldTileBlock> tiles() const { return tiles_; }
     std::span<const uint32_t> tileFields() const { return tileFields_; } ///< of all tiles
     /// Balls that are too small for the voxels of their effect, in their order; no brick has them.
     std::span<const uint32_t> loose() const { return loose_; }
     /// In which the light that fields emit is spread; FieldBlock::limits names those of fields.
     std::span<const FieldGlowBlock> glows() const { return glow_.grids(); }
-    float nearest() const { return nearest_; }   ///< [m] from the eye, along the axis of a parallel view
-    float farthest() const { return farthest_; } ///< [m]
     bool isEmpty() const { return bricks_.empty(); }
 
     /// [m] radius below which a ball is widened, its cross section kept: smaller ones fall between samples.
@@ -78,7 +77,7 @@ private:
     uint32_t countBalls(const FieldPlanInputs& in);
     void listBalls(const FieldPlanInputs& in);
     void listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number);
-    void listBricks(const FieldPlanInputs& in);
+    void listBricks();
     void listTiles(const FieldPlanInputs& in);
     void markTiles(const FieldPlanInputs& in, const FieldBrickBlock& brick);
     glm::vec3 middleOf(const FieldBrickBlock& brick) const; ///< [m] relative to the eye
@@ -96,7 +95,6 @@ private:
     std::pmr::vector<uint32_t> seen_;   ///< pairs of tile and field, in the order of fields
     std::pmr::vector<FieldTileBlock> tiles_;
     std::pmr::vector<uint32_t> tileFields_;
-    float nearest_ = 0.0f, farthest_ = 0.0f;
 };
 
 } // namespace fx::render

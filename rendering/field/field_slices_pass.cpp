@@ -1,5 +1,7 @@
 #include "rendering/field/field_slices_pass.h"
 
+#include "rendering/field/field_texels.h"
+
 #include <glm/vec4.hpp>
 
 namespace fx::render {
@@ -11,14 +13,16 @@ LightBindings FieldSlicesPass::addTo(FrameGraph& graph, const Inputs& in)
 {
     LightBindings out = in.lights;
     graph.addPass("field slices", [&](FrameGraph::Builder& builder) {
-        for (const ResourceId id : {in.fields, in.table, in.material, in.stacks})
+        for (const ResourceId id : {in.fieldTexels, in.table, in.material, in.stacks})
             builder.read(id);
         out.planes = builder.write(in.lights.planes);
         return [in, planes = out.planes](Backend& backend) {
             const glm::ivec4 counts(int(in.fieldCount), 0, 0, 0);
-            const TextureBinding textures[] = {{1, in.material, Sampling::Linear}};
+            const TextureBinding textures[] = {{1, in.material, Sampling::Linear},
+                                               {kFieldTexelUnit, in.fieldTexels},
+                                               {kBrickTableUnit, in.table}};
             const ImageBinding images[] = {{0, planes}};
-            const BufferBinding buffers[] = {{0, in.fields}, {1, in.stacks}, {2, in.table}};
+            const BufferBinding buffers[] = {{1, in.stacks}};
             DispatchCall call;
             call.program = &kFieldSlicesProgram;
             call.textures = textures;

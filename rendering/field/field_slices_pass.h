@@ -11,7 +11,8 @@ namespace fx::render {
 
 extern const ProgramDesc kFieldSlicesProgram;
 
-/// reads   fields, table  of FieldPlan
+/// reads   fieldTexels    of FieldTexelPass
+///         table          of FieldFillPass
 ///         material       second of the textures: change of extinction by detail
 ///         stacks         buffer of SliceStackBlock
 /// writes  planes         of all lights, which have just been filled with smooth balls. Where a field has no
@@ -22,7 +23,7 @@ class FieldSlicesPass
 public:
     struct Inputs
     {
-        ResourceId fields, table;
+        ResourceId fieldTexels, table;
         ResourceId material;
         ResourceId stacks;
         LightBindings lights; ///< with planes

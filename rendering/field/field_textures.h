@@ -15,6 +15,7 @@ struct FieldTextures
     ResourceId scatter =
         {}; ///< RGBA16F mean albedo and mean cosine of the phase function; with layers then light
     ResourceId shares = {}; ///< RGBA16F of the layers in the extinction; invalid without layers
+    ResourceId table = {};  ///< R32F bricks, see shaders/field/field_blocks.glsl
     std::array<ResourceId, 2> material = {}; ///< RGBA16F coordinates that media carry; invalid without detail
 };
 

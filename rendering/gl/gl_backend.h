@@ -40,8 +40,8 @@ enum class SrgbTargets : uint8_t
 class GlBackend final : public Backend
 {
 public:
-    static constexpr uint32_t kTextureUnits = 8;    ///< units 0..7
-    static constexpr uint32_t kImageUnits = 5;      ///< units 0..4
+    static constexpr uint32_t kTextureUnits = GlDrawState::kUnits;
+    static constexpr uint32_t kImageUnits = 6;      ///< units 0..5
     static constexpr uint32_t kStorageBindings = 8; ///< bindings 0..7
     static constexpr uint32_t kUniformBindings = 2; ///< bindings 0 (of the call itself) and 1
     static constexpr uint32_t kColorTargets = 8;    ///< what every OpenGL 4.5 offers

@@ -17,6 +17,8 @@ namespace fx::render {
 class GlDrawState
 {
 public:
+    static constexpr uint32_t kUnits = 13; ///< of textures, from 0
+
     explicit GlDrawState(GlDevice& device);
 
     /// Every switch that could disturb a draw is set to what draws expect, whatever the host left.
@@ -32,7 +34,6 @@ public:
 
 private:
     static constexpr uint32_t kTargets = 8;
-    static constexpr uint32_t kUnits = 8;
     static constexpr uint32_t kUnknown = ~0u; ///< no GL name
 
     struct Unit

@@ -22,6 +22,34 @@ bool isFirstOfSource(std::span<const DrawBatch> batches, size_t index)
 
 } // namespace
 
+MediaTargets::MediaTargets(FrameGraph::Builder& builder, const MediaPass::Inputs& in,
+                           const MediaPass::Outputs& under)
+    : layers_(in.layers), isFirst_(!(in.layers ? under.layers[0] : under.media).valid())
+{
+    for (size_t i = 0; i < all().size(); ++i) {
+        const ResourceId before = layers_ ? under.layers[i] : under.media;
+        targets_[i] = builder.write(
+            isFirst_ ? builder.create(mediaTargetDesc(layers_, i, in.width, in.height)) : before);
+    }
+}
+
+void MediaTargets::clear(Backend& backend) const
+{
+    if (isFirst_)
+        for (const ResourceId target : all())
+            backend.clear(target, {0.0f, 0.0f, 0.0f, 0.0f});
+}
+
+MediaPass::Outputs MediaTargets::outputs() const
+{
+    MediaPass::Outputs out;
+    if (layers_)
+        out.layers = targets_;
+    else
+        out.media = targets_[0];
+    return out;
+}
+
 MediaPass::Outputs MediaPass::addTo(FrameGraph& graph, const Inputs& in, const Outputs& under)
 {
     Outputs out = under;
@@ -29,29 +57,16 @@ MediaPass::Outputs MediaPass::addTo(FrameGraph& graph, const Inputs& in, const O
         return out; // nothing to draw: the graph does not even see this pass
 
     graph.addPass("media", [&](FrameGraph::Builder& builder) {
-        const size_t targetCount = in.layers ? size_t(LayerTargets) : 1;
-        const bool isFirst = !(in.layers ? under.layers[0] : under.media).valid();
-        std::array<ResourceId, LayerTargets> targets;
         for (size_t i = 0; i < in.batches.size(); ++i)
             if (isFirstOfSource(in.batches, i))
                 in.batches[i].source->read(builder);
         builder.read(in.distance);
         in.lights.read(builder);
-        for (size_t i = 0; i < targetCount; ++i) {
-            const ResourceId before = in.layers ? under.layers[i] : under.media;
-            targets[i] = builder.write(
-                isFirst ? builder.create(mediaTargetDesc(in.layers, i, in.width, in.height)) : before);
-        }
-        if (in.layers)
-            out.layers = targets;
-        else
-            out.media = targets[0];
-
-        return [in, targets, targetCount, isFirst](Backend& backend) {
-            for (size_t i = 0; isFirst && i < targetCount; ++i)
-                backend.clear(targets[i], {0.0f, 0.0f, 0.0f, 0.0f});
-            const MediaTarget target{&in.view,  in.distance, {targets.data(), targetCount},
-                                     in.layers, in.isSmall,  in.lights};
+        const MediaTargets targets(builder, in, under);
+        out = targets.outputs();
+        return [in, targets](Backend& backend) {
+            targets.clear(backend);
+            const MediaTarget target{&in.view, in.distance, targets.all(), in.layers, in.isSmall, in.lights};
             for (const DrawBatch& batch : in.batches)
                 batch.source->draw(backend, batch, target);
         };

@@ -53,4 +53,22 @@ public:
 /// The target number `target` of the media pass.
 TextureDesc mediaTargetDesc(bool layers, size_t target, int width, int height);
 
+/// The targets of a pass that draws media over others. A pass captures it by value.
+class MediaTargets
+{
+public:
+    /// Declares that the pass writes them; makes those of `under` that are invalid.
+    MediaTargets(FrameGraph::Builder& builder, const MediaPass::Inputs& in, const MediaPass::Outputs& under);
+
+    /// Those that the pass has made are empty. Call it before drawing.
+    void clear(Backend& backend) const;
+    std::span<const ResourceId> all() const { return {targets_.data(), layers_ ? targets_.size() : 1}; }
+    MediaPass::Outputs outputs() const;
+
+private:
+    std::array<ResourceId, MediaPass::LayerTargets> targets_;
+    bool layers_;
+    bool isFirst_;
+};
+
 } // namespace fx::render

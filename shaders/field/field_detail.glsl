@@ -2,7 +2,7 @@
 #include "formulas/lump_noise.fx.h"
 
 // Detail of fields: what rendering/field_detail/field_detail_numbers.cpp computes on the processor. Layout of FieldDetailBlock
-// in rendering/field/field_detail_block.h.
+// in rendering/field/field_blocks.h. Needs field/field_blocks.glsl.
 struct FieldDetail
 {
     vec4 rows[6];  // coordinates in cells of the generations, without what balls carry: dot(row.xyz, p) + row.w
@@ -10,10 +10,21 @@ struct FieldDetail
     vec4 noise;    // x gain of an octave; y weight of the second generation; z cooling; w glow
     vec4 lumps;    // xy size of the generations' lumps in the world now [m]; z factor that keeps the whole; w octaves
 };
-layout(std430, binding = 5) readonly buffer FieldDetails { FieldDetail details[]; };
-layout(binding = 6) uniform sampler3D lumpTile;
+layout(binding = 10) uniform sampler3D lumpTile;
 
 const float kLumpCells = 8.0;
+
+// first: texel of field/field_blocks.glsl
+FieldDetail fieldDetail(int first)
+{
+    FieldDetail d;
+    for (int i = 0; i < 6; ++i)
+        d.rows[i] = fieldTexel(first + i);
+    d.erosion = fieldTexel(first + 6);
+    d.noise = fieldTexel(first + 7);
+    d.lumps = fieldTexel(first + 8);
+    return d;
+}
 
 struct MediumDetail
 {
@@ -51,6 +62,9 @@ vec3 detailedLight(vec3 light, MediumDetail detail, float power)
     return light * pow(vec3(detail.temperature), power * (580.0 / vec3(611.0, 549.0, 464.0)));
 }
 
+// Whether noise shows where fxDetailPlace is s.
+bool hasLumps(FieldDetail d, float s) { return s > 0.0 && s < 1.5 + d.erosion.w; }
+
 // @param k [1/m] smooth extinction; p [m] relative to the eye; carried0, carried1 [cell] means of what balls carry
 MediumDetail detailOf(FieldDetail d, float k, vec3 p, vec3 carried0, vec3 carried1, float pixel)
 {
@@ -58,7 +72,7 @@ MediumDetail detailOf(FieldDetail d, float k, vec3 p, vec3 carried0, vec3 carrie
     float s = fxDetailPlace(k, d.erosion.x, d.erosion.y, d.erosion.z);
     float h = 0.5, z = 0.0;
     // a loop without turns is skipped by software renderers too, a branch is not
-    int turns = s > 0.0 && s < 1.5 + ramp ? 1 : 0;
+    int turns = hasLumps(d, s) ? 1 : 0;
     for (int turn = 0; turn < turns; ++turn) {
         vec3 u0 = vec3(dot(d.rows[0].xyz, p) + d.rows[0].w, dot(d.rows[1].xyz, p) + d.rows[1].w, dot(d.rows[2].xyz, p) + d.rows[2].w);
         vec3 u1 = vec3(dot(d.rows[3].xyz, p) + d.rows[3].w, dot(d.rows[4].xyz, p) + d.rows[4].w, dot(d.rows[5].xyz, p) + d.rows[5].w);

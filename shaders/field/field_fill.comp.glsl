@@ -6,9 +6,9 @@
 // besides is one more image and one more sum here. FX_LAYERS 1 also keeps what the light is sorted by. One invocation has all
 // samples along z, so that a ball is read once for all of them.
 layout(local_size_x = 81) in;
-layout(std430, binding = 1) readonly buffer Fields { VoxelField fields[]; };
 layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
 layout(std430, binding = 3) readonly buffer BrickBalls { uint brickBalls[]; };
+layout(r32f, binding = 5) uniform writeonly image2D brickTable; // see field_blocks.glsl
 layout(rgba32f, binding = 0) uniform writeonly image3D medium;  // rgb emitted light [exposed/m]; a extinction [1/m]
 layout(rgba16f, binding = 1) uniform writeonly image3D scatter; // rgb mean albedo; a mean cosine of the phase function
 #if FX_LAYERS
@@ -26,12 +26,14 @@ struct BlobMaterial
 layout(std430, binding = 4) readonly buffer Materials { BlobMaterial materials[]; };
 #endif
 
+shared uint most; // bits of the largest extinction of a sample [1/m], regardless of its sign
+
 const float kPeak = 1.04445431404056; // kernel-optical-depth (1), 105 / (32 pi)
 
 void main()
 {
     FieldBrick brick = bricks[gl_WorkGroupID.x];
-    VoxelField field = fields[brick.field];
+    VoxelField field = fieldOf(int(brick.field));
     ivec3 first = sampleOfBrick(int(gl_LocalInvocationIndex));
     vec3 places[kBrickSamples];
     vec4 mediumSums[kBrickSamples], scatterSums[kBrickSamples];
@@ -53,6 +55,9 @@ void main()
         powerSums[z] = vec2(0.0);
 #endif
     }
+    if (gl_LocalInvocationIndex == 0u)
+        most = 0u;
+    barrier();
     for (uint k = brick.first; k < brick.first + brick.count; ++k) {
         uint number = brickBalls[k];
         vec4 ball = blobs[number].centerRadius;
@@ -88,6 +93,10 @@ void main()
 #endif
         }
     }
+    float largest = 0.0;
+    for (int z = 0; z < kBrickSamples; ++z)
+        largest = max(largest, abs(mediumSums[z].a));
+    atomicMax(most, floatBitsToUint(largest));
     ivec3 texel = brickTexel(int(gl_WorkGroupID.x)) + first;
     for (int z = 0; z < kBrickSamples; ++z) {
         float extinction = mediumSums[z].a; // below 0 at rims, see voxel-kernel
@@ -103,7 +112,7 @@ void main()
         float change = 0.0;
         int detailed = field.limits.z > 0.5 && extinction > 0.0 ? 1 : 0;
         for (int once = 0; once < detailed; ++once) {
-            MediumDetail detail = detailOf(details[int(field.limits.z) - 1], extinction, places[z], carriedSums0[z] / extinction,
+            MediumDetail detail = detailOf(fieldDetail(int(field.limits.z)), extinction, places[z], carriedSums0[z] / extinction,
                                            carriedSums1[z] / extinction, 0.5 * field.corner.w);
             change = (detail.share - 1.0) * extinction * held;
         }
@@ -111,4 +120,17 @@ void main()
         imageStore(material1, texel + ivec3(0, 0, z), vec4(carriedSums1[z] * held, change));
 #endif
     }
+    barrier();
+    if (gl_LocalInvocationIndex > 0u)
+        return;
+    float seen = uintBitsToFloat(most);
+    bool isSeen = seen > 0.0;
+#if FX_DETAIL
+    if (field.limits.z > 0.5) { // thinner than what detail leaves of anything
+        vec4 erosion = fieldTexel(int(field.limits.z) + 6);
+        isSeen = fxDetailPlace(seen, erosion.x, erosion.y, erosion.z) > 0.0;
+    }
+#endif
+    float number = float(gl_WorkGroupID.x) + 1.0;
+    imageStore(brickTable, tableTexel(tableEntry(field, placeOfBrick(brick))), vec4(isSeen ? number : -number));
 }

@@ -1,98 +1,119 @@
+#include "formulas/slab_light.fx.h"
 #include "shared/view_block.glsl"
+#include "slabs/slab_ray.glsl"
+#include "slabs/slab_sums.glsl"
 #include "field/field_blocks.glsl"
 #if FX_DETAIL
 #include "field/field_detail.glsl"
 #endif
 #include "field/field_sample.glsl"
 
-// Light of the sum of all fields along one ray, from the eye on. Between two samples extinction is linear in the distance and
-// the source, light over extinction, linear in optical depth: light = T (S0 near + S1 far), with d the optical depth between
-// them, a = exp(-d), far = (1 - a (1 + d)) / d and near = 1 - a - far, so that equal sources give S (1 - a) exactly. Only the
-// part of the ray between pass.y and pass.z [m] is drawn. FX_LAYERS 1 writes the light sorted by layer.
-layout(binding = 0) uniform sampler2D sceneDistance; // [m] along the ray to the opaque surface, +inf for none
-flat in uvec2 tileRange;
-
-#if FX_LAYERS
-#include "shared/layer_outputs.glsl"
+// All media along one ray, from the eye on: each step is a slab of the sum of all fields. FX_LOOSE 1 adds what is in no field,
+// balls and cards, to the same slabs, kGroup at a time; it is drawn as slabs.frag.glsl, and pass.z is the largest number of
+// slabs that what is loose is divided into. A ray ends where nothing more is seen.
+#if FX_LOOSE
+#include "formulas/kernel_moment.fx.h"
+#include "formulas/kernel_quantile.fx.h"
+#include "formulas/detail_noise.fx.h"
+#include "formulas/henyey_greenstein.fx.h"
+#include "shared/card_nodes.glsl"
+#include "shared/light_slices.glsl"
+#include "slabs/slab_balls.glsl"
+#include "slabs/slab_window.glsl"
+const int kGroup = 4;
+#include "slabs/slab_fill.glsl"
+layout(std430, binding = 3) readonly buffer FieldTiles { FieldTile fieldTiles[]; };
 #else
-layout(location = 0) out vec4 light;
+flat in uvec2 tileRange;
 #endif
 
 const int kMostSteps = 4096;
-const float kOpaque = 1e-4; // transmittance behind which nothing is looked up
+const float kSlabsPerDepth = 8.0; // slabs across what is loose: where it is thin, what hides what hardly matters
 
-const float kThin = 0.02; // optical depth
-
-// Share of a source at the far end of a step of optical depth d, a = exp(-d).
-float farWeight(float d, float a)
+#if FX_LOOSE
+// Where on a ray the loose is, and the slabs across it.
+struct LooseSlabs
 {
-    float thin = d * (0.5 - d * (0.333333333 - d * 0.125));
-    return d < 0.05 ? thin : (1.0 - a * (1.0 + d)) / max(d, 0.05);
+    vec2 range;  // [m] from the first thing to the end of the last
+    vec2 window; // [m] what of it matters
+    float width; // [m] of a slab
+};
+
+LooseSlabs looseSlabs(SlabRay ray)
+{
+    LooseSlabs loose;
+    loose.range = rangeOf(ray);
+    loose.window = loose.range;
+    float depth = 0.0;
+    int turns = loose.range.y > loose.range.x ? 1 : 0; // a loop without turns is skipped by software renderers too
+    for (int turn = 0; turn < turns; ++turn)
+        loose.window = windowOf(ray, loose.range, depth);
+    float slabs = clamp(ceil(kSlabsPerDepth * depth), 1.0, pass.z);
+    loose.width = turns > 0 ? max((loose.window.y - loose.window.x) / slabs, 1e-6 * loose.range.y) : 1.0;
+    return loose;
 }
+
+// The next face of a slab behind t, kNever behind the last.
+float nextFace(LooseSlabs loose, float t)
+{
+    const float kRounding = 1e-3; // [slab] so that a face is not its own successor
+    float number = max(floor((t - loose.window.x) / loose.width + kRounding) + 1.0, 1.0);
+    float face = t < loose.range.x ? loose.range.x : min(loose.window.x + number * loose.width, loose.range.y);
+    face = t > loose.window.y - kRounding * loose.width ? loose.range.y : face;
+    return t < loose.range.y ? face : kNever;
+}
+
+uvec2 fieldsOfTexel()
+{
+    vec2 clip = gl_FragCoord.xy / vec2(rayDirectionX.w, rayDirectionY.w) * 2.0 - 1.0;
+    clip.y *= rayOriginY.w;
+    ivec2 place = clamp(ivec2((0.5 + 0.5 * clip) * vec2(kFieldTiles)), ivec2(0), kFieldTiles - 1);
+    FieldTile tile = fieldTiles[place.y * kFieldTiles.x + place.x];
+    return uvec2(tile.first, tile.count);
+}
+#endif
 
 void main()
 {
-    vec3 origin, direction;
-    float lengthPerDepth;
-    viewRay(gl_FragCoord.xy, origin, direction, lengthPerDepth);
-    float t = max(rayOriginX.w * lengthPerDepth, pass.y);
-    float pixel = 1.0 / (lengthPerDepth * sunDirection.w);
-    float end = min(texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r, pass.z);
-    FieldSample before = sampleFields(origin, direction, t, tileRange, pixel);
-    float transmittance = 1.0;
-#if FX_LAYERS
-    vec3 fire = vec3(0.0), smoke = vec3(0.0), dust = vec3(0.0), covered = vec3(0.0);
-    float moment = 0.0, depthSum = 0.0;
-    const float opaque = -1.0; // all of the optical depth counts
+    SlabRay ray = slabRay();
+    float pixel = 1.0 / (ray.lengthPerDepth * sunDirection.w);
+#if FX_LOOSE
+    ray.cards = firstCard();
+    uvec2 tileRange = fieldsOfTexel();
+    LooseSlabs loose = looseSlabs(ray);
+    float last = loose.range.y;
 #else
-    vec3 sum = vec3(0.0);
-    const float opaque = kOpaque;
+    const int kGroup = 1;
+    const float last = -1.0;
 #endif
-    for (int i = 0; i < kMostSteps && t < end && before.room < kNever && transmittance > opaque; ++i) {
-        float next = min(t + before.room, end);
-        FieldSample now = sampleFields(origin, direction, next, tileRange, pixel);
-        float d = before.isEmpty ? 0.0 : 0.5 * (before.medium.a + now.medium.a) * (next - t);
-        float a = exp(-d);
-        float far = farWeight(d, a);
-        float near = 1.0 - a - far;
-        // thin: both ends count alike, whatever their signs
-        float thin = before.isEmpty ? 0.0 : 0.5 * (next - t) * (1.0 - d * (0.5 - d * 0.166666667));
-        // thick: where one end has no medium, its source is that of the other
-        const float kShare = 1e-4;
-        float extinctionBefore = max(before.medium.a, 0.0), extinctionNow = max(now.medium.a, 0.0);
-        float perBefore = near / max(extinctionBefore + kShare * extinctionNow, 1e-30);
-        float perNow = far / max(extinctionNow + kShare * extinctionBefore, 1e-30);
-        bool isThin = d < kThin;
-        float weightBefore = transmittance * (isThin ? thin : before.medium.a > 0.0 ? perBefore + kShare * perNow : 0.0);
-        float weightNow = transmittance * (isThin ? thin : now.medium.a > 0.0 ? perNow + kShare * perBefore : 0.0);
-#if FX_LAYERS
-        vec3 emitted = weightBefore * before.medium.rgb + weightNow * now.medium.rgb;
-        vec3 scattered = weightBefore * before.scattered + weightNow * now.scattered;
-        vec4 shares = weightBefore * before.shares + weightNow * now.shares; // [1] of the opacity
-        float seen = weightBefore * before.medium.a + weightNow * now.medium.a;
-        float perSeen = seen > 1e-30 ? 1.0 / seen : 0.0;
-        fire += emitted + scattered * (shares.z * perSeen);
-        dust += scattered * (shares.w * perSeen);
-        smoke += scattered * ((seen - shares.z - shares.w) * perSeen);
-        covered += vec3(shares.x, seen - shares.x - shares.y, shares.y);
-        moment += transmittance * (near * t + far * next);
-        depthSum += d;
-#else
-        sum += weightBefore * before.medium.rgb + weightNow * now.medium.rgb;
+    SlabPicture picture = emptyPicture();
+    float t = ray.t0;
+    FieldSample before = sampleFields(ray.origin, ray.direction, t, tileRange, pixel);
+    for (int i = 0; i < kMostSteps && t < ray.t1 && (before.room < kNever || t < last) && picture.through > kLeastThrough;
+         i += kGroup) {
+        float edges[kGroup + 1];
+        SlabSums sums[kGroup];
+        edges[0] = t;
+        for (int k = 0; k < kGroup; ++k) {
+            float next = t + before.room;
+#if FX_LOOSE
+            next = min(next, nextFace(loose, t));
 #endif
-        transmittance *= a;
-        t = next;
-        before = now;
+            next = min(next, ray.t1);
+            next = next < kNever ? next : t;
+            FieldSample now = sampleFields(ray.origin, ray.direction, next, tileRange, pixel);
+            sums[k] = slabBetween(before, now, next - t);
+            edges[k + 1] = t = next;
+            before = now;
+        }
+#if FX_LOOSE
+        float behind;
+        int meets = edges[kGroup] > loose.range.x && edges[0] < loose.range.y ? 1 : 0;
+        for (int turn = 0; turn < meets; ++turn)
+            addLoose(ray, edges, loose.range.y, sums, behind);
+#endif
+        for (int k = 0; k < kGroup; ++k)
+            putBehind(picture, sums[k], edges[k], edges[k + 1]);
     }
-    float alpha = max(1.0 - transmittance, 0.0); // rims may be below 0, see voxel-kernel
-#if FX_LAYERS
-    fireLight = vec4(max(fire, vec3(0.0)), alpha);
-    smokeLight = vec4(max(smoke, vec3(0.0)), alpha);
-    dustLight = vec4(max(dust, vec3(0.0)), alpha);
-    coverage = vec4(max(covered, vec3(0.0)), alpha);
-    depthMoment = vec4(max(moment, 0.0), 0.0, 0.0, alpha);
-    opticalDepthSum = vec4(max(depthSum, 0.0), 0.0, 0.0, 0.0);
-#else
-    light = vec4(max(sum, vec3(0.0)), alpha);
-#endif
+    writePicture(picture);
 }

@@ -1,7 +1,6 @@
-// The sum of all fields of a tile at a place. Needs field/field_blocks.glsl.
-layout(std430, binding = 1) readonly buffer Fields { VoxelField fields[]; };
-layout(std430, binding = 2) readonly buffer BrickTable { uint brickTable[]; }; // number of the brick + 1, or 0
-layout(std430, binding = 4) readonly buffer TileFields { uint tileFields[]; };
+// The sum of all fields of a tile at a place, and of what lies between two places. Needs field/field_blocks.glsl and
+// slabs/slab_sums.glsl.
+layout(binding = 12) uniform sampler2D brickTable;
 layout(binding = 1) uniform sampler3D fieldMedium; // rgb emitted light [exposed/m]; a extinction [1/m]
 #if FX_LAYERS || FX_DETAIL
 layout(binding = 2) uniform sampler3D fieldScatter; // rgb scattered light over the field's largest extinction [exposed]
@@ -36,7 +35,7 @@ struct FieldPlace
 {
     vec3 local;  // from the first sample
     ivec3 brick;
-    uint number; // of the brick + 1, or 0
+    int number;  // of the brick + 1, or 0 where no ray sees any medium
     float room;  // [voxel] up to where a brick may begin, if there is none
 };
 
@@ -47,8 +46,7 @@ FieldPlace placeInField(VoxelField field, vec3 p, vec3 perDirection)
     vec3 size = vec3(kBrickCells * field.bricks.xyz);
     bool isInside = all(greaterThanEqual(place.local, vec3(0.0))) && all(lessThan(place.local, size));
     place.brick = clamp(ivec3(floor(place.local / float(kBrickCells))), ivec3(0), field.bricks.xyz - 1);
-    int entry = field.bricks.w + place.brick.x + field.bricks.x * (place.brick.y + field.bricks.y * place.brick.z);
-    place.number = isInside ? brickTable[entry] : 0u;
+    place.number = isInside ? max(int(texelFetch(brickTable, tableTexel(tableEntry(field, place.brick)), 0).r), 0) : 0;
     vec3 low = isInside ? vec3(kBrickCells * place.brick) : vec3(0.0);
     vec3 high = isInside ? low + float(kBrickCells) : size;
     vec3 a = (low - place.local) * perDirection;
@@ -62,7 +60,21 @@ FieldPlace placeInField(VoxelField field, vec3 p, vec3 perDirection)
     return place;
 }
 
-// @param t [m] along the ray; tile first and number of fields in the list; pixel [1] width of a pixel over t
+#if FX_DETAIL
+// fxDetailPlace of an extinction in a field; 1 without detail, where there is any
+float detailPlace(VoxelField field, float extinction)
+{
+    float place = extinction != 0.0 ? 1.0 : 0.0;
+    int turns = field.limits.z > 0.5 ? 1 : 0;
+    for (int turn = 0; turn < turns; ++turn) {
+        vec4 erosion = fieldTexel(int(field.limits.z) + 6);
+        place = fxDetailPlace(max(extinction, 0.0), erosion.x, erosion.y, erosion.z);
+    }
+    return place;
+}
+#endif
+
+// @param t [m] along the ray; tile first texel of the list of fields, and how many; pixel [1] width of a pixel over t
 FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, float pixel)
 {
     FieldSample sum;
@@ -76,48 +88,91 @@ FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, float
     vec3 safe = mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
     vec3 p = origin + t * direction;
     for (uint k = tile.x; k < tile.x + tile.y; ++k) {
-        VoxelField field = fields[tileFields[k]];
+        VoxelField field = fieldOf(int(fieldTexel(int(k)).x));
         FieldPlace place = placeInField(field, p, 1.0 / safe);
         // a loop without turns is skipped by software renderers too, a branch is not
-        int turns = place.number > 0u ? 1 : 0;
+        int turns = place.number > 0 ? 1 : 0;
         for (int turn = 0; turn < turns; ++turn) {
-            vec3 texel = vec3(brickTexel(int(place.number) - 1)) + 0.5 + place.local - vec3(kBrickCells * place.brick);
+            vec3 texel = vec3(brickTexel(place.number - 1)) + 0.5 + place.local - vec3(kBrickCells * place.brick);
             vec3 uv = texel / vec3(textureSize(fieldMedium, 0));
             vec4 medium = textureLod(fieldMedium, uv, 0.0);
-            float kept = field.limits.z > 0.5 && medium.a <= 0.0 ? 0.0 : 1.0; // rims that are below 0 are eroded
+            float kept = medium.a != 0.0 ? 1.0 : 0.0;
             float voxels = kVoxelsPerStep;
-#if FX_LAYERS || FX_DETAIL
-            vec3 scattered = field.limits.y * textureLod(fieldScatter, uv, 0.0).rgb;
-#endif
 #if FX_DETAIL
-            int detailed = field.limits.z > 0.5 && medium.a > 0.0 ? 1 : 0;
+            float place = detailPlace(field, medium.a);
+            kept = place > 0.0 ? 1.0 : 0.0; // rims that are below 0 are eroded
+            int detailed = field.limits.z > 0.5 && place > 0.0 ? 1 : 0;
             for (int once = 0; once < detailed; ++once) {
-                vec4 material0 = textureLod(fieldMaterial0, uv, 0.0);
-                vec3 material1 = textureLod(fieldMaterial1, uv, 0.0).rgb;
+                FieldDetail numbers = fieldDetail(int(field.limits.z));
+                vec4 material0 = vec4(0.0);
+                vec3 material1 = vec3(0.0);
+                int lumpy = hasLumps(numbers, place) ? 1 : 0;
+                for (int lump = 0; lump < lumpy; ++lump) {
+                    material0 = textureLod(fieldMaterial0, uv, 0.0);
+                    material1 = textureLod(fieldMaterial1, uv, 0.0).rgb;
+                }
                 float perMedium = field.limits.y / medium.a;
-                MediumDetail detail = detailOf(details[int(field.limits.z) - 1], medium.a, p, material0.rgb * perMedium,
-                                               material1 * perMedium, pixel * t);
+                MediumDetail detail = detailOf(numbers, medium.a, p, material0.rgb * perMedium, material1 * perMedium, pixel * t);
                 kept = detail.share;
                 voxels = detail.isLumpy ? kVoxelsPerLumpyStep : kVoxelsPerStep;
                 medium.rgb = detailedLight(medium.rgb, detail, material0.a);
             }
+#endif
+#if FX_LAYERS || FX_DETAIL
+            vec3 scattered = vec3(0.0);
+            int scatters = kept != 0.0 ? 1 : 0;
+            for (int once = 0; once < scatters; ++once)
+                scattered = field.limits.y * textureLod(fieldScatter, uv, 0.0).rgb;
+#endif
 #if FX_LAYERS
             sum.scattered += kept * scattered;
-#else
+            vec4 shares = vec4(0.0);
+            for (int once = 0; once < scatters; ++once)
+                shares = field.limits.y * textureLod(fieldShares, uv, 0.0);
+            sum.shares += kept * shares;
+#elif FX_DETAIL
             medium.rgb += scattered;
-#endif
-#elif FX_LAYERS
-            sum.scattered += scattered;
 #endif
             sum.medium += kept * medium;
             sum.room = min(sum.room, field.corner.w * clamp(kDepthPerStep / (field.corner.w * max(kept * medium.a, 1e-20)), kLeastVoxelsPerStep, voxels));
-#if FX_LAYERS
-            sum.shares += kept * field.limits.y * textureLod(fieldShares, uv, 0.0);
-#endif
         }
         sum.isEmpty = sum.isEmpty && turns == 0;
         if (turns == 0)
             sum.room = min(sum.room, place.room < kNever ? field.corner.w * place.room : kNever);
     }
     return sum;
+}
+
+#if FX_LAYERS
+// [exposed/m] light of fire, smoke and dust.
+vec3[3] layersOf(FieldSample s)
+{
+    float perExtinction = abs(s.medium.a) > 1e-20 ? 1.0 / s.medium.a : 0.0;
+    vec2 of = clamp(s.shares.zw * perExtinction, vec2(0.0), vec2(1.0));
+    vec3 fire = of.x * s.scattered, dust = of.y * s.scattered;
+    return vec3[3](s.medium.rgb + fire, s.scattered - fire - dust, dust);
+}
+#endif
+
+// What fields hold between two samples of a ray, [m] apart: extinction and light are linear there.
+SlabSums slabBetween(FieldSample near, FieldSample far, float apart)
+{
+    float halfApart = near.isEmpty ? 0.0 : 0.5 * apart;
+    const float kMoment = 0.166666666667;
+    SlabSums sums;
+    sums.depth = halfApart * (near.medium.a + far.medium.a);
+    sums.moment = halfApart * kMoment * (far.medium.a - near.medium.a);
+#if FX_LAYERS
+    vec3 lights[2][3] = vec3[2][3](layersOf(near), layersOf(far));
+    for (int l = 0; l < 3; ++l) {
+        sums.light[l] = halfApart * (lights[0][l] + lights[1][l]);
+        sums.slope[l] = halfApart * kMoment * (lights[1][l] - lights[0][l]);
+    }
+    vec4 shares = halfApart * (near.shares + far.shares);
+    sums.share = vec3(shares.x, sums.depth - shares.x - shares.y, shares.y);
+#else
+    sums.light[0] = halfApart * (near.medium.rgb + far.medium.rgb);
+    sums.slope[0] = halfApart * kMoment * (far.medium.rgb - near.medium.rgb);
+#endif
+    return sums;
 }

@@ -4,9 +4,8 @@
 // Adds to the optical depths of light slices what detail makes of the fields: planes hold those of smooth balls. One invocation
 // a column of texels.
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, binding = 0) readonly buffer Fields { VoxelField fields[]; };
 layout(std430, binding = 1) readonly buffer Stacks { SliceStack stacks[]; };
-layout(std430, binding = 2) readonly buffer BrickTable { uint brickTable[]; };
+layout(binding = 12) uniform sampler2D brickTable;
 layout(binding = 1) uniform sampler3D fieldMaterial1; // a: change of extinction over the field's largest
 layout(rg32f, binding = 0) uniform image2D slices;    // r optical depth up to a plane; g from it to the next
 layout(std140, binding = 0) uniform FieldSliceBlock { ivec4 fieldCount; };
@@ -18,14 +17,14 @@ float changeAt(vec3 p)
 {
     float sum = 0.0;
     for (int f = 0; f < fieldCount.x; ++f) {
-        VoxelField field = fields[f];
+        VoxelField field = fieldOf(f);
         vec3 local = (p - field.corner.xyz) / field.corner.w;
         vec3 size = vec3(kBrickCells * field.bricks.xyz);
         bool isInside = field.limits.z > 0.5 && all(greaterThanEqual(local, vec3(0.0))) && all(lessThan(local, size));
         ivec3 brick = clamp(ivec3(floor(local / float(kBrickCells))), ivec3(0), field.bricks.xyz - 1);
-        uint number = isInside ? brickTable[field.bricks.w + brick.x + field.bricks.x * (brick.y + field.bricks.y * brick.z)] : 0u;
+        float number = isInside ? abs(texelFetch(brickTable, tableTexel(tableEntry(field, brick)), 0).r) : 0.0;
         // a loop without turns is skipped by software renderers too, a branch is not
-        int turns = number > 0u ? 1 : 0;
+        int turns = number > 0.0 ? 1 : 0;
         for (int turn = 0; turn < turns; ++turn) {
             vec3 texel = vec3(brickTexel(int(number) - 1)) + 0.5 + local - vec3(kBrickCells * brick);
             sum += field.limits.y * textureLod(fieldMaterial1, texel / vec3(textureSize(fieldMaterial1, 0)), 0.0).a;
@@ -46,7 +45,7 @@ void main()
     float spacing = stack.origin.w;
     float finest = spacing;
     for (int f = 0; f < fieldCount.x; ++f)
-        finest = min(finest, fields[f].corner.w);
+        finest = min(finest, fieldTexel(3 * f).w);
     int parts = clamp(int(ceil(spacing / finest)), 1, kMostParts);
     float depth = 0.0;
     for (int k = 0; k < planes; ++k) {

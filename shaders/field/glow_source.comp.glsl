@@ -12,8 +12,7 @@ layout(rgba32f, binding = 0) uniform image3D cells; // rgb emitted light [expose
 layout(binding = 3) uniform sampler3D glowScatter; // rgb [1/m] extinction times albedo
 layout(binding = 4) uniform sampler3D glowLight;   // rgb mean radiance [exposed]
 #else
-layout(std430, binding = 0) readonly buffer Fields { VoxelField fields[]; };
-layout(std430, binding = 2) readonly buffer BrickTable { uint brickTable[]; };
+layout(binding = 12) uniform sampler2D brickTable;
 layout(rgba16f, binding = 1) uniform writeonly image3D glowScatter;
 layout(binding = 0) uniform sampler3D fieldMedium;
 layout(binding = 1) uniform sampler3D fieldScatter;
@@ -32,9 +31,9 @@ void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 med
     vec3 size = vec3(kBrickCells * field.bricks.xyz);
     bool isInside = all(greaterThanEqual(local, vec3(0.0))) && all(lessThan(local, size));
     ivec3 brick = clamp(ivec3(floor(local / float(kBrickCells))), ivec3(0), field.bricks.xyz - 1);
-    uint number = isInside ? brickTable[field.bricks.w + brick.x + field.bricks.x * (brick.y + field.bricks.y * brick.z)] : 0u;
+    float number = isInside ? abs(texelFetch(brickTable, tableTexel(tableEntry(field, brick)), 0).r) : 0.0;
     // a loop without turns is skipped by software renderers too, a branch is not
-    int turns = number > 0u ? 1 : 0;
+    int turns = number > 0.0 ? 1 : 0;
     for (int turn = 0; turn < turns; ++turn) {
         vec3 texel = vec3(brickTexel(int(number) - 1)) + 0.5 + local - vec3(kBrickCells * brick);
         vec3 uv = texel / vec3(textureSize(fieldMedium, 0));
@@ -46,7 +45,7 @@ void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 med
             vec4 material0 = textureLod(fieldMaterial0, uv, 0.0);
             vec3 material1 = textureLod(fieldMaterial1, uv, 0.0).rgb;
             float perMedium = field.limits.y / own.a;
-            MediumDetail detail = detailOf(details[int(field.limits.z) - 1], own.a, p, material0.rgb * perMedium,
+            MediumDetail detail = detailOf(fieldDetail(int(field.limits.z)), own.a, p, material0.rgb * perMedium,
                                            material1 * perMedium, pixel);
             kept = detail.share;
             own.rgb = detailedLight(own.rgb, detail, material0.a);
@@ -72,7 +71,7 @@ void main()
     vec4 medium = vec4(0.0);
     vec3 scatter = vec3(0.0);
     for (int f = 0; f < fieldCount.x; ++f) {
-        VoxelField field = fields[f];
+        VoxelField field = fieldOf(f);
         bool isOfGrid = int(field.limits.w) == grid + 1;
         int points = isOfGrid ? clamp(int(ceil(glow.corner.w / field.corner.w)), 1, kMostPoints) : 0;
         float share = 1.0 / float(max(points * points * points, 1));

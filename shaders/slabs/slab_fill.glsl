@@ -1,22 +1,6 @@
-// Sums of all that lies in some neighboring slabs of a ray. Needs shared/light_slices.glsl, formulas/kernel_moment.fx.h,
-// formulas/henyey_greenstein.fx.h and slabs/slab_window.glsl.
-
-#if FX_LAYERS
-const int kLayers = 3;
-#else
-const int kLayers = 1;
-#endif
-
-struct SlabSums
-{
-    float depth;       // [1]
-    float moment;      // [1] of the depth, from -1/2 to 1/2 of it
-    vec3 light[kLayers]; // emitted, of each layer
-    vec3 slope[kLayers]; // first moment of that
-#if FX_LAYERS
-    vec3 share;        // [1] depth of fire, smoke and dust
-#endif
-};
+// Adds balls and cards to the sums of neighboring slabs of a ray, kGroup at a time. Needs shared/light_slices.glsl,
+// formulas/kernel_moment.fx.h, formulas/henyey_greenstein.fx.h, slabs/slab_sums.glsl and slabs/slab_window.glsl.
+// FX_BALL_DETAIL 1: some balls have procedural detail.
 
 // What a ball sends along a ray, where it is thin.
 struct BallLight
@@ -92,13 +76,13 @@ void addCard(inout SlabSums sums, vec4 light, float depth, float share, float pl
 float sunAt(SlabRay ray, float t)
 {
     float sum = 1.0;
-    bool isDark = lights[0].color.r + lights[0].color.g + lights[0].color.b <= 0.0;
+    bool isDark = tileList.y == 0 || lights[0].color.r + lights[0].color.g + lights[0].color.b <= 0.0;
     for (int i = 0; i < (isDark ? 0 : 1); ++i) // software renderers skip a loop without turns
         sum = exp(-sunDepth(ray.origin + t * ray.direction).x) * hostShadow(ray.origin + t * ray.direction);
     return sum;
 }
 
-#if FX_DETAIL
+#if FX_BALL_DETAIL
 // Turned by the seed so that no two balls share a lattice; as in blobs/media.vert.glsl.
 mat3 detailAxes(float seed, float periods)
 {
@@ -126,34 +110,26 @@ void addDetail(SlabRay ray, uint ball, vec4 medium, inout Chord chord, inout Bal
 }
 #endif
 
-// Fills kGroup slabs whose kGroup + 1 edges are given [m]. behind: optical depth from the last edge to `end`
-void fill(SlabRay ray, float edges[kGroup + 1], float end, out SlabSums sums[kGroup], out float behind)
+// @param edges kGroup + 1, of the slabs [m], which do not fall; behind: optical depth from the last edge to `end`
+void addLoose(SlabRay ray, float edges[kGroup + 1], float end, inout SlabSums sums[kGroup], out float behind)
 {
     behind = 0.0;
     float sun[kGroup + 1];
     for (int k = 0; k <= kGroup; ++k)
         sun[k] = sunAt(ray, edges[k]);
-    for (int k = 0; k < kGroup; ++k) {
-        sums[k].depth = sums[k].moment = 0.0;
-        for (int l = 0; l < kLayers; ++l)
-            sums[k].light[l] = sums[k].slope[l] = vec3(0.0);
-#if FX_LAYERS
-        sums[k].share = vec3(0.0);
-#endif
-    }
     for (int i = 0; i < tileList.y; ++i) {
         uint ball = ballOfTile(i);
         vec4 medium = texelFetch(balls, ballTexel(ball, kMedium), 0);
         Chord chord = chordOf(ray, texelFetch(balls, ballTexel(ball, kPlace), 0), medium);
         BallLight light = lightOf(ray, chord, ball);
-#if FX_DETAIL
+#if FX_BALL_DETAIL
         addDetail(ray, ball, medium, chord, light);
 #endif
         float u = placeOn(chord, edges[0]);
         float passed = fxKernelPassed(u), moved = fxKernelMoment(u);
         for (int k = 0; k < kGroup; ++k) {
             float middle = 0.5 * (edges[k] + edges[k + 1]);
-            float perWidth = 1.0 / (edges[k + 1] - edges[k]);
+            float perWidth = 1.0 / max(edges[k + 1] - edges[k], 1e-20); // some have no thickness
             u = placeOn(chord, edges[k + 1]);
             float nextPassed = fxKernelPassed(u), nextMoved = fxKernelMoment(u);
             float depth = chord.depth * (nextPassed - passed);
@@ -175,7 +151,8 @@ void fill(SlabRay ray, float edges[kGroup + 1], float end, out SlabSums sums[kGr
         for (int k = 0; k < kGroup; ++k) {
             float from = clamp(edges[k], interval.x, interval.y);
             float to = clamp(edges[k + 1], interval.x, interval.y);
-            float place = clamp((0.5 * (from + to - edges[k] - edges[k + 1])) / (edges[k + 1] - edges[k]), -0.5, 0.5);
+            float width = max(edges[k + 1] - edges[k], 1e-20);
+            float place = clamp(0.5 * (from + to - edges[k] - edges[k + 1]) / width, -0.5, 0.5);
             addCard(sums[k], light, body.y, (to - from) * perLength, place);
         }
         behind += body.y * clamp((interval.y - edges[kGroup]) * perLength, 0.0, 1.0);

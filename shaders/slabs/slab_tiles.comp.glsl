@@ -1,13 +1,16 @@
 #include "shared/card_nodes.glsl"
 #include "slabs/slab_balls.glsl"
+#include "field/field_blocks.glsl"
 
-// Lists of balls, one for each tile of 16 x 16 texels, in the order of the balls; and the tiles that have a ball or a card,
-// as a draw of one square each. A workgroup is a tile. Layouts are those of rendering/compositions/slabs/slab_passes.h.
+// Lists of balls, one for each tile of 16 x 16 texels, in the order of the balls; and the tiles that have a ball, a card or a
+// field, as a draw of one square each. A workgroup is a tile. Layouts are those of rendering/compositions/slabs/slab_passes.h.
 layout(local_size_x = 64) in;
 layout(std140, binding = 0) uniform TileBlock
 {
     ivec4 counts; // x balls; y tiles side by side; z most balls of a tile; w 1 when there are cards
+    vec4 window;  // xy size [texel]; z flip of window y against clip y; w 1 when there are fields
 };
+layout(std430, binding = 3) readonly buffer FieldTiles { FieldTile fieldTiles[]; };
 layout(std430, binding = 1) readonly buffer TileRects { uvec2 rects[]; }; // first and last tile, in halves: x columns, y rows
 layout(std430, binding = 2) buffer SlabTiles
 {
@@ -29,6 +32,22 @@ bool meets(int ball, uvec2 tile)
     return all(lessThanEqual(low, tile)) && all(lessThanEqual(tile, high));
 }
 
+bool hasFields(uvec2 tile)
+{
+    vec2 low = vec2(16u * tile) / window.xy * 2.0 - 1.0;
+    vec2 high = min(vec2(16u * tile + 16u) / window.xy, vec2(1.0)) * 2.0 - 1.0;
+    vec2 rows = window.z * vec2(low.y, high.y);
+    low.y = min(rows.x, rows.y);
+    high.y = max(rows.x, rows.y);
+    ivec2 first = clamp(ivec2((0.5 + 0.5 * low) * vec2(kFieldTiles)), ivec2(0), kFieldTiles - 1);
+    ivec2 last = clamp(ivec2((0.5 + 0.5 * high) * vec2(kFieldTiles)), ivec2(0), kFieldTiles - 1);
+    uint sum = 0u;
+    for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x)
+            sum += fieldTiles[y * kFieldTiles.x + x].count;
+    return sum > 0u;
+}
+
 void main()
 {
     int lane = int(gl_LocalInvocationIndex);
@@ -47,8 +66,12 @@ void main()
         first = entries > 0u ? atomicAdd(listed, entries) : 0u;
         if (entries < total)
             atomicAdd(spilled, total - entries);
-        bool hasCards = counts.w > 0 && cardHeads[number] != 0u;
-        if (entries > 0u || hasCards)
+        bool isSeen = entries > 0u;
+        if (counts.w > 0)
+            isSeen = isSeen || cardHeads[number] != 0u;
+        if (window.w > 0.5)
+            isSeen = isSeen || hasFields(tile);
+        if (isSeen)
             tiles[atomicAdd(drawTiles, 1u)] = uvec4(number, first, entries, 0u);
     }
     barrier();

@@ -1,33 +1,20 @@
-// What a ray meets, and which part of it matters. Needs shared/view_block.glsl, shared/card_nodes.glsl, slabs/slab_balls.glsl
-// and formulas/kernel_quantile.fx.h.
-layout(binding = 0) uniform sampler2D sceneDistance; // [m] along the ray to the opaque surface, +inf for none
-layout(binding = 1) uniform sampler2D balls;
-layout(binding = 2) uniform usampler2D lists;
+// What a ray meets, and which part of it matters. Needs shared/view_block.glsl, shared/card_nodes.glsl, slabs/slab_balls.glsl,
+// slabs/slab_ray.glsl and formulas/kernel_quantile.fx.h.
+layout(binding = 8) uniform sampler2D balls;
+layout(binding = 9) uniform usampler2D lists;
 flat in ivec2 tileList; // first entry and entries
 
 const float kLeastDepth = 0.002; // [1] before the window
 const float kMostDepth = 9.0;    // [1] up to its end: glow behind it may be a thousand times as bright as what hides it
 const int kBins = 8;             // of each of the two passes that find it
 
-struct SlabRay
+// The first of the cards of the texel. pass.y: 1 when there are cards
+uint firstCard()
 {
-    vec3 origin;    // [m] relative to the eye
-    vec3 direction; // unit
-    float t0, t1;   // [m] where the visible ray begins and ends
-    uint cards;     // number of the first node, counted from 1
-};
-
-SlabRay slabRay()
-{
-    SlabRay ray;
-    float lengthPerDepth;
-    viewRay(gl_FragCoord.xy, ray.origin, ray.direction, lengthPerDepth);
-    ray.t0 = rayOriginX.w * lengthPerDepth;
-    ray.t1 = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r;
-    ray.cards = 0u;
+    uint first = 0u;
     if (pass.y > 0.5)
-        ray.cards = cardHeads[cardHeadAt(ivec2(gl_FragCoord.xy), ivec2(rayDirectionX.w, rayDirectionY.w))];
-    return ray;
+        first = cardHeads[cardHeadAt(ivec2(gl_FragCoord.xy), ivec2(rayDirectionX.w, rayDirectionY.w))];
+    return first;
 }
 
 // The chord of a ball.
@@ -99,8 +86,8 @@ vec2 rangeOf(SlabRay ray)
 }
 
 // Narrows a range to the bins from that in which the depth passes kLeastDepth to that in which it passes kMostDepth.
-// start: where the depth is counted from.
-vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast)
+// start: where the depth is counted from. depth: up to the end of the range
+vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast, out float depth)
 {
     float passed[kBins + 1];
     float width = (range.y - range.x) / float(kBins);
@@ -126,5 +113,14 @@ vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast)
         float share = isLast ? (kMostDepth - passed[k]) / max(passed[k + 1] - passed[k], 1e-6) : 1.0;
         narrow.y = passed[k + 1] >= kMostDepth ? range.x + (float(k) + clamp(share, 0.0, 1.0)) * width : narrow.y;
     }
+    depth = passed[kBins];
     return narrow;
+}
+
+// The part of a range of things that matters, see kLeastDepth and kMostDepth. depth: of all of the range
+vec2 windowOf(SlabRay ray, vec2 range, out float depth)
+{
+    float ofWindow;
+    vec2 window = narrowed(ray, range.x, range, false, depth);
+    return narrowed(ray, range.x, window, true, ofWindow);
 }

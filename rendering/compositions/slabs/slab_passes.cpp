@@ -16,10 +16,10 @@ constexpr ProgramDesc program(const char* defines)
 
 // index = (16 slabs) * 4 + detail * 2 + layers
 constexpr ProgramDesc kPrograms[kSlabPrograms] = {
-    program("FX_SLABS=6 FX_DETAIL=0 FX_LAYERS=0"),  program("FX_SLABS=6 FX_DETAIL=0 FX_LAYERS=1"),
-    program("FX_SLABS=6 FX_DETAIL=1 FX_LAYERS=0"),  program("FX_SLABS=6 FX_DETAIL=1 FX_LAYERS=1"),
-    program("FX_SLABS=16 FX_DETAIL=0 FX_LAYERS=0"), program("FX_SLABS=16 FX_DETAIL=0 FX_LAYERS=1"),
-    program("FX_SLABS=16 FX_DETAIL=1 FX_LAYERS=0"), program("FX_SLABS=16 FX_DETAIL=1 FX_LAYERS=1"),
+    program("FX_SLABS=6 FX_BALL_DETAIL=0 FX_LAYERS=0"),  program("FX_SLABS=6 FX_BALL_DETAIL=0 FX_LAYERS=1"),
+    program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_LAYERS=0"),  program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_LAYERS=1"),
+    program("FX_SLABS=16 FX_BALL_DETAIL=0 FX_LAYERS=0"), program("FX_SLABS=16 FX_BALL_DETAIL=0 FX_LAYERS=1"),
+    program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_LAYERS=0"), program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_LAYERS=1"),
 };
 
 constexpr size_t kCardBytes = 32;
@@ -138,25 +138,26 @@ SlabTilePass::Outputs SlabTilePass::addTo(FrameGraph& graph, const Inputs& in)
     });
     graph.addPass("slab tiles", [&](FrameGraph::Builder& builder) {
         builder.read(rects);
-        if (in.cards.valid())
-            builder.read(in.cards.heads);
+        for (const ResourceId id : {in.cards.heads, in.fieldTiles})
+            if (id.valid())
+                builder.read(id);
         out.tiles = builder.write(out.tiles);
         const int listRows = int(std::bit_ceil(uint32_t((room + kListColumns - 1) / kListColumns)));
         out.lists =
             builder.write(builder.create({"balls of tiles", int(kListColumns), listRows, Format::R32UI}));
         const uint64_t most = in.entries <= kMostListedBalls ? in.rects.size() : kMostListedBalls / tiles;
-        const int32_t counts[4] = {int32_t(in.rects.size()), int32_t(columns), int32_t(most),
-                                   in.cards.valid() ? 1 : 0};
         struct Block
         {
-            int32_t counts[4];
-        } block;
-        std::copy_n(counts, 4, block.counts);
-        return [block, rects, out, columns, rows, cards = in.cards](Backend& backend) {
+            glm::ivec4 counts;
+            glm::vec4 window;
+        };
+        const Block block{{int(in.rects.size()), int(columns), int(most), in.cards.valid() ? 1 : 0},
+                          {float(in.width), float(in.height), in.flip, in.fieldTiles.valid() ? 1.0f : 0.0f}};
+        return [block, rects, out, columns, rows, heads = in.cards.heads,
+                fields = in.fieldTiles](Backend& backend) {
+            const auto orTiles = [&](ResourceId id) { return id.valid() ? id : out.tiles; }; // never read
             const BufferBinding buffers[] = {
-                {1, rects},
-                {2, out.tiles},
-                {kCardHeadBinding, cards.valid() ? cards.heads : out.tiles}}; // something has to be bound
+                {1, rects}, {2, out.tiles}, {3, orTiles(fields)}, {kCardHeadBinding, orTiles(heads)}};
             DispatchCall call;
             call.program = &kSlabTilesProgram;
             const ImageBinding images[] = {{0, out.lists}};
@@ -176,8 +177,6 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
     MediaPass::Outputs out = under;
     graph.addPass("slabs", [&](FrameGraph::Builder& builder) {
         const MediaPass::Inputs& media = *in.media;
-        const size_t targetCount = media.layers ? size_t(MediaPass::LayerTargets) : 1;
-        const bool isFirst = !(media.layers ? under.layers[0] : under.media).valid();
         for (const ResourceId id : {in.balls, in.cards.heads, in.cards.nodes})
             if (id.valid())
                 builder.read(id);
@@ -185,28 +184,18 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
         builder.read(in.tiles.lists);
         builder.read(media.distance);
         media.lights.read(builder);
-        std::array<ResourceId, MediaPass::LayerTargets> targets;
-        for (size_t i = 0; i < targetCount; ++i) {
-            const ResourceId before = media.layers ? under.layers[i] : under.media;
-            targets[i] = builder.write(
-                isFirst ? builder.create(mediaTargetDesc(media.layers, i, media.width, media.height))
-                        : before);
-        }
-        if (media.layers)
-            out.layers = targets;
-        else
-            out.media = targets[0];
+        const MediaTargets targets(builder, media, under);
+        out = targets.outputs();
         return [view = media.view, distance = media.distance, lights = media.lights, balls = in.balls,
                 cards = in.cards, tiles = in.tiles, program = &slabProgram(in.slabs, in.detail, media.layers),
-                targets, targetCount, isFirst](Backend& backend) {
-            for (size_t i = 0; isFirst && i < targetCount; ++i)
-                backend.clear(targets[i], {0.0f, 0.0f, 0.0f, 0.0f});
+                targets](Backend& backend) {
+            targets.clear(backend);
             ViewBlock block = view;
             block.pass.y = cards.valid() ? 1.0f : 0.0f;
-            TextureBinding textures[5] = {{0, distance}, {2, tiles.lists}};
+            TextureBinding textures[5] = {{0, distance}, {9, tiles.lists}};
             size_t textureCount = 2;
             if (balls.valid())
-                textures[textureCount++] = {1, balls};
+                textures[textureCount++] = {8, balls};
             if (lights.planes.valid())
                 textures[textureCount++] = lights.textureBinding();
             if (lights.hostShadow.valid())
@@ -220,7 +209,7 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
                 buffers[bufferCount++] = lights.bufferBinding();
             DrawCall call;
             call.program = program;
-            call.targets = {targets.data(), targetCount};
+            call.targets = targets.all();
             call.textures = {textures, textureCount};
             call.buffers = {buffers, bufferCount};
             call.uniforms = asUniforms(block);

@@ -52,7 +52,7 @@ public:
 /// Lists the balls of each tile of 16 x 16 texels, in their order, and the tiles that show something.
 ///
 /// reads   rects  which tiles each ball may cover
-///         cards
+///         cards, fieldTiles
 /// writes  tiles  arguments of a draw of one square a tile, counters, and each tile's part of the lists
 ///         lists  R32UI numbers of balls
 class SlabTilePass
@@ -63,7 +63,9 @@ public:
         std::span<const TileRect> rects; ///< must stay until the graph has executed
         uint64_t entries;                ///< tiles of all of them
         int width, height;               ///< [texel]
+        float flip;                      ///< of window y against clip y, 1 or -1
         CardLists cards;
+        ResourceId fieldTiles = {}; ///< buffer of FieldTileBlock: their tiles show something as well
     };
     struct Outputs
     {

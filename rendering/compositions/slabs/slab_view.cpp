@@ -1,47 +1,10 @@
 #include "rendering/compositions/slabs/slab_view.h"
 
-#include "rendering/gl/gl_backend.h"
-#include "rendering/media/blob_estimate.h"
-
-#include <algorithm>
-#include <bit>
-
 namespace fx::render {
 
-namespace {
-
-constexpr uint64_t kFewestCards = 4096;
-
-template <class T>
-T readBuffer(GlDevice& device, uint32_t name)
-{
-    T value{};
-    device.gl.GetNamedBufferSubData(name, 0, sizeof value, &value);
-    return value;
-}
-
-} // namespace
-
-SlabView::SlabView(const TechniqueSetup& setup)
-    : device_(*setup.device), cards_(setup.memory), rects_(setup.memory)
-{}
-
-/// Takes all streams.
 base::Status SlabView::gather(const GatherInputs& in, GatheredFrame& io)
 {
-    ballSource_ = nullptr;
-    cards_.clear();
-    for (const DrawStream& stream : *io.streams) {
-        if (stream.source->balls())
-            ballSource_ = stream.source;
-        else
-            cards_.push_back({stream.batch, 0, stream.count, stream.source});
-    }
-    io.streams->clear();
-    const HostTargets& targets = in.request->targets;
-    const FragmentCounts ofBalls = estimateFragments(io.blobs, *in.camera, targets.width, targets.height);
-    cardFragments_ = io.fragments[0] - std::min(io.fragments[0], ofBalls[0]);
-    width_ = targets.width;
+    media_.gather(in, io);
     return {};
 }
 
@@ -50,51 +13,13 @@ void SlabView::addPasses(PassStage stage, FrameGraph&, PassFrame& frame)
     if (stage != PassStage::Upload)
         return;
     slabs_ = frame.settings->slabs;
-    counts_ = frame.settings->countOverdraw;
-    tiles_ = heads_ = {};
-}
-
-/// Twice what is estimated, since rows may overlap more; for each texel at least one.
-uint64_t SlabView::cardCapacity(const MediaPass::Inputs& in) const
-{
-    const double scale = double(in.width) / double(std::max(width_, 1));
-    const uint64_t wanted = std::max({uint64_t(2.0 * scale * scale * double(cardFragments_)),
-                                      uint64_t(in.width) * uint64_t(in.height), kFewestCards});
-    return std::min(std::bit_ceil(wanted), kMostCards);
+    media_.begin(*frame.settings);
 }
 
 MediaPass::Outputs SlabView::compose(FrameGraph& graph, const MediaPass::Inputs& in,
                                      const MediaPass::Outputs& under)
 {
-    const BallList balls = ballSource_ ? *ballSource_->balls() : BallList();
-    const uint64_t entries = findTiles(balls.instances, in.view, rects_);
-    capacity_ = cardCapacity(in);
-    const CardLists cards = SlabCardPass::addTo(graph, {cards_, &in, capacity_});
-    const auto tiles = SlabTilePass::addTo(graph, {rects_, entries, in.width, in.height, cards});
-    const ResourceId texels = SlabBallPass::addTo(graph, balls, in.view);
-    const MediaPass::Outputs out =
-        SlabPass::addTo(graph, {&in, texels, balls.detail, tiles, cards, slabs_}, under);
-    if (counts_) {
-        tiles_ = tiles.tiles;
-        heads_ = cards.heads;
-        graph.keep(tiles_);
-        if (heads_.valid())
-            graph.keep(heads_);
-    }
-    return out;
-}
-
-void SlabView::readBack(const GlBackend& backend, FrameStatistics& statistics)
-{
-    if (tiles_.valid()) {
-        const auto counts = readBuffer<SlabTileCounts>(device_, backend.bufferName(tiles_));
-        statistics.listedBalls += counts.listed;
-        statistics.spilledBalls += counts.spilled;
-    }
-    if (heads_.valid()) {
-        const uint64_t cards = readBuffer<uint32_t>(device_, backend.bufferName(heads_));
-        statistics.spilledCards += cards - std::min(cards, capacity_);
-    }
+    return SlabPass::addTo(graph, media_.list(graph, in).inSlabs(in, slabs_), under);
 }
 
 } // namespace fx::render

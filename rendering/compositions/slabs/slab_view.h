@@ -3,37 +3,30 @@
 #pragma once
 
 #include "rendering/compositions/media_composition.h"
-#include "rendering/compositions/slabs/slab_passes.h"
+#include "rendering/compositions/slabs/slab_media.h"
 
 namespace fx::render {
 
 class SlabView final : public CompositionView
 {
 public:
-    explicit SlabView(const TechniqueSetup& setup);
+    explicit SlabView(const TechniqueSetup& setup) : media_(setup) {}
 
     base::Status gather(const GatherInputs& in, GatheredFrame& io) override;
-    bool hasMedia() const override { return ballSource_ || !cards_.empty(); }
+    bool hasMedia() const override { return !media_.isEmpty(); }
     void addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame) override;
     [[nodiscard]] MediaPass::Outputs compose(FrameGraph& graph, const MediaPass::Inputs& in,
                                              const MediaPass::Outputs& under) override;
-    void forget() override { tiles_ = heads_ = {}; }
-    void rest() override { forget(); }
-    void readBack(const GlBackend& backend, FrameStatistics& statistics) override;
+    void forget() override { media_.forget(); }
+    void rest() override { media_.forget(); }
+    void readBack(const GlBackend& backend, FrameStatistics& statistics) override
+    {
+        media_.readBack(backend, statistics);
+    }
 
 private:
-    uint64_t cardCapacity(const MediaPass::Inputs& in) const;
-
-    GlDevice& device_;
-    const MediaSource* ballSource_ = nullptr; ///< of all balls; null: there are none
-    std::pmr::vector<DrawBatch> cards_;       ///< what else is drawn
-    std::pmr::vector<TileRect> rects_;
-    uint64_t cardFragments_ = 0; ///< estimated, of the whole picture
-    int width_ = 0;              ///< [pixel] of the picture
+    SlabMedia media_;
     int slabs_ = 16;
-    bool counts_ = false;      ///< what is listed and spilled
-    ResourceId tiles_, heads_; ///< of the last frame, to be read back; invalid: not
-    uint64_t capacity_ = 0;    ///< of the last frame's cards
 };
 
 } // namespace fx::render

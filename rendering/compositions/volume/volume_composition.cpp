@@ -1,8 +1,9 @@
 #include "rendering/compositions/volume/volume_composition.h"
 
+#include "rendering/compositions/slabs/slab_composition.h"
 #include "rendering/compositions/volume/volume_view.h"
 
-#include <array>
+#include <vector>
 
 namespace fx::render {
 
@@ -12,22 +13,24 @@ constexpr TimedPass kTimed[] = {{"loose blob upload", "volume"}, {"field upload"
                                 {"lump tile", "volume"},         {"field slices", "volume"},
                                 {"field fill", "volume"},        {"field light", "volume"},
                                 {"glow upload", "volume"},       {"glow source", "volume"},
-                                {"glow rays", "volume"},         {"glow sum", "volume"}};
+                                {"glow rays", "volume"},         {"glow sum", "volume"},
+                                {"field texels", "volume"},      {"field march", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
     static const auto all = [] {
-        std::array<const ProgramDesc*, 20> list{&kLumpTileProgram,         &kFieldSlicesProgram,
-                                                &kGlowSourceAgainProgram,  &kGlowRaysProgram,
-                                                &glowSourceProgram(false), &glowSourceProgram(true),
-                                                &glowSumProgram(false),    &glowSumProgram(true)};
-        size_t end = 8;
+        const std::span<const ProgramDesc* const> ofSlabs = kSlabComposition.programs(); // the loose
+        std::vector<const ProgramDesc*> list(ofSlabs.begin(), ofSlabs.end());
+        list.insert(list.end(), {&kLumpTileProgram, &kFieldSlicesProgram, &kFieldTexelProgram, &kGlowSourceAgainProgram,
+                                &kGlowRaysProgram, &glowSourceProgram(false), &glowSourceProgram(true),
+                                &glowSumProgram(false), &glowSumProgram(true)});
         for (const bool detail : {false, true})
             for (const bool layers : {false, true})
                 for (const ProgramDesc* program :
-                     {&fieldFillProgram(layers, detail), &fieldLightProgram(layers, detail),
-                      &fieldMarchProgram(layers, detail)})
-                    list[end++] = program;
+                     {&fieldFillProgram(layers, detail), &fieldLightProgram(layers, detail)})
+                    list.push_back(program);
+        for (size_t i = 0; i < kFieldMarchPrograms; ++i)
+            list.push_back(&fieldMarchProgramAt(i));
         return list;
     }();
     return all;

@@ -13,9 +13,9 @@ namespace fx::render {
 namespace {
 
 constexpr size_t kBricksOfALayer = size_t(kBrickColumns) * kBrickColumns;
-constexpr std::string_view kListNames[] = {"fields",        "field bricks",    "field table",
-                                           "field balls",   "field tiles",     "fields of tiles",
-                                           "field details", "field materials", "field light stacks"};
+constexpr std::string_view kListNames[] = {
+    "fields",      "field bricks",    "field balls",       "field list",
+    "field tiles", "field materials", "field light stacks"};
 constexpr std::string_view kTextureNames[] = {"field medium", "field scatter", "field shares",
                                               "field material 0", "field material 1"};
 
@@ -43,15 +43,14 @@ FieldDetailBlock blockOf(const GroupDetail& detail, int octaves)
 } // namespace
 
 VolumeView::VolumeView(const TechniqueSetup& setup)
-    : device_(*setup.device), plan_(setup.memory), details_(setup.memory), glow_(*setup.device),
-      looseSort_(setup.memory), looseDistances_(setup.memory), looseBlobs_(setup.memory)
+    : device_(*setup.device), plan_(setup.memory), texels_(setup.memory), details_(setup.memory),
+      glow_(*setup.device), loose_(setup), looseBlobs_(setup.memory)
 {}
 
 base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
 {
     isKept_ = false;
     stacks_ = {};
-    std::erase_if(*io.streams, [](const DrawStream& stream) { return stream.source->balls() != nullptr; });
     const HostTargets& targets = in.request->targets;
     details_.clear();
     const int octaves = in.settings->voxels < kCoarseVoxels ? kCoarseOctaves : kMostDetailOctaves;
@@ -60,51 +59,33 @@ base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
     materials_ = details_.empty() ? std::span<const BlobMaterial>() : io.materials;
     plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0,
                  in.settings->slices.multiple});
-    sortLoose(in, io.blobs);
-    if (!looseBlobs_.empty())
-        io.streams->push_back(looseStream());
-    if (!plan_.isEmpty()) {
-        source_.placeShells(plan_.nearest(), plan_.farthest());
-        source_.tileCount = uint32_t(plan_.tiles().size());
-        io.streams->push_back(source_.stream());
-    }
+    texels_.build(plan_, details_);
+    gatherLoose(in, io);
     return makeRoom(in.settings->layerOutputs);
 }
 
-void VolumeView::sortLoose(const GatherInputs& in, std::span<const BlobInstance> blobs)
+void VolumeView::gatherLoose(const GatherInputs& in, GatheredFrame& io)
 {
-    looseDistances_.clear();
+    loose_.gather(in, io);
+    looseBlobs_.clear();
     bool anyDetail = false;
     for (const uint32_t number : plan_.loose()) {
-        const glm::vec3 center(blobs[number].centerRadius);
-        looseDistances_.push_back(in.camera->orthographic ? glm::dot(center, in.camera->forward)
-                                                          : glm::length(center));
-        anyDetail = anyDetail || blobs[number].medium.z > 0.0f;
+        looseBlobs_.push_back(io.blobs[number]);
+        anyDetail = anyDetail || io.blobs[number].medium.z > 0.0f;
     }
-    looseOrder_ = looseSort_.farthestFirst(looseDistances_);
-    looseBlobs_.clear();
-    for (const uint32_t index : looseOrder_)
-        looseBlobs_.push_back(blobs[plan_.loose()[index]]);
-    looseSource_.form = in.settings->form;
     looseSource_.detail = in.settings->detail && anyDetail;
-}
-
-DrawStream VolumeView::looseStream() const
-{
-    DrawStream stream;
-    stream.count = uint32_t(looseOrder_.size());
-    stream.distances = looseDistances_.data();
-    stream.order = looseOrder_.data();
-    stream.source = &looseSource_;
-    return stream;
+    loose_.replaceBalls(looseBlobs_.empty() ? nullptr : &looseSource_);
 }
 
 std::array<std::span<const std::byte>, VolumeView::Lists> VolumeView::lists() const
 {
-    return {
-        std::as_bytes(plan_.fields()),      std::as_bytes(plan_.bricks()), std::as_bytes(plan_.table()),
-        std::as_bytes(plan_.balls()),       std::as_bytes(plan_.tiles()),  std::as_bytes(plan_.tileFields()),
-        std::as_bytes(std::span(details_)), std::as_bytes(materials_),     stacks_};
+    return {std::as_bytes(plan_.fields()),
+            std::as_bytes(plan_.bricks()),
+            std::as_bytes(plan_.balls()),
+            std::as_bytes(texels_.texels()),
+            std::as_bytes(texels_.tiles()),
+            std::as_bytes(materials_),
+            stacks_};
 }
 
 base::Status VolumeView::makeRoom(bool layers)
@@ -125,7 +106,25 @@ base::Status VolumeView::makeRoom(bool layers)
             status = makeTexture(i);
     if (status)
         status = glow_.makeRoom(plan_.glows());
+    if (status && !plan_.isEmpty())
+        status = makeTexels(texelTexture_, texels_.texels().size(), kFieldColumns, Format::RGBA32F,
+                            "field texels");
+    if (status && !plan_.isEmpty())
+        status = makeTexels(table_, plan_.table().size(), kTableColumns, Format::R32F, "field table");
     return status && !details_.empty() ? makeLumpTile() : status;
+}
+
+base::Status VolumeView::makeTexels(GlTexture& io, size_t count, int columns, Format format, const char* name)
+{
+    const int rows = rowsOfTexels(count, columns);
+    if (io.name() != 0 && io.height() >= rows)
+        return {};
+    io = {};
+    auto created = GlTexture::create(device_, columns, rows, glInternalFormat(format), name);
+    if (!created)
+        return created.status();
+    io = std::move(*created);
+    return {};
 }
 
 /// Whether a texture is needed.
@@ -179,19 +178,23 @@ void VolumeView::importAll(FrameGraph& graph, bool layers)
                                                        textures_[i].name())
                                  : ResourceId();
     };
-    source_.textures.medium = texture(0);
-    source_.textures.scatter = texture(1);
-    source_.textures.shares = texture(2);
-    source_.textures.material[0] = texture(3);
-    source_.textures.material[1] = texture(4);
+    const auto texels = [&](const GlTexture& from, Format format, std::string_view name) {
+        return graph.importTexture({name, from.width(), from.height(), format}, from.name());
+    };
+    march_.textures = {texture(0),
+                       texture(1),
+                       texture(2),
+                       texels(table_, Format::R32F, "field table"),
+                       {texture(3), texture(4)}};
+    march_.fieldTexels = texels(texelTexture_, Format::RGBA32F, "field texels");
     glow_.importAll(graph, plan_.glows());
-    source_.lumpTile = {};
+    march_.lumpTile = {};
     if (details_.empty())
         return;
-    source_.lumpTile =
+    march_.lumpTile =
         graph.importTexture({"lump tile", kLumpTileTexels, kLumpTileTexels, Format::R32F}, lumpTile_.name());
     if (!hasLumps_)
-        source_.lumpTile = LumpTilePass::addTo(graph, source_.lumpTile);
+        march_.lumpTile = LumpTilePass::addTo(graph, march_.lumpTile);
     hasLumps_ = true;
 }
 
@@ -212,13 +215,29 @@ void VolumeView::addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame)
 {
     if (stage != PassStage::Upload)
         return;
+    slabs_ = frame.settings->slabs;
+    loose_.begin(*frame.settings);
     if (!looseBlobs_.empty())
-        addLoose(graph, frame);
+        addLooseBalls(graph, frame);
     if (!plan_.isEmpty())
         addFields(graph, frame);
 }
 
-void VolumeView::addLoose(FrameGraph& graph, const PassFrame& frame)
+MediaPass::Outputs VolumeView::compose(FrameGraph& graph, const MediaPass::Inputs& in,
+                                       const MediaPass::Outputs& under)
+{
+    FieldMarchPass::Inputs march = march_;
+    march.media = &in;
+    if (plan_.isEmpty())
+        return SlabPass::addTo(graph, loose_.list(graph, in).inSlabs(in, slabs_), under);
+    if (!loose_.isEmpty()) {
+        const SlabMedia::Lists lists = loose_.list(graph, in, march.tiles);
+        march.loose = {lists.tiles.tiles, lists.tiles.lists, lists.balls, lists.cards, slabs_};
+    }
+    return FieldMarchPass::addTo(graph, march, under);
+}
+
+void VolumeView::addLooseBalls(FrameGraph& graph, const PassFrame& frame)
 {
     const std::span<const BlobInstance> blobs = looseBlobs_;
     looseSource_.blobs =
@@ -237,6 +256,7 @@ void VolumeView::addLoose(FrameGraph& graph, const PassFrame& frame)
             BlobLightPass::addTo(graph, {looseSource_.blobs, looseSource_.blobLights, frame.lights,
                                          &frame.view, uint32_t(blobs.size())})
                 .blobLights;
+    looseSource_.list = {looseSource_.blobs, looseSource_.blobLights, blobs, looseSource_.detail};
 }
 
 /// The textures hold the light of a frame that was kept; the host's shadow map may have changed under it.
@@ -254,38 +274,30 @@ void VolumeView::addFields(FrameGraph& graph, PassFrame& frame)
         upload(graph);
     if (!isKept_ || corrects || frame.lights.hostShadow.valid()) {
         const uint32_t bricks = uint32_t(plan_.bricks().size());
-        source_.textures = FieldFillPass::addTo(graph, {frame.blobs, ids_[Fields], ids_[Bricks], ids_[Balls],
-                                                        source_.textures, bricks, ids_[Materials],
-                                                        ids_[Details], source_.lumpTile})
-                               .textures;
+        march_.fieldTexels =
+            FieldTexelPass::addTo(graph, ids_[Texels], texels_.texels().size(), march_.fieldTexels);
+        march_.textures =
+            FieldFillPass::addTo(graph, {frame.blobs, march_.fieldTexels, ids_[Bricks], ids_[Balls],
+                                         march_.textures, bricks, ids_[Materials], march_.lumpTile})
+                .textures;
         if (corrects) {
             frame.lights = FieldSlicesPass::addTo(
-                graph, {ids_[Fields], ids_[Table], source_.textures.material[1], ids_[Stacks], frame.lights,
-                        uint32_t(plan_.fields().size()), uint32_t(stacks_.size() / sizeof(SliceStackBlock))});
+                graph, {march_.fieldTexels, march_.textures.table, march_.textures.material[1], ids_[Stacks],
+                        frame.lights, uint32_t(plan_.fields().size()),
+                        uint32_t(stacks_.size() / sizeof(SliceStackBlock))});
             corrected_ = frame.lights.filled;
         }
         if (frame.lights.lights.valid())
             glow_.addPasses(graph,
-                            {ids_[Fields],
-                             ids_[Table],
-                             {},
-                             source_.textures,
-                             ids_[Details],
-                             source_.lumpTile,
-                             {},
-                             uint32_t(plan_.fields().size()),
-                             0},
+                            {march_.fieldTexels, march_.textures, march_.lumpTile, !details_.empty(), {}, {},
+                             uint32_t(plan_.fields().size()), 0},
                             plan_.glows());
-        source_.textures =
-            FieldLightPass::addTo(graph, {ids_[Fields], ids_[Bricks], source_.textures, frame.lights,
+        march_.textures =
+            FieldLightPass::addTo(graph, {ids_[Fields], ids_[Bricks], march_.textures, frame.lights,
                                           &frame.view, bricks, glow_.light(), glow_.grids()})
                 .textures;
     }
-    source_.fields = ids_[Fields];
-    source_.table = ids_[Table];
-    source_.tiles = ids_[Tiles];
-    source_.tileFields = ids_[TileFields];
-    source_.details = ids_[Details];
+    march_.tiles = ids_[Tiles];
 }
 
 /// What the frame was to write once is not there.
@@ -293,6 +305,7 @@ void VolumeView::forget()
 {
     hasLumps_ = false;
     corrected_ = 0;
+    loose_.forget();
 }
 
 void VolumeView::endFrame(bool)
@@ -304,6 +317,7 @@ void VolumeView::endFrame(bool)
 
 void VolumeView::rest()
 {
+    loose_.forget();
     plan_.clear();
     looseBlobs_.clear();
     if (++unused_ == kIdleFrames)
@@ -316,6 +330,8 @@ void VolumeView::release()
     looseBuffer_ = {};
     looseLights_ = {};
     textures_ = {};
+    texelTexture_ = {};
+    table_ = {};
     lumpTile_ = {};
     glow_.release();
 }
@@ -325,9 +341,12 @@ uint64_t VolumeView::bytes() const
     uint64_t sum = looseBuffer_.bytes() + looseLights_.bytes() + glow_.bytes();
     for (const GlBuffer& buffer : buffers_)
         sum += buffer.bytes();
+    const auto add = [&](const GlTexture& texture) { sum += texture.name() != 0 ? texture.bytes() : 0; };
     for (const GlTexture& texture : textures_)
-        sum += texture.name() != 0 ? texture.bytes() : 0;
-    return sum + (lumpTile_.name() != 0 ? lumpTile_.bytes() : 0);
+        add(texture);
+    for (const GlTexture* texture : {&texelTexture_, &table_, &lumpTile_})
+        add(*texture);
+    return sum;
 }
 
 } // namespace fx::render

@@ -3,13 +3,14 @@
 #pragma once
 
 #include "rendering/compositions/media_composition.h"
+#include "rendering/compositions/slabs/slab_media.h"
 #include "rendering/compositions/volume/volume_glow.h"
-#include "rendering/draw_order/depth_sort.h"
 #include "rendering/field/field_fill_pass.h"
 #include "rendering/field/field_light_pass.h"
+#include "rendering/field/field_march_pass.h"
 #include "rendering/field/field_plan.h"
 #include "rendering/field/field_slices_pass.h"
-#include "rendering/field/field_source.h"
+#include "rendering/field/field_texels.h"
 #include "rendering/field/lump_tile_pass.h"
 #include "rendering/gl/gl_buffer.h"
 #include "rendering/gl/gl_texture.h"
@@ -19,8 +20,8 @@
 
 namespace fx::render {
 
-/// Puts the fields in place of the balls into the streams of the media pass. Cards are drawn there between
-/// shells of the fields, by their distance.
+/// Sums up balls in fields. What no field holds, cards and balls that are too small for voxels, is summed up
+/// in slabs along the same rays; where there is no field at all, as the composition `slabs` does.
 class VolumeView final : public CompositionView
 {
 public:
@@ -28,17 +29,18 @@ public:
 
     base::Status gather(const GatherInputs& in, GatheredFrame& io) override;
     void keep() override { isKept_ = true; }
-    bool hasMedia() const override { return false; } // all of it is in streams
+    bool hasMedia() const override { return !plan_.isEmpty() || !loose_.isEmpty(); }
     void addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame) override;
-    [[nodiscard]] MediaPass::Outputs compose(FrameGraph&, const MediaPass::Inputs&,
-                                             const MediaPass::Outputs& under) override
-    {
-        return under;
-    }
+    [[nodiscard]] MediaPass::Outputs compose(FrameGraph& graph, const MediaPass::Inputs& in,
+                                             const MediaPass::Outputs& under) override;
     void forget() override;
     void endFrame(bool succeeded) override;
     void rest() override;
     uint64_t bytes() const override;
+    void readBack(const GlBackend& backend, FrameStatistics& statistics) override
+    {
+        loose_.readBack(backend, statistics);
+    }
 
 private:
     /// What FieldPlan lists, on the GPU.
@@ -46,45 +48,44 @@ private:
     {
         Fields,
         Bricks,
-        Table,
         Balls,
+        Texels,
         Tiles,
-        TileFields,
-        Details, ///< none where no field has detail, as the next
-        Materials,
-        Stacks, ///< of the lights
+        Materials, ///< none where no field has detail
+        Stacks,    ///< of the lights
         Lists
     };
 
     std::array<std::span<const std::byte>, Lists> lists() const;
-    void sortLoose(const GatherInputs& in, std::span<const BlobInstance> blobs);
-    DrawStream looseStream() const;
+    void gatherLoose(const GatherInputs& in, GatheredFrame& io);
     base::Status makeRoom(bool layers);
     bool isUsed(size_t texture, bool layers) const;
     base::Status makeTexture(size_t i);
+    base::Status makeTexels(GlTexture& io, size_t count, int columns, Format format, const char* name);
     base::Status makeLumpTile();
     void release();
     void importAll(FrameGraph& graph, bool layers);
     void upload(FrameGraph& graph);
     void addFields(FrameGraph& graph, PassFrame& frame);
-    void addLoose(FrameGraph& graph, const PassFrame& frame);
+    void addLooseBalls(FrameGraph& graph, const PassFrame& frame);
 
     GlDevice& device_;
     FieldPlan plan_;
-    FieldSource source_;
+    FieldTexels texels_;
+    FieldMarchPass::Inputs march_{}; ///< of the frame
     std::pmr::vector<FieldDetailBlock> details_;
     std::span<const std::byte> stacks_;       ///< SliceStackBlocks of the frame
     uint64_t corrected_ = 0;                  ///< filling of the light slices that has the detail
     std::span<const BlobMaterial> materials_; ///< of the frame
     VolumeGlow glow_;
-    GlTexture lumpTile_;     ///< nothing before detail is seen
-    bool hasLumps_ = false;  ///< it is filled
-    BlobSource looseSource_; ///< of balls that are too small for voxels
-    DepthSort looseSort_;
-    std::pmr::vector<float> looseDistances_;
-    std::pmr::vector<BlobInstance> looseBlobs_; ///< farthest first
-    std::span<const uint32_t> looseOrder_;
+    GlTexture texelTexture_, table_;          ///< of FieldTexels, and of bricks
+    GlTexture lumpTile_;                      ///< nothing before detail is seen
+    bool hasLumps_ = false;                   ///< it is filled
+    SlabMedia loose_;                         ///< cards, and balls of `looseSource_`
+    BlobSource looseSource_;                  ///< of balls that are too small for voxels
+    std::pmr::vector<BlobInstance> looseBlobs_;
     GlBuffer looseBuffer_, looseLights_;
+    int slabs_ = 16;                      ///< that the loose is at least divided into
     std::array<GlBuffer, Lists> buffers_; ///< last, so that what is in them is still there in the next frame
     std::array<ResourceId, Lists> ids_;   ///< of the frame
     std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< likewise

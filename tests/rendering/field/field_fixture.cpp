@@ -3,6 +3,8 @@
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/stage/stage_camera.h"
 
+#include <algorithm>
+
 namespace fx::test {
 
 using namespace render;
@@ -12,18 +14,35 @@ CameraView FieldTest::camera(const glm::dvec3& position, const glm::dvec3& targe
     return perspectiveView({position, target}, 0.8f, float(kFieldWidth) / float(kFieldHeight), 0.05f);
 }
 
-void FieldTest::importTextures()
+FieldTextures FieldTest::importTextures()
 {
-    ResourceId* const ids[] = {&source_.textures.medium, &source_.textures.scatter, &source_.textures.shares};
-    source_.textures = {};
+    FieldTextures textures;
+    ResourceId* const ids[] = {&textures.medium, &textures.scatter, &textures.shares};
     for (size_t i = 0; i < volumes_.size(); ++i)
         *ids[i] = graph_->importTexture(
             {"field", volumes_[i].width(), volumes_[i].height(), kFieldFormats[i]}, volumes_[i].name());
+    textures.table =
+        graph_->importTexture({"table", table_.width(), table_.height(), Format::R32F}, table_.name());
+    return textures;
+}
+
+ResourceId FieldTest::importTexelsOfFields()
+{
+    ResourceId texels;
+    graph_->addPass("texels", [&](FrameGraph::Builder& builder) {
+        texels = builder.write(
+            builder.create({"texels", kFieldColumns, rowsOfTexels(texels_.texels().size(), kFieldColumns),
+                            Format::RGBA32F}));
+        return [](Backend&) {};
+    });
+    return FieldTexelPass::addTo(*graph_, importBytes(std::as_bytes(texels_.texels())),
+                                 texels_.texels().size(), texels);
 }
 
 void FieldTest::fill(const FieldScene& scene, int resolution, bool layers)
 {
     plan_.build(scene.inputs(16 * kFieldWidth, 16 * kFieldHeight, resolution));
+    texels_.build(plan_, {});
     graph_->begin();
     volumes_.clear();
     const int depth = int(plan_.bricks().size() + 255) / 256;
@@ -34,45 +53,36 @@ void FieldTest::fill(const FieldScene& scene, int resolution, bool layers)
         ASSERT_TRUE(made.ok()) << made.status().message();
         volumes_.push_back(std::move(*made));
     }
-    importTextures();
+    auto table = GlTexture::create(*device_, kTableColumns, rowsOfTexels(plan_.table().size(), kTableColumns),
+                                   glInternalFormat(Format::R32F), "table");
+    ASSERT_TRUE(table.ok()) << table.status().message();
+    table_ = std::move(*table);
     const FieldFillPass::Inputs in{importBytes(std::as_bytes(std::span(scene.balls))),
-                                   importBytes(std::as_bytes(plan_.fields())),
+                                   importTexelsOfFields(),
                                    importBytes(std::as_bytes(plan_.bricks())),
                                    importBytes(std::as_bytes(plan_.balls())),
-                                   source_.textures,
+                                   importTextures(),
                                    uint32_t(plan_.bricks().size())};
-    source_.textures = FieldFillPass::addTo(*graph_, in).textures;
-    graph_->keep(source_.textures.scatter);
+    const FieldTextures filled = FieldFillPass::addTo(*graph_, in).textures;
+    graph_->keep(filled.scatter);
+    graph_->keep(filled.table);
     if (layers)
-        graph_->keep(source_.textures.shares);
-    execute(source_.textures.medium);
+        graph_->keep(filled.shares);
+    execute(filled.medium);
 }
 
 std::vector<float> FieldTest::march(const CameraView& camera, const Window& window, size_t target)
 {
     graph_->begin();
-    importTextures();
-    source_.fields = importBytes(std::as_bytes(plan_.fields()));
-    source_.table = importBytes(std::as_bytes(plan_.table()));
-    source_.tiles = importBytes(std::as_bytes(plan_.tiles()));
-    source_.tileFields = importBytes(std::as_bytes(plan_.tileFields()));
-    source_.tileCount = uint32_t(plan_.tiles().size());
-    // all shells but for the nearest, which ends at `from`
-    const float before = (plan_.farthest() - window.from) / float(FieldSource::kShells - 1);
-    source_.placeShells(window.from - before, plan_.farthest());
+    ViewBlock view = makeViewBlock(camera, kFieldWidth, kFieldHeight);
+    view.rayOriginX.w = std::max(view.rayOriginX.w, window.from);
     const std::vector<float> same(size_t(kFieldWidth * kFieldHeight), window.wall);
     const ResourceId distance =
         importScalar(kFieldWidth, kFieldHeight, window.walls.empty() ? same : window.walls);
-    const DrawBatch batch{0, 0, window.from > 0.0f ? FieldSource::kShells - 1 : FieldSource::kShells,
-                          &source_};
-    const auto out = MediaPass::addTo(*graph_,
-                                      {{&batch, 1},
-                                       distance,
-                                       kFieldWidth,
-                                       kFieldHeight,
-                                       makeViewBlock(camera, kFieldWidth, kFieldHeight),
-                                       window.layers},
-                                      {});
+    const MediaPass::Inputs media{{}, distance, kFieldWidth, kFieldHeight, view, window.layers};
+    const FieldMarchPass::Inputs in{&media, importTextures(), importTexelsOfFields(),
+                                    importBytes(std::as_bytes(texels_.tiles()))};
+    const auto out = FieldMarchPass::addTo(*graph_, in, {});
     const ResourceId result = window.layers ? out.layers[target] : out.media;
     execute(result);
     const bool isScalar = window.layers && target >= MediaPass::DepthMoment;

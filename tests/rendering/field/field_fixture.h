@@ -4,7 +4,8 @@
 
 #include "rendering/field/field_fill_pass.h"
 #include "rendering/field/field_light_pass.h"
-#include "rendering/field/field_source.h"
+#include "rendering/field/field_march_pass.h"
+#include "rendering/field/field_texels.h"
 #include "rendering/passes/media_pass.h"
 #include "tests/rendering/field/field_scenes.h"
 #include "tests/rendering/passes/post_pass_harness.h"
@@ -22,7 +23,7 @@ protected:
     struct Window
     {
         float wall = std::numeric_limits<float>::infinity(); ///< [m] along the ray, what is opaque
-        float from = 0.0f;                                   ///< [m] along the ray
+        float from = 0.0f;                                   ///< [m] depth along the axis
         bool layers = false;
         std::vector<float> walls = {}; ///< of each pixel, in place of `wall`
     };
@@ -40,13 +41,14 @@ protected:
     static render::CameraView camera(const glm::dvec3& position, const glm::dvec3& target);
 
     render::FieldPlan plan_{memory_};
-    render::FieldSource source_;
 
-    void importTextures(); ///< those of fill(), in this frame
+    render::FieldTextures importTextures(); ///< those of fill(), in this frame
+    render::ResourceId importTexelsOfFields();
 
 private:
+    render::FieldTexels texels_{memory_};
     std::vector<render::GlTexture> volumes_;
-    std::vector<render::GlBuffer> lists_;
+    render::GlTexture table_;
 };
 
 } // namespace fx::test

@@ -1,5 +1,6 @@
 // Detail of fields on the GPU against the same on the processor.
 #include "rendering/field/field_fill_pass.h"
+#include "rendering/field/field_texels.h"
 #include "rendering/field/lump_tile_pass.h"
 #include "rendering/field_detail/field_detail_numbers.h"
 #include "rendering/gl/gl_read_texture.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace fx;
 using namespace fx::render;
@@ -120,16 +122,25 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
     textures.material[0] = import(volumes[2], kFieldFormats[3]);
     textures.material[1] = import(volumes[3], kFieldFormats[4]);
     const FieldDetailBlock block = blockOf(numbers());
+    FieldTexels listed(memory_);
+    listed.build(plan, {&block, 1});
+    std::vector<float> words(size_t(4 * kFieldColumns), 0.0f);
+    ASSERT_LE(listed.texels().size(), size_t(kFieldColumns));
+    std::memcpy(words.data(), listed.texels().data(), listed.texels().size_bytes());
+    auto made = GlTexture::create(*device_, kTableColumns, rowsOfTexels(plan.table().size(), kTableColumns),
+                                  glInternalFormat(Format::R32F), "table");
+    ASSERT_TRUE(made.ok());
+    const GlTexture table = std::move(*made);
+    textures.table = import(table, Format::R32F);
     const ResourceId lumps = LumpTilePass::addTo(*graph_, import(tile, Format::R32F));
-    textures =
-        FieldFillPass::addTo(
-            *graph_,
-            {importBytes(std::as_bytes(std::span(scene.balls))), importBytes(std::as_bytes(plan.fields())),
-             importBytes(std::as_bytes(plan.bricks())), importBytes(std::as_bytes(plan.balls())), textures,
-             uint32_t(plan.bricks().size()), importBytes(std::as_bytes(std::span(materials))),
-             importBytes(std::as_bytes(std::span(&block, 1))), lumps})
-            .textures;
-    for (const ResourceId id : {textures.scatter, textures.material[0], textures.material[1]})
+    textures = FieldFillPass::addTo(*graph_, {importBytes(std::as_bytes(std::span(scene.balls))),
+                                              importTexels(kFieldColumns, 1, Format::RGBA32F, words),
+                                              importBytes(std::as_bytes(plan.bricks())),
+                                              importBytes(std::as_bytes(plan.balls())), textures,
+                                              uint32_t(plan.bricks().size()),
+                                              importBytes(std::as_bytes(std::span(materials))), lumps})
+                   .textures;
+    for (const ResourceId id : {textures.scatter, textures.table, textures.material[0], textures.material[1]})
         graph_->keep(id);
     execute(textures.medium);
 

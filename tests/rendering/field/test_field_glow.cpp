@@ -66,12 +66,10 @@ protected:
             glowVolumes_.push_back(std::move(*made));
         }
         graph_->begin();
-        importTextures();
         FieldGlowPass::Inputs in{};
-        in.fields = importBytes(std::as_bytes(plan_.fields()));
-        in.table = importBytes(std::as_bytes(plan_.table()));
+        in.fieldTexels = importTexelsOfFields();
         in.grids = importBytes(std::as_bytes(plan_.glows()));
-        in.field = source_.textures;
+        in.field = importTextures();
         in.fieldCount = uint32_t(plan_.fields().size());
         in.gridCount = 1;
         ResourceId* const ids[] = {&in.glow.cells, &in.glow.scatter, &in.glow.rays, &in.glow.first,
@@ -211,11 +209,10 @@ TEST_F(FieldGlow, aPointThatStandsForTheMediumIsNotCountedOnceMore)
         lights.lights[1].color = {4.0f, 4.0f, 4.0f, kind};
         spread(balls);
         graph_->begin();
-        importTextures();
         const ViewBlock view = makeViewBlock(view_, kFieldWidth, kFieldHeight);
         FieldLightPass::Inputs in{importBytes(std::as_bytes(plan_.fields())),
                                   importBytes(std::as_bytes(plan_.bricks())),
-                                  source_.textures,
+                                  importTextures(),
                                   {.lights = importBytes(std::as_bytes(std::span(&lights, 1)))},
                                   &view,
                                   uint32_t(plan_.bricks().size())};

@@ -204,7 +204,13 @@ TEST_F(FieldTest, splittingARayLeavesItsTransmittance)
     fill(FieldScene(randomBalls(150, 5, glm::dvec3(0.0)), view), 160);
     const std::vector<float> whole = march(view, {});
     for (const float cut : {5.0f, 5.73f, 6.4f}) {
-        const std::vector<float> before = march(view, {cut});
+        Window front; // up to the plane where the rest begins
+        for (size_t i = 0; i < size_t(kFieldWidth * kFieldHeight); ++i)
+            front.walls.push_back(
+                cut * rayOf(view, i).nearest / rayOf(view, 0).nearest *
+                glm::length(rayOf(view, 0).direction /
+                            glm::dot(rayOf(view, 0).direction, cameraGeometry(view).forward)));
+        const std::vector<float> before = march(view, front);
         const std::vector<float> behind = march(view, {1e30f, cut});
         double worst = 0.0;
         for (size_t i = 3; i < whole.size(); i += 4)

@@ -1,5 +1,6 @@
 // Media in slabs across each ray: exact where one ball stands alone, and without an order where they overlap.
 #include "rendering/reference/integral/reference_integral.h"
+#include "tests/rendering/view/permutations.h"
 #include "tests/rendering/view/view_fixture.h"
 
 #include <glm/geometric.hpp>
@@ -164,7 +165,7 @@ TEST_F(Slabs, noOrderOfBallsIsSeen)
     const float brightest = *std::max_element(first.texels.begin(), first.texels.end());
     std::mt19937 random(1);
     double most = 0.0;
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < permutations(); ++i) {
         std::shuffle(blobs.begin(), blobs.end(), random);
         most = std::max(most, maxDifference(drawn(blobs, closeCamera()), first));
     }

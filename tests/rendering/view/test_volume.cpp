@@ -2,6 +2,7 @@
 // layers, small layers, what a warm frame costs, and that nothing is there unless it is asked for.
 #include "rendering/reference/integral/reference_integral.h"
 #include "tests/rendering/gl/heap_counter.h"
+#include "tests/rendering/view/permutations.h"
 #include "tests/rendering/view/view_fixture.h"
 
 #include <glm/geometric.hpp>
@@ -32,7 +33,7 @@ protected:
 
     Picture drawn(const base::FrameSnapshot& snapshot, const render::CameraView& camera)
     {
-        setPicture(std::vector<float>(size_t(kWidth) * kHeight * 4, 0.0f));
+        setPicture(std::vector<float>(size_t(color_->width()) * size_t(color_->height()) * 4, 0.0f));
         return render(snapshot, camera);
     }
     Picture drawn(const std::vector<TestBlob>& blobs, const render::CameraView& camera)
@@ -125,15 +126,60 @@ TEST_F(Volume, ballsThatOverlapAreTheIntegralThroughTheirSum)
 
 TEST_F(Volume, noOrderOfBallsIsSeen)
 {
+    makeTargets(24, 16);
+    const auto closeCamera = render::perspectiveView(kPose, 0.5f, 1.5f, 0.1f);
     std::vector<TestBlob> blobs = cloud(270, 0.3f, 0.5f);
-    const Picture first = drawn(blobs, camera());
+    for (size_t i = 0; i < 30; ++i)
+        blobs[9 * i].radius = 0.06f; // loose
+    const Picture first = drawn(blobs, closeCamera);
     std::mt19937 random(1);
     double most = 0.0;
-    for (int i = 0; i < 30; ++i) {
+    for (int i = 0; i < permutations(); ++i) {
         std::shuffle(blobs.begin(), blobs.end(), random);
-        most = std::max(most, maxDifference(drawn(blobs, camera()), first));
+        most = std::max(most, maxDifference(drawn(blobs, closeCamera), first));
     }
     EXPECT_LT(most, double(brightest(first)) / 1023.0);
+}
+
+TEST_F(Volume, ballsThatAreTooSmallForVoxelsAreExact)
+{
+    // one among many that it does not touch: where it is alone, it is drawn as in slabs
+    std::vector<TestBlob> blobs = cloud(60, 0.4f, 0.3f);
+    for (TestBlob& blob : blobs)
+        blob.center.x -= 1.5f;
+    blobs.push_back({{3.0f, 0.3f, 0.4f}, 0.1f, 0.02f, 1.0f});
+    const Picture volume = drawn(blobs, camera());
+    view_->settings().composition = render::Composition::Slabs;
+    const Picture slabs = drawn(blobs, camera());
+    double most = 0.0, brightest_ = 0.0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 3 * kWidth / 4; x < kWidth; ++x) {
+            most = std::max(most, double(std::abs(volume.at(x, y)[0] - slabs.at(x, y)[0])));
+            brightest_ = std::max(brightest_, double(slabs.at(x, y)[0]));
+        }
+    EXPECT_GT(brightest_, 0.1);
+    EXPECT_LT(most, 1e-4);
+}
+
+TEST_F(Volume, aSmallBallIsHiddenByTheMediumBeforeItAndNotByThatBehindIt)
+{
+    // light of a spark before, within and behind a ball that lets a tenth of the light through
+    const auto spark = [&](float z) {
+        const std::vector<TestBlob> both{{{0.0f, 0.0f, 0.0f}, 1.5f, 3.0f},
+                                         {{0.0f, 0.0f, z}, 0.08f, 0.005f, 1.0f}};
+        const std::vector<TestBlob> alone{{{0.0f, 0.0f, 0.0f}, 1.5f, 3.0f}};
+        double sum = 0.0;
+        const Picture with = drawn(both, parallel()), without = drawn(alone, parallel());
+        for (size_t i = 0; i < with.texels.size(); i += 4)
+            sum += double(with.texels[i] - without.texels[i]);
+        return sum;
+    };
+    const double before = spark(3.0f), within = spark(0.0f), behind = spark(-3.0f);
+    const double through =
+        1.0 - double(drawn({{{0, 0, 0}, 1.5f, 3.0f}}, parallel()).at(kWidth / 2, kHeight / 2)[3]);
+    EXPECT_GT(before, 0.1);
+    EXPECT_NEAR(behind / before, through, 0.02);
+    EXPECT_NEAR(within / before, std::sqrt(through), 0.04) << "half of the medium is before it";
 }
 
 TEST_F(Volume, framesAreBitEqual)
@@ -273,7 +319,8 @@ TEST_F(Volume, whatIsNotAskedForIsNotThere)
     EXPECT_NE(names().find("field fill"), std::string::npos);
     EXPECT_GT(view_->statistics().textureBytes, without + (1u << 20));
     (void)drawn(snapshot, camera());
-    EXPECT_EQ(names().find("field"), std::string::npos) << "at rest the field is kept";
+    for (const char* pass : {"field upload", "field texels", "field fill", "field light"})
+        EXPECT_EQ(names().find(pass), std::string::npos) << "at rest the field is kept";
     const base::FrameSnapshot nothing(&schema_, std::pmr::new_delete_resource());
     for (int i = 0; i < 400; ++i)
         (void)drawn(nothing, camera());

@@ -1,0 +1,95 @@
+#include "rendering/compositions/slabs/slab_media.h"
+
+#include "rendering/gl/gl_backend.h"
+#include "rendering/media/blob_estimate.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace fx::render {
+
+namespace {
+
+constexpr uint64_t kFewestCards = 4096;
+
+template <class T>
+T readBuffer(GlDevice& device, uint32_t name)
+{
+    T value{};
+    device.gl.GetNamedBufferSubData(name, 0, sizeof value, &value);
+    return value;
+}
+
+} // namespace
+
+SlabMedia::SlabMedia(const TechniqueSetup& setup)
+    : device_(*setup.device), cards_(setup.memory), rects_(setup.memory)
+{}
+
+void SlabMedia::gather(const GatherInputs& in, GatheredFrame& io)
+{
+    ballSource_ = nullptr;
+    cards_.clear();
+    for (const DrawStream& stream : *io.streams) {
+        if (stream.source->balls())
+            ballSource_ = stream.source;
+        else
+            cards_.push_back({stream.batch, 0, stream.count, stream.source});
+    }
+    io.streams->clear();
+    const HostTargets& targets = in.request->targets;
+    const FragmentCounts ofBalls = estimateFragments(io.blobs, *in.camera, targets.width, targets.height);
+    cardFragments_ = io.fragments[0] - std::min(io.fragments[0], ofBalls[0]);
+    width_ = targets.width;
+}
+
+void SlabMedia::begin(const ViewSettings& settings)
+{
+    counts_ = settings.countOverdraw;
+    forget();
+}
+
+/// Twice what is estimated, since rows may overlap more; for each texel at least one.
+uint64_t SlabMedia::cardCapacity(const MediaPass::Inputs& in) const
+{
+    const double scale = double(in.width) / double(std::max(width_, 1));
+    const uint64_t wanted = std::max({uint64_t(2.0 * scale * scale * double(cardFragments_)),
+                                      uint64_t(in.width) * uint64_t(in.height), kFewestCards});
+    return std::min(std::bit_ceil(wanted), kMostCards);
+}
+
+SlabMedia::Lists SlabMedia::list(FrameGraph& graph, const MediaPass::Inputs& in, ResourceId fieldTiles)
+{
+    const BallList balls = ballSource_ ? *ballSource_->balls() : BallList();
+    const uint64_t entries = findTiles(balls.instances, in.view, rects_);
+    capacity_ = cardCapacity(in);
+    Lists out{};
+    out.detail = balls.detail;
+    out.cards = SlabCardPass::addTo(graph, {cards_, &in, capacity_});
+    out.tiles = SlabTilePass::addTo(
+        graph, {rects_, entries, in.width, in.height, in.view.rayOriginY.w, out.cards, fieldTiles});
+    out.balls = SlabBallPass::addTo(graph, balls, in.view);
+    if (counts_) {
+        tiles_ = out.tiles.tiles;
+        heads_ = out.cards.heads;
+        graph.keep(tiles_);
+        if (heads_.valid())
+            graph.keep(heads_);
+    }
+    return out;
+}
+
+void SlabMedia::readBack(const GlBackend& backend, FrameStatistics& statistics)
+{
+    if (tiles_.valid()) {
+        const auto counts = readBuffer<SlabTileCounts>(device_, backend.bufferName(tiles_));
+        statistics.listedBalls += counts.listed;
+        statistics.spilledBalls += counts.spilled;
+    }
+    if (heads_.valid()) {
+        const uint64_t cards = readBuffer<uint32_t>(device_, backend.bufferName(heads_));
+        statistics.spilledCards += cards - std::min(cards, capacity_);
+    }
+}
+
+} // namespace fx::render

@@ -1,0 +1,61 @@
+/// @file slab_media.h
+/// Balls and cards of a view in lists of tiles, for whatever sums them up along rays.
+#pragma once
+
+#include "rendering/compositions/slabs/slab_passes.h"
+#include "rendering/techniques/draw_technique.h"
+
+namespace fx::render {
+
+/// Takes streams from a gathered frame, and lists them when the frame is drawn. Keeps its memory from frame
+/// to frame.
+class SlabMedia
+{
+public:
+    explicit SlabMedia(const TechniqueSetup& setup);
+
+    /// Takes all streams.
+    void gather(const GatherInputs& in, GatheredFrame& io);
+    /// In place of the balls that it has taken; null: none. Must stay, and have its buffers when list() is
+    /// called.
+    void replaceBalls(const MediaSource* balls) { ballSource_ = balls; }
+    bool isEmpty() const { return !ballSource_ && cards_.empty(); }
+
+    /// Begins the passes of a frame.
+    void begin(const ViewSettings& settings);
+
+    /// What list() has made.
+    struct Lists
+    {
+        SlabTilePass::Outputs tiles;
+        ResourceId balls; ///< as texels; invalid: none
+        bool detail;      ///< some of them have procedural detail, and it is drawn
+        CardLists cards;
+
+        SlabPass::Inputs inSlabs(const MediaPass::Inputs& media, int slabs) const
+        {
+            return {&media, balls, detail, tiles, cards, slabs};
+        }
+    };
+    /// Adds the passes that list balls and cards. A frame calls it once or twice.
+    /// @param fieldTiles as SlabTilePass
+    [[nodiscard]] Lists list(FrameGraph& graph, const MediaPass::Inputs& in, ResourceId fieldTiles = {});
+
+    void forget() { tiles_ = heads_ = {}; }
+    void readBack(const GlBackend& backend, FrameStatistics& statistics);
+
+private:
+    uint64_t cardCapacity(const MediaPass::Inputs& in) const;
+
+    GlDevice& device_;
+    const MediaSource* ballSource_ = nullptr; ///< of all balls; null: there are none
+    std::pmr::vector<DrawBatch> cards_;       ///< what else is drawn
+    std::pmr::vector<TileRect> rects_;
+    uint64_t cardFragments_ = 0; ///< estimated, of the whole picture
+    int width_ = 0;              ///< [pixel] of the picture
+    bool counts_ = false;        ///< what is listed and spilled
+    ResourceId tiles_, heads_;   ///< of the last frame, to be read back; invalid: not
+    uint64_t capacity_ = 0;      ///< of the last frame's cards
+};
+
+} // namespace fx::render

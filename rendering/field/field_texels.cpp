@@ -1,0 +1,59 @@
+#include "rendering/field/field_texels.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace fx::render {
+
+constexpr ProgramDesc kFieldTexelProgram{"field texels", nullptr, nullptr, "field/field_texels.comp.glsl",
+                                         nullptr};
+
+int rowsOfTexels(size_t count, int columns)
+{
+    return int(std::bit_ceil((std::max<size_t>(count, 1) + size_t(columns) - 1) / size_t(columns)));
+}
+
+void FieldTexels::build(const FieldPlan& plan, std::span<const FieldDetailBlock> details)
+{
+    constexpr size_t kDetailTexels = sizeof(FieldDetailBlock) / sizeof(glm::vec4);
+    const size_t firstDetail = sizeof(FieldBlock) / sizeof(glm::vec4) * plan.fields().size();
+    texels_.clear();
+    for (const FieldBlock& field : plan.fields()) {
+        glm::vec4 limits = field.limits;
+        limits.z = limits.z > 0.5f ? float(firstDetail + kDetailTexels * (size_t(limits.z) - 1)) : 0.0f;
+        texels_.insert(texels_.end(), {field.corner, glm::vec4(field.bricks), limits});
+    }
+    for (const FieldDetailBlock& detail : details) {
+        texels_.insert(texels_.end(), std::begin(detail.rows), std::end(detail.rows));
+        texels_.insert(texels_.end(), {detail.erosion, detail.noise, detail.lumps});
+    }
+    tiles_.assign(plan.tiles().begin(), plan.tiles().end());
+    for (FieldTileBlock& tile : tiles_)
+        tile.first += uint32_t(texels_.size());
+    for (const uint32_t field : plan.tileFields())
+        texels_.push_back({float(field), 0.0f, 0.0f, 0.0f});
+}
+
+ResourceId FieldTexelPass::addTo(FrameGraph& graph, ResourceId list, size_t count, ResourceId texture)
+{
+    ResourceId written;
+    graph.addPass("field texels", [&](FrameGraph::Builder& builder) {
+        builder.read(list);
+        written = builder.write(texture);
+        return [list, count, written](Backend& backend) {
+            const BufferBinding buffers[] = {{0, list}};
+            const ImageBinding images[] = {{0, written}};
+            const glm::ivec4 counts(int(count), 0, 0, 0);
+            DispatchCall call;
+            call.program = &kFieldTexelProgram;
+            call.buffers = buffers;
+            call.images = images;
+            call.uniforms = asUniforms(counts);
+            call.groups[0] = uint32_t((count + 63) / 64);
+            backend.dispatch(call);
+        };
+    });
+    return written;
+}
+
+} // namespace fx::render

@@ -1,0 +1,141 @@
+// What lies in one slab across a ray, and slabs put together front to back. Needs formulas/slab_light.fx.h. FX_LAYERS as in
+// media.frag.glsl.
+#if FX_LAYERS
+#include "shared/layer_outputs.glsl"
+const int kLayers = 3; // fire, smoke, dust
+const float kLeastThrough = -1.0; // the optical depth is that of the whole ray
+#else
+layout(location = 0) out vec4 light;
+const int kLayers = 1;
+const float kLeastThrough = 1e-4; // [1] transmittance behind which nothing is seen
+#endif
+
+const float kThinSlab = 0.02; // [1] optical depth below which light is a polynomial: nothing is divided by it
+
+struct SlabSums
+{
+    float depth;         // [1]
+    float moment;        // [1] of the depth, from -1/2 to 1/2 of it
+    vec3 light[kLayers]; // emitted, of each layer
+    vec3 slope[kLayers]; // first moment of that
+#if FX_LAYERS
+    vec3 share;          // [1] depth of fire, smoke and dust
+#endif
+};
+
+// What is seen of the slabs so far.
+struct SlabPicture
+{
+    float through; // [1] transmittance
+    vec3 light[kLayers];
+#if FX_LAYERS
+    vec3 covered;    // [1] opacity of fire, smoke and dust
+    float distances; // [m] weighted by opacity
+    float depths;    // [1]
+#endif
+};
+
+SlabSums emptySlab()
+{
+    SlabSums sums;
+    sums.depth = sums.moment = 0.0;
+    for (int l = 0; l < kLayers; ++l)
+        sums.light[l] = sums.slope[l] = vec3(0.0);
+#if FX_LAYERS
+    sums.share = vec3(0.0);
+#endif
+    return sums;
+}
+
+SlabPicture emptyPicture()
+{
+    SlabPicture picture;
+    picture.through = 1.0;
+    for (int l = 0; l < kLayers; ++l)
+        picture.light[l] = vec3(0.0);
+#if FX_LAYERS
+    picture.covered = vec3(0.0);
+    picture.distances = picture.depths = 0.0;
+#endif
+    return picture;
+}
+
+vec3 thinLight(float depth, vec3 light, float moment, vec3 slope)
+{
+    return vec3(fxSlabThinLight(depth, light.r, moment, slope.r), fxSlabThinLight(depth, light.g, moment, slope.g),
+                fxSlabThinLight(depth, light.b, moment, slope.b));
+}
+
+#if FX_LAYERS
+// What the slopes of all layers are multiplied by, so that the source of their sum is nowhere negative; one channel.
+float slopeScale(float depth, float light, float moment, float slope)
+{
+    float perDepth = 1.0 / max(depth, 1e-12);
+    float free = 12.0 * (slope - light * perDepth * moment) * perDepth;
+    return free != 0.0 ? fxSlabSlope(depth, light, moment, slope) / free : 1.0;
+}
+#else
+float thickLight(float depth, float light, float moment, float slope)
+{
+    float emitted = max(light, 0.0);
+    return fxSlabLight(depth, emitted, fxSlabSlope(depth, emitted, moment, slope));
+}
+#endif
+
+// @param near, far [m] faces of the slab
+void putBehind(inout SlabPicture picture, SlabSums sums, float near, float far)
+{
+    float depth = sums.depth;
+    float opacity = fxSlabOpacity(depth);
+#if FX_LAYERS
+    vec3 lights = max(sums.light[0] + sums.light[1] + sums.light[2], vec3(0.0));
+    vec3 slopes = sums.slope[0] + sums.slope[1] + sums.slope[2];
+    vec3 scale = vec3(slopeScale(depth, lights.r, sums.moment, slopes.r), slopeScale(depth, lights.g, sums.moment, slopes.g),
+                      slopeScale(depth, lights.b, sums.moment, slopes.b));
+    bool isThin = depth < kThinSlab;
+    float perDepth = 1.0 / max(depth, 1e-12);
+    for (int l = 0; l < kLayers; ++l) {
+        vec3 own = sums.light[l];
+        vec3 thin = thinLight(depth, own, sums.moment, sums.slope[l]);
+        vec3 slope = scale * 12.0 * (sums.slope[l] - own * (perDepth * sums.moment)) * perDepth;
+        vec3 thick = vec3(fxSlabLight(depth, own.r, slope.r), fxSlabLight(depth, own.g, slope.g),
+                          fxSlabLight(depth, own.b, slope.b));
+        picture.light[l] += picture.through * (isThin ? thin : thick);
+    }
+    float opacityPerDepth = isThin ? 1.0 - depth * (0.5 - depth * 0.166666667) : opacity * perDepth;
+    picture.covered += picture.through * opacityPerDepth * sums.share;
+    picture.distances += picture.through * (opacity * 0.5 * (near + far) + (far - near) * fxSlabSlopeWeight(depth));
+    picture.depths += depth;
+#else
+    vec3 own = sums.light[0], slope = sums.slope[0];
+    vec3 thick = vec3(thickLight(depth, own.r, sums.moment, slope.r), thickLight(depth, own.g, sums.moment, slope.g),
+                      thickLight(depth, own.b, sums.moment, slope.b));
+    picture.light[0] += picture.through * (depth < kThinSlab ? thinLight(depth, own, sums.moment, slope) : thick);
+#endif
+    picture.through *= 1.0 - opacity;
+}
+
+// What hides by its optical depth and is not seen.
+void hide(inout SlabPicture picture, float depth)
+{
+    picture.through *= exp(-depth);
+#if FX_LAYERS
+    picture.depths += depth;
+#endif
+}
+
+// To the targets of the media pass.
+void writePicture(SlabPicture picture)
+{
+    float alpha = max(1.0 - picture.through, 0.0); // rims of fields may be below 0, see voxel-kernel
+#if FX_LAYERS
+    fireLight = vec4(max(picture.light[0], vec3(0.0)), alpha);
+    smokeLight = vec4(max(picture.light[1], vec3(0.0)), alpha);
+    dustLight = vec4(max(picture.light[2], vec3(0.0)), alpha);
+    coverage = vec4(max(picture.covered, vec3(0.0)), alpha);
+    depthMoment = vec4(max(picture.distances, 0.0), 0.0, 0.0, alpha);
+    opticalDepthSum = vec4(max(picture.depths, 0.0), 0.0, 0.0, 0.0);
+#else
+    light = vec4(max(picture.light[0], vec3(0.0)), alpha);
+#endif
+}

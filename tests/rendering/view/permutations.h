@@ -1,0 +1,15 @@
+/// @file permutations.h
+/// How many random orders a test draws.
+#pragma once
+
+#include <cstdlib>
+
+namespace fx::test {
+
+/// 40, or 1000 where FXSDK_LONG_RUN is set.
+inline int permutations()
+{
+    return std::getenv("FXSDK_LONG_RUN") ? 1000 : 40;
+}
+
+} // namespace fx::test
