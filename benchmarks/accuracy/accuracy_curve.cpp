@@ -184,6 +184,7 @@ std::vector<nlohmann::json> curveJson(const AccuracyCurve& curve)
                          {"instructions_by", curve.instructionsBy},
                          {"variance", numberOrNull(point.sample.variance)},
                          {"efficiency_ratio", numberOrNull(efficiencyRatio(curve, k))},
+                         {"as_promised", point.sample.isAsPromised},
                          {"threads", curve.threads},
                          {"commit", commitName()},
                          {"work", point.sample.work}});

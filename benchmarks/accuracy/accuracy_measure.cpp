@@ -73,6 +73,8 @@ base::Result<std::vector<AccuracyTask>> accuracyTasks(const std::string& techniq
         names.emplace_back(entry.name);
         if (entry.name == technique)
             return tasksOf(entry, scene);
+        if (entry.hasFrames)
+            continue;
         const auto tasks = tasksOf(entry, {});
         all.insert(all.end(), tasks->begin(), tasks->end());
     }

@@ -42,12 +42,18 @@ struct AccuracySample
     nlohmann::json work = nlohmann::json::object(); ///< counters
     double variance = 0; ///< of one item, for techniques that draw random numbers; 0 for all others
     std::string note;    ///< at the end of the row of the table
+
+    /// Of techniques with a bound: whether the setting keeps it or, if it is a control, breaks it.
+    bool isAsPromised = true;
 };
 
 struct AccuracyScale
 {
     uint32_t particles = 0; ///< size of the baseline, 0 for the technique's own
     uint32_t threads = 1;
+    uint32_t frames = 0;       ///< of a sequence, 0 for the technique's own, as the next
+    int width = 0, height = 0; ///< [pixel]
+    double bound = 0.0;        ///< [1] of the change from frame to frame, in units of the reference's
 };
 
 class AccuracyTechnique
@@ -93,8 +99,9 @@ struct AccuracyTechniqueEntry
     ShownError shown;
     std::vector<std::string> scenes;
     size_t usualScenes; ///< so many of them, from the first, are run when none is named
-    bool isScalable;    ///< takes AccuracyScale into account
+    bool isScalable;    ///< takes particles and threads of AccuracyScale into account
     std::unique_ptr<AccuracyTechnique> (*make)(const std::string& scene, const AccuracyScale& scale);
+    bool hasFrames = false; ///< takes the rest of it into account; not among those of "all", since it is long
 };
 
 /// All techniques, in the order of techniques/CMakeLists.txt.

@@ -32,6 +32,11 @@ struct Subject
     bool withDazzle = false; ///< otherwise there is no glare: it would hide differences
 };
 
+Knobs mediaKnobs(render::BillboardForm form, bool detail, float particles)
+{
+    return {{"billboards", float(form)}, {"detail", detail ? 1.0f : 0.0f}, {"particles", particles}};
+}
+
 Subject media()
 {
     Subject subject{"media",
@@ -47,19 +52,19 @@ Subject media()
         for (const auto form :
              {render::BillboardForm::Kernel, render::BillboardForm::Constant, render::BillboardForm::Planar})
             for (const bool detail : {true, false})
-                subject.settings.push_back({form, detail, particles});
+                subject.settings.push_back(mediaKnobs(form, detail, particles));
     for (const float bias : {1.0f, 4.0f, 16.0f})
         for (const float particles : {1.0f, 0.5f, 0.25f})
             for (const bool detail : {true, false}) {
-                Knobs knobs{render::BillboardForm::Kernel, detail, particles};
-                knobs.lodBias = bias;
+                Knobs knobs = mediaKnobs(render::BillboardForm::Kernel, detail, particles);
+                knobs.set("lodBias", bias);
                 subject.settings.push_back(knobs);
             }
     for (const float particles : {1.0f, 0.5f}) // fewer look-ups of light, and scattered once alone
         for (const bool multiple : {true, false}) {
-            Knobs knobs{render::BillboardForm::Kernel, true, particles};
-            knobs.lightSamples = 1.0f;
-            knobs.multiple = multiple;
+            Knobs knobs = mediaKnobs(render::BillboardForm::Kernel, true, particles);
+            knobs.set("lightSamples", 1.0f);
+            knobs.set("multiple", multiple ? 1.0f : 0.0f);
             subject.settings.push_back(knobs);
         }
     return subject;
@@ -71,21 +76,15 @@ Subject lightSlices()
                     {},
                     {{"library:explosion", 0.5}, {"library:smoke-column", 4.0}, {"library:dust-burst", 1.0}},
                     false};
-    for (const float planes : {32.0f, 24.0f, 16.0f, 8.0f, 4.0f}) {
-        Knobs knobs;
-        knobs.slicePlanes = planes;
-        subject.settings.push_back(knobs);
-    }
+    for (const float planes : {32.0f, 24.0f, 16.0f, 8.0f, 4.0f})
+        subject.settings.push_back({{"slicePlanes", planes}});
     return subject;
 }
 
 Subject dazzle()
 {
-    Knobs on, off;
-    on.dazzle = true;
-    off.dazzle = false;
     return {"dazzle",
-            {on, off},
+            {{{"dazzle", 1.0f}}, {{"dazzle", 0.0f}}},
             {{"library:explosion", 0.2}, {"library:gas-fire", 2.5}, {"library:campfire", 2.5}},
             true,
             true};
@@ -93,10 +92,10 @@ Subject dazzle()
 
 Subject shimmer()
 {
-    Knobs on, off;
-    on.shimmer = true;
-    off.shimmer = false;
-    return {"shimmer", {on, off}, {{"library:campfire", 2.5}, {"library:gas-fire", 2.5}}, true};
+    return {"shimmer",
+            {{{"shimmer", 1.0f}}, {{"shimmer", 0.0f}}},
+            {{"library:campfire", 2.5}, {"library:gas-fire", 2.5}},
+            true};
 }
 
 /// One preset at one moment, and all its settings drawn again and again.

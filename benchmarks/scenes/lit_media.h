@@ -75,6 +75,8 @@ public:
     /// @param slices of the view's settings
     base::Result<LitPicture> paint(std::span<const render::MediumBlob> blobs, const LitView& view,
                                    const render::SliceSettings& slices);
+    /// Of the next picture. What a LitView says, slices, shimmer and glare are set by paint().
+    render::ViewSettings& settings() { return renderer_->settings(); }
     const std::string& rendererName() const { return renderer_->rendererName(); }
 
 private:

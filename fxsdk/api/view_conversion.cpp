@@ -75,6 +75,7 @@ void checkSlices(fx::api::Checks& check, const FxViewSettings& given)
     check.range(given.castingLights, 0u, 4u, "settings.castingLights");
     check.range(given.lightSamples, 1u, 4u, "settings.lightSamples");
     check.flag(given.multipleScattering, "settings.multipleScattering");
+    check.range(given.lightRefreshFrames, 1u, 16u, "settings.lightRefreshFrames");
 }
 
 void checkComposition(fx::api::Checks& check, const FxViewSettings& given)
@@ -152,6 +153,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     slices.castingPoints = int(given.castingLights);
     slices.samples = int(given.lightSamples);
     slices.multiple = given.multipleScattering != 0;
+    slices.refreshFrames = int(given.lightRefreshFrames);
     settings.composition = render::Composition(given.composition);
     settings.slabs = int(given.slabs);
     settings.voxels = int(given.voxels);

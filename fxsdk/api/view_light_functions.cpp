@@ -22,6 +22,7 @@ using fx::render::LightKind;
 static_assert(int(FX_LIGHT_SUN) == int(LightKind::Sun));
 static_assert(int(FX_LIGHT_HOST) == int(LightKind::Host));
 static_assert(int(FX_LIGHT_EFFECT) == int(LightKind::Effect));
+static_assert(int(FX_LIGHT_SKY) == int(LightKind::Sky));
 static_assert(FX_MOST_LIGHTS == fx::render::kMostHostLights);
 
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -123,6 +124,17 @@ FxLight toApi(const fx::render::EffectLight& light)
     return api;
 }
 
+FxLightCost toApi(const fx::render::LightCost& cost)
+{
+    FxLightCost api = {};
+    api.kind = uint32_t(cost.origin.kind);
+    api.index = cost.origin.index;
+    api.planes = cost.planes;
+    api.bytes = cost.texels * fx::render::kSliceTexelBytes;
+    api.rays = cost.rays;
+    return api;
+}
+
 } // namespace
 
 bool fx::api::ShownFrame::isSameAs(const FxFrameDef& frame) const
@@ -183,6 +195,26 @@ FxResult fxView_GetEffectLightCount(FxView* view, uint32_t* outCount)
             return fx::api::invalid("outCount is null");
         *outCount = uint32_t(view->renderer.effectLights().size());
         return {};
+    });
+}
+
+FxResult fxView_GetLightCostCount(FxView* view, uint32_t* outCount)
+{
+    return fx::api::insideView("fxView_GetLightCostCount", view, [&]() -> Status {
+        if (!outCount)
+            return fx::api::invalid("outCount is null");
+        *outCount = uint32_t(view->renderer.lights().costCount());
+        return {};
+    });
+}
+
+FxResult fxView_GetLightCost(FxView* view, uint32_t index, FxLightCost* ioCost)
+{
+    return fx::api::insideView("fxView_GetLightCost", view, [&]() -> Status {
+        const fx::render::LightList& lights = view->renderer.lights();
+        if (index >= lights.costCount())
+            return fx::api::invalid("the last frame has fewer lights than index");
+        return fx::api::writeStruct(toApi(lights.costOf(index)), ioCost, "ioCost");
     });
 }
 

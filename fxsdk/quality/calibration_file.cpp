@@ -46,7 +46,7 @@ Knobs readKnobs(const Json& setting)
     Knobs knobs;
     forEachKnob([&](const QualityKnob& knob) {
         if (const auto it = setting.find(knob.name); it != setting.end())
-            setValue(knob.name, readValue(knob, *it), knobs);
+            knobs.set(knob.name, readValue(knob, *it));
     });
     return knobs;
 }
@@ -164,7 +164,7 @@ nlohmann::ordered_json toJson(const Knobs& knobs)
 {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     forEachKnob([&](const QualityKnob& knob) {
-        const std::optional<float> value = valueOf(knobs, knob.name);
+        const std::optional<float> value = knobs.valueOf(knob.name);
         if (!value)
             return;
         nlohmann::ordered_json& member = json[std::string(knob.name)];
@@ -200,7 +200,7 @@ std::string toText(const Knobs& knobs)
     std::string text;
     const auto addAll = [&](QualityKnob::Type type) {
         forEachKnob([&](const QualityKnob& knob) {
-            const std::optional<float> value = valueOf(knobs, knob.name);
+            const std::optional<float> value = knobs.valueOf(knob.name);
             if (knob.type == type && value)
                 text += (text.empty() ? "" : ", ") + partOf(knob, *value);
         });

@@ -1,53 +1,31 @@
 #include "fxsdk/quality/scalability_levels.h"
 
 #include <algorithm>
-#include <type_traits>
-#include <utility>
+#include <cassert>
 
 namespace fx::quality {
 
-namespace {
-
-/// Calls f(name, member) for every member of `knobs`.
-template <class K, class F>
-void forEachMember(K& knobs, F&& f)
+std::optional<float> Knobs::valueOf(std::string_view name) const
 {
-    f("billboards", knobs.billboards);
-    f("detail", knobs.detail);
-    f("particles", knobs.particles);
-    f("shimmer", knobs.shimmer);
-    f("lodBias", knobs.lodBias);
-    f("dazzle", knobs.dazzle);
-    f("slicePlanes", knobs.slicePlanes);
-    f("lightSamples", knobs.lightSamples);
-    f("multiple", knobs.multiple);
+    const auto end = settings_.begin() + ptrdiff_t(count_);
+    const auto found = std::find_if(settings_.begin(), end, [&](const Setting& s) { return s.name == name; });
+    return found != end ? std::optional(found->value) : std::nullopt;
 }
 
-} // namespace
-
-std::optional<float> valueOf(const Knobs& knobs, std::string_view name)
+void Knobs::set(std::string_view name, float value)
 {
-    std::optional<float> value;
-    forEachMember(knobs, [&](std::string_view member, const auto& setting) {
-        if (member == name && setting)
-            value = float(*setting);
-    });
-    return value;
-}
-
-void setValue(std::string_view name, float value, Knobs& ioKnobs)
-{
-    forEachMember(ioKnobs, [&](std::string_view member, auto& setting) {
-        using Value = typename std::remove_reference_t<decltype(setting)>::value_type;
-        if (member == name)
-            setting = Value(value);
-    });
+    const auto end = settings_.begin() + ptrdiff_t(count_);
+    const auto found = std::find_if(settings_.begin(), end, [&](const Setting& s) { return s.name == name; });
+    assert(found != settings_.end());
+    *found = {name, value};
+    if (found == end)
+        ++count_;
 }
 
 void apply(const Knobs& knobs, render::ViewSettings& ioSettings)
 {
     forEachKnob([&](const render::QualityKnob& knob) {
-        if (const std::optional<float> value = valueOf(knobs, knob.name))
+        if (const std::optional<float> value = knobs.valueOf(knob.name))
             knob.lower(*value, ioSettings);
     });
 }
@@ -56,8 +34,8 @@ Knobs merged(const Knobs& first, const Knobs& second)
 {
     Knobs both = second;
     forEachKnob([&](const render::QualityKnob& knob) {
-        if (const std::optional<float> value = valueOf(first, knob.name))
-            setValue(knob.name, *value, both);
+        if (const std::optional<float> value = first.valueOf(knob.name))
+            both.set(knob.name, *value);
     });
     return both;
 }

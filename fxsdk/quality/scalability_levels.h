@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,19 +16,32 @@ namespace fx::quality {
 
 constexpr size_t kMostTechniques = 8; ///< techniques that are chosen at once
 constexpr size_t kMostSteps = 16;     ///< of one technique
+constexpr size_t kMostKnobs = 16;     ///< of all techniques
 
-/// The settings of techniques that a step lowers; what is absent stays as the host has it.
-struct Knobs
+/// Settings of techniques that a step lowers, by render::QualityKnob::name; what is absent stays as the host
+/// has it.
+class Knobs
 {
-    std::optional<render::BillboardForm> billboards = std::nullopt;
-    std::optional<bool> detail = std::nullopt;
-    std::optional<float> particles = std::nullopt; ///< [1] share that is drawn, (0, 1]
-    std::optional<bool> shimmer = std::nullopt;
-    std::optional<float> lodBias = std::nullopt; ///< [1] of render::LodSettings, at least so much, [0, 256]
-    std::optional<bool> dazzle = std::nullopt;
-    std::optional<float> slicePlanes = std::nullopt;  ///< of a light, [3, 128]; four times as many texels
-    std::optional<float> lightSamples = std::nullopt; ///< points of a ray through a ball that are lit, [1, 4]
-    std::optional<bool> multiple = std::nullopt;      ///< light that is scattered more than once
+public:
+    struct Setting
+    {
+        std::string_view name; ///< has static storage
+        float value;           ///< as of render::QualityKnob::lower
+    };
+
+    Knobs() = default;
+    Knobs(std::initializer_list<Setting> settings)
+    {
+        for (const Setting& setting : settings)
+            set(setting.name, setting.value);
+    }
+
+    std::optional<float> valueOf(std::string_view name) const;
+    void set(std::string_view name, float value); ///< no more than kMostKnobs names
+
+private:
+    std::array<Setting, kMostKnobs> settings_{};
+    size_t count_ = 0;
 };
 
 /// One setting of a technique.
@@ -50,11 +64,6 @@ struct Calibration
     std::string origin; ///< machine and version that measured it
     std::vector<ScalabilityLevels> techniqueLevels;
 };
-
-/// The value of the setting that render::QualityKnob::name names; nothing: it is absent, or there is no such
-/// one.
-std::optional<float> valueOf(const Knobs& knobs, std::string_view name);
-void setValue(std::string_view name, float value, Knobs& ioKnobs);
 
 /// Calls f(knob) for every render::QualityKnob of the techniques, in their order.
 template <class F>

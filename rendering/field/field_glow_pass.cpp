@@ -29,21 +29,20 @@ void setGroups(DispatchCall& ioCall, uint32_t grids)
 void addSource(FrameGraph& graph, const FieldGlowPass::Inputs& in, GlowTextures& io)
 {
     graph.addPass("glow source", [&](FrameGraph::Builder& builder) {
-        for (const ResourceId id : {in.fieldTexels, in.field.table, in.grids, in.field.medium, in.field.scatter,
-                                    in.field.material[0], in.field.material[1], in.lumpTile})
+        for (const ResourceId id :
+             {in.fieldTexels, in.field.table, in.grids, in.field.medium, in.field.scatter,
+              in.field.material[0], in.field.material[1], in.lumpTile})
             if (id.valid())
                 builder.read(id);
         io.cells = builder.write(io.cells);
         io.scatter = builder.write(io.scatter);
         return [in, io](Backend& backend) {
             const glm::ivec4 counts(int(in.fieldCount), 0, 0, 0);
-            const TextureBinding textures[] = {{0, in.field.medium, Sampling::Linear},
-                                               {1, in.field.scatter, Sampling::Linear},
-                                               {kFieldTexelUnit, in.fieldTexels},
-                                               {kBrickTableUnit, in.field.table},
-                                               {2, in.field.material[0], Sampling::Linear},
-                                               {3, in.field.material[1], Sampling::Linear},
-                                               {10, in.lumpTile, Sampling::LinearRepeat}};
+            const TextureBinding textures[] = {
+                {0, in.field.medium, Sampling::Linear},      {1, in.field.scatter, Sampling::Linear},
+                {kFieldTexelUnit, in.fieldTexels},           {kBrickTableUnit, in.field.table},
+                {2, in.field.material[0], Sampling::Linear}, {3, in.field.material[1], Sampling::Linear},
+                {10, in.lumpTile, Sampling::LinearRepeat}};
             const ImageBinding images[] = {{0, io.cells}, {1, io.scatter}};
             const BufferBinding buffers[] = {{3, in.grids}};
             DispatchCall call;

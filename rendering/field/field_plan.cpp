@@ -15,8 +15,6 @@ namespace fx::render {
 
 namespace {
 
-constexpr float kPeak =
-    1.04445431404056f;                  ///< extinction in the center of a ball over cross section / radius^3
 constexpr float kPixelsPerVoxel = 1.5f; ///< finer voxels would not be seen
 constexpr float kRadii = 16.0f;         ///< of balls along which there are as many voxels as asked for
 constexpr int kFewestVoxels = 16, kMostVoxels = 256; ///< along those
@@ -26,6 +24,7 @@ constexpr float kLooseFire = 1.5f;    ///< likewise, of fire: a spark is far bri
 constexpr int kMostBricksAlong = 128; ///< of a field, along an axis
 constexpr int64_t kMostBricksOfBox = 1 << 16; ///< of a field, with the empty ones
 constexpr int kMostTries = 64;                ///< to keep the budget of bricks
+constexpr int kSmoothFirst = 8;               ///< of them, in which fields with detail stay as fine
 constexpr float kLeastVoxel = 1e-4f;          ///< [m]
 constexpr float kTouch = 1.0001f;             ///< radii are compared with a margin, for what the GPU rounds
 constexpr uint32_t kUnseen = ~0u;             ///< entry of the table: medium that no ray meets
@@ -111,14 +110,24 @@ void FieldPlan::build(const FieldPlanInputs& in)
     if (in.balls.empty())
         return;
     chooseVoxels(in);
+    const auto isDetailed = [](const BlobEffect& effect) { return effect.detail >= 0; };
+    const bool isMixed =
+        std::ranges::any_of(in.effects, isDetailed) && !std::ranges::all_of(in.effects, isDetailed);
     for (int i = 0; i < kMostTries && !place(in); ++i)
-        for (Lattice& lattice : lattices_)
-            lattice.voxel *= kStep;
+        enlargeVoxels(in, isMixed && i < kSmoothFirst);
     listBricks();
     listBalls(in);
     listTiles(in);
     if (in.glows)
         glow_.build(fields_, emitted_, in.camera->eye);
+}
+
+/// Smooth fields lose less by it than those with detail, whose thresholds depend on extinctions.
+void FieldPlan::enlargeVoxels(const FieldPlanInputs& in, bool smoothOnly)
+{
+    for (size_t i = 0; i < lattices_.size(); ++i)
+        if (!smoothOnly || in.effects[i].detail < 0)
+            lattices_[i].voxel *= kStep;
 }
 
 bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel)
@@ -283,8 +292,7 @@ void FieldPlan::listBall(const FieldBlock& field, const BlobInstance& ball, uint
 {
     const float radius = std::max(ball.centerRadius.w, field.limits.x);
     const float fineness = field.corner.w * field.corner.w / (radius * radius);
-    const float peak =
-        kPeak * ball.medium.x / (radius * radius * radius) * formula::fxVoxelKernel(0.0f, fineness);
+    const float peak = formula::fxKernelPeak(ball.medium.x, radius) * formula::fxVoxelKernel(0.0f, fineness);
     BrickRange(field, ball).forEach(field, [&](size_t index) {
         if (table_[index] == 0)
             return;

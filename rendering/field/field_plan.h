@@ -71,6 +71,7 @@ private:
 
     void chooseVoxels(const FieldPlanInputs& in);
     static void bound(Lattice& lattice, const FieldPlanInputs& in, const BlobEffect& effect);
+    void enlargeVoxels(const FieldPlanInputs& in, bool smoothOnly);
     bool place(const FieldPlanInputs& in); ///< false: too many bricks
     bool placeField(Lattice& lattice, int detail, const CameraGeometry& camera);
     static bool isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel);

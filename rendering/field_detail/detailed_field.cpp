@@ -3,6 +3,7 @@
 #include "foundation/math/geometry.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/material_kind.h"
+#include "shaders/formulas/formula.h"
 
 #include <glm/geometric.hpp>
 
@@ -13,12 +14,9 @@ namespace fx::render {
 
 namespace {
 
-constexpr float kPeak = 1.04445431404056f; ///< kernel-optical-depth (1), 105 / (32 pi)
-
 float extinctionOf(const DetailedBall& ball, const glm::vec3& away)
 {
-    const float q = std::max(1.0f - glm::dot(away, away) / (ball.radius * ball.radius), 0.0f);
-    return kPeak * ball.crossSection / (ball.radius * ball.radius * ball.radius) * q * q;
+    return formula::fxKernelExtinction(ball.crossSection, ball.radius, glm::dot(away, away));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "foundation/snapshot/material_kind.h"
 #include "shaders/formulas/formula.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fx::render {
@@ -22,12 +23,19 @@ glm::vec3 offsetOf(uint32_t generation)
     return float(kLumpCells) * glm::vec3(part(0), part(1), part(2));
 }
 
-/// Sum of broad lumps and octaves of deviation 1 at a place in cells.
-float octavesAt(const LumpTile& tile, glm::vec3 p, float length, float gain, float pixel, int octaves)
+/// Sum of broad lumps and octaves, which would have deviation 1 without fading.
+struct Octaves
+{
+    float sum;
+    float faded; ///< variance of what has faded out
+};
+
+/// At a place in cells.
+Octaves octavesAt(const LumpTile& tile, glm::vec3 p, float length, float gain, float pixel, int octaves)
 {
     const float broad = formula::fxBroadAmplitude();
     const float seen = formula::fxOctaveBand(formula::fxBroadSize() * length, pixel);
-    float sum = 0, variance = broad * broad, amplitude = 1;
+    float amplitude = 1, sum = 0, variance = broad * broad, shown = broad * broad * seen * seen;
     if (seen > 0.0f)
         sum = broad * seen *
               tile.at({formula::fxBroadPlace(p.x), formula::fxBroadPlace(p.y), formula::fxBroadPlace(p.z)});
@@ -35,13 +43,14 @@ float octavesAt(const LumpTile& tile, glm::vec3 p, float length, float gain, flo
         const float band = formula::fxOctaveBand(length, pixel);
         if (band > 0.0f)
             sum += amplitude * band * tile.at(p);
+        shown += amplitude * amplitude * band * band;
         variance += amplitude * amplitude; // of all octaves: those that are missing have their mean
         p = {formula::fxNextOctaveX(p.x, p.z), formula::fxNextOctaveY(p.x, p.y, p.z),
              formula::fxNextOctaveZ(p.x, p.y, p.z)};
         amplitude *= gain;
         length *= 1.0f / 2.03f;
     }
-    return sum / std::sqrt(variance);
+    return {sum / std::sqrt(variance), std::max(1.0f - shown / variance, 0.0f)};
 }
 
 float placeOf(const FieldDetailNumbers& numbers, float extinction)
@@ -86,19 +95,38 @@ MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, c
         return {0.0f, 1.0f, 0.0f};
     if (s >= 1.0f + numbers.ramp + kDeepest)
         return {}; // whole inside: no noise is needed
-    float z[2];
+    Octaves z[2];
     for (size_t g = 0; g < 2; ++g) {
         const FieldDetailNumbers::Generation& own = numbers.generations[g];
         z[g] = octavesAt(tile, medium.place[g] / own.length + own.offset, own.length / own.growth,
                          numbers.gain, pixel, octaves);
     }
     MediumDetail detail;
-    detail.noise = formula::fxBlendGenerations(z[0], z[1], numbers.fade);
+    detail.noise = formula::fxBlendGenerations(z[0].sum, z[1].sum, numbers.fade);
+    const float faded = formula::fxBlendFaded(z[0].faded, z[1].faded, numbers.fade);
     const float h = formula::fxDetailThreshold(detail.noise);
-    detail.share = formula::fxDetailShare(s, h, numbers.ramp) * formula::fxDetailGain(s, numbers.ramp);
+    detail.share = formula::fxDetailShareOver(s, detail.noise, faded, numbers.ramp) *
+                   formula::fxDetailGain(s, numbers.ramp);
     detail.temperature =
         formula::fxDetailTemperature(1.0f, s, h, numbers.ramp, detail.noise, numbers.cooling, numbers.glow);
     return detail;
+}
+
+/// k n grows up to the place where m = 1/6; from there its logarithm is convex in s, so that the largest
+/// value is at an end.
+float mostLeft(const FieldDetailNumbers& numbers, float most)
+{
+    constexpr float kMargin = 1.0f + 1e-5f;
+    const float w = numbers.ramp, s = placeOf(numbers, most);
+    if (s <= 0.0f)
+        return 0.0f;
+    const float capped = w > 1.0f / 3.0f ? std::sqrt(w / 3.0f) : 1.0f / 6.0f + 0.5f * w; // m = 1/6
+    const float atEnd = most * formula::fxDetailGain(s, w);
+    if (s <= capped)
+        return kMargin * atEnd;
+    const float extinction =
+        numbers.thinnest / numbers.length() * std::pow(numbers.densest / numbers.thinnest, capped);
+    return kMargin * std::max(atEnd, extinction * formula::fxDetailGain(capped, w));
 }
 
 float keptShare(const FieldDetailNumbers& numbers, float extinction)

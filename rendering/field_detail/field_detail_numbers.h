@@ -13,6 +13,7 @@
 namespace fx::render {
 
 constexpr int kMostDetailOctaves = 5;
+constexpr float kMostDetailGain = 6.0f; ///< n of field-detail is no more
 
 /// Constants of a group of the kind "material" at a moment.
 struct FieldDetailNumbers
@@ -57,6 +58,10 @@ struct MediumDetail
 /// @param pixel [m] width of a pixel there  @param octaves 1 .. kMostDetailOctaves
 MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, const SmoothMedium& medium,
                       float pixel, int octaves);
+
+/// [1/m] at least what is left of a smooth extinction of at most `most`, whatever the noise. By
+/// GroupDetail::factor it is still to be multiplied.
+float mostLeft(const FieldDetailNumbers& numbers, float most);
 
 /// n m of field-detail: the mean of what is left, over the smooth field.
 float keptShare(const FieldDetailNumbers& numbers, float extinction);

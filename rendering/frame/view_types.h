@@ -101,6 +101,10 @@ struct SliceSettings
     int castingPoints = 2; ///< 0..4 lights at points that cast shadows through media, those that light most
     int samples = 2;       ///< 1..4 points of a ray through a ball at which light is looked up
     bool multiple = true;  ///< light that is scattered more than once counts
+    int refreshFrames = 1; ///< 1..16 frames after which planes follow media that move
+
+    bool snapped = true; ///< texels and planes keep their places in the world; false: they follow media and
+                         ///< eye, to measure what that does to the picture
 
     bool operator==(const SliceSettings&) const = default;
 };

@@ -4,11 +4,11 @@
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/field_detail/blob_detail.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/lights/medium_caster.h"
 #include "rendering/lod/impostor_field.h"
 #include "rendering/lod/level_of_detail.h"
-#include "rendering/media/blob_detail.h"
 
 #include <glm/vec3.hpp>
 

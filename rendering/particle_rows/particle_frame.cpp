@@ -240,8 +240,8 @@ void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placeme
     b.placePosition = {glm::vec3(place.position), place.scale};
     b.placeRotation = {place.rotation.x, place.rotation.y, place.rotation.z, place.rotation.w};
     b.alignAxis = {axis, c[constant::Alignment]};
-    b.look = {c[isStrip ? constant::TailAge : constant::Aspect], c[constant::Stretch], c[constant::Softness],
-              c[constant::Blend]};
+    b.appearance = {c[isStrip ? constant::TailAge : constant::Aspect], c[constant::Stretch],
+                    c[constant::Softness], c[constant::Blend]};
     b.shine = {c[constant::Luminance] * exposure, c[constant::Lit], c[constant::Layer], 0.0f};
     b.moment = {float(glm::clamp(in.request->interpolation, 0.0, 1.0)), seconds, hasPast ? 1.0f : 0.0f,
                 kLeastHalfSide};

@@ -22,7 +22,7 @@ struct ParticleBlock
     glm::vec4 placePosition;
     glm::vec4 placeRotation;
     glm::vec4 alignAxis;
-    glm::vec4 look;
+    glm::vec4 appearance;
     glm::vec4 shine;
     glm::vec4 moment;
     glm::vec4 atlas;

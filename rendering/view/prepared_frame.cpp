@@ -108,6 +108,11 @@ uint32_t ViewRenderer::mediaShadowTexture() const
     return impl_->hasLights && impl_->lights.isFilled() ? impl_->lights.atlasTexture() : 0;
 }
 
+const LightList& ViewRenderer::lights() const
+{
+    return impl_->lights.list();
+}
+
 std::span<const EffectLight> ViewRenderer::effectLights() const
 {
     return std::span(impl_->glows).first(impl_->hasLights ? impl_->glowCount : 0);

@@ -112,7 +112,7 @@ base::Status ViewRenderer::Impl::gather(const base::SnapshotPair& snapshots, con
         askWhetherParticlesAreComputed();
         return status;
     }
-    if (std::ranges::all_of(parts, [](const auto& part) { return part->isSettled(); }))
+    if (lights.isCurrent() && std::ranges::all_of(parts, [](const auto& part) { return part->isSettled(); }))
         key = wanted;
     return {};
 }
@@ -152,7 +152,7 @@ base::Status ViewRenderer::Impl::gatherAnew(const base::SnapshotPair& snapshots,
     for (const auto& part : parts)
         if (const MediaSource* source = part->solids())
             solids.push_back(source);
-    const LightListInputs lit{&settings, camera.eye, inputs.lights, casters};
+    const LightListInputs lit{&settings, camera.eye, inputs.lights, casters, request.resetHistory};
     const bool isUsed =
         (composition && composition->hasMedia()) || !streams.empty() || !solids.empty() || !casters.empty();
     if (base::Status status = lights.gather(lit, casterRevision(inputs), isUsed); !status)

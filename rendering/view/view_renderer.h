@@ -72,6 +72,8 @@ public:
     uint32_t mediaShadowTexture() const;
     /// Lights of the effects of that frame, brightest first.
     std::span<const EffectLight> effectLights() const;
+    /// Of the lights of the frame that was prepared or rendered last; none where there are no media.
+    const LightList& lights() const;
 
     /// Measures the next frames; Off is the default and costs nothing. With Gpu where GL has no clock nothing
     /// is measured.

@@ -6,7 +6,7 @@ layout(binding = 0) uniform sampler2D sceneDistance; // [m] along the ray to the
 layout(binding = 1) uniform sampler2D impostorAtlas; // premultiplied
 
 flat in vec4 impostorCenter;
-flat in vec4 impostorLook;
+flat in vec4 impostorAppearance;
 flat in vec4 impostorTiles;
 in vec2 impostorPlace;
 #if FX_CARDS
@@ -25,10 +25,10 @@ vec4 pictureAt(vec2 tile, float size)
 
 void main()
 {
-    vec4 picture = mix(pictureAt(impostorTiles.zw, impostorLook.w), pictureAt(impostorTiles.xy, 1.0), impostorLook.x);
+    vec4 picture = mix(pictureAt(impostorTiles.zw, impostorAppearance.w), pictureAt(impostorTiles.xy, 1.0), impostorAppearance.x);
     float surface = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r;
-    float before = clamp(0.5 + 0.5 * (surface - length(impostorCenter.xyz)) / impostorLook.z, 0.0, 1.0);
-    float share = impostorLook.y * before; // of the optical depth
+    float before = clamp(0.5 + 0.5 * (surface - length(impostorCenter.xyz)) / impostorAppearance.z, 0.0, 1.0);
+    float share = impostorAppearance.y * before; // of the optical depth
     float alpha = min(picture.a, 0.9999);
     float shown = 1.0 - pow(1.0 - alpha, share);
     vec4 seen = alpha > 1e-6 ? picture * (shown / alpha) : picture * share;
@@ -36,7 +36,7 @@ void main()
     if (!(seen.a > 0.0 || any(greaterThan(seen.rgb, vec3(0.0)))))
         discard;
     float hides = seen.a > 1e-6 ? seen.a : 0.0;
-    addCard(seen.rgb / max(hides, seen.a > 1e-6 ? 1e-6 : 1.0), 1.0, hides, length(impostorCenter.xyz), 2.0 * impostorLook.z,
+    addCard(seen.rgb / max(hides, seen.a > 1e-6 ? 1e-6 : 1.0), 1.0, hides, length(impostorCenter.xyz), 2.0 * impostorAppearance.z,
             1.0);
 #else
     light = seen;

@@ -6,13 +6,13 @@ struct Impostor
     vec4 center; // xyz [m] relative to the eye; w half the side of the square [m]
     vec4 right;  // xyz axis of the picture; w tile of the newer picture
     vec4 up;     // xyz; w tile of the older one
-    vec4 look;   // x share of the newer; y share of the effect that is drawn; z radius [m];
+    vec4 appearance;   // x share of the newer; y share of the effect that is drawn; z radius [m];
                  // w side of the square over that of the older picture
 };
 layout(std430, binding = 0) readonly buffer Impostors { Impostor impostors[]; };
 
 flat out vec4 impostorCenter;
-flat out vec4 impostorLook;
+flat out vec4 impostorAppearance;
 flat out vec4 impostorTiles; // lower left of the newer and of the older [texel]
 out vec2 impostorPlace;      // [0, 1] on the picture
 
@@ -20,7 +20,7 @@ void main()
 {
     Impostor impostor = impostors[gl_InstanceID + int(pass.y)]; // a draw may begin in the middle of the order
     impostorCenter = impostor.center;
-    impostorLook = impostor.look;
+    impostorAppearance = impostor.appearance;
     vec2 tile = vec2(impostor.right.w, impostor.up.w);
     impostorTiles = 32.0 * vec4(mod(tile.x, 64.0), floor(tile.x / 64.0), mod(tile.y, 64.0), floor(tile.y / 64.0));
     vec2 corner = vec2(gl_VertexID == 1 || gl_VertexID == 2 || gl_VertexID == 4 ? 1.0 : -1.0,

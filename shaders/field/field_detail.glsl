@@ -33,13 +33,15 @@ struct MediumDetail
     bool isLumpy;      // noise shows here
 };
 
-// Broad lumps and octaves of one generation, of deviation 1. u in cells; size [m] of its lumps, pixel [m]
-float lumpOctaves(vec3 u, float size, float pixel, float gain, int octaves)
+// Broad lumps and octaves of one generation, of deviation 1. u in cells; size [m] of its lumps, pixel [m]; faded variance of those that are
+// finer than pixels
+float lumpOctaves(vec3 u, float size, float pixel, float gain, int octaves, out float faded)
 {
-    float broad = fxBroadAmplitude(), amplitude = 1.0, variance = broad * broad;
+    float broad = fxBroadAmplitude(), seen = fxOctaveBand(fxBroadSize() * size, pixel);
+    float amplitude = 1.0, variance = broad * broad, shown = broad * broad * seen * seen;
     vec3 halfTexel = 0.5 / vec3(textureSize(lumpTile, 0));
     vec3 place = vec3(fxBroadPlace(u.x), fxBroadPlace(u.y), fxBroadPlace(u.z));
-    float sum = broad * fxOctaveBand(fxBroadSize() * size, pixel) * textureLod(lumpTile, place / kLumpCells + halfTexel, 0.0).r;
+    float sum = broad * seen * textureLod(lumpTile, place / kLumpCells + halfTexel, 0.0).r;
     for (int k = 0; k < octaves; ++k) {
         float band = fxOctaveBand(size, pixel);
         if (band <= 0.0) { // nor any that follows
@@ -48,10 +50,12 @@ float lumpOctaves(vec3 u, float size, float pixel, float gain, int octaves)
         }
         sum += amplitude * band * textureLod(lumpTile, u / kLumpCells + halfTexel, 0.0).r;
         variance += amplitude * amplitude;
+        shown += amplitude * amplitude * band * band;
         u = vec3(fxNextOctaveX(u.x, u.z), fxNextOctaveY(u.x, u.y, u.z), fxNextOctaveZ(u.x, u.y, u.z));
         amplitude *= gain;
         size *= 1.0 / 2.03;
     }
+    faded = max(1.0 - shown / variance, 0.0);
     return sum * inversesqrt(variance);
 }
 
@@ -70,20 +74,22 @@ MediumDetail detailOf(FieldDetail d, float k, vec3 p, vec3 carried0, vec3 carrie
 {
     float ramp = d.erosion.w;
     float s = fxDetailPlace(k, d.erosion.x, d.erosion.y, d.erosion.z);
-    float h = 0.5, z = 0.0;
+    float h = 0.5, z = 0.0, share = s > 0.0 ? 1.0 : 0.0;
     // a loop without turns is skipped by software renderers too, a branch is not
     int turns = hasLumps(d, s) ? 1 : 0;
     for (int turn = 0; turn < turns; ++turn) {
         vec3 u0 = vec3(dot(d.rows[0].xyz, p) + d.rows[0].w, dot(d.rows[1].xyz, p) + d.rows[1].w, dot(d.rows[2].xyz, p) + d.rows[2].w);
         vec3 u1 = vec3(dot(d.rows[3].xyz, p) + d.rows[3].w, dot(d.rows[4].xyz, p) + d.rows[4].w, dot(d.rows[5].xyz, p) + d.rows[5].w);
         int octaves = int(d.lumps.w);
-        float z0 = lumpOctaves(u0 + carried0, d.lumps.x, pixel, d.noise.x, octaves);
-        float z1 = lumpOctaves(u1 + carried1, d.lumps.y, pixel, d.noise.x, octaves);
+        float faded0, faded1;
+        float z0 = lumpOctaves(u0 + carried0, d.lumps.x, pixel, d.noise.x, octaves, faded0);
+        float z1 = lumpOctaves(u1 + carried1, d.lumps.y, pixel, d.noise.x, octaves, faded1);
         z = fxBlendGenerations(z0, z1, d.noise.y);
         h = fxDetailThreshold(z);
+        share = fxDetailShareOver(s, z, fxBlendFaded(faded0, faded1, d.noise.y), ramp);
     }
     MediumDetail detail;
-    detail.share = d.lumps.z * fxDetailShare(s, h, ramp) * fxDetailGain(s, ramp);
+    detail.share = d.lumps.z * share * fxDetailGain(s, ramp);
     detail.temperature = fxDetailTemperature(1.0, s, h, ramp, z, d.noise.z, d.noise.w);
     detail.isLumpy = turns > 0;
     return detail;

@@ -1,3 +1,4 @@
+#include "formulas/kernel_optical_depth.fx.h"
 #include "formulas/voxel_kernel.fx.h"
 #include "shared/blob_instance.glsl"
 #include "field/field_blocks.glsl"
@@ -27,8 +28,6 @@ layout(std430, binding = 4) readonly buffer Materials { BlobMaterial materials[]
 #endif
 
 shared uint most; // bits of the largest extinction of a sample [1/m], regardless of its sign
-
-const float kPeak = 1.04445431404056; // kernel-optical-depth (1), 105 / (32 pi)
 
 void main()
 {
@@ -62,7 +61,7 @@ void main()
         uint number = brickBalls[k];
         vec4 ball = blobs[number].centerRadius;
         float radius = max(ball.w, field.limits.x);
-        float peak = kPeak * blobs[number].medium.x / (radius * radius * radius);
+        float peak = fxKernelPeak(blobs[number].medium.x, radius);
         float perRadius2 = 1.0 / (radius * radius);
         float fineness = field.corner.w * field.corner.w * perRadius2;
         vec4 emitted = vec4(blobs[number].emission.rgb, 1.0);

@@ -13,6 +13,7 @@
 ///   g        1      share that is left at a point
 ///   m        1      mean of g over h
 ///   n        1      factor that keeps the mean, at most 6
+///   u        1      variance of octaves that have faded out, 0..1; z is the sum of the others
 ///   T        K      temperature; c its loss at the surface of lumps, b its gain per deviation of the noise
 /// @derivation
 ///   Extinctions of a gas span four decades, so the threshold is on the logarithm:
@@ -26,6 +27,11 @@
 ///       m = integral of (3) over h = P(s) - P(s - 1)                                          (4)
 ///       n = min(1 / m, 6)                                                                     (5)
 ///   keeps the mean extinction where m >= 1/6; what is thinner is lost. n g = 1 for s >= 1 + w.
+///   Octaves that are finer than a pixel have no value there; over them, a normal deviate of variance u, the
+///   share has the mean
+///       (1/w) integral over x = s - w .. s of p(x), p(x) = 1 / (1 + exp(-(1.702 z + ln(x / (1 - x))) / sqrt(u))) (7)
+///   with p = 0 for x <= 0 and 1 for x >= 1: (3) for u = 0, (4) for u = 1 and z = 0. It is summed at three Gauss
+///   nodes, and blended with (3) for u < 1/4, where p is steeper than nodes are apart.
 ///   Gas at the surface of a lump has mixed with air, and creases are deep in it:
 ///       T' = T (1 - c (1 - sat(2 (s - h))) + b (1 - sat(2 (s - 1 - w))) clamp(z, -1.5, 1.5))    (6)
 ///   so that T' = T, as k, does not depend on the noise for s >= 3/2 + w: none is needed there.
@@ -48,6 +54,25 @@ FX_FORMULA(fxDetailThreshold)(FX_REAL z)
 FX_FORMULA(fxDetailShare)(FX_REAL s, FX_REAL h, FX_REAL w)
 {
     return clamp((s - h) / w, FX_REAL(0.0), FX_REAL(1.0)); // (3)
+}
+
+FX_FORMULA(fxDetailPassed)(FX_REAL x, FX_REAL z, FX_REAL u)
+{
+    FX_REAL inside = clamp(x, FX_REAL(1e-6), FX_REAL(1.0) - FX_REAL(1e-6));
+    FX_REAL a = (FX_REAL(1.702) * z + log(inside / (FX_REAL(1.0) - inside))) / sqrt(max(u, FX_REAL(1e-4)));
+    FX_REAL p = FX_REAL(1.0) / (FX_REAL(1.0) + exp(clamp(-a, FX_REAL(-80.0), FX_REAL(80.0))));
+    return x <= FX_REAL(0.0) ? FX_REAL(0.0) : (x >= FX_REAL(1.0) ? FX_REAL(1.0) : p);
+}
+
+FX_FORMULA(fxDetailShareOver)(FX_REAL s, FX_REAL z, FX_REAL u, FX_REAL w)
+{
+    FX_REAL middle = s - FX_REAL(0.5) * w;
+    FX_REAL away = FX_REAL(0.387298334620742) * w;
+    FX_REAL mean = (FX_REAL(5.0) * fxDetailPassed(middle - away, z, u) +
+                    FX_REAL(8.0) * fxDetailPassed(middle, z, u) +
+                    FX_REAL(5.0) * fxDetailPassed(middle + away, z, u)) / FX_REAL(18.0); // (7)
+    FX_REAL own = fxDetailShare(s, fxDetailThreshold(z), w);
+    return own + clamp(FX_REAL(4.0) * u, FX_REAL(0.0), FX_REAL(1.0)) * (mean - own);
 }
 
 FX_FORMULA(fxDetailRamp)(FX_REAL x, FX_REAL w)

@@ -99,7 +99,7 @@ FX_FORMULA(fxHeatStreamY)(FX_REAL x, FX_REAL y, FX_REAL phase, FX_REAL seed)
 /// How strongly hot air bends light, relative to what its eddies do.
 ///
 /// symbol    unit   meaning
-///   heat    K      temperature above that of the surrounding air, T0 = 288 K, >= 0
+///   heat    K      temperature above that of the surrounding air, T0 = 293.15 K, >= 0
 ///   share   1      air that the heat has driven out, [0, 1)
 ///   angle   rad    deflection by a ball with the stream function S of heat-stream: angle = refraction * curl
 ///   S
@@ -109,9 +109,9 @@ FX_FORMULA(fxHeatStreamY)(FX_REAL x, FX_REAL y, FX_REAL phase, FX_REAL seed)
 ///       share = heat / (T0 + heat)                                                                   (1)
 ///   and the refractive index lacks share (n0 - 1). Its column through a ball of radius R is 16/15 R (n0 - 1)
 ///   share c, whose gradient across the ray, R and all, is the angle:
-///       refraction = 16/15 (n0 - 1) share, n0 - 1 = 2.9e-4                                           (2)
-/// @source    [Edl66] refractive index of air; the Gladstone-Dale relation and the small-angle integral are
-/// textbook
+///       refraction = 16/15 (n0 - 1) share, n0 - 1 = 2.73e-4                                          (2)
+/// @source    [Edl66] refractive index of air at 20 degrees Celsius, 101325 Pa and 550 nm; the Gladstone-Dale
+/// relation and the small-angle integral are textbook
 /// @deviation the gradient is turned by 90 degrees into a curl, see heat-stream
 /// @valid     heat < 0 is treated as 0
 /// @accuracy  3 eps
@@ -119,10 +119,10 @@ FX_FORMULA(fxHeatStreamY)(FX_REAL x, FX_REAL y, FX_REAL phase, FX_REAL seed)
 FX_FORMULA(fxHeatShare)(FX_REAL heat)
 {
     FX_REAL h = max(heat, FX_REAL(0.0));
-    return h / (FX_REAL(288.0) + h); // (1)
+    return h / (FX_REAL(293.15) + h); // (1)
 }
 
 FX_FORMULA(fxHeatRefraction)(FX_REAL heat)
 {
-    return FX_REAL(3.09333333333333e-4) * fxHeatShare(heat); // (2)
+    return FX_REAL(2.912e-4) * fxHeatShare(heat); // (2)
 }

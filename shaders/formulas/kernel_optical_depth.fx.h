@@ -16,15 +16,27 @@
 ///   so that the integral over [u0, u1] is
 ///       tau = sigma 105/(32 pi r^2) (w/r)^5 [u - 2 u^3/3 + u^5/5]                              (3)
 ///   The bracket is 16/15 over the full chord: tau = 3.5/pi sigma/r^2 (w/r)^5.
+///   fxKernelPeak is sigma W(0), fxKernelExtinction sigma W(s) of the square of s.
 /// @source    [UBT96] eq. (1) for the kernel; the clipped integral is elementary
 /// @deviation the paper integrates whole blobs between sorted events; here one blob is cut by its ray
 /// @valid     h >= r gives 0; w = 0 gives 0 without a division; t1 = +inf is no occluder
 /// @accuracy  |error| <= 2e-6 of the largest value over all rays (float), equal in GLSL within 4e-6
 /// @tests     tests/rendering/core/test_formulas.cpp
+FX_FORMULA(fxKernelPeak)(FX_REAL sigma, FX_REAL r)
+{
+    return FX_REAL(1.04445431404056) * sigma / (r * r * r); // (1)
+}
+
+FX_FORMULA(fxKernelExtinction)(FX_REAL sigma, FX_REAL r, FX_REAL s2)
+{
+    FX_REAL q = max(FX_REAL(1.0) - s2 / (r * r), FX_REAL(0.0));
+    return fxKernelPeak(sigma, r) * q * q; // (1)
+}
+
 FX_FORMULA(fxKernelOpticalDepth)(FX_REAL sigma, FX_REAL r, FX_REAL h, FX_REAL tc, FX_REAL t0, FX_REAL t1)
 {
     FX_REAL q2 = max((r - h) * (r + h), FX_REAL(0.0)) / (r * r);
-    FX_REAL w = max(sqrt(q2) * r, r * FX_REAL(1e-12));                                   // (2)
+    FX_REAL w = max(sqrt(q2) * r, r * FX_REAL(1e-12)); // (2)
     FX_REAL u0 = clamp((t0 - tc) / w, FX_REAL(-1.0), FX_REAL(1.0));
     FX_REAL u1 = clamp((t1 - tc) / w, FX_REAL(-1.0), FX_REAL(1.0));
     FX_REAL s0 = u0 * u0;

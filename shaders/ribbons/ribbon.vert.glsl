@@ -54,14 +54,14 @@ void main()
     }
     // Rows go on behind the age at which the ribbon ends; at an earlier moment that age lay farther back.
     int from = at;
-    if (look.x > 0.0 && newerPlace(7) >= 0) {
+    if (appearance.x > 0.0 && newerPlace(7) >= 0) {
         float young = newerValue(7, row);
         float old = newerValue(7, row + 1);
-        if (young >= look.x + back)
+        if (young >= appearance.x + back)
             return;
-        if (isSecond && old > look.x + back) {
+        if (isSecond && old > appearance.x + back) {
             from = row;
-            later = (look.x + back - young) / (old - young);
+            later = (appearance.x + back - young) / (old - young);
         }
     }
     vec3 center = mix(pointAt(from), pointAt(row + 1), later);

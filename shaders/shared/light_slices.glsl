@@ -4,6 +4,7 @@ layout(binding = 7) uniform sampler2D lightSlices;   // r optical depth up to a 
 layout(binding = 6) uniform sampler2D hostShadowMap; // depth of the host's surfaces as the sun sees them
 
 const int kSliceTileColumns = 8;
+const int kFadingEntries = 21; // how far behind a light its planes lie as they were before they changed their sizes
 const int kFinerPlanes = 19; // entries of the list with finer planes of the sun near the eye, and with the finest
 
 vec2 octahedralPlace(vec3 d)
@@ -37,52 +38,73 @@ vec2 depthAtPlace(vec4 tiles, vec3 place)
     return vec2(before.r + (plane - float(lower)) * before.g, slicePlane(tiles, last, texel).r);
 }
 
-// Whether a place is inside of planes, where they know the depth up to it.
-bool isInside(vec4 tiles, vec3 place)
+// Optical depth between parallel light number i and p [m, relative to the eye], and of all media on its line through p.
+vec2 parallelDepth(int i, vec3 p)
 {
-    return all(greaterThan(place, vec3(1.0, 1.0, 0.0))) &&
-           all(lessThan(place, vec3(tiles.z - 1.0, tiles.z - 1.0, tiles.w - 1.0)));
-}
-
-// Optical depth between parallel light and p [m, relative to the eye], and of all media on its line through p.
-vec2 parallelDepth(SliceLight light, vec3 p)
-{
-    if (light.tiles.w < 0.5)
+    if (lights[i].tiles.w < 0.5)
         return vec2(0.0);
-    return depthAtPlace(light.tiles, parallelPlace(light, p));
+    vec2 depth = depthAtPlace(lights[i].tiles, parallelPlace(lights[i], p));
+    int before = i + kFadingEntries;
+    int fades = lights[before].color.r > 0.0 ? 1 : 0; // software renderers skip a loop without turns, but no branch
+    for (int k = 0; k < fades; ++k)
+        depth = mix(depth, depthAtPlace(lights[before].tiles, parallelPlace(lights[before], p)), lights[before].color.r);
+    return depth;
 }
 
-// The same of the sun, with the finest planes that know the place. Constant indices: software renderers read those at once.
+// [1] of what finer planes say of a place at a distance from the eye [m]: nothing from the rim of their ball on.
+float finerShare(SliceLight planes, float distance)
+{
+    const float kRim = 0.25; // of the radius
+    return planes.tiles.w > 0.5 ? clamp((planes.place.w - distance) / (kRim * planes.place.w), 0.0, 1.0) : 0.0;
+}
+
+// The same of the sun, with the finest planes that know the place, which give way to coarser ones towards the rim of theirs.
+// Constant indices: software renderers read those at once.
 vec2 sunDepth(vec3 p)
 {
     if (lights[0].tiles.w < 0.5)
         return vec2(0.0);
-    vec4 tiles = lights[0].tiles;
-    vec3 place = parallelPlace(lights[0], p);
-    vec3 finer = parallelPlace(lights[kFinerPlanes], p);
-    vec3 finest = parallelPlace(lights[kFinerPlanes + 1], p);
-    bool isInFiner = isInside(lights[kFinerPlanes].tiles, finer);
-    bool isInFinest = isInside(lights[kFinerPlanes + 1].tiles, finest);
-    place = isInFinest ? finest : isInFiner ? finer : place;
-    tiles = isInFinest ? lights[kFinerPlanes + 1].tiles : isInFiner ? lights[kFinerPlanes].tiles : tiles;
-    return depthAtPlace(tiles, place);
+    float away = length(p);
+    float finer = finerShare(lights[kFinerPlanes], away), finest = finerShare(lights[kFinerPlanes + 1], away);
+    bool isInFiner = finer > 0.0, isInFinest = finest > 0.0;
+    vec3 place = isInFinest  ? parallelPlace(lights[kFinerPlanes + 1], p)
+                 : isInFiner ? parallelPlace(lights[kFinerPlanes], p)
+                             : parallelPlace(lights[0], p);
+    vec4 tiles = isInFinest ? lights[kFinerPlanes + 1].tiles : isInFiner ? lights[kFinerPlanes].tiles : lights[0].tiles;
+    vec2 depth = depthAtPlace(tiles, place);
+    int before = kFadingEntries + (isInFinest ? kFinerPlanes + 1 : isInFiner ? kFinerPlanes : 0);
+    int fades = lights[before].color.r > 0.0 ? 1 : 0;
+    for (int k = 0; k < fades; ++k)
+        depth = mix(depth, depthAtPlace(lights[before].tiles, parallelPlace(lights[before], p)), lights[before].color.r);
+    float share = isInFinest ? finest : isInFiner ? finer : 1.0;
+    int coarser = share < 1.0 ? 1 : 0;
+    for (int k = 0; k < coarser; ++k)
+        depth = mix(parallelDepth(isInFinest ? kFinerPlanes : 0, p), depth, share);
+    return depth;
 }
 
 // The same of a light at a point.
-vec2 pointDepth(SliceLight light, vec3 p)
+vec2 pointDepth(int i, vec3 p)
 {
-    if (light.tiles.w < 0.5)
+    if (lights[i].tiles.w < 0.5)
         return vec2(0.0);
-    vec3 d = p - light.place.xyz;
+    vec3 d = p - lights[i].place.xyz;
     float l = length(d);
     vec2 direction = octahedralPlace(l > 0.0 ? d / l : vec3(0.0, 0.0, 1.0));
-    return depthAtPlace(light.tiles, vec3(1.0 + (0.5 + 0.5 * direction) * (light.tiles.z - 2.0), l * light.along.w - light.along.x));
+    vec2 texel = 1.0 + (0.5 + 0.5 * direction) * (lights[i].tiles.z - 2.0);
+    vec2 depth = depthAtPlace(lights[i].tiles, vec3(texel, l * lights[i].along.w - lights[i].along.x));
+    int before = i + kFadingEntries;
+    int fades = lights[before].color.r > 0.0 ? 1 : 0;
+    for (int k = 0; k < fades; ++k)
+        depth = mix(depth, depthAtPlace(lights[before].tiles, vec3(texel, l * lights[before].along.w - lights[before].along.x)),
+                    lights[before].color.r);
+    return depth;
 }
 
 // Of the light with a number below lightCounts.x: the sun is the first.
 vec2 sliceDepth(int number, vec3 p)
 {
-    return number == 0 ? sunDepth(p) : pointDepth(lights[number], p);
+    return number == 0 ? sunDepth(p) : pointDepth(number, p);
 }
 
 // Share of the sun that the host's surfaces let through to p: 3 x 3 places within the soft edge, each between four texels.

@@ -3,7 +3,7 @@
 // placePosition   xyz [m] origin of the group relative to the eye, world axes; w scale
 // placeRotation   quaternion x, y, z, w from the group's axes to the world's
 // alignAxis       xyz world unit axis; w SpriteAlignment
-// look            x aspect, of ribbons the age at which they end [s]; y stretch [s]; z softness [m]; w ParticleBlend
+// appearance      x aspect, of ribbons the age at which they end [s]; y stretch [s]; z softness [m]; w ParticleBlend
 // shine           x exposed luminance of color 1; y share of the view's light scattered; z MediaLayer; w 1 when the first index of a mesh
 //                 is at meshPlace.x
 // moment          x share of the newer snapshot; y seconds between both; z 1 when there is an older one; w least radius [pixel]
@@ -16,7 +16,7 @@
     vec4 placePosition; \
     vec4 placeRotation; \
     vec4 alignAxis; \
-    vec4 look; \
+    vec4 appearance; \
     vec4 shine; \
     vec4 moment; \
     vec4 atlas; \

@@ -45,7 +45,7 @@ vec2 factorsOfRank(int rank)
 }
 float opacityOf(float opacity, vec2 levelFactors)
 {
-    bool covers = look.w < 0.5; // and cannot do so more than wholly
+    bool covers = appearance.w < 0.5; // and cannot do so more than wholly
     return levelFactors.y == 1.0 ? opacity : covers ? min(opacity * levelFactors.y, 1.0) : opacity * levelFactors.y;
 }
 

@@ -58,11 +58,11 @@ vec3 skyOnBody(vec4 ball, vec3 place, vec3 normal)
         SliceLight axis = lights[i];
         float facing = isSurface ? dot(normal, axis.place.xyz) : 1.0;
         if (facing > 0.0) {
-            open.x += facing * exp(-parallelDepth(axis, beforeBall(axis, ball, place, axis.place.xyz)).x);
+            open.x += facing * exp(-parallelDepth(i, beforeBall(axis, ball, place, axis.place.xyz)).x);
             weight.x += facing;
         }
         if (facing < 0.0 || !isSurface) {
-            vec2 depth = parallelDepth(axis, beforeBall(axis, ball, place, -axis.place.xyz));
+            vec2 depth = parallelDepth(i, beforeBall(axis, ball, place, -axis.place.xyz));
             open.y += abs(facing) * exp(-max(depth.y - depth.x, 0.0));
             weight.y += abs(facing);
         }
@@ -103,8 +103,8 @@ vec3 scatteredBySurface(vec4 ball, vec3 place, vec3 normal)
 // Light of a square or a ribbon at one of its corners, for its color.
 vec3 scatteredByCard(vec3 center, vec3 across, float radius, vec4 color)
 {
-    if (look.w > 1.5) // it hides
+    if (appearance.w > 1.5) // it hides
         return shine.y * color.rgb * scatteredByBody(vec4(center, radius));
-    float opacity = look.w < 0.5 ? color.a : 0.0; // what adds takes no light
+    float opacity = appearance.w < 0.5 ? color.a : 0.0; // what adds takes no light
     return scatteredByMedium(seenPlace(center, across, radius, opacity), color.rgb, shine.y);
 }

@@ -29,8 +29,8 @@ float leftOver(vec3 place)
     float behind = texelFetch(sceneDistance, ivec2(gl_FragCoord.xy), 0).r - distanceOf(place);
     float before = dot(place, forward.xyz) - rayOriginX.w;
     float room = min(behind, before);
-    if (look.z > 0.0)
-        return clamp(room / look.z, 0.0, 1.0);
+    if (appearance.z > 0.0)
+        return clamp(room / appearance.z, 0.0, 1.0);
     return room > 0.0 ? 1.0 : 0.0;
 }
 
@@ -50,10 +50,10 @@ void writeParticle(vec3 light, float alpha, vec3 place)
     solidDistance = vec4(d, 0.0, 0.0, 1.0);
     gl_FragDepth = 1.0 / (1.0 + max(d, 0.0)); // nearer is more, as precise far away as a float is
 #endif
-    float cover = look.w > 0.5 && look.w < 1.5 ? 0.0 : alpha; // what only adds hides nothing
+    float cover = appearance.w > 0.5 && appearance.w < 1.5 ? 0.0 : alpha; // what only adds hides nothing
     vec3 seen = alpha * light;
 #if FX_CARDS
-    addCard(light, alpha, cover, distanceOf(place), 2.0 * look.z, shine.z);
+    addCard(light, alpha, cover, distanceOf(place), 2.0 * appearance.z, shine.z);
 #elif FX_LAYERS
     float layer = shine.z;
     vec3 ofLayer = vec3(layer < 0.5, layer > 0.5 && layer < 1.5, layer > 1.5);

@@ -50,7 +50,7 @@ vec3 scatteredOfPoints(vec3 p, vec3 toEye, vec3 albedo, float g, GlowBox box)
         vec3 towards;
         vec3 arriving = pointLight(light, p, towards);
         float cosine = -dot(towards, toEye);
-        vec2 depth = pointDepth(light, p);
+        vec2 depth = pointDepth(i, p);
         vec3 source = albedo * (fxHenyeyGreenstein(cosine, g) * exp(-depth.x));
         if (lightOfSky.w > 0.5)
             source += scatteredAgain(albedo, g, cosine, depth);

@@ -14,7 +14,7 @@ vec3 skySource(vec3 p, vec3 toEye, vec3 albedo, float g)
     float escaping = 0.0, scattered = 0.0, phases = 0.0;
     vec3 arriving = vec3(0.0), direct = vec3(0.0);
     for (int i = lightCounts.x; i < lightCounts.x + lightCounts.y; ++i) {
-        vec2 depth = parallelDepth(lights[i], p);
+        vec2 depth = parallelDepth(i, p);
         float above = exp(-depth.x);
         float below = exp(-max(depth.y - depth.x, 0.0));
         float cosine = -dot(lights[i].place.xyz, toEye); // of light from above

@@ -12,7 +12,7 @@
 #include "slabs/slab_window.glsl"
 
 // All media along one ray, summed up in FX_SLABS slabs and put together front to back, premultiplied. kGroup slabs are filled
-// at a time: fewer take fewer registers, but each group looks at all balls anew.
+// at a time: fewer take fewer registers, but each group reads all balls again.
 #if FX_LAYERS && !FX_BALL_DETAIL
 const int kGroup = FX_SLABS == 6 ? 3 : 4;
 #else

@@ -65,9 +65,9 @@ void main()
     vec3 horizontal;
     vec3 vertical;
     bool isAlong = standUp(p, horizontal, vertical); // seen from its end a streak has no length
-    vec2 extent = vec2(p.radius * look.x, p.radius);
+    vec2 extent = vec2(p.radius * appearance.x, p.radius);
     if (isAlong)
-        extent.y += 0.5 * look.y * length(p.velocity);
+        extent.y += 0.5 * appearance.y * length(p.velocity);
     extent = grown(extent, levelFactors.x * levelFactors.x);
     float least = moment.w * pixelSize(p.center);
     vec2 shown = max(extent, vec2(least)); // what is smaller than a pixel is widened to it and thinned as much

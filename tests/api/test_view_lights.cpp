@@ -203,6 +203,50 @@ TEST_F(ViewLights, fireIsALightForTheLevel)
     EXPECT_EQ(fxView_GetEffectLight(view_, 1, &light), FX_ERROR_INVALID_ARGUMENT);
 }
 
+TEST_F(ViewLights, eachLightSaysWhatItsPlanesTake)
+{
+    uint32_t count = 99;
+    EXPECT_EQ(fxView_GetLightCostCount(view_, &count), FX_OK);
+    EXPECT_EQ(count, 0u) << "no frame yet";
+    FxViewSettings settings = fxDefaultViewSettings();
+    settings.sunIlluminance[1] = 1e4f;
+    settings.skyLuminance[1] = 100.0f;
+    settings.castingLights = 1;
+    ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK);
+    FxLight lamps[2] = {lamp(), lamp()};
+    lamps[1].intensity[0] *= 4.0f;
+    ASSERT_EQ(fxView_SetLights(view_, lamps, 2), FX_OK);
+    update(60);
+    const FxFrameDef def = frame();
+    ASSERT_EQ(fxView_PrepareLights(view_, &def), FX_OK);
+    ASSERT_EQ(fxView_GetLightCostCount(view_, &count), FX_OK);
+    uint32_t casting = 0, skies = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        FxLightCost cost{};
+        cost.structSize = sizeof cost;
+        ASSERT_EQ(fxView_GetLightCost(view_, i, &cost), FX_OK);
+        EXPECT_EQ(cost.kind == FX_LIGHT_SUN, i == 0);
+        EXPECT_EQ(cost.kind == FX_LIGHT_SKY, i + 1 == count);
+        EXPECT_EQ(cost.planes == 0, cost.bytes == 0);
+        EXPECT_EQ(cost.planes == 0, cost.rays == 0);
+        if (i == 0) {
+            EXPECT_EQ(cost.planes, settings.lightSlicePlanes);
+            EXPECT_EQ(cost.rays, uint64_t(settings.lightSliceTexels) * settings.lightSliceTexels);
+            EXPECT_EQ(cost.bytes, 8 * cost.rays * cost.planes);
+        }
+        casting += cost.planes > 0 ? 1 : 0;
+        skies += cost.kind == FX_LIGHT_SKY ? 1 : 0;
+    }
+    EXPECT_EQ(skies, 1u);
+    EXPECT_EQ(casting, 3u) << "the sun, one at a point, and the sky";
+    FxLightCost cost{};
+    EXPECT_EQ(fxView_GetLightCost(view_, 0, &cost), FX_ERROR_VERSION);
+    cost.structSize = sizeof cost;
+    EXPECT_EQ(fxView_GetLightCost(view_, count, &cost), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxView_GetLightCost(nullptr, 0, &cost), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxView_GetLightCostCount(view_, nullptr), FX_ERROR_INVALID_ARGUMENT);
+}
+
 TEST_F(ViewLights, withoutEffectsThereIsNoCallOfGl)
 {
     FxScene* empty = nullptr;
@@ -293,6 +337,7 @@ TEST_F(ViewLights, wrongArgumentsAreRefused)
     refuseSetting("lightSliceTexels", [](FxViewSettings& s) { s.lightSliceTexels = 520; });
     refuseSetting("castingLights", [](FxViewSettings& s) { s.castingLights = 5; });
     refuseSetting("lightSamples", [](FxViewSettings& s) { s.lightSamples = 0; });
+    refuseSetting("lightRefreshFrames", [](FxViewSettings& s) { s.lightRefreshFrames = 17; });
     refuseSetting("multipleScattering", [](FxViewSettings& s) { s.multipleScattering = 2; });
     refuseSetting("composition", [](FxViewSettings& s) { s.composition = 77; });
     refuseSetting("slabs", [](FxViewSettings& s) { s.slabs = 7; });

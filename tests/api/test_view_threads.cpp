@@ -41,6 +41,24 @@ FxFrameDef frameOf(const render::GlTexture& color)
     return def;
 }
 
+/// All ways to compose media in turn, in the light of sun and sky.
+FxViewSettings settingsOf(uint32_t frame)
+{
+    FxViewSettings settings = fxDefaultViewSettings();
+    settings.activationOverlay = frame / 3 % 2; // marks are copied from the scene
+    settings.composition = frame / 5 % 3;
+    settings.voxels = 16;
+    settings.slabs = 6;
+    settings.lightSlicePlanes = 4;
+    settings.lightSliceTexels = 16;
+    settings.lightRefreshFrames = 1 + frame / 7 % 2;
+    for (int i = 0; i < 3; ++i) {
+        settings.sunIlluminance[i] = 1e4f;
+        settings.skyLuminance[i] = 100.0f;
+    }
+    return settings;
+}
+
 /// A host with two contexts on one OpenGL, each with a scene on a thread of its own.
 class ViewThreads : public ::testing::Test
 {
@@ -125,6 +143,16 @@ protected:
         }
     }
 
+    void prepare(FxView* view)
+    {
+        const FxFrameDef def = frameOf(color_);
+        EXPECT_EQ(fxView_PrepareLights(view, &def), FX_OK) << fxGetLastErrorMessage();
+        FxMediaShadow shadow{};
+        shadow.structSize = sizeof shadow;
+        EXPECT_EQ(fxView_GetMediaShadow(view, FX_LIGHT_SUN, 0, &shadow), FX_OK);
+        shadows_ += shadow.texture != 0 ? 1 : 0;
+    }
+
     void draw(FxView* view)
     {
         const FxFrameDef def = frameOf(color_);
@@ -145,6 +173,7 @@ protected:
     std::array<FxScene*, kContexts> scenes_{};
     std::vector<FxView*> views_;
     uint64_t passes_ = 0;
+    uint32_t shadows_ = 0; ///< that were there
 };
 
 } // namespace
@@ -153,12 +182,16 @@ TEST_F(ViewThreads, viewsDrawWhileTheirScenesAreChangedReadAndLoadedFor)
 {
     uint32_t frame = 0;
     const auto hashes = play([&] {
-        FxViewSettings settings = fxDefaultViewSettings();
-        settings.activationOverlay = frame / 3 % 2; // marks are copied from the scene
-        EXPECT_EQ(fxView_SetSettings(views_[frame % views_.size()], &settings), FX_OK);
-        draw(views_[frame++ % views_.size()]);
+        FxView* const view = views_[frame % views_.size()];
+        const FxViewSettings settings = settingsOf(frame);
+        EXPECT_EQ(fxView_SetSettings(view, &settings), FX_OK) << fxGetLastErrorMessage();
+        if (frame % 2 == 0)
+            prepare(view);
+        draw(view);
+        ++frame;
     });
     EXPECT_GT(passes_, 0u);
+    EXPECT_GT(shadows_, 0u);
     for (const float value : render::readTexture(*device_, color_.name(), kSize, kSize, 4))
         ASSERT_TRUE(std::isfinite(value));
     for (uint32_t i = 0; i < kContexts; ++i) { // neither drawing nor reading changes the state

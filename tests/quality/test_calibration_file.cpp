@@ -60,12 +60,12 @@ TEST(BuiltInCalibration, knowsLevelsOfDetailAndGlare)
     };
     int withLevels = 0;
     for (const ScalabilityLevel& step : scalabilityLevelsOf("media").steps)
-        withLevels += step.knobs.lodBias.value_or(0.0f) > 0.0f ? 1 : 0;
+        withLevels += step.knobs.valueOf("lodBias").value_or(0.0f) > 0.0f ? 1 : 0;
     EXPECT_GE(withLevels, 1);
     const ScalabilityLevels dazzle = scalabilityLevelsOf("dazzle");
     ASSERT_EQ(dazzle.steps.size(), 2u);
-    EXPECT_EQ(dazzle.steps[0].knobs.dazzle, false);
-    EXPECT_EQ(dazzle.steps[1].knobs.dazzle, true);
+    EXPECT_EQ(dazzle.steps[0].knobs.valueOf("dazzle"), 0.0f);
+    EXPECT_EQ(dazzle.steps[1].knobs.valueOf("dazzle"), 1.0f);
 }
 
 TEST(CalibrationFile, comesBackAsItWasWritten)

@@ -134,13 +134,15 @@ TEST(Knobs, neverRaiseWhatTheHostHasLowered)
     settings.form = render::BillboardForm::Constant;
     settings.detail = false;
     settings.shimmer.strength = 0.0f;
-    apply({render::BillboardForm::Kernel, true, 1.0f, true}, settings);
+    apply({{"billboards", float(render::BillboardForm::Kernel)},
+           {"detail", 1.0f},
+           {"particles", 1.0f},
+           {"shimmer", 1.0f}},
+          settings);
     EXPECT_EQ(settings.form, render::BillboardForm::Constant);
     EXPECT_FALSE(settings.detail);
     EXPECT_EQ(settings.shimmer.strength, 0.0f);
-    Knobs far;
-    far.lodBias = 2.0f;
-    far.dazzle = true;
+    const Knobs far{{"lodBias", 2.0f}, {"dazzle", 1.0f}};
     settings.lod.bias = 8.0f;
     settings.dazzle.enabled = false;
     apply(far, settings);
@@ -150,11 +152,14 @@ TEST(Knobs, neverRaiseWhatTheHostHasLowered)
     apply(far, settings);
     EXPECT_EQ(settings.lod.bias, 2.0f);
     EXPECT_TRUE(settings.dazzle.enabled);
-    far.dazzle = false;
-    apply(far, settings);
+    apply({{"dazzle", 0.0f}}, settings);
     EXPECT_FALSE(settings.dazzle.enabled);
     settings = {};
-    apply({render::BillboardForm::Planar, false, 0.25f, false}, settings);
+    apply({{"billboards", float(render::BillboardForm::Planar)},
+           {"detail", 0.0f},
+           {"particles", 0.25f},
+           {"shimmer", 0.0f}},
+          settings);
     EXPECT_EQ(settings.form, render::BillboardForm::Planar);
     EXPECT_FALSE(settings.detail);
     EXPECT_EQ(settings.particleShare, 0.25f);

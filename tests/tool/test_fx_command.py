@@ -122,6 +122,18 @@ class FxCommand(FxTest):
             self.assertEqual(found - {"emitters", "dazzle"}, wanted)
             self.assertGreater(report["emitters"][0]["bytes"], 50 * 16)
 
+    def test_explain_lists_the_lights_of_media_and_what_their_planes_take(self):
+        outcome = fx("explain", "library:campfire", "--time", 2, "--json", "--size", 64)
+        self.assertEqual(outcome.code, 0, outcome.err)
+        lights = json.loads(outcome.out)["lights"]
+        self.assertEqual(lights[0]["light"], "sun")
+        self.assertIn("effect", {entry["light"] for entry in lights})
+        for entry in lights:
+            self.assertEqual(entry["casts_shadows"], entry["bytes"] > 0, entry)
+            self.assertEqual(entry["casts_shadows"], entry["rays"] > 0, entry)
+        outcome = fx("explain", "library:campfire", "--time", 2, "--size", 64)
+        self.assertIn("sun 0: media cast shadows", outcome.out)
+
     def test_a_full_disk_behind_standard_output_is_a_failure(self):
         for arguments in (["doctor"], ["parameters"], ["validate", LIBRARY / "sparks.fx.json"]):
             with open("/dev/full", "wb") as full:

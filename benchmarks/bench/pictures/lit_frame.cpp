@@ -1,8 +1,8 @@
 // fx bench lit-frame: what light slices cost in whole frames: the smoke column of the library, 10,000 blobs,
 // and any scene files, with and without slices in turn. Prints one JSON object a case: least processor time
-// of all threads and least wall time of the effects' part of a frame in which media have moved, and of one in
-// which everything rests. Fails when slices change nothing in the picture, or when a resting frame fills
-// planes.
+// of all threads and least wall time of the effects' part of a frame in which media have moved, of one in
+// which everything rests, and the mean of frames whose planes are filled every time and every fourth. Fails
+// when slices change nothing in the picture, or when a resting frame fills planes.
 #include "benchmarks/bench/bench_measurement.h"
 #include "benchmarks/bench/bench_program.h"
 #include "benchmarks/measure/clocks.h"
@@ -26,6 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr uint32_t kBlobs = 10'000;
+constexpr int kRefreshFrames = 4; ///< SliceSettings::refreshFrames that is compared with 1
 
 struct Options
 {
@@ -55,9 +56,9 @@ struct Cost
 struct Subject
 {
     std::string name;
-    std::function<void()> move;             ///< the next moment
-    std::function<void(bool slices)> light; ///< with or without slices from the next frame on
-    std::function<void()> draw;             ///< and waits for it
+    std::function<void()> move; ///< the next moment
+    std::function<render::SliceSettings&()> slices;
+    std::function<void()> draw; ///< and waits for it
     std::function<std::vector<float>()> picture;
     std::function<bool()> fillsPlanes; ///< in the frame that was drawn last
     std::function<size_t()> blobs;
@@ -69,6 +70,32 @@ struct Costs
     Cost moving, resting;
 };
 
+/// [ms] processor time of a frame among frames in which media move, the least of some rounds.
+double meanOfFrames(const Subject& subject, int refreshFrames, int rounds)
+{
+    subject.slices().enabled = true;
+    subject.slices().refreshFrames = refreshFrames;
+    double least = 1e30;
+    for (int round = -1; round < rounds; ++round) { // in the first the planes may be from before
+        int fillings = 0;
+        double sum = 0.0;
+        for (int i = 0; i < kRefreshFrames; ++i) {
+            subject.move();
+            const double start = processSeconds();
+            subject.draw();
+            sum += 1e3 * (processSeconds() - start);
+            fillings += subject.fillsPlanes() ? 1 : 0;
+        }
+        if (round < 0)
+            continue;
+        if (fillings != kRefreshFrames / refreshFrames)
+            fail(subject.name + ": planes are not filled as often as asked");
+        least = std::min(least, sum / kRefreshFrames);
+    }
+    subject.slices().refreshFrames = 1;
+    return least;
+}
+
 void measureSubject(const Subject& subject, const Options& options, Machine machine)
 {
     Costs with, without;
@@ -77,7 +104,7 @@ void measureSubject(const Subject& subject, const Options& options, Machine mach
         subject.move();
         for (const bool slices : {true, false}) {
             Costs& costs = slices ? with : without;
-            subject.light(slices);
+            subject.slices().enabled = slices;
             Costs now;
             now.moving.take(subject.draw);
             now.resting.take(subject.draw);
@@ -94,6 +121,8 @@ void measureSubject(const Subject& subject, const Options& options, Machine mach
             }
         }
     }
+    const double often = meanOfFrames(subject, 1, options.repeat);
+    const double seldom = meanOfFrames(subject, kRefreshFrames, options.repeat);
     if (pictures[0] == pictures[1])
         fail(subject.name + ": the picture is the same without slices");
     machine.glRenderer = subject.renderer;
@@ -105,6 +134,9 @@ void measureSubject(const Subject& subject, const Options& options, Machine mach
                                {"ms_moving", with.moving.processorMs},
                                {"ms_moving_without", without.moving.processorMs},
                                {"ratio_moving", with.moving.processorMs / without.moving.processorMs},
+                               {"ms_frames", often},
+                               {"ms_frames_refreshed_seldom", seldom},
+                               {"ratio_refreshed_seldom", seldom / often},
                                {"ms_resting", with.resting.processorMs},
                                {"ms_resting_without", without.resting.processorMs},
                                {"ratio_resting", with.resting.processorMs / without.resting.processorMs},
@@ -132,7 +164,7 @@ void measureScene(const std::string& name, const scene_file::SceneFile& file, co
                         require(stage->simulate(now));
                         require(stage->look(file.camera));
                     },
-                    [&](bool slices) { renderer.settings().slices.enabled = slices; },
+                    [&]() -> render::SliceSettings& { return renderer.settings().slices; },
                     [&] { require(stage->draw()); }, [&] { return stage->picture(); },
                     [&] { return std::ranges::count(passes(), "light slices") > 0; },
                     [&] { return size_t(renderer.statistics().blobs); }, stage->rendererName()},
@@ -149,7 +181,7 @@ void measureBlobs(const Options& options)
     const auto renderer = taken(BlobListRenderer::create(blobs, settings, options.width, options.height));
     const LitView view;
     measureSubject({"blobs-" + std::to_string(count), [&] { renderer->show(blobs); },
-                    [&](bool slices) { renderer->settings().slices.enabled = slices; },
+                    [&]() -> render::SliceSettings& { return renderer->settings().slices; },
                     [&] { require(renderer->render(cameraOf(view), 0.0)); },
                     [&] { return renderer->read().color.pixels; }, [&] { return renderer->fillsPlanes(); },
                     [&] { return size_t(renderer->statistics().blobs); }, renderer->rendererName()},

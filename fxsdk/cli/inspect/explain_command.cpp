@@ -42,6 +42,7 @@ constexpr std::array<const char*, 6> kStates{"dormant", "active", "finished", "w
 constexpr std::array<const char*, 10> kReasons{
     "",         "not started",       "outside of the view", "too far",       "too small",
     "occluded", "beyond the budget", "catching up",         "nothing moves", "ended"};
+constexpr std::array<const char*, 4> kLights{"sun", "host", "effect", "sky"};
 constexpr std::array<const char*, 5> kPolicies{"analytic", "replay", "coarse", "skip", "authoritative"};
 
 /// The scene's camera as the scene's only focus.
@@ -160,6 +161,28 @@ Json techniquesOf(const scene_file::SceneFile& file, const Json& instances,
     return list;
 }
 
+/// Lights of media, with what their planes take.
+base::Result<Json> lightsOf(FxView* view)
+{
+    uint32_t count = 0;
+    if (base::Status status = toStatus(fxView_GetLightCostCount(view, &count)); !status)
+        return status;
+    Json list = Json::array();
+    for (uint32_t i = 0; i < count; ++i) {
+        FxLightCost cost = {};
+        cost.structSize = sizeof cost;
+        if (base::Status status = toStatus(fxView_GetLightCost(view, i, &cost)); !status)
+            return status;
+        list.push_back({{"light", kLights.at(cost.kind)},
+                        {"index", cost.index},
+                        {"casts_shadows", cost.planes > 0},
+                        {"planes", cost.planes},
+                        {"bytes", cost.bytes},
+                        {"rays", cost.rays}});
+    }
+    return list;
+}
+
 /// Groups of media by what is drawn of them.
 Json levelsOf(const FxViewStatistics& view)
 {
@@ -187,6 +210,12 @@ void print(const Json& report)
         std::printf("%-22s %s  passes %s  called by %s\n", entry["technique"].get<std::string>().c_str(),
                     entry["exists"].get<bool>() ? "exists" : "absent", entry["passes"].dump().c_str(),
                     entry["called_by"].dump().c_str());
+    for (const Json& entry : report["lights"])
+        std::printf("%s %u: %s, %u planes, %.1f KiB, %llu rays when they are filled\n",
+                    entry["light"].get<std::string>().c_str(), entry["index"].get<unsigned>(),
+                    entry["casts_shadows"].get<bool>() ? "media cast shadows" : "added without shadows",
+                    entry["planes"].get<unsigned>(), entry["bytes"].get<double>() / 1024.0,
+                    entry["rays"].get<unsigned long long>());
     std::printf("passes %s\nlevel of detail %s\n", report["passes"].dump().c_str(),
                 report["level_of_detail"].dump().c_str());
     std::printf(
@@ -225,6 +254,9 @@ base::Status explain(const ExplainOptions& options)
         return status;
     const FrameCounters& counters = (*renderer)->counters();
     const Json instances = instancesOf(*file, scene, options.time);
+    const base::Result<Json> lights = lightsOf((*renderer)->view());
+    if (!lights.ok())
+        return lights.status();
     const Json report = {{"file", options.input},
                          {"time", options.time},
                          {"instances", instances},
@@ -233,6 +265,7 @@ base::Status explain(const ExplainOptions& options)
                          {"seconds_debt", base::toSeconds(statistics.timeDebtTicks)},
                          {"techniques", techniquesOf(*file, instances, counters.passes)},
                          {"passes", counters.passes},
+                         {"lights", *lights},
                          {"level_of_detail", levelsOf(counters.view)},
                          {"bytes_textures", counters.view.textureBytes},
                          {"bytes_frame", counters.view.sharedBytes},

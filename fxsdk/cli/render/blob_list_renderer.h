@@ -4,9 +4,8 @@
 /// Threads: the thread that made it, which is its GL thread.
 #pragma once
 
-#include "fxsdk/cli/render/frame_renderer.h"
+#include "fxsdk/cli/render/snapshot_renderer.h"
 #include "rendering/reference/render/medium_blobs.h"
-#include "rendering/reference/render/reference_camera.h"
 
 #include <memory>
 #include <span>
@@ -39,13 +38,8 @@ public:
 
 private:
     BlobListRenderer();
-    base::Status start(std::span<const render::MediumBlob> blobs, const render::ViewSettings& settings,
-                       int width, int height);
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
-
-/// The camera as views take it, relative to its eye. Nothing nearer than a millimetre is seen.
-render::CameraView viewOf(const render::ReferenceCamera& camera, double aspect);
 
 } // namespace fx::cli

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <vector>
 
 namespace fx::cli {
@@ -57,27 +58,29 @@ base::Bounds boundsOf(const base::SnapshotGroup& group)
 base::FrameSnapshot snapshotOfBlobs(std::span<const render::MediumBlob> blobs,
                                     const base::SnapshotSchema& schema, uint64_t sequence)
 {
-    std::map<std::pair<double, base::MediaLayer>, std::vector<uint32_t>> groups;
+    std::map<std::tuple<uint64_t, double, base::MediaLayer>, std::vector<uint32_t>> groups;
     for (size_t i = 0; i < blobs.size(); ++i)
-        groups[{blobs[i].anisotropy, blobs[i].layer}].push_back(uint32_t(i));
+        groups[{blobs[i].instance, blobs[i].anisotropy, blobs[i].layer}].push_back(uint32_t(i));
     const glm::dvec3 origin = middleOf(blobs);
     base::FrameSnapshot snapshot(&schema, std::pmr::get_default_resource());
     snapshot.begin(0, sequence);
     uint32_t solver = 0;
     for (const auto& [properties, members] : groups) {
+        const auto& [instance, anisotropy, layer] = properties;
         base::SnapshotGroup& group = snapshot.addGroup(schema.find(base::kBlobKind.name), members.size());
         for (uint32_t row = 0; row < members.size(); ++row) {
             setRow(group, row, blobs[members[row]], origin);
             group.editIds()[row] = members[row];
         }
         group.editInfo().count = uint32_t(members.size());
+        group.editInfo().instance = instance;
         group.editInfo().solver = solver++;
         group.editInfo().placement.position = origin;
         group.editInfo().bounds = boundsOf(group);
         for (size_t c = 0; c < constant::Count; ++c)
             group.editConstants()[c] = 0.0f;
-        group.editConstants()[constant::Layer] = float(properties.second);
-        group.editConstants()[constant::Anisotropy] = float(properties.first);
+        group.editConstants()[constant::Layer] = float(layer);
+        group.editConstants()[constant::Anisotropy] = float(anisotropy);
     }
     return snapshot;
 }

@@ -10,8 +10,8 @@
 
 namespace fx::cli {
 
-/// The opposite of render::mediumOf(): one group for each anisotropy, without procedural detail, relative to
-/// the middle of all blobs. Numbers become floats.
+/// The opposite of render::mediumOf(): one group for each instance, anisotropy and layer, without procedural
+/// detail, relative to the middle of all blobs. Numbers become floats.
 /// @param schema has the kind "blob" and must outlive the snapshot
 /// @param sequence above that of every snapshot that the same view has drawn
 base::FrameSnapshot snapshotOfBlobs(std::span<const render::MediumBlob> blobs,

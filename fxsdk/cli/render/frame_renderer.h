@@ -65,6 +65,7 @@ public:
 
     const FrameCounters& counters() const { return counters_; }
     EffectScene& effects() { return *effects_; }
+    FxView* view() const { return view_; }
     const std::string& rendererName() const { return device_->limits().renderer; }
 
 private:

@@ -74,6 +74,14 @@ void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments)
         ->capture_default_str()
         ->group(group);
     command
+        .add_option(
+            "--detail", arguments.detail,
+            "Detail of fields. auto: where the scene's composition, or --composition, draws it, which "
+            "are all but sorted")
+        ->check(oneOf({"auto", "on", "off"}))
+        ->capture_default_str()
+        ->group(group);
+    command
         .add_option("--sky-rings", arguments.skyRings,
                     "With --scattering single light of the sky comes from 4 N N directions")
         ->check(CLI::Range(1, 64))

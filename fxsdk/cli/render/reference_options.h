@@ -23,9 +23,10 @@ struct ReferenceArguments
     std::string precision = "double";
     std::string source = "per-blob";
     std::string scattering = "centers";
-    std::string view;   ///< "ex,ey,ez,tx,ty,tz,fov": replaces the camera
-    std::string camera; ///< a scene file whose camera is used
-    int skyRings = 3;   ///< 4 skyRings^2 directions of the sky with --scattering single
+    std::string detail = "auto"; ///< of fields: on, off, or as the composition of the scene draws it
+    std::string view;            ///< "ex,ey,ez,tx,ty,tz,fov": replaces the camera
+    std::string camera;          ///< a scene file whose camera is used
+    int skyRings = 3;            ///< 4 skyRings^2 directions of the sky with --scattering single
     int samples = 1;
     std::optional<uint32_t> paths;   ///< of a pixel; none: 64, or as many as `error` asks for
     std::optional<double> error;     ///< [1] standard error of written values

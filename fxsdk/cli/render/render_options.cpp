@@ -209,6 +209,11 @@ void addEconomyOptions(CLI::App& command, RenderArguments& arguments)
             "no shadows")
         ->check(CLI::Validator(checkLightSlices, "N|off"));
     command
+        .add_option("--light-refresh", arguments.lightRefresh,
+                    "Frames after which the shadow of media follows media that move, 1 to 16")
+        ->check(CLI::Range(1, 16))
+        ->capture_default_str();
+    command
         .add_option("--layer-scale", arguments.layerScale,
                     "Width and height at which particles are drawn, over those of the picture")
         ->check(oneOf({"1", "0.5", "0.25"}))
@@ -324,6 +329,7 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
     settings.slices.enabled = arguments.lightSlices != "off";
     if (settings.slices.enabled && !arguments.lightSlices.empty())
         settings.slices.resolution.planes = std::stoi(arguments.lightSlices);
+    settings.slices.refreshFrames = arguments.lightRefresh;
     settings.slices.multiple = arguments.reference.scattering != "single";
     settings.exposureEv100 = arguments.exposureEv100.value_or(settings.exposureEv100);
 }

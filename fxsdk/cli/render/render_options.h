@@ -46,6 +46,7 @@ struct RenderArguments
     float impostorPixels = 0.0f; ///< [pixel]
     uint32_t fragmentBudget = 0; ///< 0: none
     std::string lightSlices;     ///< "off" or planes of the sun; empty: as the settings say
+    int lightRefresh = 1;        ///< [frame]
     bool noDazzle = false;
     bool noShimmer = false;
     bool overdraw = false;

@@ -77,6 +77,8 @@ public:
             auto frame = (*source)->frameAt(moment.tick);
             if (!frame.ok())
                 return frame.status();
+            if (!drawsDetail(scene))
+                frame->scene.details = {};
             if (base::Status status = renderFrame(moment, *frame); !status)
                 return status;
         }
@@ -86,6 +88,15 @@ public:
     const Machine& machine() const { return machine_; }
 
 private:
+    bool drawsDetail(const scene_file::SceneFile& scene) const
+    {
+        const std::string& detail = arguments_.reference.detail;
+        if (detail != "auto")
+            return detail == "on";
+        render::ViewSettings settings = scene.view;
+        applyArguments(arguments_, OutputKind::Exr, settings);
+        return settings.composition != render::Composition::Sorted;
+    }
     void setExposure(float ev100) { white_ = 1.2f * std::exp2(ev100); }
 
     base::Status renderFrame(const RenderPlan::Frame& moment, ReferenceFrame& frame)

@@ -1,6 +1,7 @@
 #include "fxsdk/cli/scene/effect_scene.h"
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/material_kind.h"
 #include "foundation/snapshot/particle_kind.h"
 #include "fxsdk/api/scene_object.h"
 #include "fxsdk/cli/scene/api_status.h"
@@ -64,10 +65,11 @@ base::Status copyGroup(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, uin
     return {};
 }
 
-/// Media and the lights that they shed; nothing else is shown without a view.
+/// Media, what they carry for their detail, and the lights that they shed; nothing else is shown without a
+/// view.
 bool isCopied(std::string_view kind)
 {
-    return kind == base::kBlobKind.name || kind == base::kLightKind.name;
+    return kind == base::kBlobKind.name || kind == base::kMaterialKind.name || kind == base::kLightKind.name;
 }
 
 base::Status copyGroups(FxScene* scene, FxSnapshotId id, FxSnapshotStep step, const FxSnapshotInfo& info,

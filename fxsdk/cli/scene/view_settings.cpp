@@ -40,6 +40,7 @@ FxViewSettings toApi(const render::ViewSettings& settings)
     api.castingLights = uint32_t(settings.slices.castingPoints);
     api.lightSamples = uint32_t(settings.slices.samples);
     api.multipleScattering = settings.slices.multiple ? 1 : 0;
+    api.lightRefreshFrames = uint32_t(settings.slices.refreshFrames);
     api.composition = uint32_t(settings.composition);
     api.slabs = uint32_t(settings.slabs);
     api.voxels = uint32_t(settings.voxels);

@@ -196,6 +196,11 @@ typedef struct FxViewSettings
     /// 16..256 voxels along 16 radii of an effect's balls, of FX_COMPOSITION_VOLUME; default 96. Effects that
     /// are small on the picture get fewer.
     uint32_t voxels;
+
+    /// 1..16 frames of the view after which light slices follow media that move: shadows of media lag behind
+    /// by up to one frame less, and the passes that fill the planes are spared in between. Lights that move
+    /// are followed at once, media that come to rest in the next frame; default 1.
+    uint32_t lightRefreshFrames;
 } FxViewSettings;
 
 /// Daylight exposure, no lights, all effects enabled.
@@ -229,6 +234,7 @@ static inline FxViewSettings fxDefaultViewSettings(void)
     settings.composition = FX_COMPOSITION_SORTED;
     settings.slabs = 16;
     settings.voxels = 96;
+    settings.lightRefreshFrames = 1;
     return settings;
 }
 

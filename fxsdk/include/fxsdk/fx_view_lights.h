@@ -17,12 +17,13 @@ extern "C" {
 /// Number of lights that fxView_SetLights() takes at most.
 #define FX_MOST_LIGHTS 8
 
-/// Values of the argument `kind` of fxView_GetMediaShadow().
+/// Values of the argument `kind` of fxView_GetMediaShadow(), and of FxLightCost::kind.
 enum
 {
-    FX_LIGHT_SUN = 0,   ///< FxViewSettings::sunDirection; index 0
-    FX_LIGHT_HOST = 1,  ///< index in the array of fxView_SetLights()
-    FX_LIGHT_EFFECT = 2 ///< index of fxView_GetEffectLight()
+    FX_LIGHT_SUN = 0,    ///< FxViewSettings::sunDirection; index 0
+    FX_LIGHT_HOST = 1,   ///< index in the array of fxView_SetLights()
+    FX_LIGHT_EFFECT = 2, ///< index of fxView_GetEffectLight()
+    FX_LIGHT_SKY = 3     ///< sky and ground; index 0, only in FxLightCost
 };
 
 /// A point, a ball or a spot. Fill with fxDefaultLight(), then set position and intensity.
@@ -91,6 +92,30 @@ typedef struct FxMediaShadow
     float place[4];
 } FxMediaShadow;
 
+/// What a light of media takes. Fill structSize with sizeof before the call.
+typedef struct FxLightCost
+{
+    /// sizeof(FxLightCost) of the caller.
+    uint32_t structSize;
+
+    /// FX_LIGHT_...
+    uint32_t kind;
+
+    /// Of the light among those of its kind.
+    uint32_t index;
+
+    /// Of light slices; 0: media cast no shadow in it. Lights are brightest first, and
+    /// FxViewSettings::castingLights of those at points have planes.
+    uint32_t planes;
+
+    /// [byte] of the planes.
+    uint64_t bytes;
+
+    /// Along which media are integrated when the planes are filled. The time of that grows with them; `fx
+    /// bench slices` measures it.
+    uint64_t rays;
+} FxLightCost;
+
 /// Replaces the host's lights that light media, from the next frame on. Those that light the media most cast
 /// shadows through them (FxViewSettings::castingLights), the others do not. [GL thread]
 /// @param lights `count` lights one after the other; may be null when count is 0: there are none
@@ -137,6 +162,20 @@ FX_API FxResult fxView_GetEffectLightCount(FxView* view, uint32_t* outCount);
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
 /// FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetEffectLight(FxView* view, uint32_t index, FxLight* ioLight);
+
+/// Reads the number of lights that light media in the frame that was prepared or rendered last: sun, host's,
+/// effects', and the sky where it has planes. [GL thread]
+/// @param outCount receives the number, at most 14; untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetLightCostCount(FxView* view, uint32_t* outCount);
+
+/// Reads what one of them takes. [GL thread]
+/// @param index  0..fxView_GetLightCostCount() - 1: the sun, then points by the light that arrives at the
+///               media, then the sky
+/// @param ioCost structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
+/// FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetLightCost(FxView* view, uint32_t index, FxLightCost* ioCost);
 
 #ifdef __cplusplus
 }

@@ -289,8 +289,14 @@ void VolumeView::addFields(FrameGraph& graph, PassFrame& frame)
         }
         if (frame.lights.lights.valid())
             glow_.addPasses(graph,
-                            {march_.fieldTexels, march_.textures, march_.lumpTile, !details_.empty(), {}, {},
-                             uint32_t(plan_.fields().size()), 0},
+                            {march_.fieldTexels,
+                             march_.textures,
+                             march_.lumpTile,
+                             !details_.empty(),
+                             {},
+                             {},
+                             uint32_t(plan_.fields().size()),
+                             0},
                             plan_.glows());
         march_.textures =
             FieldLightPass::addTo(graph, {ids_[Fields], ids_[Bricks], march_.textures, frame.lights,

@@ -78,11 +78,11 @@ private:
     uint64_t corrected_ = 0;                  ///< filling of the light slices that has the detail
     std::span<const BlobMaterial> materials_; ///< of the frame
     VolumeGlow glow_;
-    GlTexture texelTexture_, table_;          ///< of FieldTexels, and of bricks
-    GlTexture lumpTile_;                      ///< nothing before detail is seen
-    bool hasLumps_ = false;                   ///< it is filled
-    SlabMedia loose_;                         ///< cards, and balls of `looseSource_`
-    BlobSource looseSource_;                  ///< of balls that are too small for voxels
+    GlTexture texelTexture_, table_; ///< of FieldTexels, and of bricks
+    GlTexture lumpTile_;             ///< nothing before detail is seen
+    bool hasLumps_ = false;          ///< it is filled
+    SlabMedia loose_;                ///< cards, and balls of `looseSource_`
+    BlobSource looseSource_;         ///< of balls that are too small for voxels
     std::pmr::vector<BlobInstance> looseBlobs_;
     GlBuffer looseBuffer_, looseLights_;
     int slabs_ = 16;                      ///< that the loose is at least divided into

@@ -4,6 +4,7 @@
 #include "foundation/math/hash.h"
 #include "rendering/frame/exposure.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -122,7 +123,7 @@ SortedPoints sortedPoints(const LightListInputs& in)
 } // namespace
 
 LightList::LightList(std::pmr::memory_resource* memory)
-    : origins_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory), near_(memory)
+    : origins_(memory), fades_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory)
 {}
 
 void LightList::build(const LightListInputs& in)
@@ -133,6 +134,7 @@ void LightList::build(const LightListInputs& in)
     stacks_.clear();
     stackLights_.clear();
     stackBlocks_.clear();
+    fades_.begin(in.resetsHistory);
     const Lighting& lighting = in.settings->lighting;
     const float exposure = exposureFromEv100(in.settings->exposureEv100);
     block_.sky = glm::vec4(lighting.skyLuminance * exposure, in.settings->slices.multiple ? 1.0f : 0.0f);
@@ -146,9 +148,13 @@ void LightList::build(const LightListInputs& in)
     placeTiles();
 }
 
+/// @param light without planes, which the entry may have already
 void LightList::add(const SliceLightBlock& light)
 {
-    block_.lights[count_++] = light;
+    SliceLightBlock& entry = block_.lights[count_++];
+    entry.color = light.color;
+    entry.place = light.place;
+    entry.cone = light.cone;
 }
 
 bool LightList::setSunShadow(const HostShadowMap& map, const glm::dvec3& shift)
@@ -175,34 +181,46 @@ void LightList::addSun(const LightListInputs& in)
     SliceLightBlock light{};
     light.color = glm::vec4(lighting.sunIlluminance * exposureFromEv100(in.settings->exposureEv100), 0.0f);
     light.place = glm::vec4(lighting.sunDirection, 0.0f);
-    SliceStack stack;
-    if (in.settings->slices.enabled && lighting.sunIlluminance != glm::vec3(0.0f) &&
-        fitParallelSlices(lighting.sunDirection, in.casters, in.eye, in.settings->slices.resolution, stack))
-        addStack(stack, light);
+    sunTexel_ = 0.0f;
+    if (in.settings->slices.enabled && lighting.sunIlluminance != glm::vec3(0.0f))
+        sunTexel_ = addStacks(
+            [&](const SliceFit& fit, SliceStack& outStack) {
+                return fitParallelSlices(lighting.sunDirection, in.casters, in.eye,
+                                         in.settings->slices.resolution, outStack, fit);
+            },
+            in.settings->slices.snapped, count_);
     add(light);
     origins_.push_back({LightKind::Sun, 0});
 }
 
-/// The sun's planes of a wide scene are coarse. What is near the eye gets finer ones, in the last entries.
+/// The sun's planes of a wide scene are coarse. A ball around the eye gets finer ones, in the last entries.
+/// They are fitted to the ball, not to the media in it: these come and go while the eye moves.
 void LightList::addCascades(const LightListInputs& in)
 {
     const Lighting& lighting = in.settings->lighting;
-    if (stacks_.empty() || lighting.sunIlluminance == glm::vec3(0.0f))
+    if (sunTexel_ <= 0.0f)
         return;
-    float side = stacks_.front().texel * float(stacks_.front().resolution.texels);
-    float coarserTexel = stacks_.front().texel;
+    float side = sunTexel_ * float(stacks_.front().resolution.texels);
+    float coarserTexel = sunTexel_;
     for (count_ = kFinerPlanes; count_ < kMostLightEntries && side > kWideScene; ++count_) {
         side *= kCascadeRatio;
-        near_.clear();
-        for (const MediumCaster& caster : in.casters)
-            if (glm::length(caster.center) < 0.5f * side + caster.radius)
-                near_.push_back(caster);
-        SliceStack stack;
-        if (!fitParallelSlices(lighting.sunDirection, near_, in.eye, in.settings->slices.resolution, stack) ||
-            stack.texel >= coarserTexel)
+        const MediumCaster around{glm::vec3(0.0f), 0.5f * side, 0.0f};
+        const bool hasMedia = std::ranges::any_of(in.casters, [&](const MediumCaster& caster) {
+            return glm::length(caster.center) < around.radius + caster.radius;
+        });
+        if (!hasMedia)
             return;
-        coarserTexel = stack.texel;
-        addStack(stack, block_.lights[count_]);
+        const float texel = addStacks(
+            [&](const SliceFit& fit, SliceStack& outStack) {
+                return fitParallelSlices(lighting.sunDirection, {&around, 1}, in.eye,
+                                         in.settings->slices.resolution, outStack, fit) &&
+                       outStack.texel < coarserTexel;
+            },
+            in.settings->slices.snapped, count_);
+        if (texel <= 0.0f)
+            return;
+        block_.lights[count_].place.w = around.radius;
+        coarserTexel = texel;
     }
 }
 
@@ -219,14 +237,16 @@ void LightList::addPoints(const LightListInputs& in)
         light.color = glm::vec4(point.intensity * exposure, isOfMedium ? 2.0f : 1.0f);
         light.place = glm::vec4(place, point.radius);
         light.cone = coneOf(point);
-        SliceStack stack;
-        if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints &&
-            fitPointSlices(place, point.radius, in.casters, in.eye, partOf(in.settings->slices.resolution, 2),
-                           stack))
-        {
-            stack.corner = point.position; // not by way of floats: it must not follow the eye
-            addStack(stack, light);
-        }
+        if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints)
+            addStacks(
+                [&](const SliceFit& fit, SliceStack& outStack) {
+                    const bool isThere =
+                        fitPointSlices(place, point.radius, in.casters, in.eye,
+                                       partOf(in.settings->slices.resolution, 2), outStack, fit);
+                    outStack.corner = point.position; // not by way of floats: it must not follow the eye
+                    return isThere;
+                },
+                in.settings->slices.snapped, count_);
         add(light);
         origins_.push_back(origin);
     }
@@ -244,19 +264,45 @@ void LightList::addSky(const LightListInputs& in)
         const glm::vec3 axis =
             i == 0 ? glm::vec3(0, 1, 0)
                    : glm::vec3(across * std::cos(turn), kSkyAxisElevation, across * std::sin(turn));
-        SliceStack stack;
-        if (!fitParallelSlices(axis, in.casters, in.eye, partOf(in.settings->slices.resolution, 4), stack))
+        const float texel = addStacks(
+            [&](const SliceFit& fit, SliceStack& outStack) {
+                return fitParallelSlices(axis, in.casters, in.eye, partOf(in.settings->slices.resolution, 4),
+                                         outStack, fit);
+            },
+            in.settings->slices.snapped, count_);
+        if (texel <= 0.0f)
             return;
         SliceLightBlock light{};
         light.place = glm::vec4(axis, 0.0f);
-        addStack(stack, light);
         add(light);
     }
 }
 
-/// Its light is the next one of the list.
-void LightList::addStack(const SliceStack& stack, SliceLightBlock& ioLight)
+/// Planes of a light and, while they change their sides, those that it had before.
+/// @param fit makes a stack  @param entry of the block  @return [m] side of texels, between that before and
+/// that now, so that what is made from it has no jumps either; 0: there are no planes
+template <class Fit>
+float LightList::addStacks(const Fit& fit, bool isSnapped, size_t entry)
 {
+    SliceStack stack;
+    if (!fit(SliceFit{isSnapped}, stack))
+        return 0.0f;
+    const SliceFade fade = isSnapped ? fades_.next(stack) : SliceFade();
+    SliceStack before;
+    const bool fades = fade.weight > 0.0f && fit(fade.before, before);
+    if (isSnapped && (stack.texel != fade.now.texel || stack.spacing != fade.now.spacing))
+        fit(fade.now, stack);
+    addStack(stack, entry);
+    if (fades) {
+        addStack(before, entry + kFadingEntries);
+        block_.lights[entry + kFadingEntries].color = glm::vec4(fade.weight, 0.0f, 0.0f, 0.0f);
+    }
+    return fades ? glm::mix(stack.texel, before.texel, fade.weight) : stack.texel;
+}
+
+void LightList::addStack(const SliceStack& stack, size_t entry)
+{
+    SliceLightBlock& ioLight = block_.lights[entry];
     if (stack.mapping == SliceMapping::Parallel) {
         const glm::vec3 right = stack.right / stack.texel, up = stack.up / stack.texel,
                         along = stack.along / stack.spacing;
@@ -267,7 +313,31 @@ void LightList::addStack(const SliceStack& stack, SliceLightBlock& ioLight)
         ioLight.along = {stack.first / stack.spacing, 0.0f, 0.0f, 1.0f / stack.spacing};
     }
     stacks_.push_back(stack);
-    stackLights_.push_back(count_);
+    stackLights_.push_back(entry);
+}
+
+size_t LightList::costCount() const
+{
+    return size_t(block_.counts.x) + (block_.counts.y > 0 ? 1 : 0);
+}
+
+LightCost LightList::costOf(size_t light) const
+{
+    const auto points = size_t(block_.counts.x);
+    LightCost cost;
+    cost.origin = light < points ? origins_[light] : LightOrigin{LightKind::Sky, 0};
+    for (size_t i = 0; i < stacks_.size(); ++i) {
+        const size_t entry = stackLights_[i] >= kFinerPlanes ? 0 : stackLights_[i];
+        if (std::min(entry, points) != light)
+            continue;
+        const auto side = uint64_t(stacks_[i].resolution.texels);
+        const auto planes = uint64_t(stacks_[i].resolution.planes);
+        ++cost.stacks;
+        cost.planes += uint32_t(planes);
+        cost.texels += planes * side * side;
+        cost.rays += side * side;
+    }
+    return cost;
 }
 
 /// Stacks lie side by side in rows; each row is as high as its first stack, the largest.

@@ -4,6 +4,7 @@
 
 #include "rendering/frame/view_types.h"
 #include "rendering/lights/effect_lights.h"
+#include "rendering/lights/slices/slice_fades.h"
 #include "rendering/lights/slices/slice_stack.h"
 #include "rendering/passes/light_bindings.h"
 
@@ -24,7 +25,8 @@ struct SliceStackBlock
 };
 static_assert(sizeof(SliceStackBlock) == 5 * 16);
 
-constexpr int kSliceTileColumns = 8; ///< planes of a stack lie in rows of so many tiles
+constexpr uint64_t kSliceTexelBytes = 8; ///< depth and its slope towards the next plane, 32 bits each
+constexpr int kSliceTileColumns = 8;     ///< planes of a stack lie in rows of so many tiles
 constexpr size_t kFinerPlanes =
     kMostLightEntries - 2;     ///< first entry with finer planes of the sun near the eye
 constexpr size_t kSkyAxes = 6; ///< of an icosahedron: both ends of each are sampled, with equal weights
@@ -38,6 +40,7 @@ enum class LightKind : uint8_t
     Sun,
     Host,   ///< ViewSettings::hostLights
     Effect, ///< of what the snapshot holds
+    Sky,    ///< sky and ground, looked up along axes
 };
 
 /// Where a light of the list comes from.
@@ -47,6 +50,16 @@ struct LightOrigin
     uint32_t index = 0; ///< of ViewSettings::hostLights, or of the effects' lights, brightest first
 };
 
+/// What the planes of a light take.
+struct LightCost
+{
+    LightOrigin origin;
+    uint32_t stacks = 0; ///< 0: it has no planes, and media cast no shadow in it
+    uint32_t planes = 0; ///< of all stacks
+    uint64_t texels = 0; ///< of all planes
+    uint64_t rays = 0;   ///< along which media are integrated when the planes are filled
+};
+
 /// What the lights of a frame are made from.
 struct LightListInputs
 {
@@ -54,10 +67,12 @@ struct LightListInputs
     glm::dvec3 eye;                       ///< [m] world
     std::span<const EffectLight> effects; ///< brightest first
     std::span<const MediumCaster> casters;
+    bool resetsHistory = false; ///< planes do not fade from those of the last frame
 };
 
 /// Lights of a frame in the order in which they get planes: the sun, then the others by the light that
-/// arrives at the casters, then the axes of the sky. Threads: one at a time. Equal inputs give equal bits.
+/// arrives at the casters, then the axes of the sky. Planes of other sides than in the last frame fade in.
+/// Threads: one at a time. Equal inputs give equal bits, after equal inputs.
 class LightList
 {
 public:
@@ -78,6 +93,9 @@ public:
     std::span<const LightOrigin> origins() const { return origins_; }
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
+    /// Of the first block().counts.x lights, and of the sky behind them where it has planes.
+    size_t costCount() const;
+    LightCost costOf(size_t light) const;
     uint64_t placesRevision() const
     {
         return placesRevision_;
@@ -91,7 +109,9 @@ private:
     void addPoints(const LightListInputs& in);
     void addSky(const LightListInputs& in);
     void addCascades(const LightListInputs& in);
-    void addStack(const SliceStack& stack, SliceLightBlock& ioLight);
+    template <class Fit>
+    float addStacks(const Fit& fit, bool isSnapped, size_t entry);
+    void addStack(const SliceStack& stack, size_t entry);
     void placeTiles();
 
     void add(const SliceLightBlock& light);
@@ -99,10 +119,12 @@ private:
     LightListBlock block_{};
     size_t count_ = 0;
     std::pmr::vector<LightOrigin> origins_;
+    SliceFades fades_;
+    float sunTexel_ =
+        0.0f; ///< [m] side of the sun's texels, between the one before and that now; 0: no planes
     std::pmr::vector<SliceStack> stacks_;
     std::pmr::vector<size_t> stackLights_; ///< the light of each stack
     std::pmr::vector<SliceStackBlock> stackBlocks_;
-    std::pmr::vector<MediumCaster> near_; ///< scratch: casters near the eye
     uint64_t placesRevision_ = 0;
     int atlasWidth_ = 0, atlasHeight_ = 0;
     int mostTexels_ = 0;

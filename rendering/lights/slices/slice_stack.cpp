@@ -15,9 +15,13 @@ namespace {
 constexpr float kLeastSide = 1e-4f; ///< [m] of a texel, and between planes
 
 /// The smallest power of 2^(1/4) that is not below x, so that small changes of x change nothing.
-float quantizedSide(float x)
+/// @param given what it is to be instead; 0: nothing
+float quantizedSide(float x, bool isSnapped, float given)
 {
-    return std::exp2(std::ceil(4.0f * std::log2(std::max(x, kLeastSide))) * 0.25f);
+    const float side = std::max(x, kLeastSide);
+    if (given > 0.0f)
+        return given;
+    return isSnapped ? std::exp2(std::ceil(4.0f * std::log2(side)) * 0.25f) : side;
 }
 
 /// A unit vector across `along`, near to the horizontal.
@@ -70,12 +74,13 @@ Extent extentAlong(const glm::vec3& axis, std::span<const MediumCaster> casters)
 }
 
 /// The largest multiple of `side` in the world that is not above `low`, which is relative to the eye, as a
-/// number.
-double snappedBelow(float low, float side, const glm::vec3& axis, const glm::dvec3& eye)
+/// number. @param isSnapped false: `low` itself in sides
+double snappedBelow(float low, float side, const glm::vec3& axis, const glm::dvec3& eye, bool isSnapped)
 {
     constexpr double kRounding =
         1e-3; // [1] of a side: a rim that lies on a multiple must not turn it into the next one
-    return std::floor((glm::dot(eye, glm::dvec3(axis)) + double(low)) / double(side) - kRounding);
+    const double place = (glm::dot(eye, glm::dvec3(axis)) + double(low)) / double(side);
+    return isSnapped ? std::floor(place - kRounding) : place;
 }
 
 } // namespace
@@ -108,7 +113,7 @@ SliceRay sliceRay(const SliceStack& stack, float x, float y)
 }
 
 bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters, const glm::dvec3& eye,
-                       const SliceResolution& asked, SliceStack& outStack)
+                       const SliceResolution& asked, SliceStack& outStack, const SliceFit& fit)
 {
     if (casters.empty() || asked.planes <= 0)
         return false;
@@ -123,12 +128,14 @@ bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> c
     const Extent y = extentAlong(stack.up, casters);
     const Extent z = extentAlong(stack.along, casters);
     // a texel on each side stays free of media, and snapping moves the corner by up to another one
-    stack.texel = quantizedSide(std::max(x.high - x.low, y.high - y.low) / float(resolution.texels - 3));
+    stack.texel = quantizedSide(std::max(x.high - x.low, y.high - y.low) / float(resolution.texels - 3),
+                                fit.isSnapped, fit.texel);
     // likewise snapping moves the first plane by up to one distance
-    stack.spacing = quantizedSide((z.high - z.low) / float(resolution.planes - 2));
-    stack.corner = {snappedBelow(x.low, stack.texel, stack.right, eye) - 1.0,
-                    snappedBelow(y.low, stack.texel, stack.up, eye) - 1.0,
-                    snappedBelow(z.low, stack.spacing, stack.along, eye)};
+    stack.spacing =
+        quantizedSide((z.high - z.low) / float(resolution.planes - 2), fit.isSnapped, fit.spacing);
+    stack.corner = {snappedBelow(x.low, stack.texel, stack.right, eye, fit.isSnapped) - 1.0,
+                    snappedBelow(y.low, stack.texel, stack.up, eye, fit.isSnapped) - 1.0,
+                    snappedBelow(z.low, stack.spacing, stack.along, eye, fit.isSnapped)};
     const glm::dvec3 world = stack.corner.x * double(stack.texel) * glm::dvec3(stack.right) +
                              stack.corner.y * double(stack.texel) * glm::dvec3(stack.up) +
                              stack.corner.z * double(stack.spacing) * glm::dvec3(stack.along);
@@ -141,7 +148,8 @@ bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> c
 }
 
 bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,
-                    const glm::dvec3& eye, const SliceResolution& asked, SliceStack& outStack)
+                    const glm::dvec3& eye, const SliceResolution& asked, SliceStack& outStack,
+                    const SliceFit& fit)
 {
     if (casters.empty() || asked.planes <= 0)
         return false;
@@ -157,11 +165,14 @@ bool fitPointSlices(const glm::vec3& light, float radius, std::span<const Medium
     stack.resolution = resolution;
     stack.origin = light;
     stack.corner = eye + glm::dvec3(light);
-    stack.spacing = quantizedSide(farthest / float(resolution.planes - 1));
-    const float closer = quantizedSide((farthest - nearest) / float(resolution.planes - 2));
-    if (nearest > 0.0f && closer < stack.spacing) { // the light is outside: no shells before the media
+    const bool isOutside = nearest > 0.0f;
+    stack.spacing =
+        quantizedSide(farthest / float(resolution.planes - 1), fit.isSnapped, isOutside ? 0.0f : fit.spacing);
+    const float closer =
+        quantizedSide((farthest - nearest) / float(resolution.planes - 2), fit.isSnapped, fit.spacing);
+    if (isOutside && closer < stack.spacing) { // no shells before the media
         stack.spacing = closer;
-        stack.first = std::floor(nearest / closer) * closer;
+        stack.first = fit.isSnapped ? std::floor(nearest / closer) * closer : nearest;
     }
     stack.begin = radius;
     outStack = stack;

@@ -71,17 +71,27 @@ struct SliceRay
 /// @param x, y of a texel's center, see SlicePlace
 SliceRay sliceRay(const SliceStack& stack, float x, float y);
 
+/// Sides that a stack is to have, and whether it keeps its places in the world.
+struct SliceFit
+{
+    bool isSnapped =
+        true;             ///< false: sides and corner are those of the casters, to measure what snapping does
+    float texel = 0.0f;   ///< [m] 0: as large as the casters need, as the next
+    float spacing = 0.0f; ///< [m]
+};
+
 /// Fits planes to all casters. Texels and planes keep their places in the world while the casters move: the
 /// sides are powers of 2^(1/4), the corner is a multiple of them.
 /// @param towards unit, to the light  @param eye [m] world position that casters are relative to
 /// @param asked brought to a usable resolution; no planes: no stack
 /// @return whether there are casters and planes
 bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters, const glm::dvec3& eye,
-                       const SliceResolution& asked, SliceStack& outStack);
+                       const SliceResolution& asked, SliceStack& outStack, const SliceFit& fit = {});
 
 /// Fits shells around a glowing ball, from the nearest to the farthest caster. Their distances are multiples
 /// of a power of 2^(1/4).  @param light [m] relative to the eye  @param radius [m] of the ball
 bool fitPointSlices(const glm::vec3& light, float radius, std::span<const MediumCaster> casters,
-                    const glm::dvec3& eye, const SliceResolution& asked, SliceStack& outStack);
+                    const glm::dvec3& eye, const SliceResolution& asked, SliceStack& outStack,
+                    const SliceFit& fit = {});
 
 } // namespace fx::render

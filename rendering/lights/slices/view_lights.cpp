@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace fx::render {
 
@@ -15,16 +16,55 @@ std::span<const ProgramDesc* const> lightPrograms()
 }
 
 ViewLights::ViewLights(GlDevice* device, std::pmr::memory_resource* memory)
-    : device_(*device), list_(memory), casters_(memory)
+    : device_(*device), list_(memory), casters_(memory), held_(memory), shifted_(memory)
 {}
+
+namespace {
+
+/// Of what planes hold.
+uint64_t keyOf(uint64_t casterRevision, const LightListInputs& in, const LightList& list)
+{
+    return base::hashWord(base::hashWord(casterRevision, in.casters.size()), list.placesRevision()) | 1;
+}
+
+} // namespace
+
+/// Lists the lights with the planes as they are filled.  @return false: they have to be filled again
+bool ViewLights::buildBehind(const LightListInputs& in)
+{
+    if (++age_ >= in.settings->slices.refreshFrames || filled_ == 0 || held_.empty() || in.casters.empty())
+        return false;
+    shifted_ = held_;
+    for (MediumCaster& caster : shifted_)
+        caster.center += glm::vec3(heldEye_ - in.eye);
+    LightListInputs held = in;
+    held.casters = shifted_;
+    list_.build(held);
+    return keyOf(heldRevision_, held, list_) == filled_;
+}
+
+void ViewLights::hold(const LightListInputs& in, uint64_t revision)
+{
+    held_.clear();
+    if (in.settings->slices.refreshFrames > 1)
+        held_.assign(in.casters.begin(), in.casters.end());
+    heldEye_ = in.eye;
+    heldRevision_ = revision;
+    age_ = 0;
+}
 
 base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters, bool isUsed)
 {
     isKept_ = false;
-    list_.build(in);
     eye_ = in.eye;
-    wanted_ = base::hashWord(base::hashWord(casters, in.casters.size()), list_.placesRevision()) | 1;
+    const bool areMoving = casters != std::exchange(givenRevision_, casters);
+    isBehind_ = areMoving && heldRevision_ != casters && buildBehind(in);
+    if (isBehind_)
+        return isUsed ? makeRoom() : base::Status();
+    list_.build(in);
+    wanted_ = keyOf(casters, in, list_);
     if (wanted_ != filled_) {
+        hold(in, casters);
         casters_.clear();
         for (const MediumCaster& caster : in.casters)
             casters_.push_back(

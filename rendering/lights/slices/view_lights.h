@@ -27,11 +27,15 @@ class ViewLights
 public:
     ViewLights(GlDevice* device, std::pmr::memory_resource* memory);
 
-    /// Makes the list of a frame. The planes are filled again only where casters or lights have changed.
+    /// Makes the list of a frame. The planes are filled again only where casters or lights have changed, and
+    /// where nothing but casters has changed, after SliceSettings::refreshFrames.
     /// @param casters revision: differs where `in.casters` differ in the world
     /// @return OutOfMemory
     /// @param isUsed something is drawn with it or casts a shadow; otherwise it takes no memory on the GPU
     base::Status gather(const LightListInputs& in, uint64_t casters, bool isUsed = true);
+
+    /// Whether the planes are those of the casters that the last gather() was given.
+    bool isCurrent() const { return !isBehind_; }
 
     /// Instead of gather(): the frame has the lights of the last one.
     void keep() { isKept_ = true; }
@@ -61,11 +65,20 @@ private:
         glm::vec4 medium;
     };
     base::Status makeRoom();
+    bool buildBehind(const LightListInputs& in);
+    void hold(const LightListInputs& in, uint64_t revision);
 
     GlDevice& device_;
     LightList list_;
     glm::dvec3 eye_{0.0}; ///< [m] world position that the list is relative to
     std::pmr::vector<CasterBlock> casters_;
+    std::pmr::vector<MediumCaster> held_;    ///< that the planes were filled with; none if they never wait
+    std::pmr::vector<MediumCaster> shifted_; ///< scratch: the same, relative to the eye of the frame
+    glm::dvec3 heldEye_{0.0};                ///< [m] world position that `held_` is relative to
+    uint64_t heldRevision_ = 0;
+    uint64_t givenRevision_ = 0; ///< of the last casters that gather() was given
+    int age_ = 0;                ///< [frame] since the casters were held
+    bool isBehind_ = false;      ///< the planes are those of held casters
     GlBuffer lightBuffer_;
     GlTexture atlas_;
     uint64_t filled_ = 0;    ///< key of what the planes hold; 0: nothing

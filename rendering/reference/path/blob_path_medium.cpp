@@ -33,10 +33,14 @@ struct MetBall
 class BlobWalk final : public MediumWalk
 {
 public:
-    explicit BlobWalk(const BlobPathMedium& medium) : medium_(medium) {}
+    explicit BlobWalk(const BlobPathMedium& medium)
+        : medium_(medium), isDetailed_(medium.details().isGiven()), mix_(medium.details()),
+          bounds_(medium.details())
+    {}
 
     void start(const TraceRay& ray, double begin, double end) override
     {
+        ray_ = ray;
         findHits(medium_.tree(), ray, begin, end, hits_);
         hits_.sort();
         met_.clear();
@@ -77,12 +81,16 @@ public:
     {
         MediumPoint point;
         double scattered = 0.0;
+        if (isDetailed_)
+            look(parameter);
         for (const MetBall& ball : met_) {
             const BlobPathMedium::Substance& substance = medium_.substance(ball.place);
-            const double extinction = extinctionOf(ball, substance, parameter);
+            const double extinction = leftOf(ball, substance, parameter);
             point.extinction += extinction;
             point.scattering += extinction * substance.albedo;
-            point.emission += extinction * substance.source;
+            point.emission +=
+                extinction * (isDetailed_ ? mix_.source(ball.place, substance.source, substance.albedo)
+                                          : substance.source);
             scattered += extinction * strength(substance);
         }
         if (met_.empty())
@@ -95,6 +103,8 @@ public:
 
     bool opticalDepth(const TraceRay& ray, double begin, double end, glm::dvec3& out) override
     {
+        if (isDetailed_)
+            return false;
         findHits(medium_.tree(), ray, begin, end, depthHits_);
         double depth = 0.0;
         for (size_t i = 0; i < depthHits_.size(); ++i) {
@@ -128,19 +138,37 @@ private:
         const double q = std::max(0.0, ball.chord2 - along * along) * substance.inverseRadius2;
         return substance.extinction * q * q; // (1)
     }
-    double majorantOf(double from, double to) const
+    /// With what detail leaves of it at the place of the last look().
+    double leftOf(const MetBall& ball, const BlobPathMedium::Substance& substance, double parameter) const
+    {
+        const double extinction = extinctionOf(ball, substance, parameter);
+        return isDetailed_ ? extinction * mix_.share(ball.place) : extinction;
+    }
+    void look(double parameter)
+    {
+        mix_.clear();
+        for (const MetBall& ball : met_)
+            mix_.add(ball.place, extinctionOf(ball, medium_.substance(ball.place), parameter));
+        mix_.finish(ray_.origin + ray_.direction * parameter);
+    }
+    double majorantOf(double from, double to)
     {
         double sum = 0.0;
-        for (const MetBall& ball : met_)
-            sum += extinctionOf(ball, medium_.substance(ball.place),
-                                std::clamp(ball.nearest, from, to)); // (2), (3)
-        return sum * kMargin;
+        bounds_.clear();
+        for (const MetBall& ball : met_) {
+            const double most =
+                extinctionOf(ball, medium_.substance(ball.place), std::clamp(ball.nearest, from, to)); // (2)
+            sum += most;                                                                               // (3)
+            if (isDetailed_)
+                bounds_.add(ball.place, most);
+        }
+        return kMargin * (isDetailed_ ? bounds_.mostLeft() : sum); // (4)
     }
     void choose(double parameter, double chosen, double scattered, MediumPoint& io) const
     {
         for (const MetBall& ball : met_) {
             const BlobPathMedium::Substance& substance = medium_.substance(ball.place);
-            const double extinction = extinctionOf(ball, substance, parameter);
+            const double extinction = leftOf(ball, substance, parameter);
             const double share = extinction * strength(substance);
             if (chosen < share) {
                 io.scattering = extinction * substance.albedo * (scattered / share);
@@ -152,6 +180,9 @@ private:
     }
 
     const BlobPathMedium& medium_;
+    const bool isDetailed_;
+    DetailMix mix_, bounds_;
+    TraceRay ray_{};
     RayHits hits_, depthHits_;
     std::vector<MetBall> met_;
     size_t entered_ = 0; ///< of `hits_`, those that the ray has met so far
@@ -170,13 +201,15 @@ double solidAngleOf(const glm::dvec3& toCenter, double radius)
 } // namespace
 
 BlobPathMedium::BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye,
-                               base::TaskRunner& tasks, double illuminance)
+                               base::TaskRunner& tasks, double illuminance, const MediumDetails& details,
+                               const PixelWidth& pixel)
 {
     std::vector<TraceBall> balls;
     balls.reserve(blobs.size());
     for (const MediumBlob& blob : blobs)
         balls.push_back({blob.center, blob.radius});
     tree_.build(balls, eye, tasks);
+    details_ = DetailedMedium(details, tree_, eye, pixel);
     substances_.resize(tree_.leaves().size() * BallTree::kWidth);
     for (uint32_t place = 0; place < tree_.count(); ++place) {
         const MediumBlob& blob = blobs[tree_.ballAt(place)];
@@ -230,7 +263,7 @@ std::unique_ptr<MediumWalk> BlobPathMedium::walk() const
 
 std::unique_ptr<DepthWalk> BlobPathMedium::depthWalk() const
 {
-    return std::make_unique<BlobDepthWalk>(*this);
+    return details_.isGiven() ? nullptr : std::make_unique<BlobDepthWalk>(*this);
 }
 
 glm::dvec3 BlobPathMedium::emissionDirection(const glm::dvec3& position, const std::array<double, 3>& u) const
@@ -275,7 +308,10 @@ double BlobPathMedium::majorant() const
                         sums[size_t((z * kCells + y) * kCells + x)] += substances_[place].extinction * q * q;
                 }
     }
-    return *std::max_element(sums.begin(), sums.end()) * (1.0 + 1e-9);
+    double gain = 1.0;
+    for (size_t group = 0; group < details_.groupCount(); ++group)
+        gain = std::max(gain, details_.mostGain(group));
+    return *std::max_element(sums.begin(), sums.end()) * gain * (1.0 + 1e-9);
 }
 
 } // namespace fx::render

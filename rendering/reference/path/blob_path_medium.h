@@ -24,17 +24,20 @@ namespace fx::render {
 ///   majorant = sum of (2) over the balls whose chords contain [a, b]                              (3)
 /// @source    [UBT96] eq. (1) for the kernel in (1); (2) and (3) follow from it
 /// @deviation none
+///   of a group with detail: the most that detail leaves of (3) of its balls, by field-detail          (4)
 /// @valid     finite balls
-/// @accuracy  a true bound but for rounding, which a factor of 1 + 1e-12 covers
+/// @accuracy  a true bound but for rounding, which a factor of 1 + 1e-12 covers, 1 + 1e-5 of (4)
 /// @tests     tests/rendering/reference/path/test_path_media.cpp
 class BlobPathMedium final : public PathMedium
 {
 public:
     /// @param eye [m] world position that rays are relative to
     /// @param illuminance [lx] of other lights: what glows much less is found by chance only
+    /// @param details of the blobs; none: they are smooth  @param pixel of the picture, for details
     BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
-                   double illuminance = 0.0);
+                   double illuminance = 0.0, const MediumDetails& details = {}, const PixelWidth& pixel = {});
     std::unique_ptr<MediumWalk> walk() const override;
+    /// Null with detail: there is no closed form of its optical depths.
     std::unique_ptr<DepthWalk> depthWalk() const override;
 
     /// Grows with the illuminance that the glow would have without medium between.
@@ -45,7 +48,8 @@ public:
     /// Draws a ball in proportion to what it would emit if it were thin, then a direction that meets it.
     glm::dvec3 emissionDirection(const glm::dvec3& position, const std::array<double, 3>& u) const override;
 
-    /// By cells of a grid: the sum over balls of the largest value that each has in the cell.
+    /// By cells of a grid: the sum over balls of the largest value that each has in the cell, times what
+    /// detail may multiply it by.
     double majorant() const override;
 
     /// One ball, in the order of the tree.
@@ -59,6 +63,7 @@ public:
     };
     const BallTree& tree() const { return tree_; }
     const Substance& substance(uint32_t place) const { return substances_[place]; }
+    const DetailedMedium& details() const { return details_; }
     bool hasOnePhase() const { return hasOnePhase_; }
 
     /// [cd/m2] light that a ball emits for each optical depth, summed over the channels
@@ -84,6 +89,7 @@ private:
     }
     BallTree tree_;
     std::vector<Substance> substances_;
+    DetailedMedium details_;
     bool hasOnePhase_ = true;
     /// Fills what is about emission. @param illuminance [lx]
     void findGlow(std::span<const MediumBlob> blobs, double illuminance);

@@ -109,7 +109,8 @@ struct PathRenderer::Shared
 {
     Shared(const ReferenceScene& scene, const PathPictureSettings& settings, base::TaskRunner& tasks)
         : camera(withUnitAxes(scene.camera)), grid(camera.grid(settings.width, settings.height)),
-          medium(scene.blobs, camera.eye, tasks, illuminanceOf(scene.opaque.lighting)),
+          medium(scene.blobs, camera.eye, tasks, illuminanceOf(scene.opaque.lighting), scene.details,
+                 PixelWidth(camera, settings.height)),
           sky(scene.opaque.lighting),
           sun(glm::normalize(glm::dvec3(scene.opaque.lighting.sunDirection)),
               glm::dvec3(scene.opaque.lighting.sunIlluminance), settings.sunRadius)

@@ -24,9 +24,10 @@ namespace constant = base::blob_constant;
 class GroupMoment
 {
 public:
+    /// @param detail of the group
     GroupMoment(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, double t,
-                double stepSeconds)
-        : newer_(newer), older_(older), t_(older ? t : 1.0), stepSeconds_(stepSeconds)
+                double stepSeconds, const BlobDetail& detail)
+        : newer_(newer), older_(older), t_(older ? t : 1.0), stepSeconds_(stepSeconds), detail_(detail)
     {
         place_ = newer.info().placement;
         if (!older)
@@ -39,6 +40,7 @@ public:
 
     void appendTo(MediumList& out)
     {
+        group_ = detail_.isGiven() ? int32_t(out.details.groups.size()) : -1;
         size_t j = 0;
         for (size_t i = 0; i < newer_.count(); ++i) {
             const size_t old = oldPlaceOf(i, j);
@@ -46,6 +48,8 @@ public:
                 continue; // not yet born
             append(i, old, out);
         }
+        if (detail_.isGiven())
+            appendGroup(out);
     }
 
 private:
@@ -72,7 +76,17 @@ private:
         return {value(c, i, old), value(c + 1, i, old), value(c + 2, i, old)};
     }
 
-    void append(size_t i, size_t old, MediumList& out) const
+    /// Relative to its own origin, from where floats are exact enough.
+    void appendGroup(MediumList& out) const
+    {
+        base::Placement here = place_;
+        here.position = glm::dvec3(0.0);
+        GroupDetail detail = detail_.groupDetail(here);
+        detail.factor = wholeFactor(detail, casters_);
+        out.details.groups.push_back({detail, place_.position});
+    }
+
+    void append(size_t i, size_t old, MediumList& out)
     {
         const glm::dvec3 velocity = vector(column::VelocityX, i, old);
         glm::dvec3 position = vector(column::PositionX, i, old);
@@ -92,14 +106,23 @@ private:
         blob.fireShare = glm::clamp(value(column::FireShare, i, old), 0.0, 1.0);
         blob.anisotropy = double(newer_.constants()[constant::Anisotropy]);
         blob.layer = base::MediaLayer(uint32_t(newer_.constants()[constant::Layer]));
+        blob.instance = newer_.info().instance;
         const glm::dvec3 streak =
             rotation * (velocity * scale) * double(newer_.constants()[constant::Shutter]);
         if (!isFinite(blob) || !base::isFinite(temperature) || !base::isFinite(glm::dot(streak, streak))) {
             ++out.nonFinite;
             return;
         }
-        if (blob.crossSection > 0.0 && blob.radius > 0.0)
-            appendStreak(blob, streak, out);
+        if (!(blob.crossSection > 0.0 && blob.radius > 0.0))
+            return;
+        appendStreak(blob, streak, out);
+        MediumDetails::Ball ball{group_, {}, temperature};
+        if (detail_.isGiven()) {
+            ball.carried = detail_.carried(i, old, old != kNone, glm::vec3(position));
+            casters_.push_back(
+                {glm::vec3(blob.center - place_.position), float(blob.radius), float(blob.crossSection)});
+        }
+        out.details.balls.resize(out.blobs.size(), ball); // all pieces of the streak
     }
 
     static bool isFinite(const MediumBlob& b)
@@ -125,6 +148,9 @@ private:
     const base::SnapshotGroup* older_;
     double t_;
     double stepSeconds_;
+    const BlobDetail& detail_;
+    int32_t group_ = -1; ///< number of the detail
+    std::vector<MediumCaster> casters_;
     base::Placement place_;
 };
 
@@ -151,11 +177,15 @@ MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation)
         snapshots.older ? base::toSeconds(newer.tick() - snapshots.older->tick()) : 0.0;
     for (size_t g = 0; g < newer.groupCount(); ++g) {
         const base::SnapshotGroup& group = newer.group(g);
-        if (group.info().kind == kind)
-            GroupMoment(group, sameGroup(snapshots.older, group.info()), glm::clamp(interpolation, 0.0, 1.0),
-                        stepSeconds)
-                .appendTo(list);
+        if (group.info().kind != kind)
+            continue;
+        const BlobDetail detail(snapshots, g, float(glm::clamp(interpolation, 0.0, 1.0)));
+        GroupMoment(group, sameGroup(snapshots.older, group.info()), glm::clamp(interpolation, 0.0, 1.0),
+                    stepSeconds, detail)
+            .appendTo(list);
     }
+    if (!list.details.isGiven())
+        list.details.balls.clear();
     return list;
 }
 

@@ -4,6 +4,7 @@
 
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/snapshot_ring.h"
+#include "rendering/reference/render/medium_details.h"
 
 #include <glm/vec3.hpp>
 
@@ -23,12 +24,14 @@ struct MediumBlob
     double anisotropy = 0.0;                          ///< [1] Henyey-Greenstein g of scattering
     double fireShare = 0.0;                           ///< [1] of the opacity that counts as fire
     base::MediaLayer layer = base::MediaLayer::Smoke; ///< takes the rest
+    uint64_t instance = 0; ///< of the scene; what it is part of
 };
 
 /// Blobs of all groups and how many were left out because a number was not finite.
 struct MediumList
 {
     std::vector<MediumBlob> blobs;
+    MediumDetails details; ///< of `blobs`
     uint32_t nonFinite = 0;
 };
 
@@ -36,8 +39,8 @@ struct MediumList
 /// matched by id, interpolated, newborn ones carried back, moving ones drawn out along the shutter. Unlike
 /// there, nothing is culled or widened to a pixel, and positions are double.
 ///
-/// source = (1 - albedo) black body + emission. Procedural detail is a look of the GPU passes and is left
-/// out.
+/// source = (1 - albedo) black body + emission. The detail of fields is found as for these passes; that of
+/// balls by themselves (`detailAmount`) is a look of the GPU passes and is left out.
 /// @param interpolation 0 older .. 1 newer
 MediumList mediumOf(const base::SnapshotPair& snapshots, double interpolation);
 

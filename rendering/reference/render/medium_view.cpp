@@ -129,7 +129,8 @@ private:
 
 } // namespace
 
-void MediumView::build(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks)
+void MediumView::build(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
+                       const MediumDetails& details, const PixelWidth& pixel)
 {
     const auto balls = std::make_unique_for_overwrite<TraceBall[]>(blobs.size());
     const uint32_t parts = uint32_t((blobs.size() + kPart - 1) / kPart);
@@ -143,6 +144,7 @@ void MediumView::build(std::span<const MediumBlob> blobs, const glm::dvec3& eye,
     });
     isUniform_ = std::find(differs.begin(), differs.end(), 1) == differs.end();
     tree_.build({balls.get(), blobs.size()}, eye, tasks);
+    details_ = DetailedMedium(details, tree_, eye, pixel);
     count_ = blobs.size();
     blobs_ = std::make_unique_for_overwrite<BallBlob<double>[]>(count_);
     coverage_.resize(isUniform_ ? std::min<size_t>(count_, 1) : count_);

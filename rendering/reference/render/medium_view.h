@@ -27,7 +27,9 @@ enum class MediumSource : uint8_t
 class MediumView
 {
 public:
-    void build(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks);
+    /// @param details of the blobs; none: they are smooth  @param pixel of the picture, for details
+    void build(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
+               const MediumDetails& details = {}, const PixelWidth& pixel = {});
 
     const BallTree& tree() const { return tree_; }
     /// Of the blob at a place of the tree's order, relative to the eye.
@@ -41,6 +43,8 @@ public:
         base::MediaLayer layer;
     };
     const Scattering& scattering(uint32_t place) const { return scattering_[place]; }
+    const DetailedMedium& details() const { return details_; }
+    const glm::vec3& scattered(uint32_t place) const { return scattered_[place]; } ///< of setScattered()
     /// Light that blobs scatter [cd/m2 per optical depth], by their places; empty: none.
     void setScattered(std::vector<glm::vec3> light);
     /// Whether blobs of a layer scatter light.
@@ -58,6 +62,7 @@ private:
     std::vector<std::array<double, 3>> coverage_; ///< one for all when they are alike
     std::unique_ptr<Scattering[]> scattering_;
     std::vector<glm::vec3> scattered_;
+    DetailedMedium details_;
     std::array<bool, 3> scatters_{};
     bool isUniform_ = true;
 };

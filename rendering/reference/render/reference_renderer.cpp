@@ -18,6 +18,8 @@ uint64_t keyOf(const ReferenceScene& scene, const ReferenceSettings& s, base::Ta
           double(s.integral.scheme.method), double(s.integral.scheme.count), s.integral.scheme.cap,
           s.integral.scheme.step, s.integral.scheme.tolerance, s.integral.scheme.stopDepth})
         hash.add(number);
+    if (scene.details.isGiven())
+        hash.add(s.detailTolerance);
     return hash.value();
 }
 
@@ -32,11 +34,14 @@ base::Status ReferenceRenderer::build(const ReferenceScene& scene, const Referen
         return {base::Code::InvalidArgument, "samples must be 1..16"};
     if (settings.skyRings < 1 || settings.skyRings > SceneLights::kMostSkyRings)
         return {base::Code::InvalidArgument, "rings of the sky must be 1..64"};
+    if (!(settings.detailTolerance >= 1e-6 && settings.detailTolerance <= 0.1))
+        return {base::Code::InvalidArgument, "the tolerance of detail must be 1e-6..0.1"};
     picture_.camera = withUnitAxes(scene.camera);
     tasks_ = &tasks;
     key_ = keyOf(scene, settings, tasks);
     picture_.settings = settings;
-    picture_.medium.build(scene.blobs, scene.camera.eye, tasks);
+    picture_.medium.build(scene.blobs, scene.camera.eye, tasks, scene.details,
+                          PixelWidth(picture_.camera, settings.height));
     picture_.opaque.build(scene.opaque, scene.camera.eye, tasks);
     picture_.lights.build(scene.opaque, scene.camera.eye, settings.skyRings);
     const bool atCenters = settings.scattering == ScatteringMode::Centers;

@@ -19,6 +19,15 @@ bool isUsable(const MediumBlob& blob)
            blob.source.y >= 0.0 && blob.source.z >= 0.0;
 }
 
+bool isUsable(const MediumDetails& details, size_t blobs)
+{
+    const int32_t groups = int32_t(details.groups.size());
+    return details.balls.size() == blobs && details.octaves >= 1 && details.octaves <= kMostDetailOctaves &&
+           std::all_of(details.balls.begin(), details.balls.end(), [&](const MediumDetails::Ball& ball) {
+               return ball.group >= -1 && ball.group < groups;
+           });
+}
+
 bool isUsable(const SceneLight& lamp)
 {
     const glm::dvec3 direction(lamp.direction);
@@ -57,6 +66,37 @@ std::vector<uint64_t> digestsOf(std::span<const MediumBlob> blobs, base::TaskRun
                 digestOf(blobs.subspan(part * kPart, std::min(kPart, blobs.size() - part * kPart)));
     });
     return digests;
+}
+
+void add(KeyHash& hash, const glm::vec3& v)
+{
+    hash.add(glm::dvec3(v));
+}
+
+void addDetails(KeyHash& hash, const MediumDetails& details)
+{
+    hash.add(double(details.octaves));
+    for (const MediumDetails::Group& group : details.groups) {
+        const FieldDetailNumbers& n = group.detail.numbers;
+        hash.add(group.origin);
+        for (size_t g = 0; g < 2; ++g) {
+            for (int column = 0; column < 3; ++column)
+                add(hash, group.detail.toCells[g][column]);
+            add(hash, group.detail.first[g]);
+            add(hash, n.generations[g].offset);
+            hash.add(double(n.generations[g].length));
+            hash.add(double(n.generations[g].growth));
+        }
+        for (const float number : {n.fade, n.thinnest, n.densest, n.ramp, n.gain, n.cooling, n.glow,
+                                   group.detail.scale, group.detail.factor})
+            hash.add(double(number));
+    }
+    for (const MediumDetails::Ball& ball : details.balls) {
+        hash.add(double(ball.group));
+        add(hash, ball.carried[0]);
+        add(hash, ball.carried[1]);
+        hash.add(double(ball.temperature));
+    }
 }
 
 void addOpaque(KeyHash& hash, const OpaqueScene& scene)
@@ -100,6 +140,8 @@ void addScene(KeyHash& io, const ReferenceScene& scene, base::TaskRunner& tasks)
 {
     for (const uint64_t part : digestsOf(scene.blobs, tasks))
         io.addWord(part);
+    if (scene.details.isGiven())
+        addDetails(io, scene.details);
     addOpaque(io, scene.opaque);
     const ReferenceCamera& c = scene.camera;
     for (const glm::dvec3& v : {c.eye, c.right, c.up, c.forward})
@@ -115,6 +157,8 @@ base::Status checkScene(const ReferenceScene& scene, int width, int height)
     if (!std::all_of(scene.blobs.begin(), scene.blobs.end(),
                      [](const MediumBlob& blob) { return isUsable(blob); }))
         return refused("a blob's numbers must be finite, its radius positive, the others not negative");
+    if (scene.details.isGiven() && !isUsable(scene.details, scene.blobs.size()))
+        return refused("detail needs one entry for each blob, with the number of one of its groups or -1");
     const auto& lamps = scene.opaque.lamps;
     if (!std::all_of(lamps.begin(), lamps.end(), [](const SceneLight& lamp) { return isUsable(lamp); }))
         return refused(

@@ -21,6 +21,7 @@ namespace fx::render {
 struct ReferenceScene
 {
     std::vector<MediumBlob> blobs;
+    MediumDetails details; ///< of `blobs`; empty: they are drawn smooth
     OpaqueScene opaque;
     ReferenceCamera camera;
 };

@@ -19,7 +19,9 @@ constexpr double kLeastIntervals = 24.0;
 constexpr double kDarkest = 1e-6;              ///< transmittance below which nothing is seen any more
 constexpr double kNode = 0.774596669241483377; ///< of Gauss-Legendre on [-1, 1]: sqrt(3/5)
 constexpr double kWidest = 0.4;                ///< [rad] of a part as a lamp sees it
-constexpr double kGrowth = 3.0;                ///< of the distance from a lamp within a piece
+constexpr double kPerLump = 0.25;              ///< longest piece over the size of the largest lumps
+constexpr double kMostLumps = 1024.0;
+constexpr double kGrowth = 3.0; ///< of the distance from a lamp within a piece
 /// Shifts the directions of the sky from node to node: the powers of 1 / x with x^3 = x + 1.
 constexpr glm::dvec2 kLattice{0.754877666246692760, 0.569840290998053266};
 
@@ -41,27 +43,53 @@ ScatteredLight::Layers ScatteredLight::along(const TraceRay& trace, const RayHit
     Layers light{};
     const Ray ray{trace, hits, begin};
     node_ = 0;
-    events_.clear();
-    for (size_t i = 0; i < hits.size(); ++i) {
-        events_.push_back(std::clamp(hits.enter[i], begin, end));
-        events_.push_back(std::clamp(2.0 * hits.nearest[i] - hits.enter[i], begin, end));
-    }
-    std::sort(events_.begin(), events_.end());
+    if (medium_.details().isGiven())
+        detailed_.trace(trace, hits, begin, end);
+    findEvents(ray, end);
     double from = events_.empty() ? begin : events_.front();
     const double longest = events_.empty() ? 0.0 : (events_.back() - from) / kLeastIntervals;
     for (size_t k = 1; k < events_.size(); ++k) {
-        const double depth = opticalDepthOf(medium_, hits, from, events_[k]);
+        const double depth = opticalDepth(ray, from, events_[k]);
         const bool isLast = k + 1 == events_.size();
         if (!isLast && depth < kThin && events_[k + 1] - from < longest)
             continue; // kernels begin smoothly: thin intervals are taken together
         if (depth > 0.0) {
-            if (std::exp(-opticalDepthOf(medium_, hits, begin, from)) < kDarkest)
+            if (std::exp(-opticalDepth(ray, begin, from)) < kDarkest)
                 break;
             addInterval(ray, {from, events_[k]}, light);
         }
         from = events_[k];
     }
     return light;
+}
+
+/// Places where blobs begin and end, and with detail also every quarter of a lump.
+void ScatteredLight::findEvents(const Ray& ray, double end)
+{
+    events_.clear();
+    for (size_t i = 0; i < ray.hits.size(); ++i) {
+        events_.push_back(std::clamp(ray.hits.enter[i], ray.begin, end));
+        events_.push_back(std::clamp(2.0 * ray.hits.nearest[i] - ray.hits.enter[i], ray.begin, end));
+    }
+    std::sort(events_.begin(), events_.end());
+    const DetailedMedium& details = medium_.details();
+    if (!details.isGiven() || events_.empty())
+        return;
+    double spacing = events_.back() - events_.front();
+    for (size_t i = 0; i < ray.hits.size(); ++i)
+        if (const int32_t group = details.groupOf(ray.hits.place[i]); group >= 0)
+            spacing = std::min(spacing, kPerLump * details.lumpSize(size_t(group)));
+    const double first = events_.front(), length = events_.back() - first;
+    const double parts = std::min(std::ceil(length / spacing), kMostLumps);
+    for (double k = 1.0; k < parts; k += 1.0)
+        events_.push_back(first + length * k / parts);
+    std::sort(events_.begin(), events_.end());
+}
+
+double ScatteredLight::opticalDepth(const Ray& ray, double from, double to) const
+{
+    return medium_.details().isGiven() ? detailed_.opticalDepth(from, to)
+                                       : opticalDepthOf(medium_, ray.hits, from, to);
 }
 
 void ScatteredLight::addInterval(const Ray& ray, const Interval& interval, Layers& io)
@@ -82,7 +110,7 @@ void ScatteredLight::addInterval(const Ray& ray, const Interval& interval, Layer
 
 void ScatteredLight::addParts(const Ray& ray, const Interval& interval, size_t lamp, Layers& io)
 {
-    const double depth = opticalDepthOf(medium_, ray.hits, interval.from, interval.to);
+    const double depth = opticalDepth(ray, interval.from, interval.to);
     const int parts = int(std::clamp(std::ceil(depth / kCap), 1.0, kMostParts));
     const double length = (interval.to - interval.from) / parts;
     for (int part = 0; part < parts; ++part) {
@@ -152,15 +180,19 @@ void ScatteredLight::addNode(const Ray& ray, double t, double length, size_t lam
     firstOfSky_ = arriving_.size();
     if (lamp == kDistant && lights_.hasSky())
         lights_.appendSky(shift, 1, arriving_);
-    const double weight = length * std::exp(-opticalDepthOf(medium_, ray.hits, ray.begin, t));
+    const double weight = length * std::exp(-opticalDepth(ray, ray.begin, t));
     for (ArrivingLight& light : arriving_)
         if (light.illuminance != glm::dvec3(0.0))
             light.illuminance *= weight * shadow_.visibility({point, light.direction}, light.distance);
 
+    const bool isDetailed = medium_.details().isGiven();
+    if (isDetailed)
+        detailed_.look(t);
     glm::dvec3 light(0.0);
     float anisotropy = 2.0f; // of `light`; 2: none yet
     for (size_t i = 0; i < ray.hits.size(); ++i) {
-        const double extinction = BlobChord(medium_.blob(ray.hits.place[i]), ray.hits, i).extinction(t);
+        const double extinction = BlobChord(medium_.blob(ray.hits.place[i]), ray.hits, i).extinction(t) *
+                                  (isDetailed ? detailed_.share(i) : 1.0);
         if (!(extinction > 0.0))
             continue;
         const MediumView::Scattering& s = medium_.scattering(ray.hits.place[i]);

@@ -28,7 +28,8 @@ namespace fx::render {
 ///   of the sky: A_i = sum over j of p_i w_j L_j T_j / sum over j of p_i w_j                     (2)
 ///   S = integral of T j dt                                                                     (3)
 ///   The integrand is smooth between the places where blobs begin and end: 3 Gauss-Legendre nodes there, in
-///   as many parts as the optical depth requires. T and T_l are exact sums of polynomials.
+///   as many parts as the optical depth requires. T and T_l are exact sums of polynomials. Of media with
+///   detail T is that of detailed-ray-integral, and pieces are no longer than a quarter of the largest lumps.
 ///   Illuminance by a lamp has a peak where the ray passes it: t = t_n + d tan(v) makes it even in v    (4)
 /// @source    [HG41] for the phase function; (1) to (3) are textbook integrals, (4) counts by the angle at
 ///   which the lamp sees the ray
@@ -49,7 +50,8 @@ public:
 
     /// @param medium, opaque, lights must outlive this
     ScatteredLight(const MediumView& medium, const OpaqueView& opaque, const SceneLights& lights)
-        : medium_(medium), lights_(lights), shadow_(medium, opaque)
+        : medium_(medium), lights_(lights), shadow_(medium, opaque),
+          detailed_(medium, DetailedRay::Wanted::Depth, kDetailTolerance)
     {}
 
     /// @param hits all blobs that the ray meets between its parameters `begin` and `end`
@@ -68,8 +70,11 @@ private:
     {
         double from, to;
     };
+    static constexpr double kDetailTolerance = 1e-3;
     static constexpr size_t kDistant = size_t(-1); ///< sun and sky instead of a lamp
 
+    void findEvents(const Ray& ray, double end);
+    double opticalDepth(const Ray& ray, double from, double to) const;
     void addInterval(const Ray& ray, const Interval& interval, Layers& io);
     void addParts(const Ray& ray, const Interval& interval, size_t lamp, Layers& io);
     void addPart(const Ray& ray, const Interval& part, Layers& io);
@@ -81,6 +86,7 @@ private:
     const MediumView& medium_;
     const SceneLights& lights_;
     ShadowRay shadow_;
+    DetailedRay detailed_; ///< the ray whose light is summed, where the medium has detail
     std::vector<double> events_;
     SceneLights::Course course_;
     std::vector<ArrivingLight> arriving_; ///< at the current node

@@ -36,6 +36,7 @@ TileRenderer::TileRenderer(const ReferencePicture& picture)
     : picture_(picture), grid_(picture.camera.grid(picture.settings.width * picture.settings.samples,
                                                    picture.settings.height * picture.settings.samples)),
       integrator_(makeBundleIntegrator(picture.settings.integral, picture.settings.isSingle)),
+      detailed_(picture.medium, DetailedRay::Wanted::Light, picture.settings.detailTolerance),
       scattered_(picture.medium, picture.opaque, picture.lights),
       surfaceLight_(picture.medium, picture.opaque, picture.lights)
 {
@@ -102,10 +103,36 @@ bool TileRenderer::renderMedium(const PixelBlock& rays, const std::function<bool
     walk_.visit(picture_.medium.tree(), grid_, rays, farthest, 4,
                 [&](const PixelBlock& part, const TileCandidates& candidates) {
                     isStopped = isStopped || (shouldStop && shouldStop());
-                    if (!isStopped && candidates.size() > 0)
+                    if (isStopped || candidates.size() == 0)
+                        return;
+                    if (picture_.medium.details().isGiven())
+                        renderDetailed(rays, part, candidates);
+                    else
                         renderBundle(rays, part, candidates);
                 });
     return !isStopped;
+}
+
+/// Ray by ray: fields with detail are no sums of what balls have along the ray.
+void TileRenderer::renderDetailed(const PixelBlock& rays, const PixelBlock& part,
+                                  const TileCandidates& candidates)
+{
+    for (int y = part.y0; y < part.y1; ++y)
+        for (int x = part.x0; x < part.x1; ++x) {
+            Sample& sample = sampleAt(rays, x, y);
+            candidates.hits(sample.ray, sample.begin, sample.opaque.distance, hits_);
+            work_.hits += hits_.size();
+            detailed_.trace(sample.ray, hits_, sample.begin, sample.opaque.distance);
+            sample.light = detailed_.light();
+            sample.coverage = detailed_.coverage();
+            sample.opticalDepth = detailed_.opticalDepth();
+            sample.transmittance = std::exp(-sample.opticalDepth);
+            sample.depth = detailed_.distance();
+            if (picture_.settings.scattering == ScatteringMode::Single)
+                sample.scattered = scattered_.along(sample.ray, hits_, sample.begin, sample.opaque.distance);
+            for (size_t layer = 0; layer < sample.scattered.size(); ++layer)
+                sample.scattered[layer] += detailed_.scattered(base::MediaLayer(layer));
+        }
 }
 
 void TileRenderer::renderBundle(const PixelBlock& rays, const PixelBlock& part,

@@ -2,6 +2,7 @@
 /// Renders tiles of a picture, each by itself: the same bits in any order and on any thread.
 #pragma once
 
+#include "rendering/reference/render/detailed_ray.h"
 #include "rendering/reference/render/medium_view.h"
 #include "rendering/reference/render/opaque_view.h"
 #include "rendering/reference/render/reference_camera.h"
@@ -34,6 +35,8 @@ struct ReferenceSettings
     ScatteringMode scattering = ScatteringMode::None;
     int skyRings = 3; ///< 1..64: ScatteringMode::Single takes light of the sky from 4 skyRings^2 directions
     IntegralSettings integral;
+    /// [1] 1e-6..0.1, of the quadrature of media with detail: see detailed-ray-integral
+    double detailTolerance = 1e-3;
 };
 
 /// Values of a pixel, in this order.
@@ -90,6 +93,7 @@ private:
     void renderOpaque(const PixelBlock& rays);
     bool renderMedium(const PixelBlock& rays, const std::function<bool()>& shouldStop);
     void addScattered(std::span<Sample* const> samples);
+    void renderDetailed(const PixelBlock& rays, const PixelBlock& part, const TileCandidates& candidates);
     void renderBundle(const PixelBlock& rays, const PixelBlock& part, const TileCandidates& candidates);
     Sample& sampleAt(const PixelBlock& rays, int x, int y);
     void writePixel(const PixelBlock& rays, int x, int y, float* out);
@@ -99,6 +103,7 @@ private:
     TileWalk walk_;
     std::unique_ptr<BundleIntegrator> integrator_;
     SeenDepth seenDepth_;
+    DetailedRay detailed_;
     ScatteredLight scattered_;
     SurfaceLight surfaceLight_;
     Illuminance illuminance_; ///< by `surfaceLight_`; empty: as rendering/stage does

@@ -141,6 +141,65 @@ TEST(FieldDetail, keepsTheMeanWhereAThinnerPartIsLeft)
     }
 }
 
+// However far away: what fades out leaves the mean over it.
+TEST(FieldDetail, keepsTheMeanHoweverMuchOfTheNoiseHasFadedOut)
+{
+    const FieldDetailNumbers numbers = fireball();
+    for (const float pixel : {1e-3f, 0.1f, 0.2f, 0.3f, 0.4f, 0.6f})
+        for (const float extinction : {3.0f, 8.0f, 20.0f}) {
+            double sum = 0;
+            const int count = 20000;
+            for (int i = 0; i < count; ++i)
+                sum += double(
+                    detailAt(numbers, tile(), mediumAt(extinction, anywhere(uint64_t(i), 300.0f)), pixel, 5)
+                        .share);
+            EXPECT_NEAR(sum / count, 1.0, 0.05) << extinction << ' ' << pixel;
+        }
+}
+
+TEST(FieldDetail, sharesOverFadedNoiseAreMeansOverIt)
+{
+    for (const float u : {0.3f, 0.6f, 1.0f})
+        for (const float z : {-1.0f, 0.0f, 0.7f})
+            for (const float s : {0.1f, 0.5f, 0.9f, 1.2f}) {
+                double sum = 0, weights = 0;
+                for (double r = -5.0; r <= 5.0; r += 0.01) {
+                    const double weight = std::exp(-0.5 * r * r);
+                    const float h = formula::fxDetailThreshold(z + std::sqrt(u) * float(r));
+                    sum += weight * double(formula::fxDetailShare(s, h, 0.25f));
+                    weights += weight;
+                }
+                EXPECT_NEAR(formula::fxDetailShareOver(s, z, u, 0.25f), sum / weights, 0.02)
+                    << u << ' ' << z << ' ' << s;
+            }
+    EXPECT_EQ(formula::fxDetailShareOver(0.5f, 0.3f, 0.0f, 0.25f),
+              formula::fxDetailShare(0.5f, formula::fxDetailThreshold(0.3f), 0.25f));
+}
+
+TEST(FieldDetail, whatIsLeftStaysBelowItsBound)
+{
+    EXPECT_EQ(formula::fxDetailGain(0.0f, 0.25f), kMostDetailGain);
+    for (const float ramp : {0.05f, 0.25f, 0.4f, 1.0f}) {
+        FieldDetailNumbers numbers = fireball();
+        numbers.ramp = ramp;
+        float most = 0.0f; // of what thinner medium may have at most
+        for (float extinction = 0.3f; extinction < 3000.0f; extinction *= 1.01f) {
+            const float s =
+                formula::fxDetailPlace(extinction, numbers.length(), numbers.thinnest, numbers.densest);
+            most = std::max(most, s > 0.0f ? extinction * formula::fxDetailGain(s, ramp) : 0.0f);
+            const float bound = mostLeft(numbers, extinction);
+            EXPECT_GE(bound, most) << ramp << ' ' << extinction;
+            EXPECT_LE(bound, 1.03f * most) << ramp << ' ' << extinction;
+        }
+    }
+    for (uint64_t i = 0; i < 2000; ++i) {
+        const float extinction = 0.5f + 30.0f * anywhere(i, 1.0f, 4).x;
+        const MediumDetail detail =
+            detailAt(fireball(), tile(), mediumAt(extinction, anywhere(i, 300.0f)), 1e-3f, 5);
+        EXPECT_LE(extinction * detail.share, mostLeft(fireball(), extinction));
+    }
+}
+
 TEST(FieldDetail, thinMediumIsErodedAndDenseMediumIsNot)
 {
     const FieldDetailNumbers numbers = fireball();

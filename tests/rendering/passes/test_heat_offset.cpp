@@ -2,6 +2,7 @@
 #include "rendering/passes/blob_instance.h"
 #include "rendering/passes/heat_offset_pass.h"
 #include "shaders/formulas/formula.h"
+#include "simulation/motion/ambient_air.h"
 #include "tests/rendering/passes/post_pass_harness.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -113,10 +114,10 @@ TEST(HeatStream, eddiesStayBelowOneAndRepeatAfterAPeriod)
 TEST(HeatRefraction, followsTheDensityOfAir)
 {
     EXPECT_EQ(formula64::fxHeatShare(0.0), 0.0);
-    EXPECT_EQ(formula64::fxHeatShare(288.0), 0.5); // twice the temperature, half the density
+    EXPECT_EQ(formula64::fxHeatShare(sim::kAirKelvin), 0.5); // twice the temperature, half the density
     EXPECT_EQ(formula64::fxHeatShare(-50.0), 0.0);
     EXPECT_LT(formula64::fxHeatShare(3000.0), 1.0);
-    EXPECT_NEAR(formula64::fxHeatRefraction(288.0), 16.0 / 15.0 * 2.9e-4 * 0.5, 1e-12);
+    EXPECT_NEAR(formula64::fxHeatRefraction(sim::kAirKelvin), 16.0 / 15.0 * 2.73e-4 * 0.5, 1e-12);
 }
 
 TEST(HeatPhase, isExactlyPeriodicAfterALongTime)

@@ -3,7 +3,7 @@
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/frame_snapshot.h"
 #include "foundation/snapshot/material_kind.h"
-#include "rendering/media/blob_detail.h"
+#include "rendering/field_detail/blob_detail.h"
 
 #include <gtest/gtest.h>
 

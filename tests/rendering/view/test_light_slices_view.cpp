@@ -231,3 +231,44 @@ TEST_F(LightSlicesView, lightsOfAnyStrengthAndPlaceGiveNumbers)
                 << intensity << " at " << place.x << " " << place.z;
         }
 }
+
+TEST_F(LightSlicesView, planesFollowMovingMediaAfterAsManyFramesAsAsked)
+{
+    const auto moved = [&](int frame) {
+        return snapshotOf({smoke({0.02f * float(frame), 0, 0}), smoke({2.0f, 0.1f * float(frame), 0})});
+    };
+    const auto eyeOf = [](int frame) { return glm::dvec3(0.01 * frame, 0, 12); };
+    view_->settings().slices.refreshFrames = 3;
+    for (int frame = 0; frame < 7; ++frame) {
+        draw(moved(frame), eyeOf(frame));
+        EXPECT_EQ(has("light slices"), frame % 3 == 0) << frame;
+    }
+    const auto last = moved(20);
+    const Picture behind = draw(last, eyeOf(20));
+    EXPECT_FALSE(has("light slices"));
+    const Picture atRest = draw(last, eyeOf(20));
+    EXPECT_TRUE(has("light slices"));
+    view_->settings().slices.refreshFrames = 1;
+    draw(moved(0), eyeOf(20));
+    const Picture wanted = draw(last, eyeOf(20));
+    EXPECT_EQ(maxDifference(atRest, wanted), 0.0);
+    EXPECT_GT(maxDifference(behind, wanted), 1e-3);
+}
+
+TEST_F(LightSlicesView, planesOfMediaThatWaitLieWhereTheyWere)
+{
+    const auto cloud = snapshotOf({smoke({0, 0, 0}), smoke({2.0f, 0, 0})});
+    const auto other = snapshotOf({smoke({0, 0, 0}), smoke({2.0f, 1e-6f, 0})});
+    view_->settings().slices.refreshFrames = 16;
+    draw(cloud);
+    for (int frame = 1; frame < 9; ++frame) { // the eye goes on and the light stays
+        const glm::dvec3 eye(0.3 * frame, 0.0, 12.0 - 0.1 * frame);
+        const Picture held = draw(frame % 2 ? other : cloud, eye);
+        ASSERT_FALSE(has("light slices"));
+        view_->settings().slices.refreshFrames = 1;
+        const Picture wanted = draw(frame % 2 ? other : cloud, eye);
+        view_->settings().slices.refreshFrames = 16;
+        EXPECT_LE(maxDifference(held, wanted), 2e-3) << frame;
+        draw(cloud, eye);
+    }
+}

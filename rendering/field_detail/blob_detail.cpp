@@ -1,7 +1,8 @@
-#include "rendering/media/blob_detail.h"
+#include "rendering/field_detail/blob_detail.h"
 
 #include "foundation/snapshot/material_kind.h"
 #include "rendering/frame/snapshot_match.h"
+#include "shaders/formulas/formula.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -24,7 +25,6 @@ double phaseOf(const base::SnapshotGroup& group)
 
 constexpr size_t kMostLookedAt = 128; ///< balls
 constexpr float kMostFactor = 4.0f;   ///< more would make a solid of what is left of thin medium
-constexpr float kPeak = 1.04445431f;  ///< kernel-optical-depth (1)
 
 /// Gauss's points for the kernel's weight r^2 (1 - r^2)^2 in r^2: moments up to the third are exact.
 struct Shell
@@ -40,10 +40,9 @@ float extinctionAt(std::span<const MediumCaster> balls, const glm::vec3& p)
     float sum = 0;
     for (const MediumCaster& ball : balls) {
         const glm::vec3 d = p - ball.center;
-        const float q = std::max(1.0f - glm::dot(d, d) / (ball.radius * ball.radius), 0.0f);
-        sum += ball.crossSection / (ball.radius * ball.radius * ball.radius) * q * q;
+        sum += formula::fxKernelExtinction(ball.crossSection, ball.radius, glm::dot(d, d));
     }
-    return kPeak * sum;
+    return sum;
 }
 
 } // namespace
