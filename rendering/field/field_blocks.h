@@ -19,7 +19,7 @@ struct FieldBlock
     glm::vec4 corner;  ///< xyz [m] of the first sample relative to the eye; w side of a voxel [m]
     glm::ivec4 bricks; ///< xyz along each axis; w first entry in the table of bricks
     glm::vec4 limits;  ///< x least radius of a ball [m]; y no extinction is larger [1/m]; z number of its
-                       ///< detail + 1, 0: none
+                       ///< detail + 1, 0: none; w number of the grid of its glow + 1, 0: none
 };
 static_assert(sizeof(FieldBlock) == 48);
 
@@ -32,6 +32,16 @@ struct FieldDetailBlock
     glm::vec4 lumps;   ///< xy size of the generations' lumps [m]; z factor that keeps the whole; w octaves
 };
 static_assert(sizeof(FieldDetailBlock) == 144);
+
+constexpr int kGlowCells = 32;       ///< along a side of a grid
+constexpr int kGlowRays[2] = {8, 4}; ///< grids beside each other that hold the rays of all directions
+
+/// A grid in which the light that media emit is spread; shaders/field/field_glow.glsl reads this layout.
+struct FieldGlowBlock
+{
+    glm::vec4 corner; ///< xyz [m] relative to the eye; w side of a cell [m]
+};
+static_assert(sizeof(FieldGlowBlock) == 16);
 
 /// A brick that holds medium. Its number is its place in the textures.
 struct FieldBrickBlock

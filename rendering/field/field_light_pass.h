@@ -15,6 +15,7 @@ namespace fx::render {
 ///
 /// reads   fields, bricks  as in FieldFillPass
 ///         lights
+///         glow, grids     mean radiance of what media emit, of FieldGlowPass, and buffer of FieldGlowBlock
 /// writes  textures        without layers, adds the light to what the medium emits; with them keeps it in
 /// `scatter`,
 ///                         rgb over the field's largest extinction. Albedos are lost: fill again to light
@@ -27,8 +28,9 @@ public:
         ResourceId fields, bricks;
         FieldTextures textures;
         LightBindings lights;
-        const ViewBlock* view; ///< of the picture
-        uint32_t brickCount;   ///< > 0
+        const ViewBlock* view;            ///< of the picture
+        uint32_t brickCount;              ///< > 0
+        ResourceId glow = {}, grids = {}; ///< invalid: no field has a grid
     };
     struct Outputs
     {

@@ -20,6 +20,7 @@ constexpr float kRadii = 16.0f;         ///< of balls along which there are as m
 constexpr int kFewestVoxels = 16, kMostVoxels = 256; ///< along those
 constexpr float kLooseShare = 0.4f;                  ///< of an effect's radius: what is smaller stays a ball
 constexpr float kLooseVoxels = 0.5f;  ///< likewise, of a voxel: it would be spread over 64 times its volume
+constexpr float kLooseFire = 1.5f;    ///< likewise, of fire: a spark is far brighter than what is around it
 constexpr int kMostBricksAlong = 128; ///< of a field, along an axis
 constexpr int64_t kMostBricksOfBox = 1 << 16; ///< of a field, with the empty ones
 constexpr int kMostTries = 64;                ///< to keep the budget of bricks
@@ -86,7 +87,8 @@ struct BrickRange
 
 FieldPlan::FieldPlan(std::pmr::memory_resource* memory)
     : lattices_(memory), fields_(memory), bricks_(memory), table_(memory), balls_(memory), loose_(memory),
-      peaks_(memory), stamps_(memory), seen_(memory), tiles_(memory), tileFields_(memory)
+      peaks_(memory), emitted_(memory), glow_(memory), stamps_(memory), seen_(memory), tiles_(memory),
+      tileFields_(memory)
 {}
 
 void FieldPlan::clear()
@@ -99,6 +101,7 @@ void FieldPlan::clear()
     loose_.clear();
     tiles_.clear();
     tileFields_.clear();
+    glow_.clear();
 }
 
 void FieldPlan::build(const FieldPlanInputs& in)
@@ -115,6 +118,8 @@ void FieldPlan::build(const FieldPlanInputs& in)
     listBricks();
     listBalls(in);
     listTiles(in);
+    if (in.glows)
+        glow_.build(fields_, emitted_, in.camera->eye);
 }
 
 /// Smooth fields lose less by it than those with detail, whose thresholds depend on extinctions.
@@ -127,7 +132,9 @@ void FieldPlan::enlargeVoxels(const FieldPlanInputs& in, bool smoothOnly)
 
 bool FieldPlan::isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel)
 {
-    return ball.centerRadius.w < std::max(kLooseShare * effect.radius, kLooseVoxels * voxel);
+    const bool isFire = ball.layer.x < 2.0f;
+    return ball.centerRadius.w <
+           std::max(kLooseShare * effect.radius, (isFire ? kLooseFire : kLooseVoxels) * voxel);
 }
 
 /// From the whole effect, so that voxels stay as large when the view turns.
@@ -263,12 +270,18 @@ void FieldPlan::listBricks()
 
 void FieldPlan::listBalls(const FieldPlanInputs& in)
 {
+    emitted_.assign(fields_.size(), 0.0f);
     for (size_t e = 0; e < in.effects.size(); ++e)
-        for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i)
-            if (isLoose(in.balls[i], in.effects[e], lattices_[e].voxel))
+        for (uint32_t i = in.effects[e].begin; i < in.effects[e].end; ++i) {
+            const BlobInstance& ball = in.balls[i];
+            if (isLoose(ball, in.effects[e], lattices_[e].voxel)) {
                 loose_.push_back(i);
-            else
-                listBall(fields_[lattices_[e].field], in.balls[i], i);
+                continue;
+            }
+            listBall(fields_[lattices_[e].field], ball, i);
+            emitted_[lattices_[e].field] +=
+                ball.medium.x * (ball.emission.x + ball.emission.y + ball.emission.z) / 3.0f;
+        }
     for (size_t i = 0; i < bricks_.size(); ++i) {
         float& most = fields_[bricks_[i].field].limits.y;
         most = std::max(most, peaks_[i]);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "rendering/field/field_blocks.h"
+#include "rendering/field/field_glow_plan.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/passes/blob_instance.h"
 
@@ -28,6 +29,7 @@ struct FieldPlanInputs
     int width, height;       ///< [pixel] of the picture
     int resolution = 96;     ///< voxels along 16 radii of an effect's balls, 16..256
     uint32_t mostBricks = 0; ///< of all fields together; 0: of a full cube of that many voxels
+    bool glows = true;       ///< fields that emit light the media around them: glows()
 };
 
 /// Keeps its memory from frame to frame. Threads: one at a time.
@@ -49,6 +51,8 @@ public:
     std::span<const uint32_t> tileFields() const { return tileFields_; } ///< of all tiles
     /// Balls that are too small for the voxels of their effect, in their order; no brick has them.
     std::span<const uint32_t> loose() const { return loose_; }
+    /// In which the light that fields emit is spread; FieldBlock::limits names those of fields.
+    std::span<const FieldGlowBlock> glows() const { return glow_.grids(); }
     bool isEmpty() const { return bricks_.empty(); }
 
     /// [m] radius below which a ball is widened, its cross section kept: smaller ones fall between samples.
@@ -85,7 +89,9 @@ private:
     std::pmr::vector<uint32_t> table_;
     std::pmr::vector<uint32_t> balls_;
     std::pmr::vector<uint32_t> loose_;
-    std::pmr::vector<float> peaks_;     ///< [1/m] of each brick: sum of what its balls have in their centers
+    std::pmr::vector<float> peaks_;   ///< [1/m] of each brick: sum of what its balls have in their centers
+    std::pmr::vector<float> emitted_; ///< [exposed m2] of each field
+    FieldGlowPlan glow_;
     std::pmr::vector<uint32_t> stamps_; ///< of tiles: number of the last field + 1
     std::pmr::vector<uint32_t> seen_;   ///< pairs of tile and field, in the order of fields
     std::pmr::vector<FieldTileBlock> tiles_;

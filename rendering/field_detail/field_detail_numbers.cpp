@@ -23,7 +23,7 @@ glm::vec3 offsetOf(uint32_t generation)
     return float(kLumpCells) * glm::vec3(part(0), part(1), part(2));
 }
 
-/// Sum of octaves, which would have deviation 1 without fading.
+/// Sum of broad lumps and octaves, which would have deviation 1 without fading.
 struct Octaves
 {
     float sum;
@@ -33,7 +33,12 @@ struct Octaves
 /// At a place in cells.
 Octaves octavesAt(const LumpTile& tile, glm::vec3 p, float length, float gain, float pixel, int octaves)
 {
-    float amplitude = 1, sum = 0, variance = 0, shown = 0;
+    const float broad = formula::fxBroadAmplitude();
+    const float seen = formula::fxOctaveBand(formula::fxBroadSize() * length, pixel);
+    float amplitude = 1, sum = 0, variance = broad * broad, shown = broad * broad * seen * seen;
+    if (seen > 0.0f)
+        sum = broad * seen *
+              tile.at({formula::fxBroadPlace(p.x), formula::fxBroadPlace(p.y), formula::fxBroadPlace(p.z)});
     for (int k = 0; k < octaves; ++k) {
         const float band = formula::fxOctaveBand(length, pixel);
         if (band > 0.0f)

@@ -14,9 +14,10 @@ namespace fx::render {
 /// Light of one group of a snapshot.
 struct EffectLight
 {
-    glm::dvec3 position; ///< [m] world: center of the emitted light
-    glm::vec3 intensity; ///< [cd] in every direction
-    float radius;        ///< [m] root mean square extent of the emission, > 0
+    glm::dvec3 position;     ///< [m] world: center of the emitted light
+    glm::vec3 intensity;     ///< [cd] in every direction
+    float radius;            ///< [m] root mean square extent of the emission, > 0
+    bool isOfMedium = false; ///< of balls of medium, whose own fields may spread it better than a point does
 };
 
 constexpr size_t kMostEffectLights = 4;  ///< that drawing takes into account

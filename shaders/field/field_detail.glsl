@@ -33,18 +33,22 @@ struct MediumDetail
     bool isLumpy;      // noise shows here
 };
 
-// Octaves of one generation, of deviation 1. u in cells; size [m] of its lumps, pixel [m]; faded variance of octaves that are
+// Broad lumps and octaves of one generation, of deviation 1. u in cells; size [m] of its lumps, pixel [m]; faded variance of those that are
 // finer than pixels
 float lumpOctaves(vec3 u, float size, float pixel, float gain, int octaves, out float faded)
 {
-    float amplitude = 1.0, sum = 0.0, variance = 0.0, shown = 0.0;
+    float broad = fxBroadAmplitude(), seen = fxOctaveBand(fxBroadSize() * size, pixel);
+    float amplitude = 1.0, variance = broad * broad, shown = broad * broad * seen * seen;
+    vec3 halfTexel = 0.5 / vec3(textureSize(lumpTile, 0));
+    vec3 place = vec3(fxBroadPlace(u.x), fxBroadPlace(u.y), fxBroadPlace(u.z));
+    float sum = broad * seen * textureLod(lumpTile, place / kLumpCells + halfTexel, 0.0).r;
     for (int k = 0; k < octaves; ++k) {
         float band = fxOctaveBand(size, pixel);
         if (band <= 0.0) { // nor any that follows
             variance += amplitude * amplitude * (1.0 - pow(gain, 2.0 * float(octaves - k))) / (1.0 - gain * gain);
             break;
         }
-        sum += amplitude * band * textureLod(lumpTile, u / kLumpCells + 0.5 / vec3(textureSize(lumpTile, 0)), 0.0).r;
+        sum += amplitude * band * textureLod(lumpTile, u / kLumpCells + halfTexel, 0.0).r;
         variance += amplitude * amplitude;
         shown += amplitude * amplitude * band * band;
         u = vec3(fxNextOctaveX(u.x, u.z), fxNextOctaveY(u.x, u.y, u.z), fxNextOctaveZ(u.x, u.y, u.z));
@@ -53,6 +57,13 @@ float lumpOctaves(vec3 u, float size, float pixel, float gain, int octaves, out 
     }
     faded = max(1.0 - shown / variance, 0.0);
     return sum * inversesqrt(variance);
+}
+
+// What light of a medium of one temperature becomes by that of the detail. By Wien's law its power grows with the frequency: that of
+// 580 nm is given; those of the primaries are 611, 549 and 464 nm.
+vec3 detailedLight(vec3 light, MediumDetail detail, float power)
+{
+    return light * pow(vec3(detail.temperature), power * (580.0 / vec3(611.0, 549.0, 464.0)));
 }
 
 // Whether noise shows where fxDetailPlace is s.

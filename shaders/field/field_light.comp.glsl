@@ -4,6 +4,7 @@
 #include "shared/scattered_light.glsl"
 #include "shared/sky_light.glsl"
 #include "field/field_blocks.glsl"
+#include "field/field_glow.glsl"
 
 // Light that each sample of the bricks scatters to the eye. FX_LAYERS 0 adds it to what the medium emits, so that a ray
 // looks up one texture; FX_LAYERS 1 and FX_DETAIL 1 keep it apart, in place of albedo and phase function.
@@ -12,10 +13,25 @@ layout(std430, binding = 0) readonly buffer Fields { VoxelField fields[]; };
 layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
 layout(rgba32f, binding = 0) uniform image3D medium;
 layout(rgba16f, binding = 1) uniform image3D scatter;
+layout(binding = 3) uniform sampler3D glowLight; // rgb mean radiance of what media emit [exposed]
 layout(std140, binding = 0) uniform FieldLightBlock
 {
     vec4 viewAxis; // xyz in which the eye looks; w 1 orthographic
 };
+
+const float kGlowRim = 2.0; // [cell] from the faces of a grid inwards, where its light gives way to that of points
+
+// Light that media send, in all directions alike, and the box in which it replaces points.
+vec3 glowAt(int grid, vec3 p, out GlowBox box)
+{
+    FieldGlow glow = glows[grid];
+    vec3 cell = (p - glow.corner.xyz) / glow.corner.w;
+    vec3 fromFace = min(cell, float(kGlowCells) - cell);
+    float inside = clamp(min(min(fromFace.x, fromFace.y), fromFace.z) / kGlowRim, 0.0, 1.0);
+    box = GlowBox(glow.corner.xyz, glow.corner.w * float(kGlowCells), 1.0 - inside);
+    vec3 texel = clamp(cell, vec3(0.5), vec3(float(kGlowCells) - 0.5)) + vec3(0.0, 0.0, float(kGlowCells * grid));
+    return inside * textureLod(glowLight, texel / vec3(textureSize(glowLight, 0)), 0.0).rgb;
+}
 
 void main()
 {
@@ -32,7 +48,11 @@ void main()
         for (int turn = 0; turn < turns; ++turn) {
             vec3 p = placeOfSample(field, brick, s);
             vec3 toEye = viewAxis.w > 0.5 ? -viewAxis.xyz : -p / max(length(p), 1e-20);
-            source = skySource(p, toEye, own.rgb, own.a) + scatteredLight(p, toEye, own.rgb, own.a);
+            GlowBox box = kNoGlowBox;
+            int glowing = field.limits.w > 0.5 ? 1 : 0;
+            for (int once = 0; once < glowing; ++once)
+                source += own.rgb * glowAt(int(field.limits.w) - 1, p, box);
+            source += skySource(p, toEye, own.rgb, own.a) + scatteredLight(p, toEye, own.rgb, own.a, box);
         }
 #if FX_LAYERS || FX_DETAIL
         imageStore(scatter, corner + s, vec4(source * (before.a / field.limits.y), 0.0));

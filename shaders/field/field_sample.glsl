@@ -115,7 +115,7 @@ FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, float
                 MediumDetail detail = detailOf(numbers, medium.a, p, material0.rgb * perMedium, material1 * perMedium, pixel * t);
                 kept = detail.share;
                 voxels = detail.isLumpy ? kVoxelsPerLumpyStep : kVoxelsPerStep;
-                medium.rgb *= pow(detail.temperature, material0.a);
+                medium.rgb = detailedLight(medium.rgb, detail, material0.a);
             }
 #endif
 #if FX_LAYERS || FX_DETAIL

@@ -20,6 +20,9 @@
 ///       z = ((1 - f) z0 + f z1) / sqrt((1 - f)^2 + f^2)                                       (4)
 ///   and what has faded out of them, of variance u0 and u1, has the variance
 ///       u = ((1 - f)^2 u0 + f^2 u1) / ((1 - f)^2 + f^2)                                       (5)
+///   Billows of one size look like grains. Below the octaves lie broad lumps, 2.6 times as large as the
+///   largest of them and 0.8 times as strong, read from the same lattice at
+///       x / 2.6 + 5.3 along each axis                                                         (6)
 /// @source    [WOR96] cellular noise; [PER02] gradient noise; the mix is own
 /// @deviation none
 /// @valid     d2 >= 0, p > 0, 0 <= f <= 1
@@ -53,6 +56,21 @@ FX_FORMULA(fxNextOctaveZ)(FX_REAL x, FX_REAL y, FX_REAL z)
 FX_FORMULA(fxOctaveBand)(FX_REAL l, FX_REAL p)
 {
     return clamp(l / (FX_REAL(2.0) * p) - FX_REAL(1.0), FX_REAL(0.0), FX_REAL(1.0)); // (3)
+}
+
+FX_FORMULA(fxBroadSize)()
+{
+    return FX_REAL(2.6); // (6)
+}
+
+FX_FORMULA(fxBroadAmplitude)()
+{
+    return FX_REAL(0.8); // (6)
+}
+
+FX_FORMULA(fxBroadPlace)(FX_REAL x)
+{
+    return x / fxBroadSize() + FX_REAL(5.3); // (6)
 }
 
 FX_FORMULA(fxBlendGenerations)(FX_REAL z0, FX_REAL z1, FX_REAL f)

@@ -25,7 +25,24 @@ vec3 sunScatteredAgain(vec3 p, vec3 toEye, vec3 albedo, float g, vec2 depth)
     return lights[0].color.rgb * hostShadow(p) * scatteredAgain(albedo, g, cosine, depth);
 }
 
-vec3 scatteredOfPoints(vec3 p, vec3 toEye, vec3 albedo, float g)
+// Where the light of glowing media is known better than as that of a point: lights that stand for media in the box from `low` on
+// of this side [m] count by `share`.
+struct GlowBox
+{
+    vec3 low;
+    float side;
+    float share;
+};
+const GlowBox kNoGlowBox = GlowBox(vec3(0.0), -1.0, 1.0);
+
+float shareOf(SliceLight light, GlowBox box)
+{
+    vec3 place = light.place.xyz - box.low;
+    bool isIn = light.color.w > 1.5 && all(greaterThan(place, vec3(0.0))) && all(lessThan(place, vec3(box.side)));
+    return isIn ? box.share : 1.0;
+}
+
+vec3 scatteredOfPoints(vec3 p, vec3 toEye, vec3 albedo, float g, GlowBox box)
 {
     vec3 sum = vec3(0.0);
     for (int i = 1; i < lightCounts.x; ++i) {
@@ -37,13 +54,23 @@ vec3 scatteredOfPoints(vec3 p, vec3 toEye, vec3 albedo, float g)
         vec3 source = albedo * (fxHenyeyGreenstein(cosine, g) * exp(-depth.x));
         if (lightOfSky.w > 0.5)
             source += scatteredAgain(albedo, g, cosine, depth);
-        sum += arriving * source;
+        sum += arriving * source * shareOf(light, box);
     }
     return sum;
 }
 
+vec3 scatteredOfPoints(vec3 p, vec3 toEye, vec3 albedo, float g)
+{
+    return scatteredOfPoints(p, toEye, albedo, g, kNoGlowBox);
+}
+
+vec3 scatteredLight(vec3 p, vec3 toEye, vec3 albedo, float g, GlowBox box)
+{
+    vec3 sum = sunScatteredOnce(p, toEye, albedo, g) + scatteredOfPoints(p, toEye, albedo, g, box);
+    return lightOfSky.w > 0.5 ? sum + sunScatteredAgain(p, toEye, albedo, g, sunDepth(p)) : sum;
+}
+
 vec3 scatteredLight(vec3 p, vec3 toEye, vec3 albedo, float g)
 {
-    vec3 sum = sunScatteredOnce(p, toEye, albedo, g) + scatteredOfPoints(p, toEye, albedo, g);
-    return lightOfSky.w > 0.5 ? sum + sunScatteredAgain(p, toEye, albedo, g, sunDepth(p)) : sum;
+    return scatteredLight(p, toEye, albedo, g, kNoGlowBox);
 }

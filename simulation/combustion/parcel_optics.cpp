@@ -2,18 +2,29 @@
 
 #include "foundation/math/elementary.h"
 
+#include <algorithm>
+
 namespace fx::sim {
 
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr float kNoFlame = 900.0f, kAllFlames = 1300.0f; // [K]
+
+/// (0)
+double sooty(const FireParcel& parcel)
+{
+    const double alight = parcel.burning + parcel.burnt;
+    const double hot = double(base::smoothStep(kNoFlame, kAllFlames, float(parcel.temperature)));
+    return alight > 0.0 ? std::max(hot, parcel.burnt / alight) : 0.0;
+}
 
 } // namespace
 
 ParcelOptics opticsOf(const Material& material, const FireParcel& parcel)
 {
-    const double soot =
-        parcel.ownMass * (material.flameSoot * parcel.burning + material.smokeSoot * parcel.burnt); // (1)
+    const double soot = parcel.ownMass * (material.flameSoot * sooty(parcel) * parcel.burning +
+                                          material.smokeSoot * parcel.burnt); // (1)
     const double salt = parcel.ownMass * material.smokeSalt * parcel.burnt;
     const double bySoot = kSootOptics.extinction * soot;
     const double bySalt = kSaltOptics.extinction * salt;

@@ -29,11 +29,11 @@ constexpr MaterialNumbers numbersOf(DetailMaterial material)
     case DetailMaterial::Steam:
         return {0.2f, 12.0f, 0.0f, 0.0f};
     case DetailMaterial::Dust:
-        return {0.15f, 12.0f, 0.0f, 0.0f};
+        return {0.08f, 10.0f, 0.0f, 0.0f};
     case DetailMaterial::Smoke:
         break;
     }
-    return {0.3f, 20.0f, 0.1f, 0.05f};
+    return {0.2f, 18.0f, 0.1f, 0.05f};
 }
 
 } // namespace

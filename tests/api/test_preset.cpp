@@ -106,9 +106,9 @@ TEST_F(PresetApi, everyLibraryPresetLoadsWithAndWithoutItsPrefix)
     } else {
         EXPECT_EQ(fxLoadPresetLibrary(context_, "explosion", &id), FX_OK) << fxGetLastErrorMessage();
     }
-    for (const char* name :
-         {"gas-fire", "campfire", "smoke-column", "dust-burst", "sparks", "steam", "burning-debris", "rain",
-          "snow", "fireworks", "waterfall-mist", "magic-trail", "muzzle-flash", "tracer", "debris"})
+    for (const char* name : {"artillery-dirt", "barrel-smoke", "gas-fire", "campfire", "smoke-column",
+                             "dust-burst", "sparks", "steam", "burning-debris", "rain", "snow", "fireworks",
+                             "waterfall-mist", "magic-trail", "muzzle-flash", "tracer", "debris"})
         EXPECT_EQ(fxLoadPresetLibrary(context_, name, &id), FX_OK) << name << ": " << fxGetLastErrorMessage();
     EXPECT_EQ(fxLoadPresetLibrary(context_, fx::test::kLargeEffect, &id), FX_OK) << fxGetLastErrorMessage();
     EXPECT_EQ(fxLoadPresetLibrary(context_, "volcano", &id), FX_ERROR_NOT_FOUND);

@@ -48,9 +48,12 @@ TEST(PresetLibrary, holdsWhatItPromisesAndAllOfItIsValid)
     const std::vector<std::string> list = names();
     const std::set<std::string> found(list.begin(), list.end());
     EXPECT_EQ(found,
-              (std::set<std::string>{"explosion", "gas-fire", "campfire", "smoke-column", "dust-burst",
-                                     "sparks", "steam", "burning-debris", "rain", "snow", "fireworks",
-                                     "waterfall-mist", "magic-trail", "muzzle-flash", "tracer", "debris"}));
+              (std::set<std::string>{"artillery-dirt", "barrel-smoke",   "black-powder",    "gas-explosion",
+                                     "grenade",        "mushroom-cloud", "petrol-fireball", "explosion",
+                                     "gas-fire",       "campfire",       "smoke-column",    "dust-burst",
+                                     "sparks",         "steam",          "burning-debris",  "rain",
+                                     "snow",           "fireworks",      "waterfall-mist",  "magic-trail",
+                                     "muzzle-flash",   "tracer",         "debris"}));
     for (const std::string& name : list) {
         const auto effect = load(name);
         ASSERT_TRUE(effect);

@@ -9,17 +9,20 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {{"loose blob upload", "volume"}, {"field upload", "volume"},
-                                {"lump tile", "volume"},         {"field slices", "volume"},
-                                {"field fill", "volume"},        {"field light", "volume"},
-                                {"field texels", "volume"},      {"field march", "media"}};
+constexpr TimedPass kTimed[] = {
+    {"loose blob upload", "volume"}, {"field upload", "volume"}, {"lump tile", "volume"},
+    {"field slices", "volume"},      {"field fill", "volume"},   {"field light", "volume"},
+    {"glow upload", "volume"},       {"glow source", "volume"},  {"glow rays", "volume"},
+    {"glow sum", "volume"},          {"field texels", "volume"}, {"field march", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
     static const auto all = [] {
         const std::span<const ProgramDesc* const> ofSlabs = kSlabComposition.programs(); // the loose
         std::vector<const ProgramDesc*> list(ofSlabs.begin(), ofSlabs.end());
-        list.insert(list.end(), {&kLumpTileProgram, &kFieldSlicesProgram, &kFieldTexelProgram});
+        list.insert(list.end(), {&kLumpTileProgram, &kFieldSlicesProgram, &kFieldTexelProgram,
+                                 &kGlowSourceAgainProgram, &kGlowRaysProgram, &glowSourceProgram(false),
+                                 &glowSourceProgram(true), &glowSumProgram(false), &glowSumProgram(true)});
         for (const bool detail : {false, true})
             for (const bool layers : {false, true})
                 for (const ProgramDesc* program :

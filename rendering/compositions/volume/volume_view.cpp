@@ -44,7 +44,7 @@ FieldDetailBlock blockOf(const GroupDetail& detail, int octaves)
 
 VolumeView::VolumeView(const TechniqueSetup& setup)
     : device_(*setup.device), plan_(setup.memory), texels_(setup.memory), details_(setup.memory),
-      loose_(setup), looseBlobs_(setup.memory)
+      glow_(*setup.device), loose_(setup), looseBlobs_(setup.memory)
 {}
 
 base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
@@ -60,7 +60,8 @@ base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
         details_.push_back(blockOf(detail, octaves));
     materials_ = details_.empty() ? std::span<const BlobMaterial>() : io.materials;
     blobs_ = details_.empty() ? std::span<const BlobInstance>() : io.blobs;
-    plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0});
+    plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0,
+                 in.settings->slices.multiple});
     texels_.build(plan_, details_);
     gatherLoose(in, io);
     return makeRoom(in.settings->layerOutputs);
@@ -103,6 +104,8 @@ base::Status VolumeView::makeRoom(bool layers)
     for (size_t i = 0; status && i < textures_.size(); ++i)
         if (isUsed(i, layers))
             status = makeTexture(i);
+    if (status)
+        status = glow_.makeRoom(plan_.glows());
     if (status && !plan_.isEmpty())
         status = makeTexels(texelTexture_, texels_.texels().size(), kFieldColumns, Format::RGBA32F,
                             "field texels");
@@ -184,6 +187,7 @@ void VolumeView::importAll(FrameGraph& graph, bool layers)
                        texels(table_, Format::R32F, "field table"),
                        {texture(3), texture(4)}};
     march_.fieldTexels = texels(texelTexture_, Format::RGBA32F, "field texels");
+    glow_.importAll(graph, plan_.glows());
     march_.lumpTile = {};
     if (details_.empty())
         return;
@@ -299,9 +303,21 @@ void VolumeView::addFields(FrameGraph& graph, PassFrame& frame)
     if (!isKept_ || isFilled || frame.lights.hostShadow.valid()) {
         if (!isFilled)
             fill(graph, frame.blobs);
+        const uint32_t bricks = uint32_t(plan_.bricks().size());
+        if (frame.lights.lights.valid())
+            glow_.addPasses(graph,
+                            {march_.fieldTexels,
+                             march_.textures,
+                             march_.lumpTile,
+                             !details_.empty(),
+                             {},
+                             {},
+                             uint32_t(plan_.fields().size()),
+                             0},
+                            plan_.glows());
         march_.textures =
             FieldLightPass::addTo(graph, {ids_[Fields], ids_[Bricks], march_.textures, frame.lights,
-                                          &frame.view, uint32_t(plan_.bricks().size())})
+                                          &frame.view, bricks, glow_.light(), glow_.grids()})
                 .textures;
     }
     filledFor_ = nullptr;
@@ -342,11 +358,12 @@ void VolumeView::release()
     texelTexture_ = {};
     table_ = {};
     lumpTile_ = {};
+    glow_.release();
 }
 
 uint64_t VolumeView::bytes() const
 {
-    uint64_t sum = looseBuffer_.bytes() + looseLights_.bytes();
+    uint64_t sum = looseBuffer_.bytes() + looseLights_.bytes() + glow_.bytes();
     for (const GlBuffer& buffer : buffers_)
         sum += buffer.bytes();
     const auto add = [&](const GlTexture& texture) { sum += texture.name() != 0 ? texture.bytes() : 0; };

@@ -4,6 +4,7 @@
 
 #include "rendering/compositions/media_composition.h"
 #include "rendering/compositions/slabs/slab_media.h"
+#include "rendering/compositions/volume/volume_glow.h"
 #include "rendering/field/field_fill_pass.h"
 #include "rendering/field/field_light_pass.h"
 #include "rendering/field/field_march_pass.h"
@@ -79,6 +80,7 @@ private:
     std::span<const std::byte> stacks_;       ///< SliceStackBlocks of the frame
     uint64_t corrected_ = 0;                  ///< filling of the light slices that has the detail
     std::span<const BlobMaterial> materials_; ///< of the frame
+    VolumeGlow glow_;
     std::span<const BlobInstance> blobs_;     ///< likewise, if any has detail
     bool layers_ = false;                     ///< the frame has layer outputs
     const FrameGraph* filledFor_ = nullptr;   ///< textures hold fields before light, by passes of this graph

@@ -237,7 +237,9 @@ void LightList::addPoints(const LightListInputs& in)
         const HostLight& point = sorted.points[i].light;
         const glm::vec3 place(point.position - in.eye);
         SliceLightBlock light{};
-        light.color = glm::vec4(point.intensity * exposure, 1.0f);
+        const LightOrigin& origin = sorted.points[i].origin;
+        const bool isOfMedium = origin.kind == LightKind::Effect && in.effects[origin.index].isOfMedium;
+        light.color = glm::vec4(point.intensity * exposure, isOfMedium ? 2.0f : 1.0f);
         light.place = glm::vec4(place, point.radius);
         light.cone = coneOf(point);
         if (in.settings->slices.enabled && int(i) < in.settings->slices.castingPoints)
@@ -251,7 +253,7 @@ void LightList::addPoints(const LightListInputs& in)
                 },
                 in.settings->slices.snapped, count_);
         add(light);
-        origins_.push_back(sorted.points[i].origin);
+        origins_.push_back(origin);
     }
 }
 

@@ -48,6 +48,7 @@ bool lightOf(const base::FrameSnapshot&, const base::SnapshotGroup& g, EffectLig
     const float face = std::numbers::pi_v<float> * extent * extent;
     outLight = glow.light(g.info().placement, extent,
                           escape(float(allCrossSections) / face)); // neighbors hide each other
+    outLight.isOfMedium = true;
     return true;
 }
 

@@ -216,7 +216,8 @@ TEST(FieldDetail, thinMediumIsErodedAndDenseMediumIsNot)
 TEST(FieldDetail, octavesBelowTwoPixelsHaveFadedOut)
 {
     const FieldDetailNumbers numbers = fireball();
-    double variance = 0; // of five octaves over that of the first
+    const double broad = double(formula::fxBroadAmplitude());
+    double variance = broad * broad; // of broad lumps and five octaves over that of the first
     for (int k = 0; k < 5; ++k)
         variance += std::pow(double(numbers.gain), 2.0 * k);
     const auto noise = [&](const SmoothMedium& medium, float pixel, int octaves) {
@@ -224,9 +225,10 @@ TEST(FieldDetail, octavesBelowTwoPixelsHaveFadedOut)
     };
     for (uint64_t i = 0; i < 100; ++i) {
         const SmoothMedium medium = mediumAt(5.0f, anywhere(i, 50.0f));
-        EXPECT_EQ(noise(medium, 0.51f, 5), 0.0f); // lumps of 1 m
-        EXPECT_NEAR(double(noise(medium, 0.25f, 5)) * std::sqrt(variance), double(noise(medium, 0.25f, 1)),
-                    1e-4);
+        EXPECT_EQ(noise(medium, 1.31f, 5), 0.0f); // broad lumps of 2.6 m
+        EXPECT_NE(noise(medium, 0.7f, 5), 0.0f);
+        EXPECT_NEAR(double(noise(medium, 0.25f, 5)) * std::sqrt(variance),
+                    double(noise(medium, 0.25f, 1)) * std::sqrt(1.0 + broad * broad), 1e-4);
         EXPECT_NE(noise(medium, 0.05f, 5), noise(medium, 0.05f, 3));
     }
 }

@@ -42,10 +42,10 @@ protected:
 
     render::FieldPlan plan_{memory_};
 
-private:
-    render::FieldTextures importTextures();
+    render::FieldTextures importTextures(); ///< those of fill(), in this frame
     render::ResourceId importTexelsOfFields();
 
+private:
     render::FieldTexels texels_{memory_};
     std::vector<render::GlTexture> volumes_;
     render::GlTexture table_;

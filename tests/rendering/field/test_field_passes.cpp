@@ -100,7 +100,7 @@ TEST_F(FieldTest, samplesAreTheSumsOfTheProcessor)
     for (const FieldBall& ball : randomBalls(80, 6, glm::dvec3(1.5, 0.0, 0.5), 1))
         balls.push_back(ball);
     const FieldScene scene(balls, camera({0, 0, 9}, {0, 0, 0}));
-    fill(scene, 32, true);
+    fill(scene, 64, true); // no ball of fire is so small that it stays a ball
     std::vector<double> red, albedo, meanCosine, dust;
     for (const FieldBall& ball : balls) {
         red.push_back(double(ball.emission.r));

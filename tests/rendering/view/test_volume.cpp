@@ -1,5 +1,6 @@
 // Media summed up in voxels, as a view draws them: what overlaps against the integral through all balls,
 // layers, small layers, what a warm frame costs, and that nothing is there unless it is asked for.
+#include "foundation/snapshot/material_kind.h"
 #include "rendering/reference/integral/reference_integral.h"
 #include "tests/rendering/gl/heap_counter.h"
 #include "tests/rendering/view/permutations.h"
@@ -209,6 +210,7 @@ TEST_F(Volume, layersOfOneBallAreThoseOfTheSortedForm)
     ball.albedo = 0.6f;
     ball.fireShare = 0.25f;
     view_->settings().layerOutputs = true;
+    view_->settings().slices.multiple = false; // balls that are sorted do not light themselves
     view_->settings().lighting.skyLuminance = glm::vec3(1.0f);
     for (const base::MediaLayer layer :
          {base::MediaLayer::Fire, base::MediaLayer::Smoke, base::MediaLayer::Dust}) {
@@ -238,6 +240,47 @@ TEST_F(Volume, layersOfOneBallAreThoseOfTheSortedForm)
             EXPECT_LE(worst, tolerance[t]) << "target " << t << " of layer " << int(layer);
         }
     }
+}
+
+TEST_F(Volume, aMediumOfOneLuminanceShowsItWhateverItsDetail)
+{
+    const base::KindId material = schema_.add(base::kMaterialKind);
+    std::vector<TestBlob> blobs = cloud(120, 0.45f, 0.8f);
+    for (TestBlob& blob : blobs)
+        blob.emission = 1.0f;
+    const auto detailed = [&](bool hasDetail) {
+        base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
+        const base::FrameSnapshot plain = snapshotOf(blobs);
+        snapshot.begin(0, ++sequence_);
+        const base::SnapshotGroup& from = plain.group(uint32_t(base::MediaLayer::Smoke));
+        base::SnapshotGroup& group = snapshot.addGroup(schema_.find("blob"), from.count());
+        group.editInfo() = from.info();
+        for (size_t c = 0; c < base::blob_column::Count; ++c)
+            std::copy_n(from.column(c).begin(), from.count(), group.editColumn(c).begin());
+        std::copy_n(from.ids().begin(), from.count(), group.editIds().begin());
+        std::ranges::copy(from.constants(), group.editConstants().begin());
+        if (hasDetail) {
+            base::SnapshotGroup& carried = snapshot.addGroup(material, from.count());
+            carried.editInfo() = from.info();
+            carried.editInfo().kind = material;
+            for (size_t c = 0; c < base::material_column::Count; ++c)
+                std::copy_n(from.column(base::blob_column::PositionX + c % 3).begin(), from.count(),
+                            carried.editColumn(c).begin());
+            std::copy_n(from.ids().begin(), from.count(), carried.editIds().begin());
+            constexpr float kConstants[] = {1.0f, 0.4f, 0.5f, 0.5f,  1.0f, 1.0f,
+                                            0.3f, 8.0f, 0.2f, 0.55f, 0.0f, 0.0f};
+            std::ranges::copy(kConstants, carried.editConstants().begin());
+        }
+        return drawn(snapshot, camera());
+    };
+    const Picture furnace = detailed(true), plain = detailed(false);
+    double worst = 0.0, change = 0.0;
+    for (size_t i = 0; i < furnace.texels.size(); i += 4) {
+        worst = std::max(worst, double(std::abs(furnace.texels[i] - furnace.texels[i + 3])));
+        change = std::max(change, double(std::abs(furnace.texels[i + 3] - plain.texels[i + 3])));
+    }
+    EXPECT_LT(worst, 5e-3) << "Kirchhoff: light is luminance times opacity";
+    EXPECT_GT(change, 0.1) << "the detail is seen";
 }
 
 TEST_F(Volume, smallLayersLookTheSame)

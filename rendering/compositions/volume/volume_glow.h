@@ -1,0 +1,42 @@
+/// @file volume_glow.h
+/// What a view keeps to spread the light of its fields: grids on the GPU.
+#pragma once
+
+#include "rendering/field/field_glow_pass.h"
+#include "rendering/field/field_glow_plan.h"
+#include "rendering/gl/gl_buffer.h"
+#include "rendering/gl/gl_device.h"
+#include "rendering/gl/gl_texture.h"
+
+#include <array>
+#include <span>
+
+namespace fx::render {
+
+/// Nothing before a field emits. Threads: [GL thread].
+class VolumeGlow
+{
+public:
+    explicit VolumeGlow(GlDevice& device) : device_(device) {}
+
+    /// Makes room for grids. @return OutOfMemory
+    base::Status makeRoom(std::span<const FieldGlowBlock> grids);
+    /// Imports what a frame needs; without grids nothing is valid.
+    void importAll(FrameGraph& graph, std::span<const FieldGlowBlock> grids);
+    /// Uploads the grids and adds the passes. @param in without grids and textures of the glow
+    void addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, std::span<const FieldGlowBlock> grids);
+
+    ResourceId light() const { return textures_.light; } ///< of the frame; invalid: no field emits
+    ResourceId grids() const { return grids_; }          ///< buffer of FieldGlowBlock
+    void release();
+    uint64_t bytes() const;
+
+private:
+    GlDevice& device_;
+    std::array<GlTexture, 5> volumes_; ///< in the order of GlowTextures
+    GlBuffer buffer_;
+    GlowTextures textures_; ///< of the frame
+    ResourceId grids_;      ///< likewise
+};
+
+} // namespace fx::render

@@ -1,0 +1,56 @@
+/// @file field_glow_pass.h
+/// The passes that spread the light that media emit over the media around: fire lights smoke from inside.
+#pragma once
+
+#include "rendering/field/field_textures.h"
+#include "rendering/passes/light_bindings.h"
+
+#include <cstdint>
+
+namespace fx::render {
+
+/// Textures of the grids of FieldGlowPlan, one above the other along z.
+struct GlowTextures
+{
+    ResourceId cells = {};   ///< RGBA32F emitted light, extinction
+    ResourceId scatter = {}; ///< RGBA16F extinction times albedo
+    ResourceId rays = {};    ///< RGBA16F radiance, of all directions beside each other
+    ResourceId first = {};   ///< RGBA16F mean radiance of what is emitted
+    ResourceId light = {};   ///< RGBA16F the same with what is scattered
+};
+
+/// Mean radiance in each cell of the light of all media of a grid, any number of times scattered.
+///
+/// reads   fieldTexels    of FieldTexelPass
+///         grids          buffer of FieldGlowBlock
+///         field          filled textures, not yet lit
+///         lumpTile       of LumpTilePass
+/// writes  all of GlowTextures; `light` is the result
+/// Formula: field-glow.
+class FieldGlowPass
+{
+public:
+    struct Inputs
+    {
+        ResourceId fieldTexels;
+        FieldTextures field;
+        ResourceId lumpTile; ///< not used without detail
+        bool detail;         ///< some field has detail
+        ResourceId grids;
+        GlowTextures glow;
+        uint32_t fieldCount; ///< > 0
+        uint32_t gridCount;  ///< > 0
+    };
+    struct Outputs
+    {
+        GlowTextures glow;
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+};
+
+const ProgramDesc& glowSourceProgram(bool detail);
+extern const ProgramDesc kGlowSourceAgainProgram;
+extern const ProgramDesc kGlowRaysProgram;
+const ProgramDesc& glowSumProgram(bool again);
+
+} // namespace fx::render

@@ -1,0 +1,118 @@
+#include "rendering/field/field_glow_plan.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+namespace fx::render {
+
+namespace {
+
+/// [exposed] mean radiance at the distance of a field's size below which its light is not seen.
+constexpr float kDarkest = 1e-4f;
+constexpr float kMargin =
+    0.5f; ///< of a source's size, to each side: media farther away have its light as that of a point
+constexpr int kSpareCells = 2; ///< of a grid that its place and the rounding of its cells may take
+
+struct Box
+{
+    glm::vec3 low, high; ///< [m] relative to the eye
+};
+
+Box boxOf(const FieldBlock& field)
+{
+    const glm::vec3 low(field.corner);
+    return {low, low + field.corner.w * float(kBrickCells) * glm::vec3(field.bricks)};
+}
+
+bool overlap(const Box& a, const Box& b)
+{
+    return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
+}
+
+float sizeOf(const glm::vec3& extent)
+{
+    return std::max({extent.x, extent.y, extent.z});
+}
+
+/// [m] The next power of 2^(1/4).
+float roundedUp(float side)
+{
+    return std::exp2(std::ceil(4.0f * std::log2(side)) * 0.25f);
+}
+
+} // namespace
+
+bool FieldGlowPlan::brighter(const Source& a, const Source& b)
+{
+    return std::tie(a.emitted, a.low.x, a.low.y, a.low.z) > std::tie(b.emitted, b.low.x, b.low.y, b.low.z);
+}
+
+FieldGlowPlan::FieldGlowPlan(std::pmr::memory_resource* memory) : sources_(memory), grids_(memory) {}
+
+void FieldGlowPlan::build(std::span<FieldBlock> ioFields, std::span<const float> emitted,
+                          const glm::dvec3& eye)
+{
+    grids_.clear();
+    for (FieldBlock& field : ioFields)
+        field.limits.w = 0.0f;
+    listSources(ioFields, emitted);
+    std::ranges::sort(sources_, brighter);
+    sources_.resize(std::min(sources_.size(), kMostGlowGrids));
+    for (const Source& source : sources_)
+        placeGrid(source, ioFields, eye);
+}
+
+/// Fields that emit enough to be seen; those that overlap are one.
+void FieldGlowPlan::listSources(std::span<const FieldBlock> fields, std::span<const float> emitted)
+{
+    sources_.clear();
+    for (size_t f = 0; f < fields.size(); ++f) {
+        const Box box = boxOf(fields[f]);
+        const float size = sizeOf(box.high - box.low);
+        if (!(emitted[f] > kDarkest * 4.0f * std::numbers::pi_v<float> * size * size))
+            continue;
+        Source merged{box.low, box.high, emitted[f]};
+        for (size_t s = 0; s < sources_.size();) {
+            const Source& other = sources_[s];
+            if (!overlap({merged.low, merged.high}, {other.low, other.high})) {
+                ++s;
+                continue;
+            }
+            merged = {glm::min(merged.low, other.low), glm::max(merged.high, other.high),
+                      merged.emitted + other.emitted};
+            sources_.erase(sources_.begin() + std::ptrdiff_t(s));
+            s = 0; // what it did not reach before
+        }
+        sources_.push_back(merged);
+    }
+}
+
+/// Around a source and the fields without a grid that overlap it, up to a margin.
+void FieldGlowPlan::placeGrid(const Source& source, std::span<FieldBlock> ioFields, const glm::dvec3& eye)
+{
+    Box all{source.low, source.high};
+    for (FieldBlock& field : ioFields) {
+        const Box box = boxOf(field);
+        if (field.limits.w > 0.0f || !overlap(box, {source.low, source.high}))
+            continue;
+        field.limits.w = float(grids_.size() + 1);
+        all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
+    }
+    const glm::vec3 margin(kMargin * sizeOf(source.high - source.low));
+    all = {glm::max(all.low, source.low - margin), glm::min(all.high, source.high + margin)};
+    const glm::vec3 extent = all.high - all.low;
+    const float side = roundedUp(sizeOf(extent) / float(kGlowCells - kSpareCells));
+    FieldGlowBlock grid;
+    for (int a = 0; a < 3; ++a) { // in the middle of its cells, at a multiple of them
+        const double first = 0.5 * double(all.low[a] + all.high[a] - float(kGlowCells) * side);
+        grid.corner[a] = float(std::round((eye[a] + first) / double(side)) * double(side) - eye[a]);
+    }
+    grid.corner.w = side;
+    grids_.push_back(grid);
+}
+
+} // namespace fx::render

@@ -1,0 +1,87 @@
+#include "field/field_blocks.glsl"
+#include "field/field_glow.glsl"
+#if FX_DETAIL
+#include "field/field_detail.glsl"
+#endif
+
+// What the medium of each cell of the grids emits, extinguishes and scatters: the mean of the fields at some points of it, with
+// their detail. FX_AGAIN 1 replaces what is emitted by what the cell scatters of the light that it gets.
+layout(local_size_x = 8, local_size_y = 4, local_size_z = 2) in;
+layout(rgba32f, binding = 0) uniform image3D cells; // rgb emitted light [exposed/m]; a extinction [1/m]
+#if FX_AGAIN
+layout(binding = 3) uniform sampler3D glowScatter; // rgb [1/m] extinction times albedo
+layout(binding = 4) uniform sampler3D glowLight;   // rgb mean radiance [exposed]
+#else
+layout(binding = 12) uniform sampler2D brickTable;
+layout(rgba16f, binding = 1) uniform writeonly image3D glowScatter;
+layout(binding = 0) uniform sampler3D fieldMedium;
+layout(binding = 1) uniform sampler3D fieldScatter;
+#if FX_DETAIL
+layout(binding = 2) uniform sampler3D fieldMaterial0;
+layout(binding = 3) uniform sampler3D fieldMaterial1;
+#endif
+layout(std140, binding = 0) uniform GlowSourceBlock { ivec4 fieldCount; };
+
+const int kMostPoints = 3; // along a side of a cell
+
+// Adds a share of one field at a place. @param pixel [m] lumps below twice of it are not seen
+void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 medium, inout vec3 scatter)
+{
+    vec3 local = (p - field.corner.xyz) / field.corner.w;
+    vec3 size = vec3(kBrickCells * field.bricks.xyz);
+    bool isInside = all(greaterThanEqual(local, vec3(0.0))) && all(lessThan(local, size));
+    ivec3 brick = clamp(ivec3(floor(local / float(kBrickCells))), ivec3(0), field.bricks.xyz - 1);
+    float number = isInside ? abs(texelFetch(brickTable, tableTexel(tableEntry(field, brick)), 0).r) : 0.0;
+    // a loop without turns is skipped by software renderers too, a branch is not
+    int turns = number > 0.0 ? 1 : 0;
+    for (int turn = 0; turn < turns; ++turn) {
+        vec3 texel = vec3(brickTexel(int(number) - 1)) + 0.5 + local - vec3(kBrickCells * brick);
+        vec3 uv = texel / vec3(textureSize(fieldMedium, 0));
+        vec4 own = textureLod(fieldMedium, uv, 0.0);
+        float kept = own.a > 0.0 ? 1.0 : 0.0;
+#if FX_DETAIL
+        int detailed = field.limits.z > 0.5 && own.a > 0.0 ? 1 : 0;
+        for (int once = 0; once < detailed; ++once) {
+            vec4 material0 = textureLod(fieldMaterial0, uv, 0.0);
+            vec3 material1 = textureLod(fieldMaterial1, uv, 0.0).rgb;
+            float perMedium = field.limits.y / own.a;
+            MediumDetail detail = detailOf(fieldDetail(int(field.limits.z)), own.a, p, material0.rgb * perMedium,
+                                           material1 * perMedium, pixel);
+            kept = detail.share;
+            own.rgb = detailedLight(own.rgb, detail, material0.a);
+        }
+#endif
+        medium += share * kept * own;
+        scatter += share * kept * own.a * textureLod(fieldScatter, uv, 0.0).rgb;
+    }
+}
+#endif
+
+void main()
+{
+    ivec3 id = ivec3(gl_GlobalInvocationID);
+    int grid = id.z / kGlowCells;
+#if FX_AGAIN
+    vec4 medium = imageLoad(cells, id);
+    medium.rgb = texelFetch(glowScatter, id, 0).rgb * texelFetch(glowLight, id, 0).rgb;
+    imageStore(cells, id, medium);
+#else
+    vec3 cell = vec3(id.xy, id.z - kGlowCells * grid);
+    FieldGlow glow = glows[grid];
+    vec4 medium = vec4(0.0);
+    vec3 scatter = vec3(0.0);
+    for (int f = 0; f < fieldCount.x; ++f) {
+        VoxelField field = fieldOf(f);
+        bool isOfGrid = int(field.limits.w) == grid + 1;
+        int points = isOfGrid ? clamp(int(ceil(glow.corner.w / field.corner.w)), 1, kMostPoints) : 0;
+        float share = 1.0 / float(max(points * points * points, 1));
+        for (int i = 0; i < points * points * points; ++i) {
+            vec3 part = (vec3(i % points, i / points % points, i / (points * points)) + 0.5) / float(points);
+            addField(field, glow.corner.xyz + glow.corner.w * (cell + part), 0.5 * glow.corner.w / float(points), share, medium,
+                     scatter);
+        }
+    }
+    imageStore(cells, id, max(medium, vec4(0.0)));
+    imageStore(glowScatter, id, vec4(max(scatter, vec3(0.0)), 0.0));
+#endif
+}

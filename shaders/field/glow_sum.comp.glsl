@@ -1,0 +1,29 @@
+#include "formulas/field_glow.fx.h"
+#include "field/field_glow.glsl"
+
+// Mean radiance in each cell of the rays of all directions. FX_AGAIN 1: the rays are what is scattered of the light of the first
+// sum, and the result has all orders: formula field-glow (4).
+layout(local_size_x = 8, local_size_y = 4, local_size_z = 2) in;
+layout(binding = 0) uniform sampler3D rays; // see glow_rays.comp.glsl
+#if FX_AGAIN
+layout(binding = 4) uniform sampler3D glowLight;
+#endif
+layout(rgba16f, binding = 0) uniform writeonly image3D light; // rgb mean radiance [exposed]
+
+void main()
+{
+    ivec3 id = ivec3(gl_GlobalInvocationID);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 27; ++i) {
+        ivec3 d = glowDirection(i);
+        int square = d.x * d.x + d.y * d.y + d.z * d.z;
+        float weight = square == 1 ? 1.0 / 21.0 : square == 2 ? 4.0 / 105.0 : square == 3 ? 9.0 / 280.0 : 0.0;
+        if (square > 0)
+            sum += weight * texelFetch(rays, glowRayCorner(i) + id, 0).rgb;
+    }
+#if FX_AGAIN
+    vec3 first = texelFetch(glowLight, id, 0).rgb;
+    sum = vec3(fxGlowOrders(first.r, sum.r), fxGlowOrders(first.g, sum.g), fxGlowOrders(first.b, sum.b));
+#endif
+    imageStore(light, id, vec4(min(sum, vec3(6e4)), 0.0));
+}
