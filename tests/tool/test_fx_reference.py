@@ -43,6 +43,18 @@ class FxReference(FxTest):
         self.assertEqual(outcome.code, 0, outcome.err)
         self.assertEqual(self.names(), ["a.exr"])
 
+    def test_detail_of_fields_is_there_where_the_composition_draws_it(self):
+        def picture(name, *arguments):
+            path = self.folder / f"{name}.exr"
+            outcome = fx("render", "library:explosion", "-o", path, "--renderer", "reference", "--scattering", "none",
+                         "--time", "0.4", "--size", "32x18", *arguments)
+            self.assertEqual(outcome.code, 0, outcome.err)
+            return path.read_bytes()
+        smooth, detailed = picture("off", "--detail", "off"), picture("on", "--detail", "on")
+        self.assertNotEqual(smooth, detailed)
+        self.assertEqual(picture("sorted", "--composition", "sorted"), smooth)
+        self.assertEqual(picture("volume", "--composition", "volume"), detailed)
+
     def test_threads_do_not_change_a_bit(self):
         self.write("a.blobs.csv", blobs(20))
         for threads in (1, 3):

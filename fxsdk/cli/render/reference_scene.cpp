@@ -74,6 +74,7 @@ base::Result<ReferenceFrame> ReferenceSceneSource::frameAt(base::Ticks tick)
     ReferenceFrame frame;
     render::MediumList medium = render::mediumOf(moment->snapshots, moment->interpolation);
     frame.scene.blobs = std::move(medium.blobs);
+    frame.scene.details = std::move(medium.details);
     frame.nonFinite = medium.nonFinite;
     frame.scene.opaque = opaqueOf(file_);
     frame.scene.camera = cameraOf(file_.camera, base::toSeconds(tick));
