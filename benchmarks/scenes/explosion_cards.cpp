@@ -42,6 +42,8 @@ base::Result<std::vector<Card>> explosionCards(double seconds)
     const base::FrameSnapshot& snapshot = (*run)->publish();
     for (size_t g = 0; g < snapshot.groupCount(); ++g) {
         const base::SnapshotGroup& group = snapshot.group(g);
+        if (snapshot.schema().kind(group.info().kind).name != base::kBlobKind.name)
+            continue; // coordinates of detail
         for (size_t i = 0; i < group.count(); ++i) {
             const auto words = base::philox({uint32_t(group.ids()[i]), 2, 1, 0}, kSeed);
             cards.push_back(cardOf(group, i, base::toUnitFloat(words[1])));

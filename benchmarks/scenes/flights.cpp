@@ -20,7 +20,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kFrameSeconds = 1.0 / 60.0;
-constexpr double kPace = 0.2; ///< of the eye: where the picture hardly moves, what jumps is seen
 constexpr double kFarAway = 1e4; ///< [m] on the way to the sun
 
 /// Where an eye goes, in radii of the media around their middle.
@@ -37,7 +36,8 @@ enum class Media
 {
     Smoke,
     Fireball,
-    Overlap ///< both, each an instance of its own
+    Overlap, ///< both, each an instance of its own
+    Balls    ///< two instances of a few large balls that lie in each other, one dark and one bright
 };
 
 struct EffectFlight
@@ -50,7 +50,7 @@ struct EffectFlight
 
 constexpr uint32_t kEffectFrames = 60, kLightFrames = 721;
 constexpr FlightSubject kComposition = FlightSubject::Composition, kLight = FlightSubject::Light;
-constexpr std::array<EffectFlight, 10> kEffectFlights{{
+constexpr std::array<EffectFlight, 11> kEffectFlights{{
     {{"smoke-orbit", kComposition, kEffectFrames}, Media::Smoke, Motion::Orbit, 1},
     {{"smoke-through", kComposition, kEffectFrames}, Media::Smoke, Motion::Through, 2},
     {{"smoke-rise", kComposition, kEffectFrames}, Media::Smoke, Motion::Rise, 3},
@@ -61,6 +61,7 @@ constexpr std::array<EffectFlight, 10> kEffectFlights{{
     {{"overlap-through", kComposition, kEffectFrames}, Media::Overlap, Motion::Through, 8},
     {{"overlap-rise", kComposition, kEffectFrames}, Media::Overlap, Motion::Rise, 9},
     {{"overlap-turn", kComposition, kEffectFrames}, Media::Overlap, Motion::Turn, 10},
+    {{"balls-orbit", kComposition, kEffectFrames, true}, Media::Balls, Motion::Orbit, 11},
 }};
 
 enum class Sweep
@@ -78,9 +79,9 @@ struct LightFlight
 };
 
 constexpr std::array<LightFlight, 3> kLightFlights{{
-    {{"light-sweep", kLight, kLightFrames}, Sweep::Light, 11},
-    {{"light-dolly-across", kLight, kLightFrames}, Sweep::Across, 12},
-    {{"light-dolly-into", kLight, kLightFrames}, Sweep::Into, 13},
+    {{"light-sweep", kLight, kLightFrames}, Sweep::Light, 12},
+    {{"light-dolly-across", kLight, kLightFrames}, Sweep::Across, 13},
+    {{"light-dolly-into", kLight, kLightFrames}, Sweep::Into, 14},
 }};
 
 /// A ball around most of the media.
@@ -114,7 +115,7 @@ LitView viewAt(const EffectFlight& flight, const Whereabouts& around, double s)
     const double turn = chance.between(0.0, 2.0 * kPi);
     const glm::dvec3 side(std::cos(turn), 0.0, std::sin(turn)), across(-side.z, 0.0, side.x);
     const double height = chance.between(-0.2, 0.3);
-    const double t = kPace * (2.0 * s - 1.0);
+    const double t = 2.0 * s - 1.0;
     glm::dvec3 eye(0.0), target(0.0); // in radii
     switch (flight.motion) {
     case Motion::Orbit:
@@ -142,7 +143,7 @@ LitView viewAt(const EffectFlight& flight, const Whereabouts& around, double s)
     view.lighting = {};
     view.lighting.sunIlluminance = glm::vec3(0.0f);
     view.lighting.groundAlbedo = 0.0f;
-    view.exposureEv100 = flight.media == Media::Smoke ? 13.0f : 15.0f;
+    view.exposureEv100 = flight.media == Media::Smoke || flight.media == Media::Balls ? 13.0f : 15.0f;
     return view;
 }
 
@@ -193,6 +194,35 @@ void lightInCenters(std::vector<render::MediumBlob>& io)
         blob.source += blob.albedo * (sun + 0.3 * glm::dvec3(sky.skyLuminance));
         blob.albedo = glm::dvec3(0.0);
     }
+}
+
+std::vector<render::MediumBlob> darkAndBrightBalls(uint64_t seed)
+{
+    constexpr uint32_t kBalls = 16;
+    bench::Chance chance(seed);
+    std::vector<render::MediumBlob> blobs;
+    for (uint32_t b = 0; b < kBalls; ++b) {
+        render::MediumBlob blob;
+        blob.center = 0.8 * chance.inCube();
+        blob.radius = 1.0;
+        blob.crossSection = 3.0;
+        blob.source = b % 2 == 0 ? glm::dvec3(4000.0) : glm::dvec3(100.0); // [cd/m2]
+        blob.instance = 1 + b % 2;
+        blobs.push_back(blob);
+    }
+    return blobs;
+}
+
+std::vector<FlightFrame> ballFrames(const EffectFlight& flight, uint32_t frames)
+{
+    const std::vector<render::MediumBlob> blobs = darkAndBrightBalls(flight.seed);
+    const Whereabouts around = whereaboutsOf(blobs);
+    std::vector<FlightFrame> all;
+    for (uint32_t k = 0; k < frames; ++k)
+        all.push_back(
+            {blobs, viewAt(flight, around,
+                           double((flight.name.frames - frames) / 2 + k) / double(flight.name.frames - 1))});
+    return all;
 }
 
 base::Result<std::vector<FlightFrame>> effectFrames(const EffectFlight& flight, uint32_t frames)
@@ -319,8 +349,12 @@ std::span<const FlightName> flightNames()
 base::Result<std::vector<FlightFrame>> flightFrames(std::string_view name, uint32_t frames)
 {
     for (const EffectFlight& flight : kEffectFlights)
-        if (flight.name.name == name)
-            return effectFrames(flight, std::min(frames, flight.name.frames));
+        if (flight.name.name == name) {
+            const uint32_t count = std::min(frames, flight.name.frames);
+            if (flight.media == Media::Balls)
+                return ballFrames(flight, count);
+            return effectFrames(flight, count);
+        }
     for (const LightFlight& flight : kLightFlights) {
         if (flight.name.name != name)
             continue;

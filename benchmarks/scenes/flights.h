@@ -32,6 +32,10 @@ struct FlightName
     std::string_view name;
     FlightSubject subject;
     uint32_t frames; ///< of the whole flight
+
+    /// Few large balls, so that two which swap their places in an order are seen: drawn one over the other
+    /// they break the bound. In effects of hundreds of balls the motion of the media hides that.
+    bool hasControl = false;
 };
 
 /// All flights.

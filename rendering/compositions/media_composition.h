@@ -24,6 +24,15 @@ public:
     /// Whether the last gather() took any stream.
     virtual bool hasMedia() const = 0;
 
+    /// Adds to light slices, right after they have been filled with balls, what the composition makes of
+    /// media besides. A frame calls it before all other passes that read them, and so does what prepares its
+    /// lights.
+    /// @return bindings for what follows
+    [[nodiscard]] virtual LightBindings addLightPasses(FrameGraph&, const LightBindings& lights)
+    {
+        return lights;
+    }
+
     /// Adds the passes that draw what gather() took. A frame calls it once or, with layers smaller than the
     /// picture, for each end of the depth of their texels.
     /// @param in what the media pass would get; `in.batches` is empty

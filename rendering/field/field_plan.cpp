@@ -15,7 +15,7 @@ namespace fx::render {
 
 namespace {
 
-constexpr float kPixelsPerVoxel = 1.5f; ///< finer voxels would not be seen
+constexpr float kPixelsPerVoxel = 1.0f; ///< finer voxels would not be seen
 constexpr float kRadii = 16.0f;         ///< of balls along which there are as many voxels as asked for
 constexpr int kFewestVoxels = 16, kMostVoxels = 256; ///< along those
 constexpr float kLooseShare = 0.4f;                  ///< of an effect's radius: what is smaller stays a ball

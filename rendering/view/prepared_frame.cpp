@@ -48,7 +48,9 @@ bool ViewRenderer::Impl::takePrepared(const base::SnapshotPair& snapshots, const
 base::Status ViewRenderer::Impl::fillLights(const ViewSettings& settings)
 {
     lightGraph.begin();
-    const LightBindings bindings = lights.addPasses(lightGraph);
+    LightBindings bindings = lights.addPasses(lightGraph);
+    if (composition)
+        bindings = composition->addLightPasses(lightGraph, bindings);
     if (bindings.lights.valid())
         lightGraph.keep(bindings.lights);
     lightGraph.compile();

@@ -50,6 +50,8 @@ public:
         importTargets();
         if (frame_.hasMedia && in_.lights)
             frame_.lights = in_.lights->addPasses(graph_);
+        if (frame_.hasMedia && in_.composition)
+            frame_.lights = in_.composition->addLightPasses(graph_, frame_.lights);
         addStage(PassStage::Pictures);
         if (frame_.hasMedia)
             addMedia();

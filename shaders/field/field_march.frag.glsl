@@ -28,6 +28,7 @@ flat in uvec2 tileRange;
 #endif
 
 const int kMostSteps = 4096;
+const float kMostStretch = 3.0;   // of steps behind what hides
 const float kSlabsPerDepth = 8.0; // slabs across what is loose: where it is thin, what hides what hardly matters
 
 #if FX_LOOSE
@@ -94,8 +95,9 @@ void main()
         float edges[kGroup + 1];
         SlabSums sums[kGroup];
         edges[0] = t;
+        float stretch = min(inversesqrt(sqrt(max(picture.through, 1e-8))), kMostStretch); // less is seen of what follows
         for (int k = 0; k < kGroup; ++k) {
-            float next = t + before.room;
+            float next = t + before.room * (before.isEmpty ? 1.0 : stretch);
 #if FX_LOOSE
             next = min(next, nextFace(loose, t));
 #endif

@@ -117,6 +117,7 @@ private:
     base::Status drawByGl(const GlSetting& setting, double& outSeconds);
     base::Status makePicture();
     std::vector<double> errors() const;
+    double visibleError() const;
 
     std::string scene_;
     std::vector<AccuracySetting> settings_;
@@ -193,6 +194,7 @@ base::Result<AccuracySample> BillboardAccuracy::run(size_t setting, const std::f
         makeReference();
     storeErrors(errors(), sample);
     sample.work = counters_;
+    sample.work["p99_visible"] = visibleError();
     return sample;
 }
 
@@ -287,6 +289,22 @@ std::vector<double> BillboardAccuracy::errors() const
             if (reference_[i][c] > 1e-3 * brightest)
                 errors.push_back(double(lights_[i][c]) / reference_[i][c] - 1.0);
     return errors;
+}
+
+/// 99th percentile of errors over the larger of a channel and 5 % of the brightest: what a picture shows.
+double BillboardAccuracy::visibleError() const
+{
+    double brightest = 0;
+    for (const std::array<double, 3>& light : reference_)
+        brightest = std::max({brightest, light[0], light[1], light[2]});
+    std::vector<double> errors;
+    for (size_t i = 0; i < reference_.size(); ++i)
+        for (size_t c = 0; c < 3; ++c)
+            if (reference_[i][c] > 1e-3 * brightest)
+                errors.push_back(std::abs(double(lights_[i][c]) - reference_[i][c]) /
+                                 std::max(reference_[i][c], 0.05 * brightest));
+    std::sort(errors.begin(), errors.end());
+    return errors.empty() ? 0.0 : errors[errors.size() * 99 / 100];
 }
 
 std::unique_ptr<AccuracyTechnique> make(const std::string& scene, const AccuracyScale&)

@@ -13,9 +13,9 @@ namespace fx::render {
 namespace {
 
 constexpr size_t kBricksOfALayer = size_t(kBrickColumns) * kBrickColumns;
-constexpr std::string_view kListNames[] = {
-    "fields",      "field bricks",    "field balls",       "field list",
-    "field tiles", "field materials", "field light stacks"};
+constexpr std::string_view kListNames[] = {"fields",      "field bricks",      "field balls",
+                                           "field list",  "field tiles",       "field materials",
+                                           "field blobs", "field light stacks"};
 constexpr std::string_view kTextureNames[] = {"field medium", "field scatter", "field shares",
                                               "field material 0", "field material 1"};
 
@@ -50,6 +50,8 @@ VolumeView::VolumeView(const TechniqueSetup& setup)
 base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
 {
     isKept_ = false;
+    filledFor_ = nullptr;
+    layers_ = in.settings->layerOutputs;
     stacks_ = {};
     const HostTargets& targets = in.request->targets;
     details_.clear();
@@ -57,6 +59,7 @@ base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
     for (const GroupDetail& detail : io.details)
         details_.push_back(blockOf(detail, octaves));
     materials_ = details_.empty() ? std::span<const BlobMaterial>() : io.materials;
+    blobs_ = details_.empty() ? std::span<const BlobInstance>() : io.blobs;
     plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0,
                  in.settings->slices.multiple});
     texels_.build(plan_, details_);
@@ -79,13 +82,10 @@ void VolumeView::gatherLoose(const GatherInputs& in, GatheredFrame& io)
 
 std::array<std::span<const std::byte>, VolumeView::Lists> VolumeView::lists() const
 {
-    return {std::as_bytes(plan_.fields()),
-            std::as_bytes(plan_.bricks()),
-            std::as_bytes(plan_.balls()),
-            std::as_bytes(texels_.texels()),
-            std::as_bytes(texels_.tiles()),
-            std::as_bytes(materials_),
-            stacks_};
+    return {std::as_bytes(plan_.fields()),  std::as_bytes(plan_.bricks()),
+            std::as_bytes(plan_.balls()),   std::as_bytes(texels_.texels()),
+            std::as_bytes(texels_.tiles()), std::as_bytes(materials_),
+            std::as_bytes(blobs_),          stacks_};
 }
 
 base::Status VolumeView::makeRoom(bool layers)
@@ -259,50 +259,67 @@ void VolumeView::addLooseBalls(FrameGraph& graph, const PassFrame& frame)
     looseSource_.list = {looseSource_.blobs, looseSource_.blobLights, blobs, looseSource_.detail};
 }
 
+/// What detail makes of fields gets into the slices before anything reads them. Fields are filled for that,
+/// and not again by addFields().
+LightBindings VolumeView::addLightPasses(FrameGraph& graph, const LightBindings& lights)
+{
+    const bool corrects = !details_.empty() && !plan_.isEmpty() && !lights.stacks.empty() &&
+                          lights.planes.valid() && corrected_ != lights.filled;
+    if (!corrects)
+        return lights;
+    stacks_ = lights.stacks;
+    if (!render::makeRoom(device_, buffers_[Stacks], stacks_.size(), kListNames[Stacks].data())) {
+        stacks_ = {}; // light is that of smooth balls
+        return lights;
+    }
+    importAll(graph, layers_);
+    upload(graph);
+    fill(graph, ids_[Blobs]);
+    filledFor_ = &graph;
+    corrected_ = lights.filled;
+    return FieldSlicesPass::addTo(
+        graph, {march_.fieldTexels, march_.textures.table, march_.textures.material[1], ids_[Stacks], lights,
+                uint32_t(plan_.fields().size()), uint32_t(stacks_.size() / sizeof(SliceStackBlock))});
+}
+
+void VolumeView::fill(FrameGraph& graph, ResourceId blobs)
+{
+    march_.fieldTexels =
+        FieldTexelPass::addTo(graph, ids_[Texels], texels_.texels().size(), march_.fieldTexels);
+    march_.textures =
+        FieldFillPass::addTo(graph, {blobs, march_.fieldTexels, ids_[Bricks], ids_[Balls], march_.textures,
+                                     uint32_t(plan_.bricks().size()), ids_[Materials], march_.lumpTile})
+            .textures;
+}
+
 /// The textures hold the light of a frame that was kept; the host's shadow map may have changed under it.
 void VolumeView::addFields(FrameGraph& graph, PassFrame& frame)
 {
-    stacks_ = details_.empty() ? std::span<const std::byte>() : frame.lights.stacks;
-    if (base::Status status =
-            render::makeRoom(device_, buffers_[Stacks], stacks_.size(), "field light stacks");
-        !status)
-        stacks_ = {}; // light is that of smooth balls
-    importAll(graph, frame.settings->layerOutputs);
-    const bool corrects =
-        !stacks_.empty() && frame.lights.planes.valid() && corrected_ != frame.lights.filled;
-    if (!isKept_ || corrects)
+    if (filledFor_ != &graph)
+        importAll(graph, layers_);
+    if (!isKept_ && !filledFor_)
         upload(graph);
-    if (!isKept_ || corrects || frame.lights.hostShadow.valid()) {
-        const uint32_t bricks = uint32_t(plan_.bricks().size());
-        march_.fieldTexels =
-            FieldTexelPass::addTo(graph, ids_[Texels], texels_.texels().size(), march_.fieldTexels);
-        march_.textures =
-            FieldFillPass::addTo(graph, {frame.blobs, march_.fieldTexels, ids_[Bricks], ids_[Balls],
-                                         march_.textures, bricks, ids_[Materials], march_.lumpTile})
-                .textures;
-        if (corrects) {
-            frame.lights = FieldSlicesPass::addTo(
-                graph, {march_.fieldTexels, march_.textures.table, march_.textures.material[1], ids_[Stacks],
-                        frame.lights, uint32_t(plan_.fields().size()),
-                        uint32_t(stacks_.size() / sizeof(SliceStackBlock))});
-            corrected_ = frame.lights.filled;
-        }
+    const bool isFilled = filledFor_ != nullptr; // here, or when lights were prepared
+    if (!isKept_ || isFilled || frame.lights.hostShadow.valid()) {
+        if (!isFilled)
+            fill(graph, frame.blobs);
         if (frame.lights.lights.valid())
             glow_.addPasses(graph,
-                            {march_.fieldTexels,
-                             march_.textures,
-                             march_.lumpTile,
-                             !details_.empty(),
-                             {},
-                             {},
-                             uint32_t(plan_.fields().size()),
-                             0},
+                            {.fieldTexels = march_.fieldTexels,
+                             .field = march_.textures,
+                             .lumpTile = march_.lumpTile,
+                             .detail = !details_.empty(),
+                             .grids = {},
+                             .glow = {},
+                             .fieldCount = uint32_t(plan_.fields().size()),
+                             .gridCount = 0},
                             plan_.glows());
-        march_.textures =
-            FieldLightPass::addTo(graph, {ids_[Fields], ids_[Bricks], march_.textures, frame.lights,
-                                          &frame.view, bricks, glow_.light(), glow_.grids()})
-                .textures;
+        march_.textures = FieldLightPass::addTo(
+                              graph, {ids_[Fields], ids_[Bricks], march_.textures, frame.lights, &frame.view,
+                                      uint32_t(plan_.bricks().size()), glow_.light(), glow_.grids()})
+                              .textures;
     }
+    filledFor_ = nullptr;
     march_.tiles = ids_[Tiles];
 }
 
@@ -311,6 +328,7 @@ void VolumeView::forget()
 {
     hasLumps_ = false;
     corrected_ = 0;
+    filledFor_ = nullptr;
     loose_.forget();
 }
 

@@ -31,6 +31,7 @@ public:
     void keep() override { isKept_ = true; }
     bool hasMedia() const override { return !plan_.isEmpty() || !loose_.isEmpty(); }
     void addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame) override;
+    [[nodiscard]] LightBindings addLightPasses(FrameGraph& graph, const LightBindings& lights) override;
     [[nodiscard]] MediaPass::Outputs compose(FrameGraph& graph, const MediaPass::Inputs& in,
                                              const MediaPass::Outputs& under) override;
     void forget() override;
@@ -51,7 +52,8 @@ private:
         Balls,
         Texels,
         Tiles,
-        Materials, ///< none where no field has detail
+        Materials, ///< none where no field has detail, as the next
+        Blobs,     ///< of the frame, for lights: those of PassFrame come later
         Stacks,    ///< of the lights
         Lists
     };
@@ -66,6 +68,7 @@ private:
     void release();
     void importAll(FrameGraph& graph, bool layers);
     void upload(FrameGraph& graph);
+    void fill(FrameGraph& graph, ResourceId blobs);
     void addFields(FrameGraph& graph, PassFrame& frame);
     void addLooseBalls(FrameGraph& graph, const PassFrame& frame);
 
@@ -78,11 +81,14 @@ private:
     uint64_t corrected_ = 0;                  ///< filling of the light slices that has the detail
     std::span<const BlobMaterial> materials_; ///< of the frame
     VolumeGlow glow_;
-    GlTexture texelTexture_, table_; ///< of FieldTexels, and of bricks
-    GlTexture lumpTile_;             ///< nothing before detail is seen
-    bool hasLumps_ = false;          ///< it is filled
-    SlabMedia loose_;                ///< cards, and balls of `looseSource_`
-    BlobSource looseSource_;         ///< of balls that are too small for voxels
+    std::span<const BlobInstance> blobs_;   ///< likewise, if any has detail
+    bool layers_ = false;                   ///< the frame has layer outputs
+    const FrameGraph* filledFor_ = nullptr; ///< textures hold fields before light, by passes of this graph
+    GlTexture texelTexture_, table_;        ///< of FieldTexels, and of bricks
+    GlTexture lumpTile_;                    ///< nothing before detail is seen
+    bool hasLumps_ = false;                 ///< it is filled
+    SlabMedia loose_;                       ///< cards, and balls of `looseSource_`
+    BlobSource looseSource_;                ///< of balls that are too small for voxels
     std::pmr::vector<BlobInstance> looseBlobs_;
     GlBuffer looseBuffer_, looseLights_;
     int slabs_ = 16;                      ///< that the loose is at least divided into

@@ -18,8 +18,9 @@ namespace fx::render {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kWideScene = 40.0f;   ///< [m] side of planes above which what is near gets planes of its own
-constexpr float kCascadeRatio = 0.2f; ///< of the sides of a finer and the next coarser stack
+constexpr float kWideScene = 40.0f; ///< [m] side of planes above which what is near gets planes of its own
+constexpr double kCascadeGrid = 1.0 / 16.0; ///< of a side: steps in which finer planes follow the eye
+constexpr float kCascadeRatio = 0.2f;       ///< of the sides of a finer and the next coarser stack
 
 /// Planes of lights at points and of the axes of the sky have a part of the resolution of the sun's.
 SliceResolution partOf(const SliceResolution& sun, int part)
@@ -204,12 +205,16 @@ void LightList::addCascades(const LightListInputs& in)
     float coarserTexel = sunTexel_;
     for (count_ = kFinerPlanes; count_ < kMostLightEntries && side > kWideScene; ++count_) {
         side *= kCascadeRatio;
-        const MediumCaster around{glm::vec3(0.0f), 0.5f * side, 0.0f};
+        const float radius = 0.5f * side;
         const bool hasMedia = std::ranges::any_of(in.casters, [&](const MediumCaster& caster) {
-            return glm::length(caster.center) < around.radius + caster.radius;
+            return glm::length(caster.center) < radius + caster.radius;
         });
         if (!hasMedia)
             return;
+        // around a place that the eye is near to, so that planes are not filled anew with each of its steps
+        const double grid = double(side) * kCascadeGrid;
+        const glm::vec3 middle(glm::round(in.eye / grid) * grid - in.eye);
+        const MediumCaster around{middle, radius + 0.5f * std::numbers::sqrt3_v<float> * float(grid), 0.0f};
         const float texel = addStacks(
             [&](const SliceFit& fit, SliceStack& outStack) {
                 return fitParallelSlices(lighting.sunDirection, {&around, 1}, in.eye,
@@ -219,7 +224,7 @@ void LightList::addCascades(const LightListInputs& in)
             in.settings->slices.snapped, count_);
         if (texel <= 0.0f)
             return;
-        block_.lights[count_].place.w = around.radius;
+        block_.lights[count_].place.w = radius;
         coarserTexel = texel;
     }
 }

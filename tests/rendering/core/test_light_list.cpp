@@ -31,7 +31,8 @@ protected:
         light.intensity = glm::vec3(intensity);
         light.radius = radius;
     }
-    void build() { list_.build({&settings_, eye_, effects_, casters_}); }
+    /// @param resets planes that change their sides do not fade
+    void build(bool resets = false) { list_.build({&settings_, eye_, effects_, casters_, resets}); }
     size_t castingLights() const
     {
         size_t count = 0;
@@ -112,7 +113,7 @@ TEST_F(LightListTest, noTwoStacksShareATexelAndAllLieInTheAtlas)
             settings_.hostLights.count = 0;
             for (int i = 0; i < points; ++i)
                 addHost({double(i), 3.0, 0.0}, 100.0f);
-            build();
+            build(true);
             const auto blocks = list_.stackBlocks();
             ASSERT_EQ(blocks.size(), 1 + size_t(points) + kSkyAxes);
             const auto right = [](const glm::vec4& t) {
@@ -189,6 +190,74 @@ TEST_F(LightListTest, wideScenesHaveFinerPlanesNearTheEye)
     EXPECT_LT(metresOfTexel(kFinerPlanes + 1), metresOfTexel(kFinerPlanes));
 }
 
+TEST_F(LightListTest, finerPlanesCoverTheirBallWhereverTheEyeIsAndFollowItInSteps)
+{
+    casters_ = {{{-60.0f, 0.0f, 0.0f}, 2.0f, 1.0f},
+                {{60.0f, 0.0f, 0.0f}, 2.0f, 1.0f},
+                {{2.0f, 0.0f, 1.0f}, 2.0f, 1.0f}};
+    const std::vector<MediumCaster> still = casters_;
+    size_t revisions = 0;
+    uint64_t last = 0;
+    for (int i = 0; i < 200; ++i) {
+        eye_ = glm::dvec3(0.02 * i, 0.003 * i, -0.011 * i);
+        for (size_t k = 0; k < still.size(); ++k)
+            casters_[k].center = glm::vec3(glm::dvec3(still[k].center) - eye_);
+        build();
+        revisions += list_.placesRevision() != last ? 1 : 0;
+        last = list_.placesRevision();
+        const SliceLightBlock& finer = list_.block().lights[kFinerPlanes];
+        ASSERT_GT(finer.tiles.w, 0.0f);
+        ASSERT_GT(finer.place.w, 5.0f);
+        for (const glm::vec4& axis : {finer.right, finer.up, finer.along}) {
+            const float reach =
+                finer.place.w * glm::length(glm::vec3(axis)); // of the ball, in texels or planes
+            const float end = axis == finer.along ? finer.tiles.w - 1.0f : finer.tiles.z;
+            ASSERT_GE(axis.w - reach, 0.0f) << i;
+            ASSERT_LE(axis.w + reach, end) << i;
+        }
+    }
+    EXPECT_GT(revisions, 1u);
+    EXPECT_LT(revisions, 20u);
+}
+
+TEST_F(LightListTest, planesThatChangeTheirSidesFadeInAndAreThenAlone)
+{
+    build();
+    const size_t stacks = list_.stacks().size();
+    const float before = list_.stacks()[0].texel;
+    casters_.back().center.x = 1.3f; // a little wider: the next sides
+    float last = 1.0f;
+    for (int k = 0; k < kFadeFrames; ++k) {
+        build();
+        const SliceLightBlock& old = list_.block().lights[kFadingEntries];
+        if (k + 1 < kFadeFrames) {
+            ASSERT_GT(list_.stacks().size(), stacks);
+            EXPECT_FLOAT_EQ(1.0f / glm::length(glm::vec3(old.right)), before);
+            EXPECT_GT(old.tiles.w, 0.0f);
+            EXPECT_NEAR(last - old.color.r, 1.0f / float(kFadeFrames), 1e-5f) << k;
+        } else {
+            EXPECT_EQ(old.color.r, 0.0f);
+        }
+        last = old.color.r;
+    }
+    EXPECT_EQ(list_.stacks().size(), stacks);
+    EXPECT_GT(list_.stacks()[0].texel, before);
+    LightList fresh(std::pmr::new_delete_resource());
+    fresh.build({&settings_, eye_, effects_, casters_});
+    EXPECT_EQ(fresh.placesRevision(), list_.placesRevision()) << "what was before is forgotten";
+}
+
+TEST_F(LightListTest, afterACutNothingFades)
+{
+    build();
+    casters_.back().center.x = 1.3f;
+    list_.build({&settings_, eye_, effects_, casters_, true});
+    EXPECT_EQ(list_.block().lights[kFadingEntries].color.r, 0.0f);
+    casters_.back().center.x = 40.0f; // not what was there before
+    build();
+    EXPECT_EQ(list_.block().lights[kFadingEntries].color.r, 0.0f);
+}
+
 TEST_F(LightListTest, lightsThatGiveNothingOrAreNoNumbersCastNoShadow)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -214,7 +283,7 @@ TEST_F(LightListTest, planesHaveTheSameRevisionWhileTheSameLightsCastThem)
     addHost({0.0, 3.0, 0.0}, 100.0f);
     addHost({0.0, -3.0, 0.0}, 90.0f);
     const auto key = [&] {
-        build();
+        build(true);
         return list_.placesRevision();
     };
     const uint64_t first = key();

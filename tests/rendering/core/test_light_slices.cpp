@@ -2,6 +2,7 @@
 // integrated in double precision from the definition of the kernel.
 #include "foundation/random/philox.h"
 #include "rendering/lights/slices/slice_depths.h"
+#include "rendering/lights/slices/slice_fades.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -322,6 +323,39 @@ TEST(SliceStack, texelsAndPlanesStayWhereTheyAreInTheWorld)
         const glm::dvec3 phase = phaseOf(stack, eye);
         ASSERT_LT(std::max({std::abs(phase.x), std::abs(phase.y), std::abs(phase.z)}), 1e-3) << i;
     }
+}
+
+TEST(SliceFades, sidesThatGoToAndFroFadeBackFromWhereTheyAre)
+{
+    SliceFades fades(std::pmr::new_delete_resource());
+    SliceStack small, large;
+    large.texel = small.texel * std::exp2(0.25f);
+    const auto next = [&](const SliceStack& wanted) {
+        fades.begin(false);
+        return fades.next(wanted);
+    };
+    // the weight of the large sides, however they are called
+    const auto weightOfLarge = [&](const SliceFade& fade) {
+        return fade.now.texel == large.texel ? 1.0f - fade.weight : fade.weight;
+    };
+    EXPECT_EQ(next(small).weight, 0.0f);
+    float last = 0.0f;
+    for (int i = 0; i < 200; ++i) {
+        const float weight = weightOfLarge(next(i / 5 % 2 == 0 ? large : small));
+        ASSERT_LE(std::abs(weight - last), 1.001f / float(kFadeFrames)) << i;
+        last = weight;
+    }
+}
+
+TEST(SliceStack, withoutSnappingItFollowsTheMedia)
+{
+    auto casters = cloud(30, 1.0f);
+    SliceStack first, second;
+    ASSERT_TRUE(fitParallelSlices(kTowards, casters, glm::dvec3(0.0), {64, 32}, first, {false}));
+    for (MediumCaster& caster : casters)
+        caster.center += glm::vec3(0.01f, 0.02f, 0.03f);
+    ASSERT_TRUE(fitParallelSlices(kTowards, casters, glm::dvec3(0.0), {64, 32}, second, {false}));
+    EXPECT_NEAR(glm::length(second.origin - first.origin - glm::vec3(0.01f, 0.02f, 0.03f)), 0.0f, 1e-4f);
 }
 
 TEST(SliceStack, noPlanesNoShadowAndOnePlaneIsDefined)

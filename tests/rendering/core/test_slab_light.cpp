@@ -49,6 +49,19 @@ TEST(SlabLight, anEvenSourceIsItselfTimesTheOpacityWhereverTheMediumLies)
         EXPECT_NEAR(fromMoments(2.0, 3.0 * 2.0, md * 2.0, 3.0 * md * 2.0), 3.0 * -std::expm1(-2.0), 1e-12);
 }
 
+TEST(SlabLight, aThinSlabIsAPolynomialThatNothingIsDividedBy)
+{
+    for (const double d : {0.05, 0.01, 1e-6})
+        for (const double s1 : {-1.9, 0.0, 1.3}) {
+            const double exact = quadrature(d, 1.0, s1);
+            const double thin = fx::formula64::fxSlabThinLight(d, d, 0.0, s1 * d / 12.0);
+            EXPECT_NEAR(thin, exact, 2e-6 * exact) << d << ' ' << s1;
+        }
+    // without a medium, and where rims of a field make all signs turn round
+    EXPECT_EQ(fx::formula64::fxSlabThinLight(0.0, 5.0, 0.0, 0.2), 5.0);
+    EXPECT_NEAR(fx::formula64::fxSlabThinLight(-0.01, -0.03, 0.0, 0.0), 3.0 * -std::expm1(0.01), 1e-9);
+}
+
 TEST(SlabLight, whatEmitsWithoutHidingAddsUp)
 {
     EXPECT_EQ(fromMoments(0.0, 5.0, 0.0, 0.2), 5.0);

@@ -179,6 +179,27 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
             eroded += share < 1.0f ? 1 : 0;
             ++count;
         }
+    size_t unseen = 0; // bricks that rays skip: detail leaves nothing of any sample
+    const std::vector<float> numbered = readTexture(*device_, table.name(), table.width(), table.height(), 1);
+    for (size_t b = 0; b < plan.bricks().size(); ++b) {
+        float most_ = 0.0f;
+        for (int k = 0; k < kBrickSamples * kBrickSamples * kBrickSamples; ++k)
+            most_ = std::max(
+                most_, medium[4 * (size_t(int(b) % 16 * 9 + k % 9) +
+                                   size_t(kSide) * (size_t(int(b) / 16 % 16 * 9 + k / 9 % 9) +
+                                                    size_t(kSide) * size_t(int(b) / 256 * 9 + k / 81))) +
+                              3]);
+        const bool isSeen =
+            formula::fxDetailPlace(most_, block.erosion.x, block.erosion.y, block.erosion.z) > 0.0f;
+        const uint32_t place = plan.bricks()[b].place;
+        const size_t entry =
+            size_t(field.bricks.w) + (place & 1023) +
+            size_t(field.bricks.x) * ((place >> 10 & 1023) + size_t(field.bricks.y) * (place >> 20));
+        EXPECT_EQ(std::abs(numbered[entry]), float(b + 1));
+        EXPECT_EQ(numbered[entry] > 0.0f, isSeen) << b;
+        unseen += isSeen ? 0 : 1;
+    }
+    EXPECT_GT(unseen, 0u);
     ASSERT_GT(count, 1000u);
     EXPECT_GT(eroded, count / 4);
     EXPECT_LT(sum / double(count), 2e-3); // places are half floats

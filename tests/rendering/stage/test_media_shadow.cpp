@@ -1,4 +1,6 @@
 // The shadow of media on surfaces that the view does not draw, against the closed form of the optical depth.
+#include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/material_kind.h"
 #include "rendering/frame/exposure.h"
 #include "rendering/gl/gl_read_texture.h"
 #include "rendering/stage/stage_renderer.h"
@@ -262,4 +264,82 @@ TEST_F(MediaShadow, aPreparedFrameIsDrawnWithoutDoingAnythingTwice)
     ASSERT_TRUE(view_->render(pair, frame).ok());
     EXPECT_LT(maxDifference(read(color_->name()), prepared), 2e-3) << "but for planes at other places";
     EXPECT_FALSE(view_->statistics().keptLists);
+}
+
+// What erosion makes of the medium is in the planes before the stage reads them.
+TEST_F(MediaShadow, hasTheBumpsInTheFirstPreparedFrame)
+{
+    namespace constant = base::material_constant;
+    const base::KindId material = schema_.add(base::kMaterialKind);
+    view_->settings().composition = render::Composition::Volume;
+    const std::vector<TestBlob> blobs = ball(3.0f);
+    const auto shown = [&](bool isDetailed) {
+        base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
+        const base::FrameSnapshot smooth = snapshotOf(blobs);
+        snapshot.begin(0, ++sequence_);
+        for (size_t g = 0; g < smooth.groupCount(); ++g) {
+            const base::SnapshotGroup& from = smooth.group(g);
+            const uint32_t count = uint32_t(from.count());
+            if (count == 0)
+                continue;
+            base::SnapshotGroup& to = snapshot.addGroup(schema_.find("blob"), count);
+            to.editInfo() = from.info();
+            std::copy_n(from.ids().begin(), count, to.editIds().begin());
+            std::copy(from.constants().begin(), from.constants().end(), to.editConstants().begin());
+            for (size_t c = 0; c < base::blob_column::Count; ++c)
+                std::copy_n(from.column(c).begin(), count, to.editColumn(c).begin());
+            if (!isDetailed)
+                continue;
+            base::SnapshotGroup& carried = snapshot.addGroup(material, count);
+            const base::KindId kind = carried.info().kind;
+            carried.editInfo() = from.info();
+            carried.editInfo().kind = kind;
+            std::copy_n(from.ids().begin(), count, carried.editIds().begin());
+            for (size_t c = 0; c < base::material_column::Count; ++c)
+                std::copy_n(from.column(base::blob_column::PositionX + c % 3).begin(), count,
+                            carried.editColumn(c).begin());
+            const auto set = [&](size_t c, float value) { carried.editConstants()[c] = value; };
+            set(constant::Generation, 6.0f);
+            set(constant::Fade, 0.3f);
+            for (const size_t c : {constant::Length0, constant::Length1})
+                set(c, 0.8f);
+            for (const size_t c : {constant::Growth0, constant::Growth1})
+                set(c, 1.0f);
+            set(constant::Thinnest, 0.1f);
+            set(constant::Densest, 5.0f);
+            set(constant::Ramp, 0.25f);
+            set(constant::Gain, 0.55f);
+        }
+        return snapshot;
+    };
+    const render::FrameRequest frame = request();
+    const auto difference = [](const std::vector<float>& a, const std::vector<float>& b) {
+        float most = 0.0f;
+        for (size_t i = 0; i < a.size(); ++i)
+            most = std::max(most, std::abs(a[i] - b[i]));
+        return most;
+    };
+    const std::vector<float> open = ground(frame, false);
+    const float brightest = *std::max_element(open.begin(), open.end());
+    const base::FrameSnapshot plain = shown(false), bumpy = shown(true);
+    prepare(plain, frame);
+    const std::vector<float> smooth = ground(frame, true);
+    prepare(bumpy, frame);
+    const std::vector<float> first = ground(frame, true);
+    EXPECT_GT(difference(first, smooth), 0.1f * brightest);
+    base::SnapshotPair pair;
+    pair.newer = &bumpy;
+    setPicture(std::vector<float>(kSize * kSize * 4, 0.0f));
+    ASSERT_TRUE(view_->render(pair, frame).ok());
+    const auto names = view_->executedPasses();
+    EXPECT_EQ(std::count(names.begin(), names.end(), "field fill"), 1);
+    EXPECT_EQ(std::count(names.begin(), names.end(), "field slices"), 1);
+    const Picture prepared = read(color_->name());
+    EXPECT_EQ(difference(ground(frame, true), first), 0.0f);
+    // without preparation the frame is the same
+    setPicture(std::vector<float>(kSize * kSize * 4, 0.0f));
+    render::FrameRequest again = frame;
+    again.resetHistory = true;
+    ASSERT_TRUE(view_->render(pair, again).ok());
+    EXPECT_EQ(maxDifference(read(color_->name()), prepared), 0.0);
 }
