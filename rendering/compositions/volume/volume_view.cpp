@@ -303,22 +303,21 @@ void VolumeView::addFields(FrameGraph& graph, PassFrame& frame)
     if (!isKept_ || isFilled || frame.lights.hostShadow.valid()) {
         if (!isFilled)
             fill(graph, frame.blobs);
-        const uint32_t bricks = uint32_t(plan_.bricks().size());
         if (frame.lights.lights.valid())
             glow_.addPasses(graph,
-                            {march_.fieldTexels,
-                             march_.textures,
-                             march_.lumpTile,
-                             !details_.empty(),
-                             {},
-                             {},
-                             uint32_t(plan_.fields().size()),
-                             0},
+                            {.fieldTexels = march_.fieldTexels,
+                             .field = march_.textures,
+                             .lumpTile = march_.lumpTile,
+                             .detail = !details_.empty(),
+                             .grids = {},
+                             .glow = {},
+                             .fieldCount = uint32_t(plan_.fields().size()),
+                             .gridCount = 0},
                             plan_.glows());
-        march_.textures =
-            FieldLightPass::addTo(graph, {ids_[Fields], ids_[Bricks], march_.textures, frame.lights,
-                                          &frame.view, bricks, glow_.light(), glow_.grids()})
-                .textures;
+        march_.textures = FieldLightPass::addTo(
+                              graph, {ids_[Fields], ids_[Bricks], march_.textures, frame.lights, &frame.view,
+                                      uint32_t(plan_.bricks().size()), glow_.light(), glow_.grids()})
+                              .textures;
     }
     filledFor_ = nullptr;
     march_.tiles = ids_[Tiles];

@@ -81,14 +81,14 @@ private:
     uint64_t corrected_ = 0;                  ///< filling of the light slices that has the detail
     std::span<const BlobMaterial> materials_; ///< of the frame
     VolumeGlow glow_;
-    std::span<const BlobInstance> blobs_;     ///< likewise, if any has detail
-    bool layers_ = false;                     ///< the frame has layer outputs
-    const FrameGraph* filledFor_ = nullptr;   ///< textures hold fields before light, by passes of this graph
-    GlTexture texelTexture_, table_;          ///< of FieldTexels, and of bricks
-    GlTexture lumpTile_;                      ///< nothing before detail is seen
-    bool hasLumps_ = false;                   ///< it is filled
-    SlabMedia loose_;                         ///< cards, and balls of `looseSource_`
-    BlobSource looseSource_;                  ///< of balls that are too small for voxels
+    std::span<const BlobInstance> blobs_;   ///< likewise, if any has detail
+    bool layers_ = false;                   ///< the frame has layer outputs
+    const FrameGraph* filledFor_ = nullptr; ///< textures hold fields before light, by passes of this graph
+    GlTexture texelTexture_, table_;        ///< of FieldTexels, and of bricks
+    GlTexture lumpTile_;                    ///< nothing before detail is seen
+    bool hasLumps_ = false;                 ///< it is filled
+    SlabMedia loose_;                       ///< cards, and balls of `looseSource_`
+    BlobSource looseSource_;                ///< of balls that are too small for voxels
     std::pmr::vector<BlobInstance> looseBlobs_;
     GlBuffer looseBuffer_, looseLights_;
     int slabs_ = 16;                      ///< that the loose is at least divided into
