@@ -170,6 +170,21 @@ TEST_F(FieldTest, aLoneBallIsAsOpaqueAsItsKernel)
     }
 }
 
+TEST_F(FieldTest, anEyeOnTheFaceOfABrickSeesWhatIsBehindIt)
+{
+    // voxels of 2^-2.75 m and bricks of 8: those of the ball end at z = 0, where parallel rays begin
+    FieldBall ball = loneBall(1.0f);
+    ball.center = {0.0, 0.0, -1.1};
+    ball.radius = 0.6f;
+    const CameraView view = orthographicView({{0, 0, 0}, {0, 0, -1}}, 1.6f, 1.5f, 0.0f, 10.0f);
+    const FieldScene scene({ball}, view);
+    fill(scene, 64);
+    const FieldBlock& field = plan_.fields()[0];
+    ASSERT_EQ(field.corner.z + 8.0f * field.corner.w * float(field.bricks.z), 0.0f);
+    const std::vector<float> drawn = march(view, {});
+    EXPECT_GT(drawn[4 * size_t(kFieldHeight / 2 * kFieldWidth + kFieldWidth / 2) + 3], 0.8f);
+}
+
 TEST_F(FieldTest, finerVoxelsAreMoreExact)
 {
     const CameraView view = camera({0.3, 0.2, 6}, {0, 0, 0});
