@@ -55,7 +55,7 @@ FieldPlace placeInField(VoxelField field, vec3 p, vec3 perDirection)
     vec3 leave = max(a, b);
     float first = max(max(enter.x, enter.y), enter.z);
     float last = min(min(leave.x, leave.y), leave.z);
-    float entering = first > 0.0 && first <= last ? first : kNever;
+    float entering = last > 0.0 && first <= last ? max(first, 0.0) : kNever; // 0: on a face, of which the far ones are outside
     place.room = (isInside ? max(last, 0.0) : entering) + 0.01; // beyond the face, whatever rounding does
     return place;
 }
