@@ -72,6 +72,36 @@ class FxAccuracyOfLitMedia(FxTest):
             self.assertGreater(line["work"]["sunward"], 0)
 
 
+class FxAccuracyOfFlights(FxTest):
+    def flight(self, scene, *arguments):
+        outcome = fx("accuracy", "flights", "--scene", scene, *QUICK, *arguments)
+        return outcome.code, by_setting([json.loads(line) for line in outcome.out.strip().split("\n")])
+
+    def test_sums_change_no_more_than_the_scene_and_balls_one_over_the_other_jump(self):
+        code, names = self.flight("balls-orbit", "--frames", "40", "--size", "48x27")
+        for setting in ("slabs-6", "slabs-16", "volume-64", "volume-128"):
+            self.assertEqual(names[setting]["work"]["pairs_beyond"], 0)
+            self.assertAlmostEqual(names[setting]["work"]["change_ratio"], 1.0, delta=0.05)
+            self.assertAlmostEqual(names[setting]["work"]["brightness_ratio"], 1.0, delta=0.05)
+        self.assertGreater(names["sorted"]["work"]["pairs_beyond"], 0) # the control
+        self.assertEqual(code, 0)
+
+    def test_light_slices_change_no_more_than_exact_light_and_without_snapping_they_do(self):
+        for scene in ("light-sweep", "light-dolly-across", "light-dolly-into"):
+            code, names = self.flight(scene, "--frames", "40", "--size", "48x27")
+            self.assertEqual(names["slices"]["work"]["pairs_beyond"], 0, scene)
+            self.assertLess(names["slices"]["error_max"], 1.0, scene)
+            self.assertAlmostEqual(names["slices"]["work"]["brightness_ratio"], 1.0, delta=0.03, msg=scene)
+            self.assertGreater(names["slices-not-snapped"]["work"]["pairs_beyond"], 10, scene) # the control
+            self.assertEqual(code, 0, scene)
+
+    def test_a_control_that_keeps_a_generous_bound_is_a_failure(self):
+        code, names = self.flight("light-sweep", "--frames", "10", "--size", "32x18", "--bound", "50")
+        self.assertEqual(code, 1)
+        self.assertFalse(names["slices-not-snapped"]["as_promised"])
+        self.assertTrue(names["slices"]["as_promised"])
+
+
 class FxAccuracyOfLight(FxTest):
     @classmethod
     def setUpClass(cls):
@@ -178,7 +208,9 @@ class FxAccuracyOfLight(FxTest):
     def test_what_makes_no_sense_is_refused(self):
         for arguments, expected in [(["ray"], "ray-integral"), (["ray-integral", "--scene", "tau-2"], "tau-1"),
                                     (["all", "--scene", "tau-1"], "--scene"), (["furnace", "--threads", "2"], "--threads"),
-                                    (["dazzle", "--particles", "4096"], "--particles"), (["dazzle", "--repeat", "0"], "--repeat")]:
+                                    (["dazzle", "--particles", "4096"], "--particles"), (["dazzle", "--repeat", "0"], "--repeat"),
+                                    (["dazzle", "--frames", "9"], "--frames"), (["flights", "--size", "9"], "--size"),
+                                    (["flights", "--bound", "1"], "--bound"), (["flights", "--scene", "smoke-orbi"], "smoke-orbit")]:
             outcome = fx("accuracy", *arguments)
             self.assertEqual((outcome.code, outcome.out), (2, ""), arguments)
             self.assertIn(expected, outcome.err)

@@ -332,7 +332,8 @@ LightCost LightList::costOf(size_t light) const
     LightCost cost;
     cost.origin = light < points ? origins_[light] : LightOrigin{LightKind::Sky, 0};
     for (size_t i = 0; i < stacks_.size(); ++i) {
-        const size_t entry = stackLights_[i] >= kFinerPlanes ? 0 : stackLights_[i];
+        const size_t place = stackLights_[i] % kFadingEntries; // also of planes that fade out
+        const size_t entry = place >= kFinerPlanes ? 0 : place;
         if (std::min(entry, points) != light)
             continue;
         const auto side = uint64_t(stacks_[i].resolution.texels);

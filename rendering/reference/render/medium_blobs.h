@@ -24,7 +24,7 @@ struct MediumBlob
     double anisotropy = 0.0;                          ///< [1] Henyey-Greenstein g of scattering
     double fireShare = 0.0;                           ///< [1] of the opacity that counts as fire
     base::MediaLayer layer = base::MediaLayer::Smoke; ///< takes the rest
-    uint64_t instance = 0; ///< of the scene; what it is part of
+    uint64_t instance = 0;                            ///< of the scene; what it is part of
 };
 
 /// Blobs of all groups and how many were left out because a number was not finite.
