@@ -125,7 +125,13 @@ SortedPoints sortedPoints(const LightListInputs& in)
 
 LightList::LightList(std::pmr::memory_resource* memory)
     : origins_(memory), fades_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory)
-{}
+{
+    constexpr size_t kMost =
+        kMostLightEntries + kFadingEntries; // so that fading takes no memory when it begins
+    stacks_.reserve(kMost);
+    stackLights_.reserve(kMost);
+    stackBlocks_.reserve(kMost);
+}
 
 void LightList::build(const LightListInputs& in)
 {

@@ -9,6 +9,15 @@
 
 namespace fx::render {
 
+namespace {
+
+/// Of as many stacks as there may be, since their number changes while planes fade.
+constexpr size_t kStackBytes = std::bit_ceil((kMostLightEntries + kFadingEntries) * sizeof(SliceStackBlock));
+
+constexpr int kTallestSpare = 8192; ///< [texel] of an atlas that is higher than it has to be
+
+} // namespace
+
 std::span<const ProgramDesc* const> lightPrograms()
 {
     static constexpr const ProgramDesc* kPrograms[] = {&kLightSlicesProgram};
@@ -84,7 +93,9 @@ base::Status ViewLights::makeRoom()
     if (list_.stacks().empty())
         return {};
     const int width = std::max(atlas_.width(), list_.atlasWidth());
-    const int height = std::max(atlas_.height(), list_.atlasHeight());
+    int height = std::max(atlas_.height(), list_.atlasHeight());
+    if (atlas_.height() > 0 && height > atlas_.height()) // planes that fade come and go: grow seldom
+        height = std::max(height, std::min(2 * atlas_.height(), kTallestSpare));
     if (width == atlas_.width() && height == atlas_.height())
         return {};
     atlas_ = {};
@@ -143,8 +154,7 @@ LightBindings ViewLights::addPasses(FrameGraph& graph)
         const std::span<const SliceStackBlock> stackBlocks = list_.stackBlocks();
         casters = builder.write(
             builder.create(BufferDesc{"light casters", std::bit_ceil(casterBlocks.size_bytes())}));
-        stacks = builder.write(
-            builder.create(BufferDesc{"light stacks", std::bit_ceil(stackBlocks.size_bytes())}));
+        stacks = builder.write(builder.create(BufferDesc{"light stacks", kStackBytes}));
         return [casters, stacks, casterBlocks, stackBlocks](Backend& backend) {
             backend.upload(casters, std::as_bytes(casterBlocks));
             backend.upload(stacks, std::as_bytes(stackBlocks));
