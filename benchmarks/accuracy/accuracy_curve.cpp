@@ -25,6 +25,14 @@ double fewestInstructions(const AccuracyPoint& point)
                : *std::min_element(point.instructions.begin(), point.instructions.end());
 }
 
+/// The first whose time was taken: some only compare.
+const AccuracyPoint& baselineOf(const AccuracyCurve& curve)
+{
+    const auto isTimed = [](const AccuracyPoint& point) { return fastest(point) > 0; };
+    const auto found = std::ranges::find_if(curve.points, isTimed);
+    return found != curve.points.end() ? *found : curve.points.front();
+}
+
 /// `"` doubled, as CSV requires.
 std::string quoted(const std::string& text)
 {
@@ -73,8 +81,10 @@ const char* shownErrorName(const AccuracyCurve& curve)
 
 TimeRatio timeRatio(const AccuracyCurve& curve, size_t index)
 {
-    const AccuracyPoint& baseline = curve.points.front();
+    const AccuracyPoint& baseline = baselineOf(curve);
     const AccuracyPoint& point = curve.points[index];
+    if (fastest(point) <= 0)
+        return {0, 0, 0};
     TimeRatio ratio{fastest(point) / fastest(baseline), std::numeric_limits<double>::infinity(), 0};
     for (size_t k = 0; k < point.seconds.size(); ++k) {
         const double round = point.seconds[k] / baseline.seconds[k];
@@ -102,8 +112,12 @@ bool isOnFront(const AccuracyCurve& curve, size_t index)
 {
     const double time = fastest(curve.points[index]);
     const double error = shownError(curve, index);
+    if (time <= 0)
+        return false;
     for (size_t k = 0; k < curve.points.size(); ++k) {
         const double otherTime = fastest(curve.points[k]);
+        if (otherTime <= 0)
+            continue;
         const double otherError = shownError(curve, k);
         const bool isBetter = otherTime < kSameTime * time || otherError < error;
         if (otherTime <= time && otherError <= error && isBetter)
@@ -175,7 +189,7 @@ std::vector<nlohmann::json> curveJson(const AccuracyCurve& curve)
                          {"time_ratio_low", ratio.low},
                          {"time_ratio_high", ratio.high},
                          {"repetitions", point.seconds.size()},
-                         {"baseline", curve.points.front().setting.name},
+                         {"baseline", baselineOf(curve).setting.name},
                          {"front", isOnFront(curve, k)},
                          {"item", curve.item},
                          {"ns_per_item", nanosecondsPerItem(point)},

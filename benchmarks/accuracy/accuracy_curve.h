@@ -40,7 +40,7 @@ double shownError(const AccuracyCurve& curve, size_t point);
 const char* shownErrorName(const AccuracyCurve& curve);
 
 /// Time of a point in units of the baseline's: fastest over fastest, and the range of the rounds. The median
-/// of n rounds lies within that range with probability 1 - 2^(1-n).
+/// of n rounds lies within that range with probability 1 - 2^(1-n). 0 where no time was taken.
 struct TimeRatio
 {
     double best;
