@@ -77,7 +77,7 @@ uint64_t refuseEach(ScarceMemory& memory, Action&& action, IsAsBefore&& isAsBefo
     uint64_t failures = 0;
     for (uint64_t n = 1; n < kMost; n = nextRefused(n))
         for (const bool isGone : {false, true}) {
-            constexpr int kMostAttempts = 12;
+            constexpr int kMostAttempts = 64; // a refused request moves on as room is kept
             int64_t kept = -1;
             for (int attempt = 0; attempt < kMostAttempts && memory.blocks() != kept; ++attempt) {
                 kept = memory.blocks();
