@@ -40,6 +40,7 @@ TESTED_ELSEWHERE = {
     ("fx", "accuracy", "all"): "takes minutes; each technique is run by itself",
     ("fx", "accuracy", "path"): "takes minutes; test_accuracy.py at a small size",
     ("fx", "accuracy", "light"): "takes minutes; test_accuracy.py at a small size",
+    ("fx", "accuracy", "flights"): "takes minutes; test_accuracy.py at a small size",
     ("fx", "accuracy", "sph"): "takes half a minute; test_fx_verify.py",
 }
 
