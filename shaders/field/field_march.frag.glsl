@@ -77,7 +77,8 @@ uvec2 fieldsOfTexel()
 void main()
 {
     SlabRay ray = slabRay();
-    float pixel = 1.0 / (ray.lengthPerDepth * sunDirection.w);
+    bool isParallel = rayOrigin.w > 0.5;
+    vec2 pixel = isParallel ? vec2(0.0, 1.0 / sunDirection.w) : vec2(1.0 / (ray.lengthPerDepth * sunDirection.w), 0.0);
 #if FX_LOOSE
     ray.cards = firstCard();
     uvec2 tileRange = fieldsOfTexel();

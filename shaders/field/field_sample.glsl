@@ -74,8 +74,8 @@ float detailPlace(VoxelField field, float extinction)
 }
 #endif
 
-// @param t [m] along the ray; tile first texel of the list of fields, and how many; pixel [1] width of a pixel over t
-FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, float pixel)
+// @param t [m] along the ray; tile first texel of the list of fields, and how many; width of a pixel: pixel.x [1] t + pixel.y [m]
+FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, vec2 pixel)
 {
     FieldSample sum;
     sum.medium = vec4(0.0);
@@ -112,7 +112,7 @@ FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, float
                     material1 = textureLod(fieldMaterial1, uv, 0.0).rgb;
                 }
                 float perMedium = field.limits.y / medium.a;
-                MediumDetail detail = detailOf(numbers, medium.a, p, material0.rgb * perMedium, material1 * perMedium, pixel * t);
+                MediumDetail detail = detailOf(numbers, medium.a, p, material0.rgb * perMedium, material1 * perMedium, pixel.x * t + pixel.y);
                 kept = detail.share;
                 voxels = detail.isLumpy ? kVoxelsPerLumpyStep : kVoxelsPerStep;
                 medium.rgb = detailedLight(medium.rgb, detail, material0.a);

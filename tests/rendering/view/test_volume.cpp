@@ -41,6 +41,37 @@ protected:
     {
         return drawn(snapshotOf(blobs), camera);
     }
+    /// Detail whose coordinates are the places of the balls.
+    Picture detailed(const std::vector<TestBlob>& blobs, const render::CameraView& view,
+                     bool hasDetail = true)
+    {
+        const base::KindId material = schema_.find("material") != base::kNoKind
+                                          ? schema_.find("material")
+                                          : schema_.add(base::kMaterialKind);
+        base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
+        const base::FrameSnapshot plain = snapshotOf(blobs);
+        snapshot.begin(0, ++sequence_);
+        const base::SnapshotGroup& from = plain.group(uint32_t(base::MediaLayer::Smoke));
+        base::SnapshotGroup& group = snapshot.addGroup(schema_.find("blob"), from.count());
+        group.editInfo() = from.info();
+        for (size_t c = 0; c < base::blob_column::Count; ++c)
+            std::copy_n(from.column(c).begin(), from.count(), group.editColumn(c).begin());
+        std::copy_n(from.ids().begin(), from.count(), group.editIds().begin());
+        std::ranges::copy(from.constants(), group.editConstants().begin());
+        if (hasDetail) {
+            base::SnapshotGroup& carried = snapshot.addGroup(material, from.count());
+            carried.editInfo() = from.info();
+            carried.editInfo().kind = material;
+            for (size_t c = 0; c < base::material_column::Count; ++c)
+                std::copy_n(from.column(base::blob_column::PositionX + c % 3).begin(), from.count(),
+                            carried.editColumn(c).begin());
+            std::copy_n(from.ids().begin(), from.count(), carried.editIds().begin());
+            constexpr float kConstants[] = {1.0f, 0.4f, 0.5f, 0.5f,  1.0f, 1.0f,
+                                            0.3f, 8.0f, 0.2f, 0.55f, 0.0f, 0.0f};
+            std::ranges::copy(kConstants, carried.editConstants().begin());
+        }
+        return drawn(snapshot, view);
+    }
 
     static render::CameraView camera(float nearDistance = 0.1f)
     {
@@ -244,36 +275,10 @@ TEST_F(Volume, layersOfOneBallAreThoseOfTheSortedForm)
 
 TEST_F(Volume, aMediumOfOneLuminanceShowsItWhateverItsDetail)
 {
-    const base::KindId material = schema_.add(base::kMaterialKind);
     std::vector<TestBlob> blobs = cloud(120, 0.45f, 0.8f);
     for (TestBlob& blob : blobs)
         blob.emission = 1.0f;
-    const auto detailed = [&](bool hasDetail) {
-        base::FrameSnapshot snapshot(&schema_, std::pmr::get_default_resource());
-        const base::FrameSnapshot plain = snapshotOf(blobs);
-        snapshot.begin(0, ++sequence_);
-        const base::SnapshotGroup& from = plain.group(uint32_t(base::MediaLayer::Smoke));
-        base::SnapshotGroup& group = snapshot.addGroup(schema_.find("blob"), from.count());
-        group.editInfo() = from.info();
-        for (size_t c = 0; c < base::blob_column::Count; ++c)
-            std::copy_n(from.column(c).begin(), from.count(), group.editColumn(c).begin());
-        std::copy_n(from.ids().begin(), from.count(), group.editIds().begin());
-        std::ranges::copy(from.constants(), group.editConstants().begin());
-        if (hasDetail) {
-            base::SnapshotGroup& carried = snapshot.addGroup(material, from.count());
-            carried.editInfo() = from.info();
-            carried.editInfo().kind = material;
-            for (size_t c = 0; c < base::material_column::Count; ++c)
-                std::copy_n(from.column(base::blob_column::PositionX + c % 3).begin(), from.count(),
-                            carried.editColumn(c).begin());
-            std::copy_n(from.ids().begin(), from.count(), carried.editIds().begin());
-            constexpr float kConstants[] = {1.0f, 0.4f, 0.5f, 0.5f,  1.0f, 1.0f,
-                                            0.3f, 8.0f, 0.2f, 0.55f, 0.0f, 0.0f};
-            std::ranges::copy(kConstants, carried.editConstants().begin());
-        }
-        return drawn(snapshot, camera());
-    };
-    const Picture furnace = detailed(true), plain = detailed(false);
+    const Picture furnace = detailed(blobs, camera()), plain = detailed(blobs, camera(), false);
     double worst = 0.0, change = 0.0;
     for (size_t i = 0; i < furnace.texels.size(); i += 4) {
         worst = std::max(worst, double(std::abs(furnace.texels[i] - furnace.texels[i + 3])));
@@ -281,6 +286,22 @@ TEST_F(Volume, aMediumOfOneLuminanceShowsItWhateverItsDetail)
     }
     EXPECT_LT(worst, 5e-3) << "Kirchhoff: light is luminance times opacity";
     EXPECT_GT(change, 0.1) << "the detail is seen";
+}
+
+TEST_F(Volume, detailInAParallelViewDoesNotDependOnTheDistance)
+{
+    std::vector<TestBlob> blobs = cloud(120, 0.45f, 0.8f);
+    for (TestBlob& blob : blobs)
+        blob.emission = 1.0f;
+    const auto from = [&](double distance, bool hasDetail) {
+        return detailed(blobs,
+                        render::orthographicView({{0, 0, distance}, {0, 0, 0}}, 4.0f,
+                                                 float(kWidth) / float(kHeight), 0.1f, 5000.0f),
+                        hasDetail);
+    };
+    const Picture near = from(8.0, true);
+    EXPECT_LT(maxDifference(from(1024.0, true), near), 5e-3);
+    EXPECT_GT(maxDifference(from(8.0, false), near), 0.1) << "the detail is seen";
 }
 
 TEST_F(Volume, smallLayersLookTheSame)
