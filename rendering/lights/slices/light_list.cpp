@@ -124,7 +124,8 @@ SortedPoints sortedPoints(const LightListInputs& in)
 } // namespace
 
 LightList::LightList(std::pmr::memory_resource* memory)
-    : origins_(memory), fades_(memory), stacks_(memory), stackLights_(memory), stackBlocks_(memory)
+    : origins_(memory), fades_(memory), fadesBefore_(memory), stacks_(memory), stackLights_(memory),
+      stackBlocks_(memory)
 {
     constexpr size_t kMost =
         kMostLightEntries + kFadingEntries; // so that fading takes no memory when it begins
@@ -134,6 +135,18 @@ LightList::LightList(std::pmr::memory_resource* memory)
 }
 
 void LightList::build(const LightListInputs& in)
+{
+    fadesBefore_ = fades_;
+    list(in);
+}
+
+void LightList::rebuild(const LightListInputs& in)
+{
+    fades_ = fadesBefore_;
+    list(in);
+}
+
+void LightList::list(const LightListInputs& in)
 {
     block_ = {}; // without a shadow map until setSunShadow()
     count_ = 0;
@@ -217,7 +230,7 @@ void LightList::addCascades(const LightListInputs& in)
         });
         if (!hasMedia)
             return;
-        // around a place that the eye is near to, so that planes are not filled anew with each of its steps
+        // around a place that the eye is near to, so that planes are not filled again with each of its steps
         const double grid = double(side) * kCascadeGrid;
         const glm::vec3 middle(glm::round(in.eye / grid) * grid - in.eye);
         const MediumCaster around{middle, radius + 0.5f * std::numbers::sqrt3_v<float> * float(grid), 0.0f};

@@ -78,7 +78,10 @@ class LightList
 public:
     explicit LightList(std::pmr::memory_resource* memory);
 
+    /// The next frame: planes that change their sides fade.
     void build(const LightListInputs& in);
+    /// The same frame once more, from other inputs: what the last build() did is forgotten.
+    void rebuild(const LightListInputs& in);
     /// Opaque surfaces shade media from then on. @param shift [m] eye minus what the map's places are
     /// relative to  @return whether the block has changed
     bool setSunShadow(const HostShadowMap& map, const glm::dvec3& shift);
@@ -105,6 +108,7 @@ public:
     int mostTexels() const { return mostTexels_; }   ///< [texel] side of the largest plane
 
 private:
+    void list(const LightListInputs& in);
     void addSun(const LightListInputs& in);
     void addPoints(const LightListInputs& in);
     void addSky(const LightListInputs& in);
@@ -120,6 +124,7 @@ private:
     size_t count_ = 0;
     std::pmr::vector<LightOrigin> origins_;
     SliceFades fades_;
+    SliceFades fadesBefore_; ///< of the frame before
     float sunTexel_ =
         0.0f; ///< [m] side of the sun's texels, between the one before and that now; 0: no planes
     std::pmr::vector<SliceStack> stacks_;

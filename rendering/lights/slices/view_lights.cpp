@@ -16,6 +16,12 @@ constexpr size_t kStackBytes = std::bit_ceil((kMostLightEntries + kFadingEntries
 
 constexpr int kTallestSpare = 8192; ///< [texel] of an atlas that is higher than it has to be
 
+/// Of what planes hold.
+uint64_t keyOf(uint64_t casterRevision, const LightListInputs& in, const LightList& list)
+{
+    return base::hashWord(base::hashWord(casterRevision, in.casters.size()), list.placesRevision()) | 1;
+}
+
 } // namespace
 
 std::span<const ProgramDesc* const> lightPrograms()
@@ -28,21 +34,16 @@ ViewLights::ViewLights(GlDevice* device, std::pmr::memory_resource* memory)
     : device_(*device), list_(memory), casters_(memory), held_(memory), shifted_(memory)
 {}
 
-namespace {
-
-/// Of what planes hold.
-uint64_t keyOf(uint64_t casterRevision, const LightListInputs& in, const LightList& list)
+/// Whether planes need not follow what has moved in this frame.
+bool ViewLights::mayWait(const LightListInputs& in)
 {
-    return base::hashWord(base::hashWord(casterRevision, in.casters.size()), list.placesRevision()) | 1;
+    return ++age_ < in.settings->slices.refreshFrames && filled_ != 0 && !held_.empty() &&
+           !in.casters.empty();
 }
-
-} // namespace
 
 /// Lists the lights with the planes as they are filled.  @return false: they have to be filled again
 bool ViewLights::buildBehind(const LightListInputs& in)
 {
-    if (++age_ >= in.settings->slices.refreshFrames || filled_ == 0 || held_.empty() || in.casters.empty())
-        return false;
     shifted_ = held_;
     for (MediumCaster& caster : shifted_)
         caster.center += glm::vec3(heldEye_ - in.eye);
@@ -67,10 +68,15 @@ base::Status ViewLights::gather(const LightListInputs& in, uint64_t casters, boo
     isKept_ = false;
     eye_ = in.eye;
     const bool areMoving = casters != std::exchange(givenRevision_, casters);
-    isBehind_ = areMoving && heldRevision_ != casters && buildBehind(in);
-    if (isBehind_)
-        return isUsed ? makeRoom() : base::Status();
-    list_.build(in);
+    if (areMoving && heldRevision_ != casters && mayWait(in)) {
+        isBehind_ = buildBehind(in);
+        if (isBehind_)
+            return isUsed ? makeRoom() : base::Status();
+        list_.rebuild(in);
+    } else {
+        isBehind_ = false;
+        list_.build(in);
+    }
     wanted_ = keyOf(casters, in, list_);
     if (wanted_ != filled_) {
         hold(in, casters);

@@ -65,6 +65,7 @@ private:
         glm::vec4 medium;
     };
     base::Status makeRoom();
+    bool mayWait(const LightListInputs& in);
     bool buildBehind(const LightListInputs& in);
     void hold(const LightListInputs& in, uint64_t revision);
 

@@ -247,6 +247,23 @@ TEST_F(LightListTest, planesThatChangeTheirSidesFadeInAndAreThenAlone)
     EXPECT_EQ(fresh.placesRevision(), list_.placesRevision()) << "what was before is forgotten";
 }
 
+TEST_F(LightListTest, aFrameThatIsListedTwiceFadesByOneStep)
+{
+    LightList once(std::pmr::new_delete_resource());
+    const std::vector<MediumCaster> held = casters_;
+    build();
+    once.build({&settings_, eye_, effects_, casters_});
+    casters_.back().center.x = 1.3f;
+    for (int k = 0; k < kFadeFrames + 2; ++k) {
+        list_.build({&settings_, eye_, effects_, held});
+        list_.rebuild({&settings_, eye_, effects_, casters_});
+        once.build({&settings_, eye_, effects_, casters_});
+        EXPECT_EQ(list_.block().lights[kFadingEntries].color.r, once.block().lights[kFadingEntries].color.r)
+            << k;
+        EXPECT_EQ(list_.placesRevision(), once.placesRevision()) << k;
+    }
+}
+
 TEST_F(LightListTest, afterACutNothingFades)
 {
     build();
