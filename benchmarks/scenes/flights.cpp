@@ -85,31 +85,31 @@ constexpr std::array<LightFlight, 3> kLightFlights{{
 }};
 
 /// A ball around most of the media.
-struct Whereabouts
+struct MediaExtent
 {
     glm::dvec3 middle{0.0}; ///< [m]
     double radius = 1.0;    ///< [m]
 };
 
-Whereabouts whereaboutsOf(const std::vector<render::MediumBlob>& blobs)
+MediaExtent extentOf(const std::vector<render::MediumBlob>& blobs)
 {
-    Whereabouts around;
+    MediaExtent extent;
     double weight = 0.0, square = 0.0;
     for (const render::MediumBlob& blob : blobs) {
-        around.middle += blob.crossSection * blob.center;
+        extent.middle += blob.crossSection * blob.center;
         weight += blob.crossSection;
     }
-    around.middle /= std::max(weight, 1e-30);
+    extent.middle /= std::max(weight, 1e-30);
     for (const render::MediumBlob& blob : blobs) {
-        const glm::dvec3 d = blob.center - around.middle;
+        const glm::dvec3 d = blob.center - extent.middle;
         square += blob.crossSection * (glm::dot(d, d) + blob.radius * blob.radius);
     }
-    around.radius = 1.5 * std::sqrt(square / std::max(weight, 1e-30));
-    return around;
+    extent.radius = 1.5 * std::sqrt(square / std::max(weight, 1e-30));
+    return extent;
 }
 
 /// @param s 0 at the beginning of the flight, 1 at its end
-LitView viewAt(const EffectFlight& flight, const Whereabouts& around, double s)
+LitView viewAt(const EffectFlight& flight, const MediaExtent& extent, double s)
 {
     bench::Chance chance(flight.seed);
     const double turn = chance.between(0.0, 2.0 * kPi);
@@ -137,8 +137,8 @@ LitView viewAt(const EffectFlight& flight, const Whereabouts& around, double s)
         break;
     }
     LitView view;
-    view.eye = around.middle + around.radius * eye;
-    view.target = around.middle + around.radius * target;
+    view.eye = extent.middle + extent.radius * eye;
+    view.target = extent.middle + extent.radius * target;
     view.fovYDegrees = 50.0;
     view.lighting = {};
     view.lighting.sunIlluminance = glm::vec3(0.0f);
@@ -216,11 +216,11 @@ std::vector<render::MediumBlob> darkAndBrightBalls(uint64_t seed)
 std::vector<FlightFrame> ballFrames(const EffectFlight& flight, uint32_t frames)
 {
     const std::vector<render::MediumBlob> blobs = darkAndBrightBalls(flight.seed);
-    const Whereabouts around = whereaboutsOf(blobs);
+    const MediaExtent extent = extentOf(blobs);
     std::vector<FlightFrame> all;
     for (uint32_t k = 0; k < frames; ++k)
         all.push_back(
-            {blobs, viewAt(flight, around,
+            {blobs, viewAt(flight, extent,
                            double((flight.name.frames - frames) / 2 + k) / double(flight.name.frames - 1))});
     return all;
 }
@@ -236,15 +236,15 @@ base::Result<std::vector<FlightFrame>> effectFrames(const EffectFlight& flight, 
         return source.status();
     const uint32_t first = (flight.name.frames - frames) / 2;
     std::vector<FlightFrame> all;
-    Whereabouts around;
+    MediaExtent extent;
     for (uint32_t k = 0; k < frames; ++k) {
         auto moment = (*source)->frameAt(base::toTicks(time + double(first + k) * kFrameSeconds));
         if (!moment.ok())
             return moment.status();
         if (k == 0)
-            around = whereaboutsOf(moment->scene.blobs);
+            extent = extentOf(moment->scene.blobs);
         FlightFrame frame{std::move(moment->scene.blobs),
-                          viewAt(flight, around, double(first + k) / double(flight.name.frames - 1))};
+                          viewAt(flight, extent, double(first + k) / double(flight.name.frames - 1))};
         lightInCenters(frame.blobs);
         all.push_back(std::move(frame));
     }

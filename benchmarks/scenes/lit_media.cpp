@@ -132,7 +132,7 @@ base::Result<LitPicture> LitPainter::paint(std::span<const render::MediumBlob> b
 {
     shown_.assign(blobs.begin(), blobs.end());
     renderer_->show(shown_);
-    render::ViewSettings& settings = renderer_->settings();
+    render::ViewSettings& settings = renderer_->pictures().settings();
     settings.exposureEv100 = view.exposureEv100;
     settings.lighting = view.lighting;
     settings.slices = slices;
@@ -142,7 +142,7 @@ base::Result<LitPicture> LitPainter::paint(std::span<const render::MediumBlob> b
     if (base::Status status = renderer_->render(cameraOf(view), 0.0); !status)
         return status;
     const double seconds = secondsSince(start);
-    LitPicture picture = pictureOf(renderer_->read().color.pixels);
+    LitPicture picture = pictureOf(renderer_->pictures().read().color.pixels);
     picture.seconds = seconds;
     return picture;
 }

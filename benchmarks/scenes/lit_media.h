@@ -76,8 +76,8 @@ public:
     base::Result<LitPicture> paint(std::span<const render::MediumBlob> blobs, const LitView& view,
                                    const render::SliceSettings& slices);
     /// Of the next picture. What a LitView says, slices, shimmer and glare are set by paint().
-    render::ViewSettings& settings() { return renderer_->settings(); }
-    const std::string& rendererName() const { return renderer_->rendererName(); }
+    render::ViewSettings& settings() { return renderer_->pictures().settings(); }
+    const std::string& rendererName() const { return renderer_->pictures().rendererName(); }
 
 private:
     LitPainter(int width, int height) : width_(width), height_(height) {}

@@ -116,7 +116,8 @@ private:
     void makeReference();
     base::Status drawByGl(const GlSetting& setting, double& outSeconds);
     base::Status makePicture();
-    std::vector<double> errors() const;
+    double brightest() const;
+    std::vector<double> errors(double least = 0.0) const;
     double visibleError() const;
 
     std::string scene_;
@@ -277,34 +278,36 @@ void BillboardAccuracy::makeReference()
     }
 }
 
-/// Of channels above a thousandth of the brightest: what the eye compares.
-std::vector<double> BillboardAccuracy::errors() const
+double BillboardAccuracy::brightest() const
 {
     double brightest = 0;
     for (const std::array<double, 3>& light : reference_)
         brightest = std::max({brightest, light[0], light[1], light[2]});
+    return brightest;
+}
+
+/// Of channels above a thousandth of the brightest: what the eye compares.
+/// @param least [1] of the brightest: errors of darker channels are relative to it
+std::vector<double> BillboardAccuracy::errors(double least) const
+{
+    const double most = brightest();
     std::vector<double> errors;
     for (size_t i = 0; i < reference_.size(); ++i)
         for (size_t c = 0; c < 3; ++c)
-            if (reference_[i][c] > 1e-3 * brightest)
-                errors.push_back(double(lights_[i][c]) / reference_[i][c] - 1.0);
+            if (reference_[i][c] > 1e-3 * most)
+                errors.push_back((double(lights_[i][c]) - reference_[i][c]) /
+                                 std::max(reference_[i][c], least * most));
     return errors;
 }
 
 /// 99th percentile of errors over the larger of a channel and 5 % of the brightest: what a picture shows.
 double BillboardAccuracy::visibleError() const
 {
-    double brightest = 0;
-    for (const std::array<double, 3>& light : reference_)
-        brightest = std::max({brightest, light[0], light[1], light[2]});
-    std::vector<double> errors;
-    for (size_t i = 0; i < reference_.size(); ++i)
-        for (size_t c = 0; c < 3; ++c)
-            if (reference_[i][c] > 1e-3 * brightest)
-                errors.push_back(std::abs(double(lights_[i][c]) - reference_[i][c]) /
-                                 std::max(reference_[i][c], 0.05 * brightest));
-    std::sort(errors.begin(), errors.end());
-    return errors.empty() ? 0.0 : errors[errors.size() * 99 / 100];
+    std::vector<double> visible = errors(0.05);
+    for (double& error : visible)
+        error = std::abs(error);
+    std::sort(visible.begin(), visible.end());
+    return visible.empty() ? 0.0 : visible[visible.size() * 99 / 100];
 }
 
 std::unique_ptr<AccuracyTechnique> make(const std::string& scene, const AccuracyScale&)

@@ -51,7 +51,7 @@ struct Painter
           renderer(taken(SnapshotRenderer::create(from.schema(), detailViewSettings(), width, height)))
     {}
 
-    /// Anew, whatever has been drawn before.
+    /// Draws the scene without anything that the view has kept of the picture before.
     /// @return [ms]
     double draw(const Setting& setting)
     {

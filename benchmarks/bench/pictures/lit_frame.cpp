@@ -190,10 +190,12 @@ void measureBlobs(const Options& options)
     const auto renderer = taken(BlobListRenderer::create(blobs, settings, options.width, options.height));
     const LitView view;
     measureSubject({"blobs-" + std::to_string(count), [&] { renderer->show(blobs); },
-                    [&]() -> render::SliceSettings& { return renderer->settings().slices; },
+                    [&]() -> render::SliceSettings& { return renderer->pictures().settings().slices; },
                     [&] { require(renderer->render(cameraOf(view), 0.0)); },
-                    [&] { return renderer->read().color.pixels; }, [&] { return renderer->fillsPlanes(); },
-                    [&] { return size_t(renderer->statistics().blobs); }, renderer->rendererName()},
+                    [&] { return renderer->pictures().read().color.pixels; },
+                    [&] { return renderer->pictures().fillsPlanes(); },
+                    [&] { return size_t(renderer->pictures().statistics().blobs); },
+                    renderer->pictures().rendererName()},
                    options, readMachine());
 }
 

@@ -54,7 +54,7 @@ public:
         auto renderer = BlobListRenderer::create(*blobs, settings, plan_.width, plan_.height);
         if (!renderer.ok())
             return renderer.status();
-        machine_.glRenderer = (*renderer)->rendererName();
+        machine_.glRenderer = (*renderer)->pictures().rendererName();
         Progress progress("frame", plan_.frames.size(), !arguments_.json);
         uint64_t done = 0;
         for (const RenderPlan::Frame& frame : plan_.frames) {
@@ -63,9 +63,9 @@ public:
                 return status;
             if (interruptRequested())
                 return interruptedStatus();
-            if (base::Status status = (*output)->write(frame.number, (*renderer)->read()); !status)
+            if (base::Status status = (*output)->write(frame.number, (*renderer)->pictures().read()); !status)
                 return status;
-            report(frame, **renderer);
+            report(frame, (*renderer)->pictures());
             progress.update(++done);
         }
         if (base::Status status = (*output)->finish(); !status)
@@ -77,7 +77,7 @@ public:
     const Machine& machine() const { return machine_; }
 
 private:
-    void report(const RenderPlan::Frame& frame, const BlobListRenderer& renderer)
+    void report(const RenderPlan::Frame& frame, const SnapshotRenderer& renderer)
     {
         const render::FrameStatistics& view = renderer.statistics();
         const nlohmann::json line = {

@@ -37,39 +37,14 @@ void BlobListRenderer::show(std::span<const render::MediumBlob> blobs)
     impl_->snapshot.emplace(snapshotOfBlobs(blobs, impl_->schema, ++impl_->sequence));
 }
 
-render::ViewSettings& BlobListRenderer::settings()
+SnapshotRenderer& BlobListRenderer::pictures()
 {
-    return impl_->renderer->settings();
+    return *impl_->renderer;
 }
 
 base::Status BlobListRenderer::render(const render::ReferenceCamera& camera, double time)
 {
     return impl_->renderer->render({{&*impl_->snapshot, nullptr}, 1.0}, camera, time);
-}
-
-FrameLayers BlobListRenderer::read()
-{
-    return impl_->renderer->read();
-}
-
-const render::FrameStatistics& BlobListRenderer::statistics() const
-{
-    return impl_->renderer->statistics();
-}
-
-bool BlobListRenderer::fillsPlanes() const
-{
-    return impl_->renderer->fillsPlanes();
-}
-
-double BlobListRenderer::millisecondsRender() const
-{
-    return impl_->renderer->millisecondsRender();
-}
-
-const std::string& BlobListRenderer::rendererName() const
-{
-    return impl_->renderer->rendererName();
 }
 
 } // namespace fx::cli

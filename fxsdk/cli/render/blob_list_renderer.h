@@ -23,18 +23,11 @@ public:
 
     /// Draws another list from the next picture on.
     void show(std::span<const render::MediumBlob> blobs);
-    /// Of the next picture.
-    render::ViewSettings& settings();
+    /// What draws them: its settings, pictures and statistics.
+    SnapshotRenderer& pictures();
 
     /// @param time [s] of the picture, which only the camera depends on
     base::Status render(const render::ReferenceCamera& camera, double time);
-    /// Copies the pictures from the GPU; those besides `color` only with settings.layerOutputs.
-    FrameLayers read();
-
-    const render::FrameStatistics& statistics() const;
-    bool fillsPlanes() const;          ///< whether the last frame has filled planes of light slices
-    double millisecondsRender() const; ///< of the last frame, until the GPU has finished
-    const std::string& rendererName() const;
 
 private:
     BlobListRenderer();
