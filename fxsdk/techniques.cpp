@@ -1,8 +1,5 @@
 #include "fxsdk/techniques.h"
 
-#include "foundation/snapshot/blob_kind.h"
-#include "foundation/snapshot/gpu_particles.h"
-#include "foundation/snapshot/material_kind.h"
 #include "fxsdk/presets/emitters/emitter_technique.h"
 #include "fxsdk/presets/fragments/fragments_technique.h"
 #if FXSDK_WITH_SPH
@@ -15,25 +12,6 @@ namespace fx::preset {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kMediaPasses{"scene distance", "media", "composite"};
-constexpr std::array<std::string_view, 4> kParticlePasses{"scene distance", "solid particles", "media",
-                                                          "composite"};
-constexpr std::array<std::string_view, 2> kGpuPasses{"gpu particles", "gpu particle order"};
-constexpr std::array<std::string_view, 2> kShimmerPasses{"heat offset", "heat shimmer"};
-constexpr std::array<std::string_view, 3> kDazzlePasses{"dazzle sum", "dazzle budget", "dazzle deal"};
-
-/// What is seen may saturate the sensor.
-bool usesDazzle(const sim::EffectDef& effect)
-{
-    return effect.publishes(base::kBlobKind) || effect.publishes(base::kParticleKind) ||
-           effect.publishes(base::kRibbonKind);
-}
-
-bool usesShimmer(const sim::EffectDef& effect)
-{
-    return effect.bendsLight();
-}
-
 /// Emitters are first: their rules name solvers by their place among the emitters.
 constexpr Technique kTechniques[] = {
     kEmitterTechnique,
@@ -41,14 +19,6 @@ constexpr Technique kTechniques[] = {
 #if FXSDK_WITH_SPH
     kGasTechnique,
 #endif
-    {.name = "spherical billboards", .kind = &base::kBlobKind, .passes = kMediaPasses},
-    {.name = "detail of fields", .kind = &base::kMaterialKind},
-    {.name = "sprites and meshes", .kind = &base::kParticleKind, .passes = kParticlePasses},
-    {.name = "particles on the GPU", .kind = &base::kGpuParticleKind, .passes = kGpuPasses},
-    {.name = "ribbons", .kind = &base::kRibbonKind, .passes = kMediaPasses},
-    {.name = "particle lights", .kind = &base::kLightKind},
-    {.name = "heat shimmer", .isUsedBy = usesShimmer, .passes = kShimmerPasses},
-    {.name = "dazzle", .isUsedBy = usesDazzle, .passes = kDazzlePasses},
 };
 
 #if !FXSDK_WITH_SPH
@@ -60,12 +30,6 @@ constexpr std::array kMissing{MissingTechnique{"gas", "FXSDK_WITH_SPH"}};
 Techniques techniques()
 {
     return kTechniques;
-}
-
-bool isUsed(const Technique& technique, const sim::EffectDef& effect)
-{
-    return technique.isUsedBy ? technique.isUsedBy(effect)
-                              : technique.kind && effect.publishes(*technique.kind);
 }
 
 std::span<const MissingTechnique> missingTechniques()
@@ -80,8 +44,8 @@ std::span<const MissingTechnique> missingTechniques()
 void registerKinds(base::SnapshotSchema& schema, Techniques techniques)
 {
     for (const Technique& technique : techniques)
-        if (technique.kind)
-            static_cast<void>(schema.add(*technique.kind));
+        for (const base::KindDesc* kind : technique.kinds)
+            static_cast<void>(schema.add(*kind));
 }
 
 } // namespace fx::preset

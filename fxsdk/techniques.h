@@ -1,9 +1,8 @@
 /// @file techniques.h
-/// The explicit list of techniques: what each brings to presets, simulation and snapshots, and which passes
-/// exist because of it.
+/// The explicit list of techniques that presets have members for, and of the snapshot data that their solvers
+/// publish. The list of techniques that draw such data is rendering/techniques/draw_techniques.h.
 ///
-/// Adding a technique, or leaving one out of a build, touches this list and the technique's own folder,
-/// nothing else.
+/// To add a technique, or to leave one out of a build, a line is added to this list or removed from it.
 #pragma once
 
 #include "fxsdk/presets/technique.h"
@@ -11,8 +10,6 @@
 namespace fx::preset {
 
 Techniques techniques();
-/// Whether an effect makes use of a technique without a preset member.
-bool isUsed(const Technique& technique, const sim::EffectDef& effect);
 std::span<const MissingTechnique> missingTechniques();
 
 /// Registers what the techniques publish. Called once per context.

@@ -27,8 +27,6 @@ std::vector<SolverCost> costsOf(const PresetValue& root, const sim::EffectDef& e
     std::vector<SolverCost> costs;
     costs.reserve(effect.solvers.size());
     for (const Technique& technique : techniques) {
-        if (!technique.build)
-            continue;
         const size_t first = costs.size();
         const size_t elements = root.size(std::string(technique.presetMember).c_str());
         for (size_t i = 0; i < elements && costs.size() < effect.solvers.size(); ++i)

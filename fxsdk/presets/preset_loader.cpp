@@ -65,8 +65,6 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     root.read("bound", effect->bound);
     readOffscreen(root, *effect);
     for (const Technique& technique : techniques) {
-        if (!technique.build)
-            continue;
         const std::string member(technique.presetMember);
         for (size_t i = 0; i < root.size(member.c_str()); ++i)
             technique.build(root.element(member.c_str(), i), *effect);

@@ -119,8 +119,6 @@ nlohmann::ordered_json presetSchema(Techniques techniques)
     Schema schema = textNamed("effect.schema.json");
     addPreview(schema);
     for (const Technique& technique : techniques) {
-        if (technique.presetMember.empty())
-            continue;
         const std::string_view text = technique.schema();
         const Schema element = Schema::parse(text.begin(), text.end());
         schema["properties"][std::string(technique.presetMember)] = {{"title", element["title"]},

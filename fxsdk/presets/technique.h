@@ -12,21 +12,19 @@
 
 namespace fx::preset {
 
-/// One technique. A technique with a preset member has its reader, its schema, its warnings and its costs in
-/// a folder of its own.
+/// One technique. Its reader, its schema, its warnings and its costs are in a folder of its own.
 struct Technique
 {
     std::string_view name;
 
-    /// Member of a preset whose array elements are this technique's solvers; empty when presets do not speak
-    /// of it.
-    std::string_view presetMember = {};
+    /// Member of a preset whose array elements are this technique's solvers.
+    std::string_view presetMember;
 
-    /// JSON Schema of one element, with the kinds of schema_assembly.h. Null without a preset member.
-    std::string_view (*schema)() = nullptr;
+    /// JSON Schema of one element, with the kinds of schema_assembly.h.
+    std::string_view (*schema)();
 
-    /// Reads one validated element and adds one solver to `effect`. Null without a preset member.
-    void (*build)(const PresetValue& element, sim::EffectDef& effect) = nullptr;
+    /// Reads one validated element and adds one solver to `effect`.
+    void (*build)(const PresetValue& element, sim::EffectDef& effect);
 
     /// Resolves what elements say of each other, once the solvers of all techniques are there. Called also
     /// after errors. Null: they say nothing.
@@ -41,14 +39,8 @@ struct Technique
     void (*estimate)(const PresetValue& root, const sim::EffectDef& effect,
                      std::span<SolverCost> ioCosts) = nullptr;
 
-    /// Whether an effect makes use of it. Null: an effect that publishes `kind`.
-    bool (*isUsedBy)(const sim::EffectDef& effect) = nullptr;
-
-    /// Kind of snapshot data that its solvers publish; null when it publishes none.
-    const base::KindDesc* kind = nullptr;
-
-    /// Passes of the frame graph that exist because of it.
-    std::span<const std::string_view> passes = {};
+    /// Kinds of snapshot data that its solvers may publish.
+    std::span<const base::KindDesc* const> kinds = {};
 };
 
 /// The techniques of a build, or of one context. Solvers of an effect are in the order of this list.

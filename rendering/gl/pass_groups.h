@@ -14,7 +14,7 @@ namespace fx::render {
 struct TimedPass
 {
     std::string_view pass;
-    std::string_view group;
+    std::string_view group = {}; ///< empty: "other"
 };
 
 constexpr size_t kMostPassGroups = 8;
@@ -28,7 +28,7 @@ public:
     {
         for (const TimedPass& timed : passes) {
             size_t group = find(timed.group);
-            if (group == 0 && count_ < kMostPassGroups)
+            if (group == 0 && !timed.group.empty() && count_ < kMostPassGroups)
                 names_[group = count_++] = timed.group;
             passes_.push_back({timed.pass, group});
         }

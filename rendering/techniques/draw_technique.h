@@ -153,6 +153,14 @@ struct TechniqueSetup
     std::span<const DrawTechnique* const> techniques; ///< all of the view
 };
 
+/// What an effect publishes, as far as techniques depend on it.
+struct EffectContent
+{
+    std::span<const base::KindDesc* const> kinds; ///< of its groups
+    bool isDrawn = false;                         ///< a technique draws one of the kinds
+    bool bendsLight = false;                      ///< some of it is hot enough
+};
+
 /// One technique. Has static storage.
 struct DrawTechnique
 {
@@ -163,7 +171,11 @@ struct DrawTechnique
     /// Makes what a view keeps; null: nothing. Techniques with the same function share what it makes.
     std::unique_ptr<TechniqueView> (*create)(const TechniqueSetup& setup) = nullptr;
     std::span<const ProgramDesc* const> (*programs)() = nullptr; ///< all that it can need; null: none
-    std::span<const TimedPass> timedPasses = {}; ///< those that are not measured with everything else
+    /// Passes of a frame that exist because of it, each with the group that its time is added to. Techniques
+    /// that are drawn by the media pass name that pass as well.
+    std::span<const TimedPass> passes = {};
+    /// Whether an effect with such content uses it; null: an effect that publishes `kind`.
+    bool (*isUsedBy)(const EffectContent& content) = nullptr;
     const LightSource* lights =
         nullptr; ///< how groups of `kind` light everything around them; null: not at all
     /// Refuses settings that cannot be drawn; null: there are none.

@@ -9,6 +9,7 @@
 #include "rendering/techniques/shimmer/shimmer_technique.h"
 #include "rendering/techniques/sprites/sprite_technique.h"
 
+#include <algorithm>
 #include <array>
 
 namespace fx::render {
@@ -17,6 +18,7 @@ namespace {
 
 constexpr const DrawTechnique* kTechniques[] = {
     &kBlobTechnique,          //
+    &kFieldDetailTechnique,   //
     &kLightSliceTechnique,    //
     &kSpriteTechnique,        //
     &kRibbonTechnique,        //
@@ -49,12 +51,28 @@ size_t effectLights(const base::FrameSnapshot& snapshot, std::span<EffectLight> 
     return effectLights(snapshot, std::span(sources).first(count), out);
 }
 
+bool isDrawn(std::span<const base::KindDesc* const> kinds, DrawTechniques techniques)
+{
+    return std::ranges::any_of(techniques, [&](const DrawTechnique* technique) {
+        return technique->kind && technique->create &&
+               std::ranges::any_of(kinds, [&](const auto* kind) { return *kind == *technique->kind; });
+    });
+}
+
+bool isUsed(const DrawTechnique& technique, const EffectContent& content)
+{
+    if (technique.isUsedBy)
+        return technique.isUsedBy(content);
+    return technique.kind &&
+           std::ranges::any_of(content.kinds, [&](const auto* kind) { return *kind == *technique.kind; });
+}
+
 PassGroups passGroups(DrawTechniques techniques)
 {
     PassGroups groups;
     groups.add(kFramePasses);
     for (const DrawTechnique* technique : techniques)
-        groups.add(technique->timedPasses);
+        groups.add(technique->passes);
     return groups;
 }
 

@@ -15,6 +15,11 @@ DrawTechniques drawTechniques();
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<EffectLight> out,
                     DrawTechniques techniques = drawTechniques());
 
+/// EffectContent::isDrawn of an effect that publishes `kinds`.
+bool isDrawn(std::span<const base::KindDesc* const> kinds, DrawTechniques techniques = drawTechniques());
+/// Whether a frame with an effect of this content has passes of `technique`.
+bool isUsed(const DrawTechnique& technique, const EffectContent& content);
+
 /// What the times of passes are added to: those of the frame's own passes and of `techniques`.
 PassGroups passGroups(DrawTechniques techniques);
 

@@ -12,7 +12,7 @@ void buildMarker(const preset::PresetValue& element, sim::EffectDef& effect);
 /// Warns of markers that are black.
 void lintMarkers(const preset::PresetValue& root, const sim::EffectDef& effect);
 
-inline constexpr std::string_view kMarkerPasses[] = {"scene distance", "marker upload", "media", "composite"};
+inline constexpr const base::KindDesc* kMarkerKinds[] = {&kMarkerKind};
 
 inline constexpr preset::Technique kMarkerPreset{
     .name = "markers",
@@ -20,8 +20,7 @@ inline constexpr preset::Technique kMarkerPreset{
     .schema = markerSchema,
     .build = buildMarker,
     .lint = lintMarkers,
-    .kind = &kMarkerKind,
-    .passes = kMarkerPasses,
+    .kinds = kMarkerKinds,
 };
 
 } // namespace fx::test

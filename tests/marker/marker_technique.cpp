@@ -20,7 +20,8 @@ using namespace render;
 
 constexpr ProgramDesc kProgram{"marker", "marker.vert.glsl", "marker.frag.glsl", nullptr, nullptr};
 constexpr const ProgramDesc* kPrograms[] = {&kProgram};
-constexpr TimedPass kTimed[] = {{"marker upload", "marker"}};
+constexpr TimedPass kPasses[] = {
+    {"scene distance"}, {"marker upload", "marker"}, {"media", "media"}, {"composite"}};
 
 /// Layout of marker.vert.glsl.
 struct Marker
@@ -166,7 +167,7 @@ constexpr render::DrawTechnique kMarkerTechnique{
     .kind = &kMarkerKind,
     .create = create,
     .programs = programs,
-    .timedPasses = kTimed,
+    .passes = kPasses,
 };
 
 std::optional<std::string> markerSource(std::string_view name, std::string_view defines)

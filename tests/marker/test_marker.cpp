@@ -133,6 +133,19 @@ TEST_F(MarkerTest, itsPassesAreTimedInTheirOwnGroup)
     EXPECT_DOUBLE_EQ(times.milliseconds[view_->passGroups().find("media")], 1.0);
 }
 
+TEST_F(MarkerTest, itsEffectsUseItAndWhatChangesThePictureOfAllTechniques)
+{
+    const base::KindDesc* const kinds[] = {&test::kMarkerKind};
+    EXPECT_FALSE(render::isDrawn(kinds)) << "no technique of the library draws markers";
+    EXPECT_TRUE(render::isDrawn(kinds, techniques_));
+    const render::EffectContent content{.kinds = kinds, .isDrawn = true};
+    std::vector<std::string_view> used;
+    for (const render::DrawTechnique* technique : techniques_)
+        if (render::isUsed(*technique, content))
+            used.push_back(technique->name);
+    EXPECT_EQ(used, (std::vector<std::string_view>{"dazzle", "markers"}));
+}
+
 TEST_F(MarkerTest, itsListsServeAgainAndItsMemoryIsGivenBack)
 {
     base::FrameSnapshot snapshot = snapshotOf({});

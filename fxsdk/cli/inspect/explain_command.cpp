@@ -9,6 +9,7 @@
 #include "fxsdk/cli/support/exit_code.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/techniques.h"
+#include "rendering/techniques/draw_techniques.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/gpu_programs/gpu_program.h"
 
@@ -18,8 +19,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iterator>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fx::cli {
@@ -88,22 +92,33 @@ Json instancesOf(const scene_file::SceneFile& file, FxScene* scene, double time)
     return list;
 }
 
-/// Presets of active instances that use a technique.
-Json callersOf(const preset::Technique& technique, const scene_file::SceneFile& file, const Json& instances)
+/// Names of the presets of active instances for which `uses` is true.
+template <typename F>
+Json callersOf(const scene_file::SceneFile& file, const Json& instances, F&& uses)
 {
     std::vector<std::string> names;
     for (const Json& entry : instances) {
         if (entry["state"] != "active")
             continue;
         const auto& used = file.presets[file.instances[entry["instance"].get<size_t>()].preset];
-        const Json text = Json::parse(used.text, nullptr, false);
-        const bool calls = technique.presetMember.empty()
-                               ? preset::isUsed(technique, *used.effect)
-                               : text.contains(std::string(technique.presetMember));
-        if (calls && std::find(names.begin(), names.end(), used.name) == names.end())
+        if (std::find(names.begin(), names.end(), used.name) == names.end() && uses(used))
             names.push_back(used.name);
     }
     return names;
+}
+
+bool hasMember(const scene_file::ScenePreset& used, std::string_view member)
+{
+    return Json::parse(used.text, nullptr, false).contains(std::string(member));
+}
+
+bool isUsed(const render::DrawTechnique& technique, const sim::EffectDef& effect)
+{
+    std::vector<const base::KindDesc*> kinds;
+    for (const preset::Technique& publisher : preset::techniques())
+        std::copy_if(publisher.kinds.begin(), publisher.kinds.end(), std::back_inserter(kinds),
+                     [&](const base::KindDesc* kind) { return effect.publishes(*kind); });
+    return render::isUsed(technique, {kinds, render::isDrawn(kinds), effect.bendsLight()});
 }
 
 /// Whether each emitter is computed on CPU or GPU, and the reason. Emitters move to the GPU once a view has
@@ -146,18 +161,27 @@ Json techniquesOf(const scene_file::SceneFile& file, const Json& instances,
                   const std::vector<std::string>& passes)
 {
     Json list = Json::array();
-    for (const preset::Technique& technique : preset::techniques()) {
+    const auto add = [&](std::string_view name, std::span<const render::TimedPass> own, const Json& callers) {
         Json executed = Json::array();
-        for (const std::string_view pass : technique.passes)
-            if (std::find(passes.begin(), passes.end(), pass) != passes.end())
-                executed.push_back(std::string(pass));
-        const Json callers = callersOf(technique, file, instances);
-        const bool exists = !callers.empty() && (technique.passes.empty() || !executed.empty());
-        list.push_back({{"technique", std::string(technique.name)},
+        for (const render::TimedPass& timed : own)
+            if (std::find(passes.begin(), passes.end(), timed.pass) != passes.end())
+                executed.push_back(std::string(timed.pass));
+        const bool exists = !callers.empty() && (own.empty() || !executed.empty());
+        list.push_back({{"technique", std::string(name)},
                         {"exists", exists},
                         {"passes", exists ? executed : Json::array()},
                         {"called_by", exists ? callers : Json::array()}});
-    }
+    };
+    for (const preset::Technique& technique : preset::techniques())
+        add(technique.name, {}, callersOf(file, instances, [&](const scene_file::ScenePreset& used) {
+                return hasMember(used, technique.presetMember);
+            }));
+    for (const render::DrawTechnique* technique : render::drawTechniques())
+        if (technique->kind || technique->isUsedBy)
+            add(technique->name, technique->passes,
+                callersOf(file, instances, [&](const scene_file::ScenePreset& used) {
+                    return isUsed(*technique, *used.effect);
+                }));
     return list;
 }
 

@@ -3,6 +3,9 @@
 #pragma once
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/gpu_particles.h"
+#include "foundation/snapshot/material_kind.h"
+#include "foundation/snapshot/particle_kind.h"
 #include "fxsdk/presets/technique.h"
 
 namespace fx::preset {
@@ -22,6 +25,10 @@ void lintEmitters(const PresetValue& root, const sim::EffectDef& effect);
 /// Counts births, those that events cause included.
 void estimateEmitters(const PresetValue& root, const sim::EffectDef& effect, std::span<SolverCost> ioCosts);
 
+inline constexpr const base::KindDesc* kEmitterKinds[] = {&base::kBlobKind,     &base::kMaterialKind,
+                                                          &base::kParticleKind, &base::kGpuParticleKind,
+                                                          &base::kRibbonKind,   &base::kLightKind};
+
 inline constexpr Technique kEmitterTechnique{
     .name = "emitters",
     .presetMember = "emitters",
@@ -30,7 +37,7 @@ inline constexpr Technique kEmitterTechnique{
     .link = linkEmitters,
     .lint = lintEmitters,
     .estimate = estimateEmitters,
-    .kind = &base::kBlobKind,
+    .kinds = kEmitterKinds,
 };
 
 } // namespace fx::preset

@@ -15,13 +15,15 @@ void buildFragments(const PresetValue& element, sim::EffectDef& effect);
 
 void estimateFragments(const PresetValue& root, const sim::EffectDef& effect, std::span<SolverCost> ioCosts);
 
+inline constexpr const base::KindDesc* kFragmentsKinds[] = {&base::kBlobKind};
+
 inline constexpr Technique kFragmentsTechnique{
     .name = "fragments",
     .presetMember = "fragments",
     .schema = fragmentsSchema,
     .build = buildFragments,
     .estimate = estimateFragments,
-    .kind = &base::kBlobKind,
+    .kinds = kFragmentsKinds,
 };
 
 } // namespace fx::preset

@@ -1,6 +1,7 @@
 #include "rendering/techniques/blobs/blob_technique.h"
 
 #include "foundation/snapshot/blob_kind.h"
+#include "foundation/snapshot/material_kind.h"
 #include "rendering/passes/blob_light_pass.h"
 #include "rendering/passes/overdraw_pass.h"
 #include "rendering/techniques/blobs/blob_lights.h"
@@ -13,9 +14,15 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {{"blob upload", "media"},          {"media impostor upload", "media"},
-                                {"media impostor blobs", "media"}, {"media impostors", "media"},
-                                {"impostor lights", "media"},      {"blob light", "media"}};
+constexpr TimedPass kPasses[] = {{"scene distance"},
+                                 {"media", "media"},
+                                 {"composite"},
+                                 {"blob upload", "media"},
+                                 {"media impostor upload", "media"},
+                                 {"media impostor blobs", "media"},
+                                 {"media impostors", "media"},
+                                 {"impostor lights", "media"},
+                                 {"blob light", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
@@ -44,9 +51,14 @@ constexpr DrawTechnique kBlobTechnique{
     .kind = &base::kBlobKind,
     .create = create,
     .programs = programs,
-    .timedPasses = kTimed,
+    .passes = kPasses,
     .lights = &kBlobLights,
     .levels = &kBlobScalability,
+};
+
+constexpr DrawTechnique kFieldDetailTechnique{
+    .name = "detail of fields",
+    .kind = &base::kMaterialKind,
 };
 
 } // namespace fx::render

@@ -8,4 +8,8 @@ namespace fx::render {
 
 extern const DrawTechnique kBlobTechnique;
 
+/// Coordinates of balls, by which their detail moves with them. The view of kBlobTechnique reads and draws
+/// them.
+extern const DrawTechnique kFieldDetailTechnique;
+
 } // namespace fx::render

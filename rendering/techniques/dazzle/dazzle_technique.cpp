@@ -9,7 +9,7 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {
+constexpr TimedPass kPasses[] = {
     {"dazzle sum", "dazzle"}, {"dazzle budget", "dazzle"}, {"dazzle deal", "dazzle"}};
 
 constexpr const ProgramDesc* kPrograms[] = {&kDazzleSumProgram, &kDazzleBudgetProgram, &kDazzleDealProgram};
@@ -94,6 +94,12 @@ bool actsAlone(const ViewSettings& settings)
     return settings.dazzle.enabled;
 }
 
+/// Whatever is drawn may saturate the sensor.
+bool isUsedBy(const EffectContent& content)
+{
+    return content.isDrawn;
+}
+
 /// Glare is about as large as what is bright.
 double weight(const ScreenShare& covered)
 {
@@ -122,7 +128,8 @@ constexpr DrawTechnique kDazzleTechnique{
     .name = "dazzle",
     .create = create,
     .programs = programs,
-    .timedPasses = kTimed,
+    .passes = kPasses,
+    .isUsedBy = isUsedBy,
     .check = check,
     .actsAlone = actsAlone,
     .levels = &kScalability,

@@ -49,6 +49,8 @@ constexpr RowTechnique kRows{&base::kGpuParticleKind,
                              meanCard,
                              boundsOf};
 
+constexpr TimedPass kPasses[] = {{"gpu particles"}, {"gpu particle order"}};
+
 } // namespace
 
 /// Its programs follow from what emitters publish, see TechniqueView::warmUp(). Rows are drawn by the
@@ -58,6 +60,7 @@ constexpr DrawTechnique kGpuParticleTechnique{
     .kind = &base::kGpuParticleKind,
     .rows = &kRows,
     .create = makeRowView,
+    .passes = kPasses,
 };
 
 } // namespace fx::render

@@ -8,9 +8,9 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {{"light list", "light slices"},
-                                {"light slice casters", "light slices"},
-                                {"light slices", "light slices"}};
+constexpr TimedPass kPasses[] = {{"light list", "light slices"},
+                                 {"light slice casters", "light slices"},
+                                 {"light slices", "light slices"}};
 
 constexpr int kTexelsOfAPlane = 4; ///< texels along a side for each plane
 
@@ -44,7 +44,7 @@ constexpr ScalabilitySettings kScalability{"light slices", "shadows of media", w
 constexpr DrawTechnique kLightSliceTechnique{
     .name = "light slices",
     .programs = lightPrograms,
-    .timedPasses = kTimed,
+    .passes = kPasses,
     .levels = &kScalability,
 };
 

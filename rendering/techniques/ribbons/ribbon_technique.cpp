@@ -94,6 +94,8 @@ constexpr RowTechnique kRows{
     &base::kRibbonKind, true,    false, base::kRibbonColumns, kDrawn, isThere, shapeOf, rowsOf, cardAt,
     base::ribbonBounds, &kMerge, ballOf};
 
+constexpr TimedPass kPasses[] = {{"scene distance"}, {"media", "media"}, {"composite"}};
+
 std::span<const ProgramDesc* const> programs()
 {
     static const std::array<const ProgramDesc*, 4> all{
@@ -110,6 +112,7 @@ constexpr DrawTechnique kRibbonTechnique{
     .rows = &kRows,
     .create = makeRowView,
     .programs = programs,
+    .passes = kPasses,
 };
 
 } // namespace fx::render

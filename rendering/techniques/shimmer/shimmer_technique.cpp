@@ -8,7 +8,7 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kTimed[] = {
+constexpr TimedPass kPasses[] = {
     {"heat offset", "shimmer"}, {"heat shimmer", "shimmer"}, {"heat shimmer back", "shimmer"}};
 
 constexpr const ProgramDesc* kPrograms[] = {&kHeatOffsetProgram, &kHeatShimmerProgram,
@@ -66,6 +66,11 @@ std::span<const ProgramDesc* const> programs()
     return kPrograms;
 }
 
+bool isUsedBy(const EffectContent& content)
+{
+    return content.bendsLight;
+}
+
 double weight(const ScreenShare& covered)
 {
     return covered.hot;
@@ -94,7 +99,8 @@ constexpr DrawTechnique kShimmerTechnique{
     .name = "heat shimmer",
     .create = create,
     .programs = programs,
-    .timedPasses = kTimed,
+    .passes = kPasses,
+    .isUsedBy = isUsedBy,
     .levels = &kScalability,
 };
 

@@ -115,6 +115,8 @@ constexpr RowTechnique kRows{&base::kParticleKind,
                              &kMerge,
                              ballOf};
 
+constexpr TimedPass kPasses[] = {{"scene distance"}, {"solid particles"}, {"media", "media"}, {"composite"}};
+
 std::span<const ProgramDesc* const> programs()
 {
     static const auto all = [] {
@@ -137,6 +139,7 @@ constexpr DrawTechnique kSpriteTechnique{
     .rows = &kRows,
     .create = makeRowView,
     .programs = programs,
+    .passes = kPasses,
 };
 
 } // namespace fx::render
