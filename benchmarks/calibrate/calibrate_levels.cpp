@@ -12,8 +12,8 @@ namespace {
 
 using quality::Knobs;
 
-constexpr double kLeastStep = 0.9; ///< a step costs at most so much of the one above it
-constexpr double kFarAway = 12.0;  ///< times the distance: an effect of a dozen pixels
+constexpr double kMinStep = 0.9;  ///< a step costs at most so much of the one above it
+constexpr double kFarAway = 12.0; ///< times the distance: an effect of a dozen pixels
 
 /// A moment of a preset that calls for a technique.
 struct Moment
@@ -230,7 +230,7 @@ quality::ScalabilityLevels scalabilityLevelsOf(const AccuracyCurve& curve, const
     for (const size_t k : front) {
         const quality::ScalabilityLevel step{rounded(timeRatio(curve, k).best), rounded(shownError(curve, k)),
                                              knobs[k]};
-        if (falling.size() < quality::kMostSteps && step.cost <= kLeastStep * falling.back().cost &&
+        if (falling.size() < quality::kMaxSteps && step.cost <= kMinStep * falling.back().cost &&
             step.error > falling.back().error)
             falling.push_back(step);
     }

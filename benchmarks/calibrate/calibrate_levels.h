@@ -39,7 +39,7 @@ struct MeasuredCalibration
 base::Result<MeasuredCalibration> measureLevels(const CalibrateRules& rules);
 
 /// The front of a curve as a list of scalability levels: from the baseline downwards, each step at least a
-/// tenth cheaper than the one above it and more wrong, at most quality::kMostSteps.
+/// tenth cheaper than the one above it and more wrong, at most quality::kMaxSteps.
 quality::ScalabilityLevels scalabilityLevelsOf(const AccuracyCurve& curve,
                                                const std::vector<quality::Knobs>& knobs);
 

@@ -37,7 +37,7 @@ Status checkMesh(std::span<const MeshVertex> vertices, std::span<const uint32_t>
 
 const AssetTable::Entry* AssetTable::entry(AssetId id) const
 {
-    return id == 0 || id > kMostAssets ? nullptr : byId_[id - 1].load(std::memory_order_acquire);
+    return id == 0 || id > kMaxAssets ? nullptr : byId_[id - 1].load(std::memory_order_acquire);
 }
 
 const ImageAsset* AssetTable::image(AssetId id) const
@@ -65,8 +65,8 @@ AssetId AssetTable::find(uint64_t hash, const Same& same) const
 /// The caller holds the lock.
 Result<AssetId> AssetTable::publish(Entry entry, uint64_t bytes)
 {
-    if (owned_.size() == kMostAssets)
-        return Status(Code::Capacity, "assets: " + std::to_string(kMostAssets) +
+    if (owned_.size() == kMaxAssets)
+        return Status(Code::Capacity, "assets: " + std::to_string(kMaxAssets) +
                                           " images and meshes are loaded already; use fewer different ones");
     owned_.push_back(std::make_unique<Entry>(std::move(entry)));
     const auto id = AssetId(owned_.size());

@@ -53,7 +53,7 @@ struct MeshAsset
 class AssetTable
 {
 public:
-    static constexpr uint32_t kMostAssets = 4096;
+    static constexpr uint32_t kMaxAssets = 4096;
     static constexpr int kLargestSide = 8192; ///< [texel]
 
     explicit AssetTable(std::pmr::memory_resource* memory) : memory_(memory), owned_(memory) {}
@@ -87,7 +87,7 @@ private:
     std::pmr::memory_resource* memory_;
     std::mutex adding_; ///< guards owned_
     std::pmr::vector<std::unique_ptr<Entry>> owned_;
-    std::array<std::atomic<const Entry*>, kMostAssets> byId_{};
+    std::array<std::atomic<const Entry*>, kMaxAssets> byId_{};
     std::atomic<uint32_t> size_{0};
     std::atomic<uint64_t> bytes_{0};
 };

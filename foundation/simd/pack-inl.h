@@ -16,14 +16,14 @@ namespace fx::base::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As many numbers as the instruction set has, at most kMost. Never fuses, never approximates.
-template <class T, uint32_t kMost>
+/// As many numbers as the instruction set has, at most kMax. Never fuses, never approximates.
+template <class T, uint32_t kMax>
 struct Pack
 {
-    using Tag = hn::CappedTag<T, kMost>;
+    using Tag = hn::CappedTag<T, kMax>;
     using Vector = hn::Vec<Tag>;
     using Mask = hn::Mask<Tag>;
-    static constexpr uint32_t kWidth = HWY_LANES(T) < kMost ? uint32_t(HWY_LANES(T)) : kMost;
+    static constexpr uint32_t kWidth = HWY_LANES(T) < kMax ? uint32_t(HWY_LANES(T)) : kMax;
 
     Vector v;
 

@@ -187,15 +187,15 @@ struct GpuParticleMoment
 
 static_assert(sizeof(GpuBirthRun) == 48 && sizeof(GpuCondition) == 24 && sizeof(GpuParticleMoment) == 56);
 
-constexpr uint32_t kMostGpuRuns = 64;
-constexpr uint32_t kMostGpuConditions = 16;
-constexpr uint32_t kMostGpuStepRuns = 512;
-constexpr uint32_t kMostGpuSteps = 4096; ///< within a life
-constexpr size_t kMostGpuWords = (sizeof(GpuParticleMoment) + kMostGpuRuns * sizeof(GpuBirthRun) +
-                                  kMostGpuConditions * sizeof(GpuCondition)) /
-                                 8;
+constexpr uint32_t kMaxGpuRuns = 64;
+constexpr uint32_t kMaxGpuConditions = 16;
+constexpr uint32_t kMaxGpuStepRuns = 512;
+constexpr uint32_t kMaxGpuSteps = 4096; ///< within a life
+constexpr size_t kMaxGpuWords = (sizeof(GpuParticleMoment) + kMaxGpuRuns * sizeof(GpuBirthRun) +
+                                 kMaxGpuConditions * sizeof(GpuCondition)) /
+                                8;
 /// The same for an emitter that is stepped.
-constexpr size_t kMostSteppedGpuWords = kMostGpuWords + kMostGpuStepRuns * sizeof(GpuStepRun) / 8;
+constexpr size_t kMaxSteppedGpuWords = kMaxGpuWords + kMaxGpuStepRuns * sizeof(GpuStepRun) / 8;
 
 /// The moment and the runs of steps in the words of a group.
 GpuParticleMoment gpuMomentOf(const SnapshotGroup& group);

@@ -53,8 +53,8 @@ private:
         const float* from;
         size_t to; ///< in the storage of each group
     };
-    std::array<Copied, kMostColumns> floats_{};
-    std::array<Copied, kMostColumns> wides_{};
+    std::array<Copied, kMaxColumns> floats_{};
+    std::array<Copied, kMaxColumns> wides_{};
     size_t floatCount_ = 0;
     size_t wideCount_ = 0;
     size_t floatsInAll_ = 0;
@@ -79,8 +79,8 @@ struct PooledRows
     };
 
     explicit PooledRows(std::pmr::memory_resource* memory) : rows(memory), owner(memory), counts(memory) {}
-    static constexpr uint32_t kMostPerGroup = 256; ///< rows
-    static constexpr uint32_t kMostMembers = 1u << 24;
+    static constexpr uint32_t kMaxGroupRows = 256; ///< rows
+    static constexpr uint32_t kMaxMembers = 1u << 24;
     static constexpr uint32_t nameOf(uint32_t member, uint32_t place) { return member << 8 | place; }
     uint32_t memberOf(uint32_t row) const { return owner[row] >> 8; }
     uint32_t placeOf(uint32_t row) const { return owner[row] & 0xFF; }
@@ -116,7 +116,7 @@ struct PooledRows
         io.reach = std::max(io.reach, reach);
     }
     /// Room for `capacity` rows; memory, constants and owners stay where they fit.
-    /// @param each capacity of each group, at most kMostPerGroup
+    /// @param each capacity of each group, at most kMaxGroupRows
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present,
                  uint32_t each);
 

@@ -128,8 +128,8 @@ private:
     uint32_t constantCount_ = 0;
     bool hasIds_ = true;
     bool isExact_ = false; ///< its memory is not larger than it needs
-    std::array<float, kMostConstants> constants_{};
-    std::array<uint32_t, kMostColumns> lines_{}; ///< of 64 bytes before each column
+    std::array<float, kMaxConstants> constants_{};
+    std::array<uint32_t, kMaxColumns> lines_{}; ///< of 64 bytes before each column
     std::pmr::memory_resource* memory_;
     std::pmr::vector<uint64_t> ids_;
     std::shared_ptr<const GpuParticleProgram> program_;

@@ -9,7 +9,7 @@ KindId SnapshotSchema::add(const KindDesc& kind)
     const KindId known = find(kind.name);
     if (known != kNoKind)
         return known;
-    if (kind.columns.size() > kMostColumns || kind.constants.size() > kMostConstants)
+    if (kind.columns.size() > kMaxColumns || kind.constants.size() > kMaxConstants)
         throw std::length_error("a kind of the snapshot has too many columns or constants");
     kinds_.push_back(kind);
     return KindId(kinds_.size() - 1);

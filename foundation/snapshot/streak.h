@@ -7,17 +7,17 @@
 
 namespace fx::base {
 
-inline constexpr int kMostStreakPieces = 64; ///< bounds what one ball costs
+inline constexpr int kMaxStreakPieces = 64; ///< bounds what one ball costs
 
 /// The balls of one streak. Ball k of `count` is centered k / count of the way behind the moving ball.
 template <typename Real>
 struct Streak
 {
-    int count;   ///< 1 .. kMostStreakPieces
+    int count;   ///< 1 .. kMaxStreakPieces
     Real radius; ///< of each
 };
 
-/// Neighbors are at most a radius apart. Where kMostStreakPieces balls of `radius` would leave gaps, they are
+/// Neighbors are at most a radius apart. Where kMaxStreakPieces balls of `radius` would leave gaps, they are
 /// as wide as the distance between them.
 /// @param length of the way while the shutter is open, >= 0 and finite
 /// @param radius of the ball, > 0, in the same unit
@@ -25,8 +25,8 @@ template <typename Real>
 Streak<Real> streakOf(Real length, Real radius)
 {
     const Real gaps = length / radius; // compared before the conversion, which it may exceed
-    const int count = gaps < Real(kMostStreakPieces) ? int(gaps) + 1 : kMostStreakPieces;
-    return {count, std::max(radius, length / Real(kMostStreakPieces))};
+    const int count = gaps < Real(kMaxStreakPieces) ? int(gaps) + 1 : kMaxStreakPieces;
+    return {count, std::max(radius, length / Real(kMaxStreakPieces))};
 }
 
 } // namespace fx::base

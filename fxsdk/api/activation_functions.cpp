@@ -20,20 +20,20 @@ static_assert(int(FX_REASON_BUDGET) == int(fx::scene::Reason::Budget));
 static_assert(int(FX_REASON_ENDED) == int(fx::scene::Reason::Ended));
 static_assert(int(FX_CATCH_UP_AUTHORITATIVE) == int(fx::sim::CatchUp::Authoritative));
 
-constexpr uint32_t kMostFoci = 64;
-constexpr float kMostPixels = 65'536;
+constexpr uint32_t kMaxFoci = 64;
+constexpr float kMaxPixels = 65'536;
 constexpr double kFarthest = 1e9; // [m]
 
 Status checkFocus(const FxFocus& focus)
 {
     fx::api::Checks check;
-    check.range(focus.height, 1.0f, kMostPixels, "foci.height");
+    check.range(focus.height, 1.0f, kMaxPixels, "foci.height");
     check.range3(focus.origin, -kFarthest, kFarthest, "foci.origin");
     check.noFault(fx::api::viewFault(focus.view), "foci.view");
     check.noFault(fx::api::projectionFault(focus.projection), "foci.projection");
     check.range(focus.maxDistance, 0.0, kFarthest, "foci.maxDistance");
     check.range(focus.margin, 0.0f, 1e6f, "foci.margin");
-    check.range(focus.minPixels, 0.0f, kMostPixels, "foci.minPixels");
+    check.range(focus.minPixels, 0.0f, kMaxPixels, "foci.minPixels");
     return check.status();
 }
 
@@ -120,7 +120,7 @@ FxResult fxScene_SetFocus(FxScene* scene, const FxFocus* foci, uint32_t count)
 {
     return fx::api::insideScene("fxScene_SetFocus", scene, [&]() -> Status {
         fx::api::Checks check;
-        check.range(count, 0u, kMostFoci, "count");
+        check.range(count, 0u, kMaxFoci, "count");
         if (count > 0)
             check.notNull(foci, "foci");
         if (!check.status())

@@ -8,8 +8,8 @@ namespace {
 
 using fx::base::Status;
 
-constexpr uint32_t kMostVertices = 1u << 24;
-constexpr uint32_t kMostIndices = 3 * fx::sim::kMostMeshTriangles;
+constexpr uint32_t kMaxVertices = 1u << 24;
+constexpr uint32_t kMaxIndices = 3 * fx::sim::kMaxMeshTriangles;
 
 Status checkDef(const FxCollisionMesh& mesh)
 {
@@ -18,9 +18,9 @@ Status checkDef(const FxCollisionMesh& mesh)
                "mesh.cellSize is out of range; allowed is 0, or 0.001 to 1000");
     check.range3(mesh.origin, -1e9, 1e9, "mesh.origin");
     check.notNull(mesh.positions, "mesh.positions");
-    check.range(mesh.vertexCount, 3u, mesh.indices ? kMostVertices : kMostIndices, "mesh.vertexCount");
+    check.range(mesh.vertexCount, 3u, mesh.indices ? kMaxVertices : kMaxIndices, "mesh.vertexCount");
     if (mesh.indices)
-        check.range(mesh.indexCount, 3u, kMostIndices, "mesh.indexCount");
+        check.range(mesh.indexCount, 3u, kMaxIndices, "mesh.indexCount");
     else
         check.range(mesh.indexCount, 0u, 0u, "mesh.indexCount (mesh.indices is null)");
     return check.status();

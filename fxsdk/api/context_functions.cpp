@@ -17,7 +17,7 @@ namespace {
 using fx::base::Code;
 using fx::base::Status;
 
-constexpr uint32_t kMostWorkers = 256;
+constexpr uint32_t kMaxWorkers = 256;
 
 Status checkDef(const FxContextDef& def)
 {
@@ -27,7 +27,7 @@ Status checkDef(const FxContextDef& def)
     check.that(!def.allocator.allocate == !def.allocator.release,
                "def.allocator has one function of two; set both or none");
     check.that(!def.assets.open == !def.assets.close, "def.assets has one function of two; set both or none");
-    check.range(def.workers, 0u, kMostWorkers, "def.workers");
+    check.range(def.workers, 0u, kMaxWorkers, "def.workers");
     check.range(def.flags, 0u, uint32_t(FX_CONTEXT_PLACEHOLDERS), "def.flags");
     return check.status();
 }

@@ -18,7 +18,7 @@ using fx::base::Status;
 using fx::preset::LoadedPreset;
 
 constexpr std::string_view kLibraryPrefix = "library:";
-constexpr double kMostWork = 1e18; ///< [unit] largest reported value
+constexpr double kMaxWork = 1e18; ///< [unit] largest reported value
 
 /// Adapts the host's asset hook to the resolver.
 int readThroughHook(void* user, const char* name, uint64_t maxBytes,
@@ -184,8 +184,8 @@ FxResult fxGetPresetInfo(FxContext* context, FxPresetId preset, FxPresetInfo* io
         info.durationTicks = (*effect)->duration;
         info.capacity = capacityOf(**effect);
         info.memoryBytes = (*effect)->cost.memory;
-        info.stepWork = uint64_t(std::min((*effect)->cost.stepWork, kMostWork));
-        info.startWork = uint64_t(std::min((*effect)->cost.startWork, kMostWork));
+        info.stepWork = uint64_t(std::min((*effect)->cost.stepWork, kMaxWork));
+        info.startWork = uint64_t(std::min((*effect)->cost.startWork, kMaxWork));
         fx::api::copyText((*effect)->name, info.name, sizeof info.name);
         return fx::api::writeStruct(info, ioInfo, "ioInfo");
     });

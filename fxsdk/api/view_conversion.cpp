@@ -61,7 +61,7 @@ void checkSwitches(fx::api::Checks& check, const FxViewSettings& given)
     check.that(given.layerScale == 1.0f || given.layerScale == 0.5f || given.layerScale == 0.25f,
                "settings.layerScale is not 1, 0.5 or 0.25");
     check.range(given.lodBias, 0.0f, 256.0f, "settings.lodBias");
-    check.range(given.lodImpostorPixels, 0.0f, fx::render::LodSettings::kMostImpostorPixels,
+    check.range(given.lodImpostorPixels, 0.0f, fx::render::LodSettings::kMaxImpostorPixels,
                 "settings.lodImpostorPixels");
 }
 

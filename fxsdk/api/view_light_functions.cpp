@@ -23,7 +23,7 @@ static_assert(int(FX_LIGHT_SUN) == int(LightKind::Sun));
 static_assert(int(FX_LIGHT_HOST) == int(LightKind::Host));
 static_assert(int(FX_LIGHT_EFFECT) == int(LightKind::Effect));
 static_assert(int(FX_LIGHT_SKY) == int(LightKind::Sky));
-static_assert(FX_MOST_LIGHTS == fx::render::kMostHostLights);
+static_assert(FX_MOST_LIGHTS == fx::render::kMaxHostLights);
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr double kFarthest = 1e9; // [m]

@@ -71,7 +71,7 @@ base::Result<std::string> AssetLoader::read(std::string_view name, uint64_t maxB
 
 base::Result<base::AssetId> AssetLoader::readImage(std::string_view name, ImageUse use, int columns, int rows)
 {
-    const base::Result<std::string> bytes = read(name, kMostImageBytes);
+    const base::Result<std::string> bytes = read(name, kMaxImageBytes);
     if (!bytes)
         return bytes.status();
     const base::Result<PngPicture> picture = readPng(asBytes(*bytes));
@@ -88,7 +88,7 @@ base::Result<base::AssetId> AssetLoader::readImage(std::string_view name, ImageU
 
 base::Result<base::AssetId> AssetLoader::readMesh(std::string_view name)
 {
-    const base::Result<std::string> text = read(name, kMostMeshBytes);
+    const base::Result<std::string> text = read(name, kMaxMeshBytes);
     if (!text)
         return text.status();
     const base::Result<ObjMesh> mesh = readObj(*text);

@@ -132,8 +132,8 @@ public:
     {
         for (size_t i = 2; i < corners.size(); ++i)
             addTriangle(points, {corners[0], corners[i - 1], corners[i]});
-        if (mesh_.indices.size() / 3 > kMostMeshTriangles)
-            return {base::Code::TooLarge, "more than the allowed " + std::to_string(kMostMeshTriangles) +
+        if (mesh_.indices.size() / 3 > kMaxMeshTriangles)
+            return {base::Code::TooLarge, "more than the allowed " + std::to_string(kMaxMeshTriangles) +
                                               " triangles: use a coarser mesh"};
         return {};
     }

@@ -60,7 +60,7 @@ struct ObjMesh
     std::vector<uint32_t> indices;
 };
 
-constexpr size_t kMostMeshTriangles = 65'536; ///< an instanced mesh is drawn thousands of times
+constexpr size_t kMaxMeshTriangles = 65'536; ///< an instanced mesh is drawn thousands of times
 
 /// A mesh for particles. Polygons become fans; corners without a normal get that of their triangle.
 /// @return Parse with the line and the reason, TooLarge

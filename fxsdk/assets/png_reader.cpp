@@ -13,7 +13,7 @@ namespace fx::asset {
 namespace {
 
 constexpr uint64_t kLargestRatio = 1032; ///< deflate cannot shrink more
-constexpr size_t kMostFileBytes = size_t(1) << 30;
+constexpr size_t kMaxFileBytes = size_t(1) << 30;
 constexpr size_t kPaletteBytes = 3 * 256;
 constexpr size_t kChunkBytes = 12; ///< of length, name and sum
 constexpr uint8_t kSignature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
@@ -177,7 +177,7 @@ private:
 
 base::Result<PngPicture> readPng(std::span<const uint8_t> file)
 {
-    if (file.size() > kMostFileBytes)
+    if (file.size() > kMaxFileBytes)
         return base::Status(base::Code::TooLarge, "PNG: the file is larger than 1 GiB");
     Chunks chunks(file);
     if (base::Status status = chunks.check(); !status)

@@ -66,7 +66,7 @@ void BudgetController::fall(const ChoiceInputs& in, double target)
             continue;
         Memory& memory = memory_[i];
         if (memory.sinceRise < kProbation)
-            memory.patience = std::min(2 * memory.patience, kMostPatience);
+            memory.patience = std::min(2 * memory.patience, kMaxPatience);
         memory.sinceFall = 0.0;
     }
     take(wanted);

@@ -17,15 +17,15 @@ namespace fx::quality {
 class BudgetController
 {
 public:
-    static constexpr double kTarget = 0.8;        ///< [budget] what is aimed at
-    static constexpr double kLimit = 0.92;        ///< [budget] expected beyond: fall at once
-    static constexpr uint32_t kCalmFrames = 45;   ///< before a rise
-    static constexpr double kRestSeconds = 1.0;   ///< [s] without a rise after a fall
-    static constexpr double kProbation = 3.0;     ///< [s] a fall this soon after a rise doubles the patience
-    static constexpr uint32_t kMostPatience = 16; ///< times kCalmFrames
+    static constexpr double kTarget = 0.8;       ///< [budget] what is aimed at
+    static constexpr double kLimit = 0.92;       ///< [budget] expected beyond: fall at once
+    static constexpr uint32_t kCalmFrames = 45;  ///< before a rise
+    static constexpr double kRestSeconds = 1.0;  ///< [s] without a rise after a fall
+    static constexpr double kProbation = 3.0;    ///< [s] a fall this soon after a rise doubles the patience
+    static constexpr uint32_t kMaxPatience = 16; ///< times kCalmFrames
 
     /// Starts with the best of each technique; throws std::bad_alloc. Everything else allocates nothing.
-    /// @param techniqueLevels 1 to kMostTechniques, each with costs that rise and errors that fall
+    /// @param techniqueLevels 1 to kMaxTechniques, each with costs that rise and errors that fall
     explicit BudgetController(std::vector<ScalabilityLevels> techniqueLevels);
 
     /// Updates the cost model from a finished frame. Results may come late: they carry the choice of their
@@ -67,7 +67,7 @@ private:
     std::vector<ScalabilityLevels> techniqueLevels_;
     CostModel costs_;
     Choice choice_{};
-    std::array<Memory, kMostTechniques> memory_{};
+    std::array<Memory, kMaxTechniques> memory_{};
     uint32_t calm_ = 0; ///< frames since the last change
     double predicted_ = 0;
     double error_ = 0;

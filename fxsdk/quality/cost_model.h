@@ -34,7 +34,7 @@ private:
         std::array<double, 2> before{}; ///< [ms] of the last two frames; 0: not slow
         bool known = false;
     };
-    std::array<Estimate, kMostTechniques> estimates_{};
+    std::array<Estimate, kMaxTechniques> estimates_{};
 };
 
 } // namespace fx::quality

@@ -14,9 +14,9 @@
 
 namespace fx::quality {
 
-constexpr size_t kMostTechniques = 8; ///< techniques that are chosen at once
-constexpr size_t kMostSteps = 16;     ///< of one technique
-constexpr size_t kMostKnobs = 16;     ///< of all techniques
+constexpr size_t kMaxTechniques = 8; ///< techniques that are chosen at once
+constexpr size_t kMaxSteps = 16;     ///< of one technique
+constexpr size_t kMaxKnobs = 16;     ///< of all techniques
 
 /// Settings of techniques that a step lowers, by render::QualityKnob::name; what is absent stays as the host
 /// has it.
@@ -37,10 +37,10 @@ public:
     }
 
     std::optional<float> valueOf(std::string_view name) const;
-    void set(std::string_view name, float value); ///< no more than kMostKnobs names
+    void set(std::string_view name, float value); ///< no more than kMaxKnobs names
 
 private:
-    std::array<Setting, kMostKnobs> settings_{};
+    std::array<Setting, kMaxKnobs> settings_{};
     size_t count_ = 0;
 };
 
@@ -56,7 +56,7 @@ struct ScalabilityLevel
 struct ScalabilityLevels
 {
     std::string technique;
-    std::vector<ScalabilityLevel> steps; ///< 1 to kMostSteps
+    std::vector<ScalabilityLevel> steps; ///< 1 to kMaxSteps
 };
 
 struct Calibration
@@ -79,7 +79,7 @@ void forEachKnob(F&& f, render::DrawTechniques techniques = render::drawTechniqu
 Knobs merged(const Knobs& first, const Knobs& second);
 
 /// Index of the step of each technique.
-using Choice = std::array<uint8_t, kMostTechniques>;
+using Choice = std::array<uint8_t, kMaxTechniques>;
 
 /// Lowers `ioSettings` to what the knobs say. Never above what the host asked for.
 void apply(const Knobs& knobs, render::ViewSettings& ioSettings);

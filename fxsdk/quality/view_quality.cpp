@@ -14,7 +14,7 @@ namespace {
 using render::TimingClock;
 
 constexpr uint64_t kNotToLearn = uint64_t(1) << 63;
-static_assert(kMostTechniques * 4 < 63 && kMostSteps <= 16); // a choice fits into a tag
+static_assert(kMaxTechniques * 4 < 63 && kMaxSteps <= 16); // a choice fits into a tag
 
 uint64_t toTag(const Choice& choice)
 {
@@ -109,7 +109,7 @@ void ViewQuality::collect(render::ViewRenderer& renderer)
         times_ = times;
         if (times.tag & kNotToLearn)
             continue;
-        std::array<double, kMostTechniques> milliseconds{};
+        std::array<double, kMaxTechniques> milliseconds{};
         const render::PassGroups& groups = renderer.passGroups();
         for (size_t group = 0; group < groups.count(); ++group)
             milliseconds[techniqueIndexOf(controller_->techniqueLevels(), groups.name(group))] +=

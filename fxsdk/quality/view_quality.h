@@ -60,7 +60,7 @@ private:
     std::optional<BudgetController> controller_;
     std::optional<Knobs> forced_;
     std::optional<render::TimingClock> clock_ = render::TimingClock::Off;
-    std::array<double, kMostTechniques> weights_{};
+    std::array<double, kMaxTechniques> weights_{};
     Choice chosen_{};
     bool held_ = false;
     std::optional<render::GroupTimes> times_;

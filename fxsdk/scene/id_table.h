@@ -141,9 +141,9 @@ public:
     template <class F>
     void restore(sim::StateReader& reader, F&& restoreValue)
     {
-        constexpr size_t kLeastBytes = sizeof(uint32_t) + sizeof(uint8_t); // of an identity
+        constexpr size_t kMinBytes = sizeof(uint32_t) + sizeof(uint8_t); // of an identity
         const uint32_t size = reader.value<uint32_t>();
-        reader.require(size <= kIdPartMask && size <= reader.left() / kLeastBytes,
+        reader.require(size <= kIdPartMask && size <= reader.left() / kMinBytes,
                        "the table of instances is too large");
         if (!reader.ok())
             return;

@@ -170,15 +170,16 @@ void Scene::finish(uint32_t index)
 /// hand.
 void Scene::beginPublication(base::Ticks tick, double interpolation)
 {
-    if (active_.size() > 0 && emptyPublications_ > kMostEmpty)
+    if (active_.size() > 0 && emptyPublications_ > kMaxEmptyPublications)
     { // the step before is what views interpolate from
         ring_.beginWrite(tick - clock_.stepTicks(), clock_.stepTicks());
         ring_.publish();
     }
     emptyPublications_ = active_.size() > 0 ? 0 : emptyPublications_ + 1;
-    if (emptyPublications_ > kMostEmpty) { // what is shown, and what was before it, is as empty as this
+    if (emptyPublications_ > kMaxEmptyPublications)
+    { // what is shown, and what was before it, is as empty as this
         published_ = tick;
-        emptyPublications_ = kMostEmpty + 1;
+        emptyPublications_ = kMaxEmptyPublications + 1;
         showsNothing_.store(true, std::memory_order_release);
         return show(tick, interpolation);
     }

@@ -391,8 +391,9 @@ private:
     bool memoryFailed_ = false;
     bool sought_ = false; ///< seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;
-    static constexpr uint32_t kMostEmpty = 2; ///< publications with nothing in them; more change nothing
-    uint32_t emptyPublications_ = 0;          ///< one after the other, counted up to kMostEmpty + 1
+    /// Empty publications after which the next one changes nothing.
+    static constexpr uint32_t kMaxEmptyPublications = 2;
+    uint32_t emptyPublications_ = 0; ///< one after the other, counted up to kMaxEmptyPublications + 1
     uint32_t hidden_ = 0;
     uint32_t resting_ = 0;
     double measuredNanoseconds_ = 100; ///< [ns] of a particle's step; a guess until something is stepped

@@ -6,8 +6,8 @@
 namespace fx::scene {
 
 namespace {
-constexpr double kForgetting = 0.05;          ///< share of the last step in the mean cost
-constexpr uint64_t kFewestParticleSteps = 64; ///< fewer say more about overheads than about particles
+constexpr double kForgetting = 0.05;       ///< share of the last step in the mean cost
+constexpr uint64_t kMinParticleSteps = 64; ///< fewer say more about overheads than about particles
 } // namespace
 
 InstanceState Scene::state(LocalId id)
@@ -47,7 +47,7 @@ double Scene::nanosecondsPerParticle() const
 
 void Scene::measureTime(double seconds, uint64_t particleSteps)
 {
-    if (particleSteps < kFewestParticleSteps)
+    if (particleSteps < kMinParticleSteps)
         return;
     const double now = seconds * 1e9 / double(particleSteps);
     measuredNanoseconds_ += kForgetting * (now - measuredNanoseconds_);

@@ -17,10 +17,10 @@ bool isBlown(const sim::EffectDef& effect)
     return effect.reach(kGravity, kGale) > effect.reach(kGravity, 0.0f);
 }
 
-constexpr base::Ticks kLatestTick = INT64_MAX / 4;              ///< no clock and no start goes beyond it
-constexpr base::Ticks kMostDebt = 3600 * base::kTicksPerSecond; ///< that updates can have left
-constexpr double kFarthest = 1e9;                               ///< [m]
-constexpr int kHasGround = 1, kHasField = 2;                    ///< bits of a byte of the rules
+constexpr base::Ticks kLatestTick = INT64_MAX / 4;             ///< no clock and no start goes beyond it
+constexpr base::Ticks kMaxDebt = 3600 * base::kTicksPerSecond; ///< that updates can have left
+constexpr double kFarthest = 1e9;                              ///< [m]
+constexpr int kHasGround = 1, kHasField = 2;                   ///< bits of a byte of the rules
 
 void savePlacement(sim::StateWriter& writer, const base::Placement& placement)
 {
@@ -262,7 +262,7 @@ base::ClockState Scene::restoreClock(sim::StateReader& reader) const
     base::ClockState clock;
     const base::Ticks step = options_.stepTicks;
     clock.steps = reader.value<int64_t>(0, kLatestTick / step, "the clock is out of range");
-    clock.now = reader.value<base::Ticks>(clock.steps * step, clock.steps * step + step - 1 + kMostDebt,
+    clock.now = reader.value<base::Ticks>(clock.steps * step, clock.steps * step + step - 1 + kMaxDebt,
                                           "the clock is ahead of its steps or behind them");
     clock.remainder = reader.value<double>(-0.5, 0.5, "the clock's remainder is out of range");
     return clock;

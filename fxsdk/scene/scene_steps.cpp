@@ -9,7 +9,7 @@ namespace fx::scene {
 
 namespace {
 constexpr uint64_t kLateShare = 4; ///< of one part in so many of the work of an update, late ones are first
-constexpr base::Ticks kMostDropped = INT64_MAX; ///< no sum goes beyond it
+constexpr base::Ticks kMaxDroppedTicks = INT64_MAX; ///< no sum goes beyond it
 } // namespace
 
 bool Scene::update(double dt)
@@ -91,7 +91,7 @@ bool Scene::update(double dt)
                          coarse_.size() == 0 && arrived_.empty() && world_.freeSolvers() == 0;
     const bool isAsked =
         visibilityStale_ || sought_ || !moved_.empty() || !seeks_.empty() || world_.hasChanges();
-    return emptyPublications_ > kMostEmpty && isEmpty && !isAsked && !world_.isStepping() &&
+    return emptyPublications_ > kMaxEmptyPublications && isEmpty && !isAsked && !world_.isStepping() &&
            !isDue(dormant_) && !isDue(alarms_);
 }
 
@@ -127,7 +127,7 @@ void Scene::postpone(uint32_t steps)
 
 void Scene::countDropped(base::Ticks ticks)
 {
-    counters_.droppedTicks = std::min(counters_.droppedTicks, kMostDropped - ticks) + ticks;
+    counters_.droppedTicks = std::min(counters_.droppedTicks, kMaxDroppedTicks - ticks) + ticks;
 }
 
 /// Work that may be spent on catching up before the steps of the update.

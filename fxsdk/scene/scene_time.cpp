@@ -74,7 +74,7 @@ void Scene::showSought()
         catchUpWaking(late);
         work_.spend(late.spent());
     }
-    if (active_.size() > 0 || emptyPublications_ <= kMostEmpty) {
+    if (active_.size() > 0 || emptyPublications_ <= kMaxEmptyPublications) {
         const base::Ticks now = clock_.simulated();
         published_ = now;
         world_.publish(active_.slots(), ring_.beginWrite(now, clock_.stepTicks()));

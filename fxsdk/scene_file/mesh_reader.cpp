@@ -18,7 +18,7 @@ namespace fx::scene_file {
 namespace {
 
 constexpr float kLargestCoordinate = 1e6f; // [m]
-constexpr size_t kMostCorners = 1024;      ///< of a face: cutting up one with more would take minutes
+constexpr size_t kMaxCorners = 1024;       ///< of a face: cutting up one with more would take minutes
 
 bool isUsable(const glm::vec3& v)
 {
@@ -162,7 +162,7 @@ public:
 
     base::Status addFace(const asset::ObjPoints& points, std::span<const asset::ObjCorner> corners)
     {
-        if (corners.size() > kMostCorners)
+        if (corners.size() > kMaxCorners)
             return {base::Code::TooLarge, "a face has more than 1024 corners"};
         polygon_.clear();
         for (const asset::ObjCorner& corner : corners) {
@@ -171,7 +171,7 @@ public:
                 return {base::Code::Parse, "a corner of the face is farther than 1e6 m away"};
         }
         triangles_ += corners.size() - 2;
-        if (triangles_ > kMostTriangles)
+        if (triangles_ > kMaxTriangles)
             return {base::Code::TooLarge,
                     "more than the 1000000 triangles that are read: use a coarser mesh"};
         for (const Triangulation::Triangle& triangle : triangulation_.of(polygon_))

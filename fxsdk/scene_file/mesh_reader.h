@@ -10,7 +10,7 @@
 
 namespace fx::scene_file {
 
-constexpr size_t kMostTriangles = 1'000'000;
+constexpr size_t kMaxTriangles = 1'000'000;
 
 /// Reads asset `name`; materials come through the same resolver. Polygons are triangulated; colors are the
 /// materials' Kd, taken as linear and clamped to [0, 1], 0.5 gray without material; normals that are missing

@@ -13,13 +13,13 @@ namespace fx::render {
 
 namespace {
 
-constexpr uint32_t kMostDigitBits = 13; ///< as many places to write to as the caches near the core follow
-constexpr size_t kMostPasses = 3;
+constexpr uint32_t kMaxDigitBits = 13; ///< as many places to write to as the caches near the core follow
+constexpr size_t kMaxPasses = 3;
 constexpr size_t kProbe =
     2048; ///< first elements; with a quarter of them out of order, all are sorted without the old order
 constexpr size_t kScanPause = 16;     ///< elements after a sorted vector before the next is looked for
 constexpr size_t kAhead = 32;         ///< elements whose keys are fetched before they are looked at
-constexpr size_t kMostMovedShare = 6; ///< incremental sorting pays while less than one in so many has moved
+constexpr size_t kMaxMovedShare = 6;  ///< incremental sorting pays while less than one in so many has moved
 constexpr size_t kFew = 16384;        ///< elements that are sorted by small digits,
 constexpr uint32_t kFewDigitBits = 9; ///< because counting large ones would take longer
 
@@ -34,7 +34,7 @@ struct Digits
     uint32_t lowest, beyond; ///< beyond: what absent keys become, one more than the highest
     uint32_t passes, bits, mask;
 
-    Digits(uint32_t low, uint32_t high, uint32_t mostBits = kMostDigitBits)
+    Digits(uint32_t low, uint32_t high, uint32_t mostBits = kMaxDigitBits)
         : lowest(low), beyond(high - low + 1)
     {
         const uint32_t width = std::max<uint32_t>(uint32_t(std::bit_width(beyond)), 1);
@@ -48,7 +48,7 @@ struct Digits
     }
 };
 
-using Offsets = std::array<uint32_t, size_t(1) << kMostDigitBits>;
+using Offsets = std::array<uint32_t, size_t(1) << kMaxDigitBits>;
 
 /// Counts to first places.
 void accumulate(Offsets& counts, uint32_t mask)
@@ -84,7 +84,7 @@ std::span<const uint32_t> DepthSort::sort(std::span<const float> distances, uint
 /// order are.
 bool DepthSort::updateLastOrder(size_t changed, size_t newcomers)
 {
-    const size_t limit = presentCount_ / kMostMovedShare + 8;
+    const size_t limit = presentCount_ / kMaxMovedShare + 8;
     if (newcomers > limit)
         return false;
     sortedElements_ = 0;
@@ -177,7 +177,7 @@ bool DepthSort::keepSorted(SortedPart& sorted)
 /// By key, digits from the lowest, then by index.
 void DepthSort::sortMoved(size_t count)
 {
-    const Digits digits(lowest_, highest_, count < kFew ? kFewDigitBits : kMostDigitBits);
+    const Digits digits(lowest_, highest_, count < kFew ? kFewDigitBits : kMaxDigitBits);
     scratch_.resize(std::max(scratch_.size(), moved_.size()));
     Offsets offsets;
     for (uint32_t pass = 0; pass < digits.passes && count > 1; ++pass) {
@@ -209,7 +209,7 @@ void DepthSort::sortAll()
         pairs_.resize(std::max(pairs_.size(), count + 1));
     if (digits.passes > 2)
         scratch_.resize(std::max(scratch_.size(), count));
-    std::array<Offsets, kMostPasses> offsets;
+    std::array<Offsets, kMaxPasses> offsets;
     for (uint32_t p = 0; p < digits.passes; ++p)
         std::fill_n(offsets[p].begin(), digits.mask + 1, 0u);
     for (size_t i = 0; i < count; ++i)

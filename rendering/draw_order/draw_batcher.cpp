@@ -9,7 +9,7 @@ namespace fx::render {
 
 namespace {
 
-constexpr uint32_t kMostSlabs = 32;
+constexpr uint32_t kMaxSlabs = 32;
 
 /// First element from `begin` on that is not farther than `distance`.
 uint32_t firstNotBeyond(const DrawStream& stream, uint32_t begin, float distance)
@@ -125,10 +125,10 @@ void DrawBatcher::cut(std::span<const DrawStream> streams, const Range& overlap,
 std::span<const DrawBatch> DrawBatcher::build(std::span<const DrawStream> streams)
 {
     const Range overlap = overlapOf(streams);
-    uint32_t slabs = overlap.near > overlap.far ? 0 : kMostSlabs;
+    uint32_t slabs = overlap.near > overlap.far ? 0 : kMaxSlabs;
     cut(streams, overlap, slabs);
-    while (slabs > 0 && batches_.size() > kMostBatches) {
-        slabs = std::min(slabs - 1, uint32_t(uint64_t(slabs) * kMostBatches / batches_.size()));
+    while (slabs > 0 && batches_.size() > kMaxBatches) {
+        slabs = std::min(slabs - 1, uint32_t(uint64_t(slabs) * kMaxBatches / batches_.size()));
         cut(streams, overlap, slabs);
     }
     return batches_;

@@ -36,16 +36,16 @@ public:
         : byFar_(memory), begin_(memory), parts_(memory), batches_(memory)
     {}
 
-    static constexpr uint32_t kMostBatches = 16;
+    static constexpr uint32_t kMaxBatches = 16;
 
     /// Cuts the streams into batches, farthest first. Streams stay whole whose ranges of distance do not
     /// overlap, or which only add. Where others overlap, that range is cut into slabs of equal thickness, 32
-    /// or as many as kMostBatches batches allow: between slabs the order is by distance. Within one it is
+    /// or as many as kMaxBatches batches allow: between slabs the order is by distance. Within one it is
     /// stream by stream: first what was drawn last, so that it goes on, then the one that is farther in the
     /// middle. Things in a wrong order are no farther apart than a slab is thick: for two streams 1/13 of the
     /// range that they share, for three 1/6.
     ///
-    /// More than kMostBatches streams are one batch each, or little more.
+    /// More than kMaxBatches streams are one batch each, or little more.
     /// @param streams each of at least one element
     /// @return valid until the next call
     std::span<const DrawBatch> build(std::span<const DrawStream> streams);

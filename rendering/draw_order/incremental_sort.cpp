@@ -18,10 +18,10 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr size_t kMostLanes = 16;
+constexpr size_t kMaxLanes = 16;
 constexpr uint64_t kNoPair = ~uint64_t(0);
 
-using Tag = hn::CappedTag<uint32_t, kMostLanes>;
+using Tag = hn::CappedTag<uint32_t, kMaxLanes>;
 using BlockTag = hn::CappedTag<uint32_t, kSortedBlock>;
 using Signed = hn::Rebind<int32_t, Tag>;
 using Words = hn::Vec<Tag>;
@@ -39,8 +39,8 @@ HWY_INLINE V keysOf(const uint32_t* keys, V elements)
 HWY_INLINE Words shifted(Words lanes, Words first)
 {
     const Tag tag;
-    alignas(64) static constexpr int32_t kBelow[kMostLanes] = {0, 0, 1, 2,  3,  4,  5,  6,
-                                                               7, 8, 9, 10, 11, 12, 13, 14};
+    alignas(64) static constexpr int32_t kBelow[kMaxLanes] = {0, 0, 1, 2,  3,  4,  5,  6,
+                                                              7, 8, 9, 10, 11, 12, 13, 14};
     return hn::IfThenElse(hn::FirstN(tag, 1), first,
                           hn::TableLookupLanes(lanes, hn::SetTableIndices(tag, kBelow)));
 }
@@ -70,8 +70,8 @@ HWY_INLINE uint64_t leaveOneOut(Pairs& pairs, uint64_t last, size_t fall)
     const size_t lanes = hn::Lanes(tag);
     if (fall == 0)
         return kNoPair;
-    alignas(64) uint32_t keys[kMostLanes];
-    alignas(64) uint32_t elements[kMostLanes];
+    alignas(64) uint32_t keys[kMaxLanes];
+    alignas(64) uint32_t elements[kMaxLanes];
     hn::Store(pairs.key, tag, keys);
     hn::Store(pairs.element, tag, elements);
     const auto pairAt = [&](size_t i) { return uint64_t(keys[i]) << 32 | elements[i]; };

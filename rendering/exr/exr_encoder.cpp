@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kMaxSize = 16384;
 constexpr float kHalfMax = 65504.0f;
-constexpr uint32_t kMostThreads = 256;
+constexpr uint32_t kMaxThreads = 256;
 
 /// OpenEXR's output into a string; the library seeks back to fill in its table of offsets.
 class MemoryStream final : public Imf::OStream
@@ -150,7 +150,7 @@ base::Result<std::string> encodeExr(const ExrImage& image, uint32_t threads)
         return status;
     try {
         const uint32_t wanted = threads > 0 ? threads : std::thread::hardware_concurrency();
-        return encode(image, int(std::clamp(wanted, 1u, kMostThreads)));
+        return encode(image, int(std::clamp(wanted, 1u, kMaxThreads)));
     } catch (const std::bad_alloc&) {
         return base::Status(base::Code::OutOfMemory, "EXR: out of memory");
     } catch (const std::exception& error) {

@@ -61,7 +61,7 @@ void FieldGlowPlan::build(std::span<FieldBlock> ioFields, std::span<const float>
         field.limits.w = 0.0f;
     listSources(ioFields, emitted);
     std::ranges::sort(sources_, brighter);
-    sources_.resize(std::min(sources_.size(), kMostGlowGrids));
+    sources_.resize(std::min(sources_.size(), kMaxGlowGrids));
     for (const Source& source : sources_)
         placeGrid(source, ioFields, eye);
 }

@@ -16,7 +16,7 @@
 
 namespace fx::render {
 
-constexpr size_t kMostGlowGrids = 4; ///< of a view; fields that emit least have none
+constexpr size_t kMaxGlowGrids = 4; ///< of a view; fields that emit least have none
 
 /// Keeps its memory from frame to frame. Threads: one at a time.
 class FieldGlowPlan

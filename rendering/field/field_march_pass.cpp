@@ -53,8 +53,8 @@ struct March
 
     void draw(Backend& backend, std::span<const ResourceId> targets) const
     {
-        TextureBinding textures[kMostTextures];
-        BufferBinding buffers[kMostBuffers];
+        TextureBinding textures[kMaxTextures];
+        BufferBinding buffers[kMaxBuffers];
         ViewBlock block = media.view;
         block.pass.y = in.loose.cards.valid() ? 1.0f : 0.0f;
         block.pass.z = float(in.loose.slabs);
@@ -85,7 +85,7 @@ struct March
     }
 
 private:
-    static constexpr size_t kMostTextures = 13, kMostBuffers = 5;
+    static constexpr size_t kMaxTextures = 13, kMaxBuffers = 5;
 
     size_t bindTextures(TextureBinding* out) const
     {

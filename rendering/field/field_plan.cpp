@@ -17,17 +17,17 @@ namespace {
 
 constexpr float kPixelsPerVoxel = 1.0f; ///< finer voxels would not be seen
 constexpr float kRadii = 16.0f;         ///< of balls along which there are as many voxels as asked for
-constexpr int kFewestVoxels = 16, kMostVoxels = 256; ///< along those
-constexpr float kLooseShare = 0.4f;                  ///< of an effect's radius: what is smaller stays a ball
-constexpr float kLooseVoxels = 0.5f;  ///< likewise, of a voxel: it would be spread over 64 times its volume
-constexpr float kLooseFire = 1.5f;    ///< likewise, of fire: a spark is far brighter than what is around it
-constexpr int kMostBricksAlong = 128; ///< of a field, along an axis
-constexpr int64_t kMostBricksOfBox = 1 << 16; ///< of a field, with the empty ones
-constexpr int kMostTries = 64;                ///< to keep the budget of bricks
-constexpr int kSmoothFirst = 8;               ///< of them, in which fields with detail stay as fine
-constexpr float kLeastVoxel = 1e-4f;          ///< [m]
-constexpr float kTouch = 1.0001f;             ///< radii are compared with a margin, for what the GPU rounds
-constexpr uint32_t kUnseen = ~0u;             ///< entry of the table: medium that no ray meets
+constexpr int kMinVoxels = 16, kMaxVoxels = 256; ///< along those
+constexpr float kLooseShare = 0.4f;              ///< of an effect's radius: what is smaller stays a ball
+constexpr float kLooseVoxels = 0.5f;   ///< likewise, of a voxel: it would be spread over 64 times its volume
+constexpr float kLooseFire = 1.5f;     ///< likewise, of fire: a spark is far brighter than what is around it
+constexpr int kMaxBricksPerAxis = 128; ///< of a field, along an axis
+constexpr int64_t kMaxBoxBricks = 1 << 16; ///< of a field, with the empty ones
+constexpr int kMaxTries = 64;              ///< to keep the budget of bricks
+constexpr int kSmoothFirst = 8;            ///< of them, in which fields with detail stay as fine
+constexpr float kMinVoxel = 1e-4f;         ///< [m]
+constexpr float kTouch = 1.0001f;          ///< radii are compared with a margin, for what the GPU rounds
+constexpr uint32_t kUnseen = ~0u;          ///< entry of the table: medium that no ray meets
 
 const float kStep = std::exp2(0.25f); ///< between the sides of voxels
 
@@ -113,7 +113,7 @@ void FieldPlan::build(const FieldPlanInputs& in)
     const auto isDetailed = [](const BlobEffect& effect) { return effect.detail >= 0; };
     const bool isMixed =
         std::ranges::any_of(in.effects, isDetailed) && !std::ranges::all_of(in.effects, isDetailed);
-    for (int i = 0; i < kMostTries && !place(in); ++i)
+    for (int i = 0; i < kMaxTries && !place(in); ++i)
         enlargeVoxels(in, isMixed && i < kSmoothFirst);
     listBricks();
     listBalls(in);
@@ -142,14 +142,14 @@ void FieldPlan::chooseVoxels(const FieldPlanInputs& in)
 {
     const CameraGeometry& camera = *in.camera;
     const float pixelsPerSlope = 0.5f * float(in.height) * std::abs(camera.clipScale.y);
-    const float perRadius = float(std::clamp(in.resolution, kFewestVoxels, kMostVoxels)) / kRadii;
+    const float perRadius = float(std::clamp(in.resolution, kMinVoxels, kMaxVoxels)) / kRadii;
     lattices_.assign(in.effects.size(), Lattice());
     for (size_t i = 0; i < in.effects.size(); ++i) {
         const BlobEffect& effect = in.effects[i];
         const float depth = camera.orthographic ? 1.0f : distanceToBox(effect.low, effect.high);
         const float pixel = depth / pixelsPerSlope; // [m]
         lattices_[i].voxel =
-            quantized(std::max({effect.radius / perRadius, kPixelsPerVoxel * pixel, kLeastVoxel}));
+            quantized(std::max({effect.radius / perRadius, kPixelsPerVoxel * pixel, kMinVoxel}));
     }
 }
 
@@ -178,13 +178,13 @@ bool FieldPlan::placeField(Lattice& lattice, int detail, const CameraGeometry& c
     for (int a = 0; a < 3; ++a) {
         const double first = std::floor((camera.eye[a] + double(lattice.low[a])) / side);
         const double last = std::floor((camera.eye[a] + double(lattice.high[a])) / side);
-        if (last - first >= double(kMostBricksAlong))
+        if (last - first >= double(kMaxBricksPerAxis))
             return false;
         field.bricks[a] = int(last - first) + 1;
         corner[a] = first * side - camera.eye[a];
         count *= field.bricks[a];
     }
-    if (count > kMostBricksOfBox)
+    if (count > kMaxBoxBricks)
         return false;
     field.corner = glm::vec4(glm::vec3(corner), lattice.voxel);
     field.bricks.w = int(table_.size());
@@ -204,14 +204,14 @@ bool FieldPlan::place(const FieldPlanInputs& in)
         Lattice& lattice = lattices_[i];
         bound(lattice, in, in.effects[i]);
         for (int k = 0;
-             k < kMostTries && lattice.hasBalls() && !placeField(lattice, in.effects[i].detail, *in.camera);
+             k < kMaxTries && lattice.hasBalls() && !placeField(lattice, in.effects[i].detail, *in.camera);
              ++k)
         {
             lattice.voxel *= kStep; // a wide effect
             bound(lattice, in, in.effects[i]);
         }
     }
-    const uint32_t across = uint32_t(std::clamp(in.resolution, kFewestVoxels, kMostVoxels) / kBrickCells);
+    const uint32_t across = uint32_t(std::clamp(in.resolution, kMinVoxels, kMaxVoxels) / kBrickCells);
     return countBalls(in) <= (in.mostBricks > 0 ? in.mostBricks : across * across * across);
 }
 

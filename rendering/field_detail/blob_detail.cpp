@@ -23,8 +23,8 @@ double phaseOf(const base::SnapshotGroup& group)
     return double(group.constants()[constant::Generation]) + double(group.constants()[constant::Fade]);
 }
 
-constexpr size_t kMostLookedAt = 128; ///< balls
-constexpr float kMostFactor = 4.0f;   ///< more would make a solid of what is left of thin medium
+constexpr size_t kMaxSampledBalls = 128;  ///< balls
+constexpr float kMaxDensityFactor = 4.0f; ///< more would make a solid of what is left of thin medium
 
 /// Gauss's points for the kernel's weight r^2 (1 - r^2)^2 in r^2: moments up to the third are exact.
 struct Shell
@@ -50,7 +50,7 @@ float extinctionAt(std::span<const MediumCaster> balls, const glm::vec3& p)
 float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls)
 {
     constexpr glm::vec3 kCorners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    const size_t stride = std::max<size_t>((balls.size() + kMostLookedAt - 1) / kMostLookedAt, 1);
+    const size_t stride = std::max<size_t>((balls.size() + kMaxSampledBalls - 1) / kMaxSampledBalls, 1);
     double before = 0, after = 0;
     for (size_t i = 0; i < balls.size(); i += stride) {
         before += double(balls[i].crossSection);
@@ -61,7 +61,7 @@ float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls
                 after += double(balls[i].crossSection * 0.25f * shell.weight * kept);
             }
     }
-    return after * double(kMostFactor) > before ? float(before / after) : kMostFactor;
+    return after * double(kMaxDensityFactor) > before ? float(before / after) : kMaxDensityFactor;
 }
 
 BlobDetail::BlobDetail(const base::SnapshotPair& snapshots, size_t group, float t)

@@ -64,8 +64,7 @@ void DetailedField::keepWhole(float spacing)
         for (float y = box.min.y; y <= box.max.y; y += spacing)
             for (float x = box.min.x; x <= box.max.x; x += spacing) {
                 const SmoothMedium smooth = smoothAt({x, y, z});
-                const float left =
-                    detailAt(numbers_, tile_, smooth, 0.5f * spacing, kMostDetailOctaves).share;
+                const float left = detailAt(numbers_, tile_, smooth, 0.5f * spacing, kMaxDetailOctaves).share;
                 before += double(smooth.extinction);
                 after += double(smooth.extinction) * double(left);
             }

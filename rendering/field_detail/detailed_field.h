@@ -28,8 +28,8 @@ public:
 
     SmoothMedium smoothAt(const glm::vec3& point) const;
     /// With the factor that keeps the whole extinction.
-    float extinctionAt(const glm::vec3& point, float pixel, int octaves = kMostDetailOctaves) const;
-    MediumDetail at(const glm::vec3& point, float pixel, int octaves = kMostDetailOctaves) const;
+    float extinctionAt(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
+    MediumDetail at(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
 
     /// Finds the factor by which what is left is multiplied so that the whole is what the smooth field has:
     /// the sum of extinctions over that of what is left of them, at the points of a lattice.

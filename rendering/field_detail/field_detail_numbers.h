@@ -12,8 +12,8 @@
 
 namespace fx::render {
 
-constexpr int kMostDetailOctaves = 5;
-constexpr float kMostDetailGain = 6.0f; ///< n of field-detail is no more
+constexpr int kMaxDetailOctaves = 5;
+constexpr float kMaxDetailGain = 6.0f; ///< n of field-detail is no more
 
 /// Constants of a group of the kind "material" at a moment.
 struct FieldDetailNumbers
@@ -55,7 +55,7 @@ struct MediumDetail
 };
 
 /// Formulas field-detail and lump-noise.
-/// @param pixel [m] width of a pixel there  @param octaves 1 .. kMostDetailOctaves
+/// @param pixel [m] width of a pixel there  @param octaves 1 .. kMaxDetailOctaves
 MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, const SmoothMedium& medium,
                       float pixel, int octaves);
 

@@ -12,7 +12,7 @@
 namespace fx::render {
 
 /// [pixel] radius of the smallest blob that is drawn: the pixels then sum its light within 6 %.
-inline constexpr float kLeastPixels = 1.15f;
+inline constexpr float kMinPixels = 1.15f;
 
 /// Range of slopes of a ball in the plane of one screen axis and the view axis; as tangentSlopes() of
 /// blob_quad.glsl.

@@ -12,7 +12,7 @@ namespace fx::render {
 namespace {
 
 constexpr uint32_t kEmpty = ~0u;
-constexpr size_t kMostTries = 16; ///< groups that a group is compared with before it counts as unlike all
+constexpr size_t kMaxTries = 16; ///< groups that a group is compared with before it counts as unlike all
 
 bool hasRows(const base::SnapshotGroup& group, std::span<const base::KindId> kinds)
 {
@@ -115,7 +115,7 @@ void RowRevisions::findAlike(const base::FrameSnapshot& snapshot, size_t g)
     const auto columns = snapshot.schema().kind(group.info().kind).columns;
     const size_t mask = table_.size() - 1;
     size_t at = sampleOf(group) & mask;
-    for (size_t tried = 0; tried < kMostTries; ++tried, at = (at + 1) & mask) {
+    for (size_t tried = 0; tried < kMaxTries; ++tried, at = (at + 1) & mask) {
         if (table_[at] == kEmpty) {
             table_[at] = uint32_t(g);
             return;

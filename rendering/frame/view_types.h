@@ -74,11 +74,11 @@ struct HostLight
     bool operator==(const HostLight&) const = default;
 };
 
-constexpr size_t kMostHostLights = 8;
+constexpr size_t kMaxHostLights = 8;
 
 struct HostLights
 {
-    HostLight lights[kMostHostLights];
+    HostLight lights[kMaxHostLights];
     size_t count = 0;
 
     bool operator==(const HostLights&) const = default;
@@ -136,8 +136,8 @@ struct LodSettings
                        ///< of its disc on the picture, but at least twelve; those take over the others' light
 
     float impostorPixels = 0.0f; ///< [pixel] 0: none. Effects whose ball has a smaller radius on the picture
-                                 ///< are drawn as pictures of themselves, at most kMostImpostorPixels
-    static constexpr float kMostImpostorPixels = 13.0f; ///< a picture has 32 texels, some of them a margin
+                                 ///< are drawn as pictures of themselves, at most kMaxImpostorPixels
+    static constexpr float kMaxImpostorPixels = 13.0f; ///< a picture has 32 texels, some of them a margin
 
     bool hold = false; ///< levels and pictures stay as the last frame has left them, whatever the camera
                        ///< does: to measure what changing them does to the picture

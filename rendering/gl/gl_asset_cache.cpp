@@ -12,7 +12,7 @@ namespace fx::render {
 
 namespace {
 
-constexpr int kMostFrames = 2048; ///< layers that every OpenGL 4.5 offers
+constexpr int kMaxFrames = 2048; ///< layers that every OpenGL 4.5 offers
 
 /// Tightly packed rows from client memory while it lives; the host's settings afterwards.
 class UnpackScope
@@ -97,7 +97,7 @@ base::Result<GlAtlas> GlAssetCache::makeAtlas(const base::ImageAsset& image, int
     const std::string what = "texture of " + std::to_string(image.width) + "x" +
                              std::to_string(image.height) + " texels in " + std::to_string(atlas.frames) +
                              " frames";
-    if (atlas.frames > kMostFrames)
+    if (atlas.frames > kMaxFrames)
         return base::Status(base::Code::InvalidArgument, what + ": at most 2048 frames are possible");
     GlFunctions& gl = device_.gl;
     (void)device_.takeError("the host's own calls");

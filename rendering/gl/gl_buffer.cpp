@@ -47,14 +47,14 @@ GlBuffer& GlBuffer::operator=(GlBuffer&& other) noexcept
 
 base::Status makeRoom(GlDevice& device, GlBuffer& ioBuffer, size_t bytes, const char* label)
 {
-    constexpr size_t kLeastBytes = 4096;
+    constexpr size_t kMinBytes = 4096;
     if (bytes == 0)
         return {};
     if (ioBuffer.bytes() >= bytes) {
         device.gl.InvalidateBufferData(ioBuffer.name()); // the GPU may still read it: do not wait
         return {};
     }
-    auto created = GlBuffer::create(device, std::bit_ceil(std::max(bytes, kLeastBytes)), label);
+    auto created = GlBuffer::create(device, std::bit_ceil(std::max(bytes, kMinBytes)), label);
     if (!created)
         return created.status();
     ioBuffer = std::move(*created);

@@ -152,9 +152,9 @@ uint32_t GlDevice::program(const ProgramDesc& desc, base::Status& outStatus)
 
 base::Status GlDevice::takeError(std::string_view where)
 {
-    constexpr int kMostPending = 16; // a lost context may report errors for ever
+    constexpr int kMaxPending = 16; // a lost context may report errors for ever
     const GLenum first = gl.GetError();
-    for (int i = 0; i < kMostPending && first != GL_NO_ERROR && gl.GetError() != GL_NO_ERROR; ++i) {
+    for (int i = 0; i < kMaxPending && first != GL_NO_ERROR && gl.GetError() != GL_NO_ERROR; ++i) {
     }
     if (first == GL_NO_ERROR)
         return {};

@@ -26,9 +26,9 @@ enum class TimingClock : uint8_t
 /// One finished frame.
 struct GroupTimes
 {
-    uint64_t tag = 0;                                   ///< what beginFrame() was given
-    std::array<double, kMostPassGroups> milliseconds{}; ///< by number of PassGroups
-    double total() const                                ///< [ms]
+    uint64_t tag = 0;                                  ///< what beginFrame() was given
+    std::array<double, kMaxPassGroups> milliseconds{}; ///< by number of PassGroups
+    double total() const                               ///< [ms]
     {
         return std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0);
     }

@@ -17,9 +17,9 @@ struct TimedPass
     std::string_view group = {}; ///< empty: "other"
 };
 
-constexpr size_t kMostPassGroups = 8;
+constexpr size_t kMaxPassGroups = 8;
 
-/// Groups by number. Group 0, "other", has what is in no list; so have groups beyond kMostPassGroups.
+/// Groups by number. Group 0, "other", has what is in no list; so have groups beyond kMaxPassGroups.
 class PassGroups
 {
 public:
@@ -28,7 +28,7 @@ public:
     {
         for (const TimedPass& timed : passes) {
             size_t group = find(timed.group);
-            if (group == 0 && !timed.group.empty() && count_ < kMostPassGroups)
+            if (group == 0 && !timed.group.empty() && count_ < kMaxPassGroups)
                 names_[group = count_++] = timed.group;
             passes_.push_back({timed.pass, group});
         }
@@ -58,7 +58,7 @@ private:
         std::string_view name;
         size_t group;
     };
-    std::array<std::string_view, kMostPassGroups> names_{"other"};
+    std::array<std::string_view, kMaxPassGroups> names_{"other"};
     size_t count_ = 1;
     std::vector<Pass> passes_;
 };

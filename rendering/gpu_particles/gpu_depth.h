@@ -28,10 +28,10 @@
 ///   (parallel: d = (A x + B y + C - z) / |(A, B, -1)| - m, normal (A, B, -1) / |(A, B, -1)|,
 ///   b = z - (A x + B y + C)).
 ///   A way p0 + v t + a t^2 / 2 is looked at at equal times, once for two pixels that it crosses, at most
-///   kMostLooks times. Between a place in front and one that is inside by more than the error, d < -2 e and
-///   d < -s - e / 4, the time at which d = -s is found by intersecting the way with the plane of the later
-///   place and halving by turns, until a place lies on its own plane within e; it is met there. When none
-///   does, the surface breaks off between the two: the way meets it where b <= w, and passes behind it
+///   kMaxDepthSamples times. Between a place in front and one that is inside by more than the error, d < -2 e
+///   and d < -s - e / 4, the time at which d = -s is found by intersecting the way with the plane of the
+///   later place and halving by turns, until a place lies on its own plane within e; it is met there. When
+///   none does, the surface breaks off between the two: the way meets it where b <= w, and passes behind it
 ///   otherwise                                                                             (4)
 ///   A way that begins inside, b <= w, may go as deep as it began. Nothing is met by ways that lead out,
 ///   outside of the window, behind the camera, where nothing is seen, and behind b > w         (5)
@@ -42,7 +42,7 @@
 /// @accuracy  on a plane that fills its texels and their neighbors, (1)-(3) are exact but for rounding of
 ///            the depth texture: contacts are moved by at most 3 e along the ray, and normals turned by at
 ///            most 2 e / f, f the width of a pixel there; across an edge that no texel resolves, and for what
-///            is narrower than two pixels or 1 / kMostLooks of a way, nothing is promised
+///            is narrower than two pixels or 1 / kMaxDepthSamples of a way, nothing is promised
 /// @tests     tests/gpu_particles/test_gpu_depth.cpp, tests/gpu_particles/test_gpu_depth_limits.cpp
 #pragma once
 

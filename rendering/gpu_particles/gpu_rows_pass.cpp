@@ -7,7 +7,7 @@ namespace fx::render {
 namespace {
 
 constexpr uint32_t kGroupRows = 256; ///< as in gpu_particles/gpu_particles.comp.glsl
-constexpr uint32_t kMostSteps = 128; ///< of one dispatch: drivers end those that take too long
+constexpr uint32_t kMaxSteps = 128;  ///< of one dispatch: drivers end those that take too long
 
 /// Layout of the uniform block.
 struct OutputBlock
@@ -30,7 +30,7 @@ struct RowsDispatch
     {
         uint32_t first = 0;
         do { // at least once: it writes the rows
-            const uint32_t end = std::min(first + kMostSteps, job.stepCount);
+            const uint32_t end = std::min(first + kMaxSteps, job.stepCount);
             runSteps(backend, first, end);
             first = end;
         } while (first < job.stepCount);

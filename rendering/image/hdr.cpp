@@ -52,7 +52,7 @@ base::Result<HdrSize> readHeader(ByteCursor& cursor)
     const std::optional<int> width = numberAfter(*line, "+X ");
     if (!height || !width || !line->starts_with("-Y "))
         return failure(cursor, "the resolution line must read -Y height +X width");
-    if (*width > kLargestSide || *height > kLargestSide || uint64_t(*width) * uint64_t(*height) > kMostPixels)
+    if (*width > kLargestSide || *height > kLargestSide || uint64_t(*width) * uint64_t(*height) > kMaxPixels)
         return base::Status(base::Code::TooLarge,
                             "Radiance picture: " + std::to_string(*width) + " x " + std::to_string(*height) +
                                 " pixels; at most 16384 a side and 33554432 in all are read");

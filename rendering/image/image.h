@@ -26,8 +26,8 @@ struct Image
     const float* at(int x, int y) const { return const_cast<Image*>(this)->at(x, y); }
 };
 
-constexpr int kLargestSide = 16384;                 ///< [pixel]
-constexpr uint64_t kMostPixels = uint64_t(1) << 25; ///< width times height
+constexpr int kLargestSide = 16384;                ///< [pixel]
+constexpr uint64_t kMaxPixels = uint64_t(1) << 25; ///< width times height
 
 /// Linear values in [0, 1] from a PNG of 8 or 16 bits, taken as sRGB; alpha is linear already and not
 /// premultiplied. Sizes are checked against the limits, and against the number of bytes, before anything is

@@ -29,7 +29,7 @@ base::Status checkSize(const spng_ihdr& header, uint64_t fileBytes)
 {
     const uint64_t pixels = uint64_t(header.width) * header.height;
     if (header.width > uint32_t(kLargestSide) || header.height > uint32_t(kLargestSide) ||
-        pixels > kMostPixels)
+        pixels > kMaxPixels)
         return failure(base::Code::TooLarge,
                        std::to_string(header.width) + " x " + std::to_string(header.height) +
                            " pixels; at most 16384 a side and 33554432 in all are read");

@@ -70,8 +70,8 @@ EffectLight GroupGlow::light(const base::Placement& placement, float extent, flo
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<const LightSource* const> sources,
                     std::span<EffectLight> out)
 {
-    sources = sources.first(std::min(sources.size(), kMostLightSources));
-    std::array<base::KindId, kMostLightSources> kinds{};
+    sources = sources.first(std::min(sources.size(), kMaxLightSources));
+    std::array<base::KindId, kMaxLightSources> kinds{};
     for (size_t s = 0; s < sources.size(); ++s)
         kinds[s] = snapshot.schema().find(sources[s]->kind->name);
     size_t count = 0;

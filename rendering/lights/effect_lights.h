@@ -20,8 +20,8 @@ struct EffectLight
     bool isOfMedium = false; ///< of balls of medium, whose own fields may spread it better than a point does
 };
 
-constexpr size_t kMostEffectLights = 4;  ///< that drawing takes into account
-constexpr size_t kMostLightSources = 16; ///< kinds of snapshot data that shed light
+constexpr size_t kMaxEffectLights = 4;  ///< that drawing takes into account
+constexpr size_t kMaxLightSources = 16; ///< kinds of snapshot data that shed light
 
 /// How groups of one kind of snapshot data shed light.
 struct LightSource
@@ -34,7 +34,7 @@ struct LightSource
 };
 
 /// One light for each group that glows, brightest first, as many as fit.
-/// @param sources at most kMostLightSources are used
+/// @param sources at most kMaxLightSources are used
 /// @return how many were written to `out`
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<const LightSource* const> sources,
                     std::span<EffectLight> out);

@@ -91,7 +91,7 @@ LodLevel LevelOfDetail::find(const base::GroupInfo& group, const base::Placement
         radius = last->radius;
     const float fineness = 1.0f / std::sqrt(settings_.bias);
     const float disc = std::numbers::pi_v<float> * radius * radius;
-    float share = std::max(disc / (settings_.bias * float(pieces)), kLeastKept / float(wholes));
+    float share = std::max(disc / (settings_.bias * float(pieces)), kMinKeptBlobs / float(wholes));
     if (last) // within the band it stays, so that a trembling camera changes nothing; beyond it follows
         share = settings_.hold ? last->share : std::clamp(last->share, share / kBand, share * kBand);
     now_.push_back({group.instance, group.solver, uint32_t(group.kind), share, radius});

@@ -92,10 +92,10 @@ using LodCounts = std::array<uint32_t, 4>;
 class LevelOfDetail
 {
 public:
-    static constexpr float kBand = 1.15f;      ///< a level follows only beyond this factor
-    static constexpr float kLeastKept = 12.0f; ///< blobs of a group, however small it is
-    static constexpr float kGrown = 1.15f;     ///< [pixel] times sqrt(bias)
-    static constexpr float kSwollen = 0.1f;    ///< of the radius of the group on the picture
+    static constexpr float kBand = 1.15f;         ///< a level follows only beyond this factor
+    static constexpr float kMinKeptBlobs = 12.0f; ///< blobs of a group, however small it is
+    static constexpr float kGrown = 1.15f;        ///< [pixel] times sqrt(bias)
+    static constexpr float kSwollen = 0.1f;       ///< of the radius of the group on the picture
 
     explicit LevelOfDetail(std::pmr::memory_resource* memory) : last_(memory), now_(memory) {}
 
@@ -108,7 +108,7 @@ public:
 
     /// The same for rows of particles and ribbons, which the counts leave out.
     /// @param pieces  that are drawn without a level of detail, particles or pieces of strips
-    /// @param wholes  particles or strips that they make up, of which kLeastKept stay
+    /// @param wholes  particles or strips that they make up, of which kMinKeptBlobs stay
     LodLevel levelOfRows(const base::GroupInfo& group, const base::Placement& place, uint32_t pieces,
                          uint32_t wholes);
 

@@ -14,7 +14,7 @@ namespace fx::render {
 namespace {
 
 constexpr uint64_t kStripNumber = (uint64_t(1) << 40) - 1; ///< above it, merged groups tell effects apart
-constexpr float kMostOpacity = 60'000.0f;                  ///< [1] factor that a binary16 can hold
+constexpr float kMaxOpacity = 60'000.0f;                   ///< [1] factor that a binary16 can hold
 
 bool isStrip(RowShape shape)
 {
@@ -81,7 +81,7 @@ private:
         const RowFactors factors = rowFactors(level_, rank, radius * pixelsPerMetre_, in_.shape);
         if (factors.size * factors.opacity == 0.0f)
             return 0;
-        return glm::packHalf2x16({factors.size, std::min(factors.opacity, kMostOpacity)});
+        return glm::packHalf2x16({factors.size, std::min(factors.opacity, kMaxOpacity)});
     }
 
     uint64_t writeStrips(std::span<uint32_t> factors) const

@@ -29,7 +29,7 @@ Extent extentAlong(const CameraGeometry& camera, int axis, float c, float depth,
 /// Texels across, when each is `divisor` pixels wide: small blobs are widened, what the window cuts is not.
 float texels(const Extent& extent, int divisor)
 {
-    const float least = 2.0f * kLeastPixels * float(divisor);
+    const float least = 2.0f * kMinPixels * float(divisor);
     const float widening = std::max(least / std::max(extent.whole, 1e-6f), 1.0f);
     return std::min(extent.cut * widening, std::max(extent.cut, least)) / float(divisor);
 }

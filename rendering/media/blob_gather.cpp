@@ -21,8 +21,8 @@ namespace {
 namespace column = base::blob_column;
 namespace constant = base::blob_constant;
 
-constexpr uint32_t kFewestOfAnImpostor = 16; ///< blobs; fewer are cheaper than their picture
-constexpr size_t kMostFarCasters = 16;       ///< of an effect that is drawn as a picture
+constexpr uint32_t kMinImpostorBlobs = 16; ///< blobs; fewer are cheaper than their picture
+constexpr size_t kMaxFarCasters = 16;      ///< of an effect that is drawn as a picture
 
 float mix(float a, float b, float t)
 {
@@ -110,7 +110,7 @@ FarCasters farCasters(const base::FrameSnapshot& newer, size_t first)
     for (size_t g = first; g < newer.groupCount() && newer.name(g).instance == name.instance; ++g)
         count += newer.name(g).kind == name.kind ? newer.group(g).count() : 0;
     FarCasters far;
-    far.stride = std::max<size_t>((count + kMostFarCasters - 1) / kMostFarCasters, 1);
+    far.stride = std::max<size_t>((count + kMaxFarCasters - 1) / kMaxFarCasters, 1);
     const size_t taken = (count + far.stride - 1) / far.stride;
     far.share = taken > 0 ? float(count) / float(taken) : 1.0f;
     return far;
@@ -225,7 +225,7 @@ private:
         const float pixel = depth / pixelsPerSlope_; // [m]
         const float grown = std::min({blob.radius / std::sqrt(level_.ramp.mean()), level_.grownPixels * pixel,
                                       blob.radius + level_.swollenPixels * pixel});
-        blob.radius = std::max({blob.radius, grown, kLeastPixels * pixel});
+        blob.radius = std::max({blob.radius, grown, kMinPixels * pixel});
         const auto [pieces, radius] = base::streakOf(glm::length(streak), blob.radius);
         blob.radius = radius;
         blob.crossSection /= float(pieces);
@@ -277,7 +277,7 @@ ImpostorPlan planImpostor(const base::SnapshotPair& snapshots, size_t first, flo
                    0.5f * glm::length(bounds.max - bounds.min) * place.scale);
         count += group.count();
     }
-    if (count < kFewestOfAnImpostor || camera.orthographic)
+    if (count < kMinImpostorBlobs || camera.orthographic)
         return {};
     ImpostorSubject subject{info.instance, 0.5f * (around.min + around.max), 0.0f, 0.0f};
     subject.radius = 0.5f * std::max({around.max.x - around.min.x, around.max.y - around.min.y,

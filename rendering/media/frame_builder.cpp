@@ -48,7 +48,7 @@ void FrameBuilder::beginImpostors(const FrameRequest& request, const ViewSetting
     slices_ = settings.slices;
     exposureEv100_ = settings.exposureEv100;
     const float most = settings.layerOutputs || camera.orthographic ? 0.0f : settings.lod.impostorPixels;
-    impostors_.begin({std::min(most, LodSettings::kMostImpostorPixels), request.deltaTime, content,
+    impostors_.begin({std::min(most, LodSettings::kMaxImpostorPixels), request.deltaTime, content,
                       lightingRevision_, request.resetHistory || mustForget_, settings.lod.hold},
                      camera);
     mustForget_ = false;

@@ -95,12 +95,12 @@ void GroupMerger::collect(const base::SnapshotPair& snapshots)
             continue;
         const bool isStrip = technique->isStrip;
         const MergeSource group = sourceOf(newer, g, isStrip);
-        if (group.count == 0 || group.count > kMostMergedRows || !hasFreeOrder(*group.rows, isStrip))
+        if (group.count == 0 || group.count > kMaxMergedRows || !hasFreeOrder(*group.rows, isStrip))
             continue;
         const size_t before = isStrip ? kNoGroup : findSameGroup(snapshots.older, name, g);
         const MergeSource older =
             before == kNoGroup ? MergeSource{} : sourceOf(*snapshots.older, before, isStrip);
-        if (older.rows && (older.count > kMostMergedRows || !haveSameColumns(*group.rows, *older.rows)))
+        if (older.rows && (older.count > kMaxMergedRows || !haveSameColumns(*group.rows, *older.rows)))
             continue;
         const uint32_t rows = std::max(group.room(), older.room());
         const uint32_t member = uint32_t(members_.size());

@@ -22,13 +22,13 @@ namespace fx::render {
 ///
 /// Groups of techniques with a RowMerge are merged when no order of theirs is lost (they are sorted by
 /// distance, or add, or hide), when they have the same columns and constants, at
-/// most kMostMergedRows rows each, and stand within kFarthestMerged of each other; where sprites stand by an
+/// most kMaxMergedRows rows each, and stand within kFarthestMerged of each other; where sprites stand by an
 /// axis, also the same rotation. A merged group is relative to where the first of its members stands, with
 /// the world's axes; a particle has the same row in both snapshots.
 class GroupMerger
 {
 public:
-    static constexpr uint32_t kMostMergedRows = 4096;
+    static constexpr uint32_t kMaxMergedRows = 4096;
     static constexpr double kFarthestMerged = 2000.0; ///< [m]
 
     /// @param techniques must stay

@@ -20,7 +20,7 @@ namespace {
 namespace column = base::particle_column;
 namespace constant = base::particle_constant;
 
-constexpr float kLeastHalfSide = 0.5f; ///< [pixel] half the side of the smallest square: it covers one pixel
+constexpr float kMinHalfSide = 0.5f; ///< [pixel] half the side of the smallest square: it covers one pixel
 constexpr uint64_t kFramesKept = 120;
 
 /// Center and radius of local bounds, relative to the eye.
@@ -244,7 +244,7 @@ void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placeme
                     c[constant::Softness], c[constant::Blend]};
     b.shine = {c[constant::Luminance] * exposure, c[constant::Lit], c[constant::Layer], 0.0f};
     b.moment = {float(glm::clamp(in.request->interpolation, 0.0, 1.0)), seconds, hasPast ? 1.0f : 0.0f,
-                kLeastHalfSide};
+                kMinHalfSide};
     b.atlas = {float(group.columns * group.rows), c[constant::FrameBlend], c[constant::MotionScale],
                group.texture ? 1.0f : 0.0f};
     b.strip = {group.motion ? 1.0f : 0.0f, c[constant::ArcPerTile], 0.0f, c[constant::Edge]};

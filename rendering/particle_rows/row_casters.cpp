@@ -38,7 +38,7 @@ uint32_t mostOfEachGroup(const RowCasterInputs& in, const RowTechniques& techniq
     uint32_t groups = 0;
     for (size_t g = 0; g < newer.groupCount(); ++g)
         groups += castsShadow(techniques.of(newer.name(g).kind)) ? 1 : 0;
-    return std::clamp(kMostRowCasters / std::max(groups, 1u), kFewestCastersOfGroup, kMostCastersOfGroup);
+    return std::clamp(kMaxRowCasters / std::max(groups, 1u), kMinGroupCasters, kMaxGroupCasters);
 }
 
 /// Where a row is between two snapshots.
@@ -110,7 +110,7 @@ float crossSectionOfDepth(float depth, float radius)
 
 float depthOfOpacity(float opacity)
 {
-    return -std::log1p(-glm::clamp(opacity, 0.0f, kMostOpacity));
+    return -std::log1p(-glm::clamp(opacity, 0.0f, kMaxOpacity));
 }
 
 void gatherRowCasters(const RowCasterInputs& in, std::pmr::vector<MediumCaster>& ioCasters)

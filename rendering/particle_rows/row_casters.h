@@ -24,15 +24,15 @@ struct RowCasterInputs
     std::span<const uint8_t> left = {}; ///< by group of the newer snapshot: 1 where it is left out
 };
 
-/// Appends the balls of all groups, seen or not. Rows of a group with more than kMostCastersOfGroup come in
+/// Appends the balls of all groups, seen or not. Rows of a group with more than kMaxGroupCasters come in
 /// stretches of as many rows; the first of a stretch that casts a shadow stands for all of it: it has their
 /// cross section, and as many times its own volume. Where there are many groups, each has less.
 /// Rows that the GPU computes cast no shadow.
 void gatherRowCasters(const RowCasterInputs& in, std::pmr::vector<MediumCaster>& ioCasters);
 
-constexpr uint32_t kMostCastersOfGroup = 256;
-constexpr uint32_t kMostRowCasters = 4096; ///< of one call, but at least kFewestCastersOfGroup of each group
-constexpr uint32_t kFewestCastersOfGroup = 8;
+constexpr uint32_t kMaxGroupCasters = 256;
+constexpr uint32_t kMaxRowCasters = 4096; ///< of one call, but at least kMinGroupCasters of each group
+constexpr uint32_t kMinGroupCasters = 8;
 
 /// Widens those that the texels of planes fitted to `all` could miss; cross sections stay.
 /// @param texels along a side of a plane
@@ -42,8 +42,8 @@ void widenCasters(std::span<MediumCaster> ioCasters, std::span<const MediumCaste
 /// kernel-optical-depth there.  @param radius [m]
 float crossSectionOfDepth(float depth, float radius);
 
-/// [1] optical depth of what covers with `opacity` [0, 1]; solid things have that of kMostOpacity.
+/// [1] optical depth of what covers with `opacity` [0, 1]; solid things have that of kMaxOpacity.
 float depthOfOpacity(float opacity);
-constexpr float kMostOpacity = 0.999f;
+constexpr float kMaxOpacity = 0.999f;
 
 } // namespace fx::render

@@ -69,11 +69,11 @@ struct RowTechnique
 class RowTechniques
 {
 public:
-    static constexpr size_t kMost = 8;
+    static constexpr size_t kMax = 8;
 
-    /// @param techniques at most kMost are used; must stay
+    /// @param techniques at most kMax are used; must stay
     RowTechniques(std::span<const RowTechnique* const> techniques, const base::SnapshotSchema& schema)
-        : techniques_(techniques.first(techniques.size() < kMost ? techniques.size() : kMost))
+        : techniques_(techniques.first(techniques.size() < kMax ? techniques.size() : kMax))
     {
         for (size_t i = 0; i < techniques_.size(); ++i)
             kinds_[i] = schema.find(techniques_[i]->kind->name);
@@ -90,7 +90,7 @@ public:
 
 private:
     std::span<const RowTechnique* const> techniques_;
-    std::array<base::KindId, kMost> kinds_{};
+    std::array<base::KindId, kMax> kinds_{};
 };
 
 } // namespace fx::render

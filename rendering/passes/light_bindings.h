@@ -23,11 +23,11 @@ struct SliceLightBlock
 };
 static_assert(sizeof(SliceLightBlock) == 7 * 16);
 
-constexpr size_t kMostLightEntries = 21; ///< lights, axes of the sky and finer planes of the sun
+constexpr size_t kMaxLightEntries = 21; ///< lights, axes of the sky and finer planes of the sun
 
 /// While planes change their sizes, the entry so far behind that of a light has those that it had before:
 /// right, up, along and tiles, and in color.r the weight [1] with which they still count. 0: they do not.
-constexpr size_t kFadingEntries = kMostLightEntries;
+constexpr size_t kFadingEntries = kMaxLightEntries;
 
 /// Layout of the block Lights in shaders/shared/light_block.glsl.
 struct LightListBlock
@@ -37,9 +37,9 @@ struct LightListBlock
     glm::vec4 ground;
     glm::vec4 hostShadow[3];
     glm::vec4 hostShadowEdge;
-    SliceLightBlock lights[kMostLightEntries + kFadingEntries];
+    SliceLightBlock lights[kMaxLightEntries + kFadingEntries];
 };
-static_assert(sizeof(LightListBlock) == (7 + (kMostLightEntries + kFadingEntries) * 7) * 16);
+static_assert(sizeof(LightListBlock) == (7 + (kMaxLightEntries + kFadingEntries) * 7) * 16);
 
 constexpr uint32_t kLightBlockBinding = 1; ///< uniform binding
 constexpr uint32_t kLightSliceUnit = 7;    ///< texture unit of the planes

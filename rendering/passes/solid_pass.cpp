@@ -12,9 +12,9 @@ SolidPass::Outputs SolidPass::addTo(FrameGraph& graph, const Inputs& in)
         return out;
 
     graph.addPass("solid particles", [&](FrameGraph::Builder& builder) {
-        constexpr size_t kMost = size_t(MediaPass::LayerTargets) + 1;
+        constexpr size_t kMax = size_t(MediaPass::LayerTargets) + 1;
         const size_t mediaTargets = in.layers ? size_t(MediaPass::LayerTargets) : 1;
-        std::array<ResourceId, kMost> targets;
+        std::array<ResourceId, kMax> targets;
         builder.read(in.distance);
         in.lights.read(builder);
         for (const MediaSource* source : in.sources)

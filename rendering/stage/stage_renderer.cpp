@@ -44,11 +44,11 @@ struct StageBlock
     glm::vec4 rayDirection, rayDirectionX, rayDirectionY;
     glm::vec4 sunDirection, sunLight, skyLight;
     glm::vec4 meshOffset, background, horizon;
-    std::array<StageLightBlock, kMostStageLights> lights;
-    std::array<MediaShadowBlock, kMostStageShadows> mediaShadows;
+    std::array<StageLightBlock, kMaxStageLights> lights;
+    std::array<MediaShadowBlock, kMaxStageShadows> mediaShadows;
 };
-static_assert(sizeof(StageBlock) == 128 + 9 * 16 + sizeof(StageLightBlock) * kMostStageLights +
-                                        sizeof(MediaShadowBlock) * kMostStageShadows);
+static_assert(sizeof(StageBlock) == 128 + 9 * 16 + sizeof(StageLightBlock) * kMaxStageLights +
+                                        sizeof(MediaShadowBlock) * kMaxStageShadows);
 
 /// Cone of a spot, as in shaders/shared/light_slices.glsl.
 glm::vec4 coneOf(const HostLight& light)
@@ -242,7 +242,7 @@ StageBlock StageRenderer::Impl::makeBlock(const CameraView& camera, const StageL
     block.rayDirectionY = view.rayDirectionY;
     block.sunDirection = {lighting.sunDirection, 1.0f / float(kShadowSize)};
     block.sunLight = {lighting.sunIlluminance * exposure,
-                      float(std::min(lit.lights.size(), kMostStageLights))};
+                      float(std::min(lit.lights.size(), kMaxStageLights))};
     block.skyLight = {lighting.skyLuminance * exposure, lighting.groundAlbedo};
     const float kind = picture.name() == 0 ? 0.0f : (background.panorama ? 2.0f : 1.0f);
     block.meshOffset = {glm::vec3(meshOrigin - camera.origin), kind};
@@ -258,10 +258,10 @@ void StageRenderer::Impl::setLights(const CameraView& camera, const StageLightin
     if (lit.shadowTexture != 0)
         ioBlock.mediaShadows[0] = lit.sunShadow;
     size_t shadows = 1;
-    for (size_t i = 0; i < std::min(lit.lights.size(), kMostStageLights); ++i) {
+    for (size_t i = 0; i < std::min(lit.lights.size(), kMaxStageLights); ++i) {
         const StageLight& given = lit.lights[i];
         float index = -1.0f;
-        if (given.shadow && lit.shadowTexture != 0 && shadows < kMostStageShadows) {
+        if (given.shadow && lit.shadowTexture != 0 && shadows < kMaxStageShadows) {
             index = float(shadows);
             ioBlock.mediaShadows[shadows++] = *given.shadow;
         }
@@ -357,7 +357,7 @@ base::Status StageRenderer::render(const CameraView& camera, const Lighting& lig
                                    std::span<const EffectLight> lights, float exposureEv100, int width,
                                    int height)
 {
-    std::array<StageLight, kMostStageLights> given;
+    std::array<StageLight, kMaxStageLights> given;
     const size_t count = std::min(lights.size(), given.size());
     for (size_t i = 0; i < count; ++i)
         given[i] = effectStageLight(lights[i]);

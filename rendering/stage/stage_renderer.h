@@ -56,13 +56,13 @@ StageLight effectStageLight(const EffectLight& light);
 struct StageLighting
 {
     Lighting lighting;
-    std::span<const StageLight> lights{}; ///< up to kMostStageLights, of which kMostStageShadows have shadows
+    std::span<const StageLight> lights{}; ///< up to kMaxStageLights, of which kMaxStageShadows have shadows
     MediaShadowBlock sunShadow;           ///< that media cast in the sun; without planes they cast none
     uint32_t shadowTexture = 0; ///< GL name of the planes of all shadows, filtered linearly; 0: none
 };
 
-constexpr size_t kMostStageLights = 16;
-constexpr size_t kMostStageShadows = 5; ///< that of the sun is one
+constexpr size_t kMaxStageLights = 16;
+constexpr size_t kMaxStageShadows = 5; ///< that of the sun is one
 
 /// Diffuse surfaces under a sun with a shadow map, a sky and lights, in the shadow of media.
 class StageRenderer

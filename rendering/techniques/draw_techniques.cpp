@@ -43,7 +43,7 @@ DrawTechniques drawTechniques()
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<EffectLight> out,
                     DrawTechniques techniques)
 {
-    std::array<const LightSource*, kMostLightSources> sources{};
+    std::array<const LightSource*, kMaxLightSources> sources{};
     size_t count = 0;
     for (const DrawTechnique* technique : techniques)
         if (technique->lights && count < sources.size())

@@ -33,7 +33,7 @@ LayerGrid makeLayerGrid(const CameraView& camera, int width, int height, int div
     const bool fits = stretchX == 1.0f && stretchY == 1.0f;
     grid.view = makeViewBlock(fits ? camera : stretched(camera, stretchX, stretchY), grid.width, grid.height);
     if (divisor > 1)
-        grid.view.pass.x = kLeastPixels / (0.5f * float(grid.height) * std::abs(grid.view.up.w));
+        grid.view.pass.x = kMinPixels / (0.5f * float(grid.height) * std::abs(grid.view.up.w));
     return grid;
 }
 

@@ -75,7 +75,7 @@ struct ViewRenderer::Impl
     LevelOfDetail lod;
     ViewLights lights;
     std::pmr::vector<MediumCaster> casters;
-    std::array<EffectLight, kMostEffectLights> glows; ///< of the effects, brightest first
+    std::array<EffectLight, kMaxEffectLights> glows; ///< of the effects, brightest first
     size_t glowCount = 0;
     DrawBatcher batcher;
     std::pmr::vector<DrawStream> streams;

@@ -27,8 +27,8 @@ layout(std430, binding = 3) readonly buffer FieldTiles { FieldTile fieldTiles[];
 flat in uvec2 tileRange;
 #endif
 
-const int kMostSteps = 4096;
-const float kMostStretch = 3.0;   // of steps behind what hides
+const int kMaxSteps = 4096;
+const float kMaxStretch = 3.0;   // of steps behind what hides
 const float kSlabsPerDepth = 8.0; // slabs across what is loose: where it is thin, what hides what hardly matters
 
 #if FX_LOOSE
@@ -91,12 +91,12 @@ void main()
     SlabPicture picture = emptyPicture();
     float t = ray.t0;
     FieldSample before = sampleFields(ray.origin, ray.direction, t, tileRange, pixel);
-    for (int i = 0; i < kMostSteps && t < ray.t1 && (before.room < kNever || t < last) && picture.through > kLeastThrough;
+    for (int i = 0; i < kMaxSteps && t < ray.t1 && (before.room < kNever || t < last) && picture.through > kMinTransmittance;
          i += kGroup) {
         float edges[kGroup + 1];
         SlabSums sums[kGroup];
         edges[0] = t;
-        float stretch = min(inversesqrt(sqrt(max(picture.through, 1e-8))), kMostStretch); // less is seen of what follows
+        float stretch = min(inversesqrt(sqrt(max(picture.through, 1e-8))), kMaxStretch); // less is seen of what follows
         for (int k = 0; k < kGroup; ++k) {
             float next = t + before.room * (before.isEmpty ? 1.0 : stretch);
 #if FX_LOOSE

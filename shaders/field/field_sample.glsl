@@ -17,7 +17,7 @@ const float kVoxelsPerStep = 1.5; // more exact lookups than that change no pict
 const float kVoxelsPerLumpyStep = 0.6; // where detail is finer than voxels
 const float kNever = 1e20; // [m], [voxel]
 const float kDepthPerStep = 0.4;     // optical depth of a step: in dense medium one or two samples would be all that is seen
-const float kLeastVoxelsPerStep = 0.1;
+const float kMinVoxelsPerStep = 0.1;
 
 struct FieldSample
 {
@@ -134,7 +134,7 @@ FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, vec2 
             medium.rgb += scattered;
 #endif
             sum.medium += kept * medium;
-            sum.room = min(sum.room, field.corner.w * clamp(kDepthPerStep / (field.corner.w * max(kept * medium.a, 1e-20)), kLeastVoxelsPerStep, voxels));
+            sum.room = min(sum.room, field.corner.w * clamp(kDepthPerStep / (field.corner.w * max(kept * medium.a, 1e-20)), kMinVoxelsPerStep, voxels));
         }
         sum.isEmpty = sum.isEmpty && turns == 0;
         if (turns == 0)

@@ -10,7 +10,7 @@ layout(binding = 1) uniform sampler3D fieldMaterial1; // a: change of extinction
 layout(rg32f, binding = 0) uniform image2D slices;    // r optical depth up to a plane; g from it to the next
 layout(std140, binding = 0) uniform FieldSliceBlock { ivec4 fieldCount; };
 
-const int kMostParts = 4; // of the way between two planes
+const int kMaxParts = 4; // of the way between two planes
 
 // [1/m] change of extinction by detail, of all fields
 float changeAt(vec3 p)
@@ -46,7 +46,7 @@ void main()
     float finest = spacing;
     for (int f = 0; f < fieldCount.x; ++f)
         finest = min(finest, fieldTexel(3 * f).w);
-    int parts = clamp(int(ceil(spacing / finest)), 1, kMostParts);
+    int parts = clamp(int(ceil(spacing / finest)), 1, kMaxParts);
     float depth = 0.0;
     for (int k = 0; k < planes; ++k) {
         float between = 0.0; // from this plane to the next

@@ -22,7 +22,7 @@ layout(binding = 3) uniform sampler3D fieldMaterial1;
 #endif
 layout(std140, binding = 0) uniform GlowSourceBlock { ivec4 fieldCount; };
 
-const int kMostPoints = 3; // along a side of a cell
+const int kMaxPoints = 3; // along a side of a cell
 
 // Adds a share of one field at a place. @param pixel [m] lumps below twice of it are not seen
 void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 medium, inout vec3 scatter)
@@ -73,7 +73,7 @@ void main()
     for (int f = 0; f < fieldCount.x; ++f) {
         VoxelField field = fieldOf(f);
         bool isOfGrid = int(field.limits.w) == grid + 1;
-        int points = isOfGrid ? clamp(int(ceil(glow.corner.w / field.corner.w)), 1, kMostPoints) : 0;
+        int points = isOfGrid ? clamp(int(ceil(glow.corner.w / field.corner.w)), 1, kMaxPoints) : 0;
         float share = 1.0 / float(max(points * points * points, 1));
         for (int i = 0; i < points * points * points; ++i) {
             vec3 part = (vec3(i % points, i / points % points, i / (points * points)) + 0.5) / float(points);

@@ -41,8 +41,8 @@ void meetBounce(int n, int w)
 
 #ifdef FX_MEET
 
-const int kMostContacts = 8;
-const int kMostPushes = 4;
+const int kMaxContacts = 8;
+const int kMaxPushOuts = 4;
 
 // The leg: a way through a part of the step.
 precise vec3 legFrom = vec3(0.0);
@@ -95,7 +95,7 @@ bool answer(int contacts)
     legSeconds = legSeconds - spent;
     precise float sinking = -dotOf(legA, metNormal) * legSeconds;
     float leaving = dotOf(v, metNormal);
-    if (contacts + 2 >= kMostContacts || 0.0009765625 * sinking > leaving) { // (3)
+    if (contacts + 2 >= kMaxContacts || 0.0009765625 * sinking > leaving) { // (3)
         v = v - leaving * metNormal;
         legA = legA - min(dotOf(legA, metNormal), 0.0) * metNormal;
     }
@@ -123,7 +123,7 @@ void followPath()
     pushed = legFrom;
     pushOut();
     legFrom = pushed;
-    for (int contacts = 0; contacts <= kMostContacts; ++contacts) {
+    for (int contacts = 0; contacts <= kMaxContacts; ++contacts) {
         metAt = -1;
         FX_MEET
         if (metAt < 0) {

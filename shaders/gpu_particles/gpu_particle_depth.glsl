@@ -2,8 +2,8 @@
 // gpu_particle_contacts.glsl. Numbers: thickness, margin.
 layout(binding = 0) uniform sampler2D sceneDistance; // [m] along each pixel's ray; infinite where nothing is seen
 
-const int kMostLooks = 16;
-const int kMostHalvings = 12;
+const int kMaxDepthSamples = 16;
+const int kMaxBisections = 12;
 
 struct SeenPlane
 {
@@ -85,8 +85,8 @@ int looksAt(float seconds)
 {
     vec3 end = wayAt(seconds);
     if (!isParallelDepth() && !(min(wayFrom.z, end.z) > 0.0))
-        return kMostLooks;
-    return int(clamp(ceil(0.5 * length(windowOf(end) - windowOf(wayFrom))), 1.0, float(kMostLooks)));
+        return kMaxDepthSamples;
+    return int(clamp(ceil(0.5 * length(windowOf(end) - windowOf(wayFrom))), 1.0, float(kMaxDepthSamples)));
 }
 
 // When the way from `low` on reaches the plane that has been seen from its place at `high`; half way where it does not.
@@ -116,7 +116,7 @@ bool leadsIn(float time, vec3 normal)
 // (4). @param io in: from where inside was seen; out: of what is met
 bool findContact(float low, float high, float thickness, float margin, inout SeenPlane io, out float time)
 {
-    for (int k = 0; k < kMostHalvings; ++k) {
+    for (int k = 0; k < kMaxBisections; ++k) {
         time = (k & 1) == 0 ? reachOf(io, low, high) : 0.5 * (low + high);
         SeenPlane seen = lookAt(wayAt(time), margin);
         if (!seen.isKnown)

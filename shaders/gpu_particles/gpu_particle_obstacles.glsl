@@ -87,7 +87,7 @@ void askInside(int kind, int n)
 void pushOut()
 {
     isOut = false;
-    for (int k = 0; k < kMostPushes && !isOut; ++k) {
+    for (int k = 0; k < kMaxPushOuts && !isOut; ++k) {
         isOut = true;
         FX_PUSH
     }

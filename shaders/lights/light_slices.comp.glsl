@@ -16,7 +16,7 @@ layout(std430, binding = 1) readonly buffer Stacks { SliceStack stacks[]; };
 layout(rg32f, binding = 0) uniform writeonly image2D slices; // r optical depth up to a plane; g from it to the next
 layout(std140, binding = 0) uniform SliceBlock { ivec4 casterCount; };
 
-const int kMostPlanes = 128;
+const int kMaxPlanes = 128;
 shared uint met[2]; // one bit a ball of the batch of 64
 
 // Whether a column of the workgroup can meet a ball. `middle` is the ray in the middle of all columns; `reach` the largest
@@ -48,7 +48,7 @@ void main()
         reach = max(reach, isParallel ? length(cornerStart - middleStart) : 1.1 * length(corner - middle));
     }
 
-    float between[kMostPlanes];
+    float between[kMaxPlanes];
     for (int k = 0; k < planes; ++k)
         between[k] = 0.0;
     for (int batch = 0; batch < casterCount.x; batch += 64) {

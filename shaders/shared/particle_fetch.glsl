@@ -69,7 +69,7 @@ struct Particle
 
 // Rows of the CPU are packed, as rendering/particle_rows/packed_rows.h says.
 const float kAgeUnit = 1.0 / 2048.0; // [s]
-const float kMostAge = 2047.0 / 2048.0;
+const float kMaxAge = 2047.0 / 2048.0;
 const float kTurnUnit = 6.28318531 / 4096.0; // [rad]
 bool newerIsPacked() { return newerPlace(15) >= 0; }
 bool olderIsPacked() { return moment.z > 0.5 && olderPlace(15) >= 0; }
@@ -184,7 +184,7 @@ Row olderRow(int row, Row newer)
 bool isSame(Row older, Row newer, bool isPacked)
 {
     float since = moment.y;
-    float most = isPacked ? kMostAge : 3.0e38;
+    float most = isPacked ? kMaxAge : 3.0e38;
     float least = isPacked ? min(floor(since / kAgeUnit) * kAgeUnit, most) : since;
     float room = 0.5 * since + (isPacked ? 1.5 * kAgeUnit : 0.0);
     return newer.age >= least && older.radius > 0.0 && abs(min(older.age + since, most) - newer.age) < room;
@@ -197,7 +197,7 @@ Particle fetchParticle(int row)
     Row newer = newerRow(row);
     bool isPacked = newerIsPacked();
     float back = (1.0 - moment.x) * moment.y;
-    bool isBorn = isPacked ? newer.age + kAgeUnit > back || newer.age >= kMostAge : newer.age >= back;
+    bool isBorn = isPacked ? newer.age + kAgeUnit > back || newer.age >= kMaxAge : newer.age >= back;
     bool both = false;
     if (moment.z > 0.5 && row < rows.y) {
         Row older = olderRow(row, newer);

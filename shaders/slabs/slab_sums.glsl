@@ -3,11 +3,11 @@
 #if FX_LAYERS
 #include "shared/layer_outputs.glsl"
 const int kLayers = 3; // fire, smoke, dust
-const float kLeastThrough = -1.0; // the optical depth is that of the whole ray
+const float kMinTransmittance = -1.0; // the optical depth is that of the whole ray
 #else
 layout(location = 0) out vec4 light;
 const int kLayers = 1;
-const float kLeastThrough = 1e-4; // [1] transmittance behind which nothing is seen
+const float kMinTransmittance = 1e-4; // [1] transmittance behind which nothing is seen
 #endif
 
 const float kThinSlab = 0.02; // [1] optical depth below which light is a polynomial: nothing is divided by it

@@ -4,8 +4,8 @@ layout(binding = 8) uniform sampler2D balls;
 layout(binding = 9) uniform usampler2D lists;
 flat in ivec2 tileList; // first entry and entries
 
-const float kLeastDepth = 0.002; // [1] before the window
-const float kMostDepth = 9.0;    // [1] up to its end: glow behind it may be a thousand times as bright as what hides it
+const float kMinDepth = 0.002; // [1] before the window
+const float kMaxDepth = 9.0;    // [1] up to its end: glow behind it may be a thousand times as bright as what hides it
 const int kBins = 8;             // of each of the two passes that find it
 
 // The first of the cards of the texel. pass.y: 1 when there are cards
@@ -85,7 +85,7 @@ vec2 rangeOf(SlabRay ray)
     return range;
 }
 
-// Narrows a range to the bins from that in which the depth passes kLeastDepth to that in which it passes kMostDepth.
+// Narrows a range to the bins from that in which the depth passes kMinDepth to that in which it passes kMaxDepth.
 // start: where the depth is counted from. depth: up to the end of the range
 vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast, out float depth)
 {
@@ -108,16 +108,16 @@ vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast, out float depth
     }
     vec2 narrow = range;
     for (int k = 1; k < kBins; ++k)
-        narrow.x = passed[k] < kLeastDepth ? range.x + float(k) * width : narrow.x;
+        narrow.x = passed[k] < kMinDepth ? range.x + float(k) * width : narrow.x;
     for (int k = kBins - 1; k >= 0; --k) { // within the bin as if its medium were even
-        float share = isLast ? (kMostDepth - passed[k]) / max(passed[k + 1] - passed[k], 1e-6) : 1.0;
-        narrow.y = passed[k + 1] >= kMostDepth ? range.x + (float(k) + clamp(share, 0.0, 1.0)) * width : narrow.y;
+        float share = isLast ? (kMaxDepth - passed[k]) / max(passed[k + 1] - passed[k], 1e-6) : 1.0;
+        narrow.y = passed[k + 1] >= kMaxDepth ? range.x + (float(k) + clamp(share, 0.0, 1.0)) * width : narrow.y;
     }
     depth = passed[kBins];
     return narrow;
 }
 
-// The part of a range of things that matters, see kLeastDepth and kMostDepth. depth: of all of the range
+// The part of a range of things that matters, see kMinDepth and kMaxDepth. depth: of all of the range
 vec2 windowOf(SlabRay ray, vec2 range, out float depth)
 {
     float ofWindow;

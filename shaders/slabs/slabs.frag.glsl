@@ -33,7 +33,7 @@ void main()
 
     SlabPicture picture = emptyPicture();
     float behind = 0.0; // [1] optical depth behind the window: it hides, and its light is not seen
-    for (int first = 0; first < FX_SLABS && picture.through > kLeastThrough; first += kGroup) {
+    for (int first = 0; first < FX_SLABS && picture.through > kMinTransmittance; first += kGroup) {
         float edges[kGroup + 1];
         for (int k = 0; k <= kGroup; ++k) {
             int edge = first + k;

@@ -8,10 +8,10 @@ namespace fx::sim {
 
 namespace {
 
-constexpr int kMostStrides = 4096;
+constexpr int kMaxMarchSteps = 4096;
 constexpr int kHalvings = 6;
-constexpr int kMostPushes = 4;
-constexpr int kMostBounces = 3;          ///< in one step
+constexpr int kMaxPushOuts = 4;
+constexpr int kMaxBounces = 3;           ///< in one step
 constexpr float kShortestStride = 0.25f; ///< [cell]
 constexpr float kFreeCells = 0.02f;      ///< [cell] between a surface and the end of a way that it stops
 
@@ -48,7 +48,7 @@ Collider::Hit Collider::sweep(const glm::vec3& from, const glm::vec3& to) const
     for (int stride = 0; d > 0.0f; ++stride) {
         if (x >= length)
             return {false, 1.0f, {}};
-        if (stride == kMostStrides)
+        if (stride == kMaxMarchSteps)
             return {true, x / length, glm::vec3(0.0f)};
         last = x;
         const float free = d - kFieldErrorCells * field_.cell();
@@ -69,7 +69,7 @@ glm::vec3 Collider::outside(const glm::vec3& position) const
     glm::vec3 place = position;
     const float clearance = kFreeCells * field_.cell() / scale_;
     DistanceField::Sample s = sample(place);
-    for (int k = 0; k < kMostPushes && s.distance <= 0.0f; ++k) { // (3)
+    for (int k = 0; k < kMaxPushOuts && s.distance <= 0.0f; ++k) { // (3)
         place += (clearance - s.distance) * s.normal;
         s = sample(place);
     }
@@ -85,7 +85,7 @@ bool Collider::pushOut(const glm::vec3& from, glm::vec3& ioPosition, glm::vec3& 
     DistanceField::Sample s = sample(ioPosition);
     if (!(s.distance < clearance))
         return false;
-    for (int k = 0; k < kMostPushes && s.distance < clearance; ++k) {
+    for (int k = 0; k < kMaxPushOuts && s.distance < clearance; ++k) {
         reflect(ioVelocity, s.normal, response);
         ioPosition += (clearance - s.distance) * s.normal; // (2)
         s = sample(ioPosition);
@@ -101,7 +101,7 @@ bool Collider::settle(const glm::vec3& from, glm::vec3& ioPosition, glm::vec3& i
     const float lift = kFreeCells * field_.cell() / scale_;
     glm::vec3 start = outside(from);
     bool touched = false;
-    for (int k = 0; k < kMostBounces; ++k) {
+    for (int k = 0; k < kMaxBounces; ++k) {
         const glm::vec3 way = ioPosition - start;
         const Hit hit = sweep(start, ioPosition);
         if (!hit.found)
@@ -111,7 +111,7 @@ bool Collider::settle(const glm::vec3& from, glm::vec3& ioPosition, glm::vec3& i
         start += hit.share * way;
         const glm::vec3 rest = (1.0f - hit.share) * way;
         const float into = std::min(glm::dot(rest, hit.normal), 0.0f);
-        const bool isLast = k + 1 == kMostBounces;
+        const bool isLast = k + 1 == kMaxBounces;
         ioPosition = isLast ? start : start + rest + (lift - into) * hit.normal; // (4)
     }
     const bool isNear = pushOut(start, ioPosition, ioVelocity, response);
@@ -123,7 +123,7 @@ bool Collider::bounce(const glm::vec3& from, glm::vec3& ioPosition, glm::vec3& i
 {
     glm::vec3 start = outside(from);
     bool touched = false;
-    for (int k = 0; k < kMostBounces && seconds > 0.0f; ++k) {
+    for (int k = 0; k < kMaxBounces && seconds > 0.0f; ++k) {
         const Hit hit = sweep(start, ioPosition);
         if (!hit.found)
             break;
@@ -131,7 +131,7 @@ bool Collider::bounce(const glm::vec3& from, glm::vec3& ioPosition, glm::vec3& i
         start += hit.share * (ioPosition - start);
         seconds *= 1.0f - hit.share;
         reflect(ioVelocity, hit.normal, response);
-        const bool isLast = k + 1 == kMostBounces;
+        const bool isLast = k + 1 == kMaxBounces;
         ioPosition = isLast ? start : start + seconds * ioVelocity;
     }
     const bool isNear = pushOut(start, ioPosition, ioVelocity, response);

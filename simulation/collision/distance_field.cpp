@@ -83,9 +83,9 @@ double sheetDistance(const FieldSources& from, const glm::dvec3& p, const Packet
     const TriangleTree::Nearest nearest = from.sheets.at(found.triangle[k], p);
     const double distance = sheetDistance(from, p, nearest);
     const uint32_t equals = found.equals[k];
-    bool isSure = equals <= PacketNearest::kMostEquals;
+    bool isSure = equals <= PacketNearest::kMaxEqualTriangles;
     for (uint32_t i = 0; isSure && i < equals; ++i) {
-        const uint32_t other = found.equal[k * PacketNearest::kMostEquals + i];
+        const uint32_t other = found.equal[k * PacketNearest::kMaxEqualTriangles + i];
         isSure = sheetDistance(from, p, from.sheets.at(other, p)) == distance;
     }
     return isSure ? distance : sheetDistance(from, p, from.sheets.nearest(p, nearest.distance * kJustBeyond));

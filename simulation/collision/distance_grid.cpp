@@ -38,10 +38,10 @@ base::Result<DistanceGrid> planGrid(const base::Bounds& bounds, float cell)
         edge = double(float(edge));
     }
     const glm::dvec3 nodes = nodesOf(bounds, edge);
-    if (!(countOf(nodes) <= double(kMostFieldNodes)))
+    if (!(countOf(nodes) <= double(kMaxFieldNodes)))
         return base::Status(base::Code::Capacity,
                             "the mesh takes " + std::to_string(uint64_t(std::min(countOf(nodes), 1e18))) +
-                                " cells of this size; at most " + std::to_string(kMostFieldNodes) +
+                                " cells of this size; at most " + std::to_string(kMaxFieldNodes) +
                                 " are made: use larger cells or a smaller mesh");
     DistanceGrid grid;
     grid.cell = float(edge);

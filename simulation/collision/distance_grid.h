@@ -12,7 +12,7 @@
 
 namespace fx::sim {
 
-constexpr size_t kMostFieldNodes = size_t(1) << 24;      ///< 4 bytes each
+constexpr size_t kMaxFieldNodes = size_t(1) << 24;       ///< 4 bytes each
 constexpr size_t kAutomaticFieldNodes = size_t(1) << 22; ///< at most, when the cell size is left open
 constexpr float kFieldMargin = 4.0f;                     ///< [cell] at least, around the mesh
 
@@ -37,7 +37,7 @@ struct DistanceGrid
 
 /// @param cell [m] edge; 0 for the smallest that needs at most kAutomaticFieldNodes, but not below a
 ///             thousandth of the mesh
-/// @return Capacity when that takes more than kMostFieldNodes
+/// @return Capacity when that takes more than kMaxFieldNodes
 base::Result<DistanceGrid> planGrid(const base::Bounds& bounds, float cell);
 
 } // namespace fx::sim

@@ -276,8 +276,8 @@ private:
                     out_.triangle[i] = place;
                     out_.equals[i] = 0;
                 } else if ((equal >> lane & 1) != 0) {
-                    if (const uint32_t n = out_.equals[i]++; n < PacketNearest::kMostEquals)
-                        out_.equal[i * PacketNearest::kMostEquals + n] = place;
+                    if (const uint32_t n = out_.equals[i]++; n < PacketNearest::kMaxEqualTriangles)
+                        out_.equal[i * PacketNearest::kMaxEqualTriangles + n] = place;
                 }
             }
         }

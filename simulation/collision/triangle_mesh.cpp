@@ -23,9 +23,9 @@ base::Status checkMesh(const TriangleMesh& mesh)
     const size_t corners = mesh.indices.empty() ? mesh.positions.size() : mesh.indices.size();
     if (corners % 3 != 0)
         return invalid("the mesh ends within a triangle");
-    if (corners / 3 > kMostMeshTriangles)
+    if (corners / 3 > kMaxMeshTriangles)
         return {base::Code::TooLarge, "the mesh has " + std::to_string(corners / 3) + " triangles; at most " +
-                                          std::to_string(kMostMeshTriangles) + " are taken"};
+                                          std::to_string(kMaxMeshTriangles) + " are taken"};
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::vec3& p = mesh.positions[i];
         if (!isInReach(p.x) || !isInReach(p.y) || !isInReach(p.z))

@@ -11,8 +11,8 @@
 
 namespace fx::sim {
 
-constexpr uint32_t kMostMeshTriangles = 1u << 22; ///< about 300 bytes each while a field is built
-constexpr float kFarthestVertex = 1e5f;           ///< [m] of each coordinate from the mesh's origin
+constexpr uint32_t kMaxMeshTriangles = 1u << 22; ///< about 300 bytes each while a field is built
+constexpr float kFarthestVertex = 1e5f;          ///< [m] of each coordinate from the mesh's origin
 
 /// Counter-clockwise seen from outside.
 struct TriangleMesh
@@ -25,7 +25,7 @@ struct TriangleMesh
 };
 
 /// @return InvalidArgument (a position out of range or not finite, an index too large, a part of a triangle),
-///         TooLarge (more than kMostMeshTriangles)
+///         TooLarge (more than kMaxMeshTriangles)
 base::Status checkMesh(const TriangleMesh& mesh);
 
 } // namespace fx::sim

@@ -25,12 +25,12 @@ struct PointPacket
 /// What is nearest to each point of a packet.
 struct PacketNearest
 {
-    static constexpr uint32_t kMostEquals = 8;
+    static constexpr uint32_t kMaxEqualTriangles = 8;
 
-    alignas(64) double squared[kPacketPoints];   ///< [m2] distance
-    uint32_t triangle[kPacketPoints];            ///< place in the tree of one that is as near
-    uint32_t equals[kPacketPoints];              ///< how many others are exactly as near
-    uint32_t equal[kPacketPoints * kMostEquals]; ///< places of the first of them, point by point
+    alignas(64) double squared[kPacketPoints];          ///< [m2] distance
+    uint32_t triangle[kPacketPoints];                   ///< place in the tree of one that is as near
+    uint32_t equals[kPacketPoints];                     ///< how many others are exactly as near
+    uint32_t equal[kPacketPoints * kMaxEqualTriangles]; ///< places of the first of them, point by point
 };
 
 class TriangleTree

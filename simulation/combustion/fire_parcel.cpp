@@ -100,7 +100,7 @@ FireParcel burnParcel(const Material& material, const FireParcel& parcel, const 
     next.unburnt = fractions.unburnt;
     next.burning = fractions.burning;
     next.burnt = fractions.burnt;
-    next.mixing = std::min(mixing, kMostMixing);
+    next.mixing = std::min(mixing, kMaxMixing);
     next.temperature =
         around.airTemperature + heat / (parcel.ownMass * mixing * material.heatCapacity); // (7)
     ioLedger.released += released;

@@ -90,7 +90,7 @@ struct FireLedger
     double givenToAir = 0; ///< [J] left with air beyond the largest mixing
 };
 
-constexpr double kMostMixing = 1e6; ///< [1] a parcel thinner than this is air
+constexpr double kMaxMixing = 1e6; ///< [1] a parcel thinner than this is air
 
 /// A parcel of `mass` kilograms of material as the effect begins.
 FireParcel startParcel(const Material& material, double mass);

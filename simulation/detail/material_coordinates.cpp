@@ -7,7 +7,7 @@ namespace fx::sim {
 
 uint64_t GenerationClock::advance(double shear, double seconds)
 {
-    fade_ += std::min(shear / kShearOfGeneration, kMostGenerationRate * seconds); // (2)
+    fade_ += std::min(shear / kShearOfGeneration, kMaxGenerationRate * seconds); // (2)
     const double whole = std::floor(fade_);
     fade_ -= whole;
     younger_ += uint64_t(whole);

@@ -45,8 +45,8 @@
 
 namespace fx::sim {
 
-constexpr double kShearOfGeneration = 0.5;  ///< [1] between two births
-constexpr double kMostGenerationRate = 8.0; ///< [1/s] births
+constexpr double kShearOfGeneration = 0.5; ///< [1] between two births
+constexpr double kMaxGenerationRate = 8.0; ///< [1/s] births
 
 /// (2)
 class GenerationClock

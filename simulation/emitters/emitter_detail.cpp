@@ -9,7 +9,7 @@ namespace fx::sim {
 namespace {
 
 constexpr double kStrainOfTurbulence = 4.4; ///< [1] pi sqrt(2), over speed by scale
-constexpr double kLeastStrain = 0.25;       ///< [1/s] of a medium without turbulence
+constexpr double kMinStrain = 0.25;         ///< [1/s] of a medium without turbulence
 constexpr int kSizeSamples = 16;            ///< of the curve of sizes
 
 /// [m] mean over life of the radius.
@@ -85,8 +85,8 @@ base::Ticks EmitterDetail::periodOf(const EmitterDef& def)
     const EmitterForces& forces = def.forces;
     const double strain =
         kStrainOfTurbulence * double(forces.curlStrength) / std::max(double(forces.curlScale), 1e-3);
-    const double rate = double(def.detail.liveliness) * std::max(strain, kLeastStrain) / kShearOfGeneration;
-    return base::toTicks(1.0 / std::min(rate, kMostGenerationRate)); // (2)
+    const double rate = double(def.detail.liveliness) * std::max(strain, kMinStrain) / kShearOfGeneration;
+    return base::toTicks(1.0 / std::min(rate, kMaxGenerationRate)); // (2)
 }
 
 void EmitterDetail::begin(uint64_t next, base::Ticks now)

@@ -13,10 +13,10 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint32_t kBatch = 4096;               // births that are made at once
-constexpr uint32_t kMinTiles = 4;               // fewer cost less than handing them to another thread
-constexpr uint32_t kMostScheduled = 1u << 16;   // births by the clock in one step
-constexpr uint32_t kMostBirthEvents = 1u << 16; // of particles that are born in one step
+constexpr uint32_t kBatch = 4096;                  // births that are made at once
+constexpr uint32_t kMinTiles = 4;                  // fewer cost less than handing them to another thread
+constexpr uint32_t kMaxScheduledBirths = 1u << 16; // births by the clock in one step
+constexpr uint32_t kMaxBirthEvents = 1u << 16;     // of particles that are born in one step
 
 /// How many are born of one event, equal for any partition of time.
 uint32_t drawCount(const StepContext& context, const EventRule& rule, uint32_t number,
@@ -78,7 +78,7 @@ void EmitterSolver::openLinked(const StepContext& context)
     open_.linked = new (linked) Linked{
         EventRoom(*context.scratch, asks ? store_.window().count : 0, interest_.mostOfOne()),
         EventRoom(*context.scratch, 0, 1),
-        EventList(context.scratch->allocate<ParticleEvent>(asks ? kMostBirthEvents : 0)), store_.next()};
+        EventList(context.scratch->allocate<ParticleEvent>(asks ? kMaxBirthEvents : 0)), store_.next()};
 }
 
 /// Those that lived before are looked at first: a birth may take the row of one that dies in this step.
@@ -144,7 +144,7 @@ std::span<Birth> EmitterSolver::scheduledBirths(const StepContext& context)
                              double(context.parameters->intensity), context.parameters->emitting};
     if (schedule_.exhausted(context.tick))
         return {};
-    const std::span<Birth> room = context.scratch->allocate<Birth>(kMostScheduled);
+    const std::span<Birth> room = context.scratch->allocate<Birth>(kMaxScheduledBirths);
     const BirthCount count = schedule_.advance(window, room);
     context.counters->born += count.total;
     context.counters->dropped += count.total - count.stored;
@@ -164,7 +164,7 @@ bool EmitterSolver::giveLinkedBirth(const StepContext& context, base::WorkBudget
         if (isFed)
             linked.requests = context.board->read(context.solverIndex);
         const uint64_t wanted = linked.requests.asked;
-        linked.room = std::min<uint64_t>(wanted, std::max(store_.capacity(), kFewestFed));
+        linked.room = std::min<uint64_t>(wanted, std::max(store_.capacity(), kMinEventBirths));
         context.counters->born += wanted;
         linked.isOpen = true;
     }

@@ -7,10 +7,10 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint32_t kMostRows = base::PooledRows::kMostPerGroup; // more fill vectors by themselves
-constexpr float kMostUneven = 4.0f;      // longest over shortest life: rows of the dead are in the way
-constexpr float kSmallestRadius = 1e-6f; // [m] a row with 0 is empty
-constexpr base::Ticks kFirst = 1024;     // see joinPool()
+constexpr uint32_t kMaxRows = base::PooledRows::kMaxGroupRows; // more fill vectors by themselves
+constexpr float kMaxLifetimeRatio = 4.0f; // longest over shortest life: rows of the dead are in the way
+constexpr float kSmallestRadius = 1e-6f;  // [m] a row with 0 is empty
+constexpr base::Ticks kFirst = 1024;      // see joinPool()
 
 } // namespace
 
@@ -18,10 +18,10 @@ constexpr base::Ticks kFirst = 1024;     // see joinPool()
 bool EmitterSolver::isPoolable() const
 {
     const base::Range& life = def_.lifetime;
-    const bool isEven = life.min > 0.0f && std::max(life.min, life.max) <= kMostUneven * life.min;
+    const bool isEven = life.min > 0.0f && std::max(life.min, life.max) <= kMaxLifetimeRatio * life.min;
     const float smallest = std::min(def_.radius.min, def_.radius.max);
     return bornWithMany_ && publishesWithMany_ && isEven && smallest >= kSmallestRadius &&
-           store_.capacity() <= kMostRows && def_.emission.bursts.empty();
+           store_.capacity() <= kMaxRows && def_.emission.bursts.empty();
 }
 
 /// Particles that were there when motion began, or when it began anew, have moved for less than their age or

@@ -21,7 +21,7 @@ namespace {
 constexpr uint32_t kBirthBatch = 4096;   // births that are made at once
 constexpr uint32_t kMinBirths = 512;     // fewer cost less than handing them to another thread
 constexpr uint32_t kMinSteppedTiles = 4; // likewise
-constexpr uint64_t kMostLapsPerStep = 4; // of the ring; more births in a step cannot be told apart anyway
+constexpr uint64_t kMaxLapsPerStep = 4;  // of the ring; more births in a step cannot be told apart anyway
 
 glm::vec3 pullOf(const EmitterDef& def, const StepContext& context)
 {
@@ -266,7 +266,7 @@ std::span<Birth> EmitterSolver::birthRoom(const StepContext& context) const
 void EmitterSolver::openBirths(base::Ticks from)
 {
     open_.reached = from;
-    open_.left = kMostLapsPerStep * std::max(store_.capacity(), kBirthBatch);
+    open_.left = kMaxLapsPerStep * std::max(store_.capacity(), kBirthBatch);
     open_.asked = open_.refused = 0;
 }
 
@@ -321,7 +321,7 @@ void EmitterSolver::noteRefusals()
 
 void EmitterSolver::storeBatch(const StepContext& context, std::span<const Birth> births)
 {
-    if (joins(context) && births.size() <= SpawnBatch::kMostAtOnce) {
+    if (joins(context) && births.size() <= SpawnBatch::kMaxDeferredBirths) {
         context.spawnBatch->wait(*this, context, births);
         store_.advance(births.size());
         return;

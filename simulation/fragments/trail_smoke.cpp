@@ -15,7 +15,7 @@ namespace {
 namespace column = trail_column;
 using base::RandomPurpose;
 
-constexpr float kMostBlobs = 1e6f; // of one fragment in one step
+constexpr float kMaxBlobs = 1e6f; // of one fragment in one step
 
 CurlNoise makeNoise(const TrailDef& def, const StepContext& step)
 {
@@ -67,7 +67,7 @@ uint32_t blobsAlong(float length, float due, float spacing)
 {
     if (!(spacing > 0.0f) || !(length >= due))
         return 0;
-    return uint32_t(std::min((length - due) / spacing, kMostBlobs)) + 1; // (1)
+    return uint32_t(std::min((length - due) / spacing, kMaxBlobs)) + 1; // (1)
 }
 
 void leaveSmoke(const TrailStep& s, const FragmentStore& fragments, uint32_t row, const FragmentWay& way,

@@ -35,7 +35,7 @@ void GasAir::Turbulence::evaluate(const GasAir& air, const GasView<float>& gas, 
     const float* const from[3] = {gas.x, gas.y, gas.z};
     for (uint32_t a = 0; a < 3; ++a) {
         std::copy_n(from[a] + first, count, position_[a]);
-        std::fill_n(velocity_[a], kMost, -0.0f); // to which a sum adds nothing, not even a sign
+        std::fill_n(velocity_[a], kMax, -0.0f); // to which a sum adds nothing, not even a sign
     }
     air.noise_.addTo({position_[0], position_[1], position_[2]}, {velocity_[0], velocity_[1], velocity_[2]},
                      count);

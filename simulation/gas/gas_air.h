@@ -26,15 +26,15 @@ public:
     class Turbulence
     {
     public:
-        static constexpr uint32_t kMost = 64; ///< positions
+        static constexpr uint32_t kMax = 64; ///< positions
 
         /// At the places [first, first + count) of the gas.
         void evaluate(const GasAir& air, const GasView<float>& gas, uint32_t first, uint32_t count);
         glm::vec3 at(uint32_t k) const { return {velocity_[0][k], velocity_[1][k], velocity_[2][k]}; }
 
     private:
-        alignas(64) float position_[3][kMost] = {}; ///< [m]
-        alignas(64) float velocity_[3][kMost];      ///< [m/s]
+        alignas(64) float position_[3][kMax] = {}; ///< [m]
+        alignas(64) float velocity_[3][kMax];      ///< [m/s]
     };
 
     /// [m/s] at `position`, around gas of that temperature [K]: turbulence fades as the gas cools.

@@ -33,10 +33,10 @@ double GasDef::workOf(const StepLoad& load) const
     const double reduced =
         std::clamp(std::min(limit, std::max(flow / double(quality.flowMach), 1.0)), 1e-3 * sound, sound);
     const double slices =
-        std::clamp(std::ceil(load.seconds * 3.0 * (flow + reduced) / plan.radius), 1.0, kMostGasSlices);
+        std::clamp(std::ceil(load.seconds * 3.0 * (flow + reduced) / plan.radius), 1.0, kMaxGasSlices);
     const double support = evenSupport(plan.radius, particles, double(quality.neighbors));
     const double longest = kGasCourant * support / (2.0 * reduced + flow);
-    const double subSteps = std::clamp(load.seconds / longest, slices, slices * double(kMostGasSubSteps));
+    const double subSteps = std::clamp(load.seconds / longest, slices, slices * double(kMaxGasSubSteps));
     const double pairs =
         count * double(quality.neighbors) * double(gas_work::kPair) / double(gas_work::kParts);
     const double one =

@@ -11,9 +11,9 @@ namespace fx::sim {
 
 namespace {
 
-constexpr float kInnerDrag = 0.2f;   ///< [1] drag inside the body over drag at its surface
-constexpr float kOuterLayer = 0.6f;  ///< [1] exposure of the outermost particles of even gas
-constexpr double kMostTakenIn = 0.5; ///< [1] logarithm of the growth of a parcel's mass in a step
+constexpr float kInnerDrag = 0.2f;        ///< [1] drag inside the body over drag at its surface
+constexpr float kOuterLayer = 0.6f;       ///< [1] exposure of the outermost particles of even gas
+constexpr double kMaxLogMassGrowth = 0.5; ///< [1] logarithm of the growth of a parcel's mass in a step
 constexpr double kBallVolume = 4.18879020478639;
 
 /// (2) and the entropy that follows.
@@ -43,7 +43,7 @@ double entrainmentOf(const GasExchange& exchange, const FireParcel& parcel, floa
     const double stirring = 1.0 + (double(exchange.def.entrainment) - 1.0) * alight;
     const double pace = stirring * double(vigor * (0.7f + 0.6f * surfaceExposure)) * room * room;
     const double rate = pace * entrainmentRate(double(speed), double(exchange.air.thermal().radius), tau);
-    return std::min(rate, kMostTakenIn / seconds);
+    return std::min(rate, kMaxLogMassGrowth / seconds);
 }
 
 glm::vec3 buoyancyOf(const GasExchange& exchange, float tau)
@@ -91,8 +91,8 @@ void exchangeWithAir(const GasExchange& exchange, const GasView<float>& gas, Gas
                      float seconds, uint32_t begin, uint32_t end)
 {
     GasAir::Turbulence turbulence;
-    for (uint32_t first = begin; first < end; first += GasAir::Turbulence::kMost) {
-        const uint32_t count = std::min(end - first, GasAir::Turbulence::kMost);
+    for (uint32_t first = begin; first < end; first += GasAir::Turbulence::kMax) {
+        const uint32_t count = std::min(end - first, GasAir::Turbulence::kMax);
         turbulence.evaluate(exchange.air, gas, first, count);
         for (uint32_t k = 0; k < count; ++k)
             exchangeOne(exchange, gas, parcels, seconds, first + k, turbulence.at(k));

@@ -77,7 +77,7 @@ GasDynamicsDef dynamicsOf(const GasDef& def, const ChargePlan& plan, const Quali
     dynamics.courant = kGasCourant;
     dynamics.exact = quality.level == QualityLevel::Reference;
     dynamics.volumeChange = 0.5; // a look, not a measurement
-    dynamics.maxSubSteps = kMostGasSubSteps;
+    dynamics.maxSubSteps = kMaxGasSubSteps;
     dynamics.smallestSupport =
         std::max(double(quality.radiusFloor), 0.02) * evenSupport(plan.radius, count, dynamics.neighbors);
     dynamics.largestSupport =
@@ -151,7 +151,7 @@ bool GasSolver::proceed(const StepContext& context, base::WorkBudget& work)
         if (open_.slice == 0.0) {
             if (work.isSpent())
                 return false;
-            open_.slice = exchange(context, open_.left, open_.seconds / kMostGasSlices);
+            open_.slice = exchange(context, open_.left, open_.seconds / kMaxGasSlices);
             work.spend(uint64_t(particles_) * kGasExchangeWork);
             if (context.collider)
                 rememberPlaces(gas_.view(), before);

@@ -15,8 +15,8 @@ namespace fx::sim {
 
 /// Most sub-steps between two exchanges with the air. What they do not cover is not simulated, and reported
 /// as debt.
-constexpr uint32_t kMostGasSubSteps = 400;
-constexpr double kMostGasSlices = 64.0; ///< exchanges with the air in a step
+constexpr uint32_t kMaxGasSubSteps = 400;
+constexpr double kMaxGasSlices = 64.0; ///< exchanges with the air in a step
 constexpr double kGasCourant = 0.6;
 
 // [unit] of base::WorkBudget, for each particle

@@ -45,7 +45,7 @@ void GasSolver::restore(StateReader& reader)
         p.ownMass = reader.value<double>(1e-300, 1e300, "a parcel's mass is out of range");
         for (double* const share : {&p.unburnt, &p.burning, &p.burnt})
             *share = reader.value<double>(0.0, 1.0, "a parcel's share is out of range");
-        p.mixing = reader.value<double>(1.0, kMostMixing, "a parcel's mixing is out of range");
+        p.mixing = reader.value<double>(1.0, kMaxMixing, "a parcel's mixing is out of range");
         p.temperature = reader.value<double>(1.0, 1e6, "a parcel's temperature is out of range");
     }
     reader.values(parcels_.vigor.first(particles_));

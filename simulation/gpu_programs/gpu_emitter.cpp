@@ -32,7 +32,7 @@ GpuEmitter::GpuEmitter(const ParticleProgram& program, std::pmr::memory_resource
       steps_(program.gpu->features.steps), kills_(program.gpu->kills),
       dependsOnHost_(program.gpu->dependsOnHost), log_(memory), stepLog_(memory), conditions_(memory)
 {
-    conditions_.reserve(base::kMostGpuConditions);
+    conditions_.reserve(base::kMaxGpuConditions);
     conditions_.push_back({0, glm::vec3(0.0f)});
     for (const base::GpuModuleUse& use : program.gpu->features.modules) {
         if (use.module < base::kFirstGpuContact)
@@ -59,7 +59,7 @@ void GpuEmitter::noteStep(const StepContext& context)
         return;
     if (asksTooMuch(context))
         known_ = context.tick + context.stepTicks;
-    if (!on_ && stepLog_.runs() > 2 * base::kMostGpuStepRuns) { // it would not be of use anyway
+    if (!on_ && stepLog_.runs() > 2 * base::kMaxGpuStepRuns) { // it would not be of use anyway
         stepLog_.clear(context.seed, context.solverIndex);
         known_ = context.tick;
     }
@@ -89,9 +89,9 @@ void GpuEmitter::forget(base::Ticks now)
 
 bool GpuEmitter::mayGoOn(base::Ticks now) const
 {
-    return surelyFits() && log_.runs() <= base::kMostGpuRuns &&
-           conditions_.size() <= base::kMostGpuConditions && stepLog_.runs() <= base::kMostGpuStepRuns &&
-           stepLog_.stepsSince(now - window_) <= base::kMostGpuSteps;
+    return surelyFits() && log_.runs() <= base::kMaxGpuRuns &&
+           conditions_.size() <= base::kMaxGpuConditions && stepLog_.runs() <= base::kMaxGpuStepRuns &&
+           stepLog_.stepsSince(now - window_) <= base::kMaxGpuSteps;
 }
 
 bool GpuEmitter::mayBegin(base::Ticks now) const
@@ -99,10 +99,10 @@ bool GpuEmitter::mayBegin(base::Ticks now) const
     const base::Ticks oldest = now - window_;
     const bool isKnown = (known_ == 0 || known_ < oldest) && dropped_ < std::max<base::Ticks>(oldest, 0);
     // With some room, so that it does not come and go with every step.
-    return isKnown && surelyFits() && 4 * log_.runs() <= 3 * base::kMostGpuRuns &&
-           4 * conditions_.size() <= 3 * base::kMostGpuConditions &&
-           4 * stepLog_.runs() <= 3 * base::kMostGpuStepRuns &&
-           4 * stepLog_.stepsSince(oldest) <= 3 * base::kMostGpuSteps;
+    return isKnown && surelyFits() && 4 * log_.runs() <= 3 * base::kMaxGpuRuns &&
+           4 * conditions_.size() <= 3 * base::kMaxGpuConditions &&
+           4 * stepLog_.runs() <= 3 * base::kMaxGpuStepRuns &&
+           4 * stepLog_.stepsSince(oldest) <= 3 * base::kMaxGpuSteps;
 }
 
 base::Ticks GpuEmitter::lastDeath(const BirthKey& key) const
@@ -201,9 +201,9 @@ void GpuEmitter::publish(const base::GroupInfo& base, base::KindId kind, const B
     constexpr size_t kFewRuns = 16; // room changes rarely
     const size_t room = steps_ ? std::bit_ceil(std::max(stepLog_.runs(), kFewRuns)) : 0;
     base::SnapshotGroup& group =
-        snapshot.addGroup(kind, base::kMostGpuWords + room * sizeof(base::GpuStepRun) / 8);
-    std::array<base::GpuBirthRun, base::kMostGpuRuns> runs;
-    std::array<base::GpuCondition, base::kMostGpuConditions> conditions;
+        snapshot.addGroup(kind, base::kMaxGpuWords + room * sizeof(base::GpuStepRun) / 8);
+    std::array<base::GpuBirthRun, base::kMaxGpuRuns> runs;
+    std::array<base::GpuCondition, base::kMaxGpuConditions> conditions;
     base::GpuParticleMoment moment{};
     moment.seed = key.seed;
     moment.next = log_.next();
@@ -224,7 +224,7 @@ void GpuEmitter::publish(const base::GroupInfo& base, base::KindId kind, const B
     put(at, std::span<const base::GpuParticleMoment>(&moment, 1));
     put(at, std::span<const base::GpuBirthRun>(runs).first(moment.runs));
     put(at, std::span<const base::GpuCondition>(conditions).first(moment.conditions));
-    std::array<base::GpuStepRun, base::kMostGpuStepRuns> steps;
+    std::array<base::GpuStepRun, base::kMaxGpuStepRuns> steps;
     stepLog_.publish(now, steps);
     put(at, std::span<const base::GpuStepRun>(steps).first(moment.stepRuns));
     group.setProgram(program_.gpu);

@@ -77,7 +77,7 @@ void setShape(const ShapeDef& shape, base::GpuParticleNumbers& n)
 void setCurves(float (&out)[5][base::kGpuCurveSamples], const RampCurves& curves)
 {
     constexpr size_t kPieces = base::kGpuCurvePieces;
-    static_assert(kMostRamps < kPieces && 3 * kPieces < base::kGpuCurveSamples);
+    static_assert(kMaxRamps < kPieces && 3 * kPieces < base::kGpuCurveSamples);
     for (uint32_t c = 0; c < appearance_channel::Count; ++c) {
         if (curves.isConstant(c)) {
             std::ranges::fill(out[c], curves.byTable ? curves.start[c] : 0.0f);

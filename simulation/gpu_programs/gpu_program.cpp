@@ -22,8 +22,8 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint32_t kMostRows = 65535u * 256u; // of the work groups that every OpenGL 4.5 can be asked for
-constexpr size_t kMostModules = 48;
+constexpr uint32_t kMaxRows = 65535u * 256u; // of the work groups that every OpenGL 4.5 can be asked for
+constexpr size_t kMaxModules = 48;
 
 bool changesRate(const Emission& emission)
 {
@@ -67,7 +67,7 @@ std::vector<size_t> scratchPlaces(const Ops& ops)
 std::string_view obstacleOfSteps(const EmitterSettings& def)
 {
     constexpr float kSome = 10.0f;
-    constexpr float kLongestLife = 0.75f * float(base::kMostGpuSteps) / 60.0f; // at the usual step
+    constexpr float kLongestLife = 0.75f * float(base::kMaxGpuSteps) / 60.0f; // at the usual step
     if (std::max(def.lifetime.min, def.lifetime.max) > kLongestLife)
         return "its particles live through too many steps";
     const Ops ops = opsOf(def);
@@ -76,7 +76,7 @@ std::string_view obstacleOfSteps(const EmitterSettings& def)
         if (const GpuModuleSource* const source = gpuSourceOf(*op); !source || !source->describe(modules))
             return "it meets a mesh or a height field, or is drawn to a mesh, or its vector field is too "
                    "large";
-    if (scratchPlaces(ops).back() > kScratchBytes || modules.uses.size() > kMostModules)
+    if (scratchPlaces(ops).back() > kScratchBytes || modules.uses.size() > kMaxModules)
         return "it has too many modules";
     ConditionsRange conditions;
     conditions.strongest = {kSome, kSome, kSome};
@@ -217,7 +217,7 @@ std::string_view gpuObstacle(const EmitterSettings& def)
         return "its particles stay behind in the world";
     if (def.light.given)
         return "its particles are lights for the host";
-    if (def.maxParticles > kMostRows)
+    if (def.maxParticles > kMaxRows)
         return "it has more particles than one dispatch reaches";
     return obstacleOfModules(def);
 }

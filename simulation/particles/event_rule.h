@@ -8,7 +8,7 @@
 
 namespace fx::sim {
 
-constexpr uint32_t kMostAges = 256; ///< of one emitter, repetitions included
+constexpr uint32_t kMaxEventAges = 256; ///< of one emitter, repetitions included
 /// [m/s] against the surface: below it, a bouncing particle counts as resting. It is the speed after a fall
 /// of 13 mm.
 constexpr float kUsualContactSpeed = 0.5f;

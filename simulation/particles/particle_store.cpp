@@ -11,7 +11,7 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint64_t kMostIndex = uint64_t(1) << 62;
+constexpr uint64_t kMaxIndex = uint64_t(1) << 62;
 
 constexpr base::Ticks kLongAgo = base::Ticks(1) << 61; // longer than any life
 constexpr uint32_t kBeyondBrief = uint32_t(1) << 31;   // [tick] 3.04 s, longer than any brief life
@@ -220,8 +220,8 @@ void ParticleStore::saveEmpty(StateWriter& writer) const
 
 void ParticleStore::restore(StateReader& reader, base::Ticks now)
 {
-    const uint64_t front = reader.value<uint64_t>(0, kMostIndex, "an emitter's births are out of range");
-    const uint64_t next = reader.value<uint64_t>(0, kMostIndex, "an emitter's births are out of range");
+    const uint64_t front = reader.value<uint64_t>(0, kMaxIndex, "an emitter's births are out of range");
+    const uint64_t next = reader.value<uint64_t>(0, kMaxIndex, "an emitter's births are out of range");
     reader.require(front <= next, "an emitter's births are out of order");
     clear(next);
     front_ = reader.ok() ? front : next;

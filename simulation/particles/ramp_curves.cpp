@@ -41,9 +41,9 @@ float slopeBetween(const std::array<float, kLast + 1>& samples, size_t from, siz
 } // namespace
 
 RampCurves::RampCurves(std::span<const std::array<float, kLast + 1>> samples)
-    : channels(uint32_t(std::min<size_t>(samples.size(), kMostChannels)))
+    : channels(uint32_t(std::min<size_t>(samples.size(), kMaxChannels)))
 {
-    std::array<size_t, kMostRamps + 2> places{0};
+    std::array<size_t, kMaxRamps + 2> places{0};
     for (uint32_t c = 0; c < channels; ++c) {
         table[c] = samples[c];
         start[c] = samples[c][0];
@@ -55,7 +55,7 @@ RampCurves::RampCurves(std::span<const std::array<float, kLast + 1>> samples)
                                        [i](const auto& channel) { return bendsAt(channel, i); });
         if (!bends)
             continue;
-        byTable = byTable || ramps == kMostRamps;
+        byTable = byTable || ramps == kMaxRamps;
         if (byTable)
             return;
         places[++ramps] = i;

@@ -34,8 +34,8 @@
 
 namespace fx::sim {
 
-constexpr uint32_t kMostRamps = 8;
-constexpr uint32_t kMostChannels = 8;
+constexpr uint32_t kMaxRamps = 8;
+constexpr uint32_t kMaxChannels = 8;
 constexpr uint32_t kPieceRoom = 16; ///< more than there are pieces: the width of the widest vector
 
 struct RampCurves
@@ -53,13 +53,13 @@ struct RampCurves
     bool byTable = false;                     ///< (3) instead of (2)
     uint32_t ramps = 0;                       ///< one fewer than pieces
     std::array<float, kPieceRoom + 1> from{}; ///< t_i; -infinity for the first, +infinity after the last
-    std::array<std::array<float, kPieceRoom>, kMostChannels> pieceStart{}; ///< a_i; the last one repeated
-    std::array<std::array<float, kPieceRoom>, kMostChannels> pieceSlope{}; ///< b_i
-    std::array<float, kMostRamps> at{};                                    ///< t_k
-    std::array<float, kMostChannels> start{};                              ///< c
-    std::array<float, kMostChannels> slope{};                              ///< s
-    std::array<std::array<float, kMostRamps>, kMostChannels> bend{};       ///< d_k
-    std::array<std::array<float, base::kCurveSamples + 1>, kMostChannels> table{};
+    std::array<std::array<float, kPieceRoom>, kMaxChannels> pieceStart{}; ///< a_i; the last one repeated
+    std::array<std::array<float, kPieceRoom>, kMaxChannels> pieceSlope{}; ///< b_i
+    std::array<float, kMaxRamps> at{};                                    ///< t_k
+    std::array<float, kMaxChannels> start{};                              ///< c
+    std::array<float, kMaxChannels> slope{};                              ///< s
+    std::array<std::array<float, kMaxRamps>, kMaxChannels> bend{};        ///< d_k
+    std::array<std::array<float, base::kCurveSamples + 1>, kMaxChannels> table{};
 };
 
 /// The samples of channel `k` of a curve, as RampCurves takes them.

@@ -8,7 +8,7 @@ namespace fx::sim {
 namespace {
 
 constexpr double kCourant = 0.4;
-constexpr double kLeastPressure = 1e-300; ///< [Pa]
+constexpr double kMinPressure = 1e-300; ///< [Pa]
 
 double limited(double a, double b)
 {
@@ -72,7 +72,7 @@ void RadialFlow::updateStates()
         const double density = masses_[i] / volume(i);
         centers_[i] = 0.5 * (faces_[i] + faces_[i + 1]);
         states_[i] = {density, cells_[i].velocity,
-                      std::max((def_.gamma - 1) * density * thermal, kLeastPressure)};
+                      std::max((def_.gamma - 1) * density * thermal, kMinPressure)};
     }
 }
 
@@ -95,7 +95,7 @@ FlowState RadialFlow::sideOf(size_t cell, double radius) const
     const FlowState& state = states_[cell];
     const FlowState& slope = slopes_[cell];
     return {state.density + d * slope.density, state.velocity + d * slope.velocity,
-            std::max(state.pressure + d * slope.pressure, kLeastPressure)};
+            std::max(state.pressure + d * slope.pressure, kMinPressure)};
 }
 
 RadialFlow::Face RadialFlow::solveFace(const FlowState& left, const FlowState& right) const

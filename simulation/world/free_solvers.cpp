@@ -94,7 +94,7 @@ void SimulationPool::addToFreeList(SharedSimulation& simulation, base::Ticks now
 {
     if (simulation.solvers.empty())
         return;
-    if (freeList_.size() == kMostFreeSolvers)
+    if (freeList_.size() == kMaxFreeSolvers)
         freeList_.erase(freeList_.begin());
     freeList_.push_back({simulation.effect, simulation.conditions.quality.level,
                          std::move(simulation.solvers), std::move(simulation.pristine), now});

@@ -97,7 +97,7 @@ SimulationPool::SimulationPool(const base::SnapshotSchema* schema, std::pmr::mem
     : schema_(schema), memory_(memory), share_(share)
 {
     chains_.fill(kNoSimulation);
-    freeList_.reserve(kMostFreeSolvers); // adding must not fail
+    freeList_.reserve(kMaxFreeSolvers); // adding must not fail
 }
 
 SimulationIndex SimulationPool::acquire(const std::shared_ptr<const EffectDef>& effect,

@@ -189,7 +189,7 @@ private:
         base::Ticks since; ///< scene time
     };
     static constexpr size_t kChains = 256;
-    static constexpr size_t kMostFreeSolvers = 256;
+    static constexpr size_t kMaxFreeSolvers = 256;
     void makeSolvers(SharedSimulation& simulation);
     void addToFreeList(SharedSimulation& simulation, base::Ticks now);
     uint32_t& chainOf(const SharedSimulation& simulation)

@@ -73,13 +73,13 @@ inline uint64_t nextRefused(uint64_t n)
 template <class Action, class IsAsBefore>
 uint64_t refuseEach(ScarceMemory& memory, Action&& action, IsAsBefore&& isAsBefore)
 {
-    constexpr uint64_t kMost = 100'000;
+    constexpr uint64_t kMax = 100'000;
     uint64_t failures = 0;
-    for (uint64_t n = 1; n < kMost; n = nextRefused(n))
+    for (uint64_t n = 1; n < kMax; n = nextRefused(n))
         for (const bool isGone : {false, true}) {
-            constexpr int kMostAttempts = 64; // a refused request moves on as room is kept
+            constexpr int kMaxAttempts = 64; // a refused request moves on as room is kept
             int64_t kept = -1;
-            for (int attempt = 0; attempt < kMostAttempts && memory.blocks() != kept; ++attempt) {
+            for (int attempt = 0; attempt < kMaxAttempts && memory.blocks() != kept; ++attempt) {
                 kept = memory.blocks();
                 memory.refuse(n, isGone);
                 const FxResult result = action();
@@ -93,7 +93,7 @@ uint64_t refuseEach(ScarceMemory& memory, Action&& action, IsAsBefore&& isAsBefo
                 EXPECT_EQ(result, FX_ERROR_OUT_OF_MEMORY)
                     << "request " << n << ": " << fxGetLastErrorMessage();
                 EXPECT_TRUE(isAsBefore()) << "request " << n << (isGone ? " and all after it" : "");
-                EXPECT_LT(attempt + 1, kMostAttempts) << "request " << n << ": each failure keeps memory";
+                EXPECT_LT(attempt + 1, kMaxAttempts) << "request " << n << ": each failure keeps memory";
             }
             if (testing::Test::HasFailure())
                 return failures;

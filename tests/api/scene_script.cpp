@@ -127,7 +127,7 @@ void SceneScript::play(int frames)
             add(presets_[(number_ + uint32_t(frame_) / 5) % presets_.size()]);
         if (frame_ % 20 == 11)
             addAndUnload();
-        if (instances_.size() > kMostInstances)
+        if (instances_.size() > kMaxInstances)
             removeOldest();
         change(instances_[uint32_t(frame_) % instances_.size()]);
         if (frame_ % 13 == 0)

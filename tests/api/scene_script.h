@@ -26,7 +26,7 @@ public:
     uint64_t simulationHash() const; ///< of all that decides what later steps give
 
 private:
-    static constexpr size_t kMostInstances = 10;
+    static constexpr size_t kMaxInstances = 10;
 
     void add(FxPresetId preset);
     void addAndUnload();

@@ -90,7 +90,7 @@ constexpr Heavy kHeavy[] = {
      60'000},
 };
 
-constexpr double kMostOver = 1.3; ///< [1] of the budget that the largest update may take
+constexpr double kMaxShareOver = 1.3; ///< [1] of the budget that the largest update may take
 
 class HeavyPreset : public ::testing::TestWithParam<Heavy>
 {};
@@ -123,7 +123,7 @@ TEST_P(HeavyPreset, staysWithinTheBudgetAndGivesTheSameBits)
         int64_t debt = 0, shown = 0;
         for (int i = 0; i < 100'000 && (i < kFrames || debt > 0); ++i) {
             const FxSceneStatistics statistics = bounded.update(i < kFrames ? kFrame : 0.0);
-            EXPECT_LE(double(statistics.updateWork), kMostOver * double(budget)) << "update " << i;
+            EXPECT_LE(double(statistics.updateWork), kMaxShareOver * double(budget)) << "update " << i;
             EXPECT_TRUE(statistics.updateWork > 0 || statistics.timeDebtTicks == 0);
             EXPECT_TRUE(i != kFrames - 1 || statistics.timeDebtTicks > 0 || budget > heavy.budget);
             debt = statistics.timeDebtTicks;

@@ -9,10 +9,10 @@
 
 namespace {
 
-constexpr uint64_t kBlobBytes = 96;     ///< of a particle of a medium
-constexpr uint64_t kMostRowBytes = 32;  ///< of a sprite or a point of a ribbon, with its place in an order
-constexpr uint64_t kMostMeshBytes = 44; ///< of a mesh that turns and flies
-constexpr uint32_t kMostBatches = 16;
+constexpr uint64_t kBlobBytes = 96;    ///< of a particle of a medium
+constexpr uint64_t kMaxRowBytes = 32;  ///< of a sprite or a point of a ribbon, with its place in an order
+constexpr uint64_t kMaxMeshBytes = 44; ///< of a mesh that turns and flies
+constexpr uint32_t kMaxBatches = 16;
 constexpr uint32_t kOthers = 8; ///< draws of what hides, and of passes that draw more than once
 
 class LibraryUpload : public fx::test::ViewApiTest
@@ -51,9 +51,9 @@ protected:
             const std::string_view kind = group.kind;
             bytes += 64;
             if (kind == "particle")
-                bytes += group.count * (group.constants[0] == 1.0f ? kMostMeshBytes : kMostRowBytes);
+                bytes += group.count * (group.constants[0] == 1.0f ? kMaxMeshBytes : kMaxRowBytes);
             else if (kind == "ribbon")
-                bytes += group.count * kMostRowBytes;
+                bytes += group.count * kMaxRowBytes;
         }
         EXPECT_EQ(fxScene_ReleaseSnapshot(played_, snapshot), FX_OK);
         return bytes;
@@ -93,7 +93,7 @@ TEST_F(LibraryUpload, isAtMostThirtyTwoBytesARowAndFewTurns)
                     EXPECT_LE(s.uploadedBytes, mostBytes() + media)
                         << name << " at " << rate << " frame " << i;
                 }
-                EXPECT_LE(s.drawCalls, s.passes + kMostBatches + kOthers) << name << " at " << rate;
+                EXPECT_LE(s.drawCalls, s.passes + kMaxBatches + kOthers) << name << " at " << rate;
                 most = std::max(most, s.uploadedBytes - std::min(s.uploadedBytes, media));
             }
             end();

@@ -8,7 +8,7 @@ using fx::test::loadText;
 
 namespace {
 
-constexpr uint64_t kMostAllocations = 10'000;
+constexpr uint64_t kMaxAllocations = 10'000;
 
 /// Calls `action` with the first, the second, ... allocation failing until none fails any more.
 /// @param action returns its result; after FX_ERROR_OUT_OF_MEMORY everything must be as before
@@ -16,7 +16,7 @@ constexpr uint64_t kMostAllocations = 10'000;
 template <class F>
 uint64_t sweep(HostAllocator& memory, F&& action)
 {
-    for (uint64_t n = 1; n < kMostAllocations; ++n) {
+    for (uint64_t n = 1; n < kMaxAllocations; ++n) {
         const int64_t before = memory.blocks();
         memory.failFrom(n);
         const FxResult result = action();

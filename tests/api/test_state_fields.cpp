@@ -90,7 +90,7 @@ protected:
 
 TEST_F(StateFields, noNumberMakesARestoreTakeMemoryThatTheStateDoesNotFill)
 {
-    constexpr size_t kMostTrials = 300; // of a preset
+    constexpr size_t kMaxTrials = 300; // of a preset
     for (const char* preset : {"fireworks", "magic-trail", "burning-debris", "gas-fire", "rain"}) {
         SCOPED_TRACE(preset);
         add(preset);
@@ -101,8 +101,8 @@ TEST_F(StateFields, noNumberMakesARestoreTakeMemoryThatTheStateDoesNotFill)
         const size_t largest = std::max(largest_, 2 * state.size());
         const size_t highest = 2 * highest_ + 4 * state.size();
         const std::vector<FieldFinder::Field> all = fields();
-        const size_t every = all.size() / kMostTrials + 1;
-        for (size_t i = 0; i < all.size(); i += i < kMostTrials / 2 ? 1 : every) {
+        const size_t every = all.size() / kMaxTrials + 1;
+        for (size_t i = 0; i < all.size(); i += i < kMaxTrials / 2 ? 1 : every) {
             const auto [offset, size] = all[i];
             const uint64_t huge[] = {~uint64_t(0), uint64_t(1) << 62, 0x00FFFFFF, 0x00100000};
             std::vector<std::byte> forged = state;

@@ -10,8 +10,8 @@ using namespace fx::test;
 
 namespace {
 
-constexpr int kMostSeconds = 40;
-constexpr uint64_t kMostWork = 300'000; ///< particle steps; the gases of the library take more
+constexpr int kMaxSeconds = 40;
+constexpr uint64_t kMaxWork = 300'000; ///< particle steps; the gases of the library take more
 
 /// How a second is cut into updates; [s], repeated, each whole repetition ends at a whole second.
 struct Cut
@@ -108,12 +108,12 @@ protected:
         FxScene* const scene = sceneOf(preset, id);
         int length = 0;
         bool isTooMuch = false;
-        for (int f = 1; f <= kMostSeconds * 60 && length == 0 && !isTooMuch; ++f) {
+        for (int f = 1; f <= kMaxSeconds * 60 && length == 0 && !isTooMuch; ++f) {
             EXPECT_EQ(fxScene_Update(scene, kFrame), FX_OK);
             if (f == 60)
                 stopEmitting(scene, id);
             const FxSceneStatistics now = statisticsOf(scene);
-            isTooMuch = now.particleSteps > kMostWork;
+            isTooMuch = now.particleSteps > kMaxWork;
             length = f >= 60 && now.particles == 0 ? (f + 59) / 60 : 0;
         }
         EXPECT_EQ(fxDestroyScene(scene), FX_OK);

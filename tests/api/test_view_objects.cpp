@@ -13,7 +13,7 @@ using Objects = std::map<std::string, int>;
 
 Objects objectsOf(const fx::render::GlLoader& loader)
 {
-    constexpr GLuint kMostNames = 2048; // of a kind; drivers give out the smallest that is free
+    constexpr GLuint kMaxNames = 2048; // of a kind; drivers give out the smallest that is free
     Objects objects;
     for (const char* kind : {"Program", "Shader", "Texture", "Buffer", "Framebuffer", "Renderbuffer",
                              "VertexArray", "Sampler", "Query", "ProgramPipeline", "TransformFeedback"})
@@ -21,7 +21,7 @@ Objects objectsOf(const fx::render::GlLoader& loader)
         const std::string name = std::string("glIs") + kind;
         const auto exists =
             reinterpret_cast<PFNGLISTEXTUREPROC>(loader.getProcAddress(loader.user, name.c_str()));
-        for (GLuint i = 1; i <= kMostNames; ++i)
+        for (GLuint i = 1; i <= kMaxNames; ++i)
             objects[kind] += exists(i) ? 1 : 0;
     }
     return objects;

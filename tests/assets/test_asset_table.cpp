@@ -87,7 +87,7 @@ TEST_F(AssetTableTest, refusesWhatDoesNotFitAndStaysAsItWas)
 
 TEST_F(AssetTableTest, whenItIsFullItSaysSo)
 {
-    for (uint32_t i = 0; i < AssetTable::kMostAssets; ++i) {
+    for (uint32_t i = 0; i < AssetTable::kMaxAssets; ++i) {
         const uint8_t texel[4] = {uint8_t(i), uint8_t(i >> 8), 0, 255};
         ASSERT_TRUE(table_.addImage(1, 1, true, texel).ok());
     }

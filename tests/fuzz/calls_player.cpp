@@ -8,10 +8,10 @@ namespace fx::fuzz {
 
 namespace {
 
-constexpr size_t kCallBytes = 32;       ///< of a recording for each call
-constexpr uint32_t kMostCalls = 256;    ///< of a recording
-constexpr int kMostDepth = 3;           ///< of calls within callbacks within calls
-constexpr uint32_t kMostIntruders = 40; ///< callbacks that a byte of the recording arms
+constexpr size_t kCallBytes = 32;        ///< of a recording for each call
+constexpr uint32_t kMaxCalls = 256;      ///< of a recording
+constexpr int kMaxDepth = 3;             ///< of calls within callbacks within calls
+constexpr uint32_t kMaxNestedCalls = 40; ///< callbacks that a byte of the recording arms
 
 } // namespace
 
@@ -25,7 +25,7 @@ CallsPlayer::CallsPlayer(std::span<const uint8_t> recording) : recording_(record
 
 void CallsPlayer::play()
 {
-    while (!recording_.isEmpty() && calls_ < kMostCalls)
+    while (!recording_.isEmpty() && calls_ < kMaxCalls)
         playOne();
     intruders_ = 0;
     for (PlayedContext& played : contexts_)
@@ -47,7 +47,7 @@ void CallsPlayer::playOne()
 /// A callback makes a call of the recording, while some are armed.
 void CallsPlayer::intrude()
 {
-    if (intruders_ == 0 || depth_ >= kMostDepth || recording_.isEmpty() || calls_ >= kMostCalls)
+    if (intruders_ == 0 || depth_ >= kMaxDepth || recording_.isEmpty() || calls_ >= kMaxCalls)
         return;
     --intruders_;
     ++depth_;
@@ -186,7 +186,7 @@ void CallsPlayer::failAllocations()
     PlayedContext& played = anyContext();
     const uint8_t choice = input_.byte();
     played.host.failAfter = choice < 128 ? UINT32_MAX : uint32_t(choice - 128);
-    intruders_ = input_.below(kMostIntruders);
+    intruders_ = input_.below(kMaxNestedCalls);
 }
 
 void CallsPlayer::loadPreset()

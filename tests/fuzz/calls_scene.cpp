@@ -7,7 +7,7 @@ namespace fx::fuzz {
 
 namespace {
 
-constexpr uint32_t kMostInstances = 12;     ///< of a scene, so that recordings stay short
+constexpr uint32_t kMaxInstances = 12;      ///< of a scene, so that recordings stay short
 constexpr double kLongestUpdate = 4.0 / 60; ///< [s]
 constexpr double kLongestSeek = 1.5;        ///< [s]
 
@@ -93,7 +93,7 @@ void CallsPlayer::createInstance()
         def.destroyWhenFinished = input_.below(2);
         def.quality = input_.below(3);
     }
-    if (slot.instances.size() >= kMostInstances)
+    if (slot.instances.size() >= kMaxInstances)
         return;
     FxInstanceId id{};
     const FxResult result = checked(fxScene_CreateInstance(slot.scene, &def, &id));

@@ -24,7 +24,7 @@ void checkGrid(const sim::FieldGrid& grid)
 /// What is behind every field and density.
 void checkFile(const sim::FieldGrid& grid)
 {
-    require(grid.count() >= 1 && grid.count() <= sim::kMostGridNodes, "a grid has 1 to 2^24 nodes");
+    require(grid.count() >= 1 && grid.count() <= sim::kMaxGridNodes, "a grid has 1 to 2^24 nodes");
     require(grid.channels == 1 || grid.channels == 3, "a grid has 1 or 3 channels");
     require(grid.values.size() == grid.count() * grid.channels, "a grid has one number a node and channel");
     require(std::all_of(grid.values.begin(), grid.values.end(), [](float x) { return std::isfinite(x); }),

@@ -36,7 +36,7 @@ void checkParticleMesh(std::string_view text)
         require(!mesh.status().message().empty(), "a refused mesh has a message");
         return;
     }
-    require(mesh->indices.size() % 3 == 0 && mesh->indices.size() / 3 <= asset::kMostMeshTriangles,
+    require(mesh->indices.size() % 3 == 0 && mesh->indices.size() / 3 <= asset::kMaxMeshTriangles,
             "a mesh consists of at most 65536 triangles");
     const auto isInside = [&](uint32_t index) { return index < mesh->vertices.size(); };
     require(std::all_of(mesh->indices.begin(), mesh->indices.end(), isInside), "indices name vertices");

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60.0; ///< [s]
 constexpr int kFrames = 4;
-constexpr uint64_t kMostCapacity = 4096; ///< particles of a preset that is played
-constexpr uint64_t kMostWork = 40'000;   ///< work units of playing it, a fraction of a second in a slow build
+constexpr uint64_t kMaxCapacity = 4096; ///< particles of a preset that is played
+constexpr uint64_t kMaxWork = 40'000;   ///< work units of playing it, a fraction of a second in a slow build
 
 /// State hash after some frames with the loops of the host cut and ordered in one way.
 uint64_t play(std::string_view text, bool reversesLoops)
@@ -45,8 +45,8 @@ bool isLight(FxContext* context, FxPresetId preset)
     FxPresetInfo info{};
     info.structSize = sizeof info;
     require(checked(fxGetPresetInfo(context, preset, &info)) == FX_OK, "a loaded preset has properties");
-    return info.capacity <= kMostCapacity && info.solverCount <= 8 && info.startWork <= kMostWork &&
-           info.stepWork <= (kMostWork - info.startWork) / kFrames;
+    return info.capacity <= kMaxCapacity && info.solverCount <= 8 && info.startWork <= kMaxWork &&
+           info.stepWork <= (kMaxWork - info.startWork) / kFrames;
 }
 
 } // namespace

@@ -67,7 +67,7 @@ Fields fieldsOf(const fx::sim::SolverDef& solver)
     return fields;
 }
 
-const Json kLeast{{"emission", {{"rate", 1}}}};
+const Json kMin{{"emission", {{"rate", 1}}}};
 
 Json emitterSchema()
 {
@@ -121,7 +121,7 @@ void probeArray(const Json& object, const std::string& array, const Json& first,
                 const std::set<std::string>& left = {})
 {
     const Json::json_pointer pointer(array);
-    Json element = kLeast;
+    Json element = kMin;
     element[pointer] = Json::array({first});
     const Json items = object[pointer.back()]["items"];
     probeMembers("emitters", only(items, left, false), element, array + "/0", fieldsOf);
@@ -137,24 +137,24 @@ TEST(EmitterMembers, eachIsReadAndHasTheDefaultThatItsSchemaDocuments)
     elsewhere.insert("inheritVelocity");
     Json plain = only(schema, elsewhere, false);
     plain["properties"]["shape"]["enum"] = {"point", "disc"}; // others need more than their name
-    probeMembers("emitters", plain, kLeast, "", fieldsOf);
-    probeMembers("emitters", only(schema, {"inheritVelocity"}), with(kLeast, {{"space", "world"}}), "",
+    probeMembers("emitters", plain, kMin, "", fieldsOf);
+    probeMembers("emitters", only(schema, {"inheritVelocity"}), with(kMin, {{"space", "world"}}), "",
                  fieldsOf);
-    const Json torus = with(kLeast, {{"shape", "torus"}, {"size", 8000}});
+    const Json torus = with(kMin, {{"shape", "torus"}, {"size", 8000}});
     probeMembers("emitters", only(schema, {"tube"}), torus, "", fieldsOf);
     probeMembers("emitters", only(schema, {"inner", "surface"}), with(torus, {{"tube", 1000}}), "", fieldsOf);
-    probeMembers("emitters", only(schema, {"height"}), with(kLeast, {{"shape", "cone"}, {"size", 1}}), "",
+    probeMembers("emitters", only(schema, {"height"}), with(kMin, {{"shape", "cone"}, {"size", 1}}), "",
                  fieldsOf);
     const Json points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
-    probeMembers("emitters", only(schema, {"closed"}),
-                 with(kLeast, {{"shape", "spline"}, {"points", points}}), "", fieldsOf);
+    probeMembers("emitters", only(schema, {"closed"}), with(kMin, {{"shape", "spline"}, {"points", points}}),
+                 "", fieldsOf);
 }
 
 TEST(EmitterMembers, eachForceIsReadAndHasTheDefaultThatItsSchemaDocuments)
 {
     const Json forces = emitterSchema()["properties"]["forces"];
-    probeMembers("emitters", only(forces, {"gustPeriod"}, false), kLeast, "/forces", fieldsOf);
-    probeMembers("emitters", only(forces, {"gustPeriod"}), with(kLeast, {{"forces", {{"gust", {1, 2, 3}}}}}),
+    probeMembers("emitters", only(forces, {"gustPeriod"}, false), kMin, "/forces", fieldsOf);
+    probeMembers("emitters", only(forces, {"gustPeriod"}), with(kMin, {{"forces", {{"gust", {1, 2, 3}}}}}),
                  "/forces", fieldsOf);
     const Json members = forces["properties"];
     probeArray(members, "/forces/vortices", {{"radius", 2}, {"speed", 3}, {"pull", 1}}, {"speed", "pull"});
@@ -162,7 +162,7 @@ TEST(EmitterMembers, eachForceIsReadAndHasTheDefaultThatItsSchemaDocuments)
     probeArray(members, "/forces/attractors", {{"strength", 5}}, {"reach"});
     probeArray(members, "/forces/conform", {{"stiffness", 9}}, {"cellSize", "shape", "reach"});
     for (const char* where : {"/forces/attractors", "/forces/conform"}) { // nothing of the cloud is that far
-        Json near = kLeast;
+        Json near = kMin;
         near[Json::json_pointer(where)] = {{{"strength", 5}, {"reach", 1}}};
         if (std::string(where) == "/forces/conform")
             near[Json::json_pointer(where)] = {{{"stiffness", 9}, {"reach", 1}}};
@@ -186,7 +186,7 @@ TEST(EmitterMembers, eachMemberOfObstaclesAndOfTheAppearanceIsRead)
                {"shape", "position", "axis", "size", "hollow", "cellSize"});
     for (const char* shape : {"plane", "sphere", "box", "ground", "scene", "hook", "depth"})
         EXPECT_EQ(emitterWith({{"collisions", {{{"shape", shape}}}}}).modules.size(), 1u) << shape;
-    probeMembers("emitters", members["appearance"], kLeast, "/appearance", fieldsOf);
+    probeMembers("emitters", members["appearance"], kMin, "/appearance", fieldsOf);
 }
 
 TEST(EmitterMembers, bounceJoinsTheOtherObstacles)
@@ -202,7 +202,7 @@ TEST(EmitterMembers, whatOnlyTheGpuMeetsIsAWarningWhereTheCpuComputes)
 {
     std::string obstacle;
     const auto warningsOf = [&obstacle](const Json& members) {
-        Json element = with(kLeast, members);
+        Json element = with(kMin, members);
         element["collisions"] = {{{"shape", "plane"}}, {{"shape", "depth"}}};
         const Json document{{"version", 1}, {"emitters", Json::array({element})}};
         std::vector<fx::preset::Diagnostic> found;

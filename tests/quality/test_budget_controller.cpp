@@ -12,9 +12,9 @@ namespace fx::quality::test {
 
 namespace {
 
-constexpr double kMostOver = 0.05;     ///< share of frames
-constexpr double kMostSwitches = 0.03; ///< share of frames
-constexpr int kMostRecovery = 10;      ///< [frame]
+constexpr double kMaxShareOver = 0.05; ///< share of frames
+constexpr double kMaxSwitches = 0.03;  ///< share of frames
+constexpr int kMaxRecovery = 10;       ///< [frame]
 constexpr std::array<double, kTechniques> kWeights = {1, 1, 1, 1, 1, 1};
 
 double share(int frames)
@@ -58,9 +58,9 @@ TEST_P(ScriptedLoad, theControllerStaysWithinTheBudgetAndCalm)
 {
     for (uint64_t seed = 1; seed <= 8; ++seed) {
         const Outcome outcome = playController({GetParam(), seed, {}});
-        EXPECT_LE(share(outcome.over), kMostOver) << "seed " << seed;
-        EXPECT_LE(share(outcome.switches), kMostSwitches) << "seed " << seed;
-        EXPECT_LE(outcome.worstRecovery, kMostRecovery) << "seed " << seed;
+        EXPECT_LE(share(outcome.over), kMaxShareOver) << "seed " << seed;
+        EXPECT_LE(share(outcome.switches), kMaxSwitches) << "seed " << seed;
+        EXPECT_LE(outcome.worstRecovery, kMaxRecovery) << "seed " << seed;
         EXPECT_EQ(outcome.returns, 0) << "seed " << seed;
         EXPECT_EQ(outcome.flickers, 0) << "seed " << seed;
         EXPECT_LT(outcome.meanError, 1.5) << "seed " << seed; // all at the bottom would have 6
@@ -76,15 +76,15 @@ INSTANTIATE_TEST_SUITE_P(ResultsComeLate, ScriptedLoad, ::testing::Values(1, 3, 
 TEST(FixedQuality, isOverTheBudgetSoThatTheGateCanFail)
 {
     const Outcome outcome = playFixed({});
-    EXPECT_GT(share(outcome.over), kMostOver);
-    EXPECT_GT(outcome.worstRecovery, kMostRecovery);
+    EXPECT_GT(share(outcome.over), kMaxShareOver);
+    EXPECT_GT(outcome.worstRecovery, kMaxRecovery);
 }
 
 TEST(NaiveProportional, isOverTheBudgetAndFlickersSoThatTheGatesCanFail)
 {
     const Outcome outcome = playNaive({});
-    EXPECT_GT(share(outcome.over), kMostOver);
-    EXPECT_GT(share(outcome.switches), kMostSwitches);
+    EXPECT_GT(share(outcome.over), kMaxShareOver);
+    EXPECT_GT(share(outcome.switches), kMaxSwitches);
     EXPECT_GT(outcome.returns, 0);
     EXPECT_GT(outcome.flickers, 0);
 }
@@ -160,8 +160,8 @@ TEST(BudgetController, keepsABudgetWithTheShippedLevelsAndUsesLevelsOfDetailAndG
             controller.observe(controller.choice(), times);
             controller.choose({kBudget, kFrameTime, false, weights});
         }
-    EXPECT_LE(double(over) / frames, kMostOver);
-    EXPECT_LE(double(controller.switches()) / frames, kMostSwitches);
+    EXPECT_LE(double(over) / frames, kMaxShareOver);
+    EXPECT_LE(double(controller.switches()) / frames, kMaxSwitches);
     EXPECT_TRUE(usesLevels);
     EXPECT_TRUE(dropsGlare);
 }
@@ -180,7 +180,7 @@ TEST(BudgetController, changesNothingWhileSomethingIsCaughtUpWith)
     EXPECT_LT(stepSum(controller.choice()), stepSum(before));
 
     const Outcome outcome = playController({3, 1, [](int frame) { return frame >= 1000 && frame < 3000; }});
-    EXPECT_GT(share(outcome.over), kMostOver); // the price, which shows that it was held
+    EXPECT_GT(share(outcome.over), kMaxShareOver); // the price, which shows that it was held
 }
 
 TEST(BudgetController, twoSlowFramesDoNotChangeQualityButThreeDo)

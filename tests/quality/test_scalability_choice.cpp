@@ -26,7 +26,7 @@ struct Case
 {
     std::vector<ScalabilityLevels> techniqueLevels;
     CostModel costs;
-    std::array<double, kMostTechniques> weights{};
+    std::array<double, kMaxTechniques> weights{};
     ChoiceInputs inputs() const { return {techniqueLevels, &costs, weights}; }
 };
 
@@ -34,10 +34,10 @@ Case randomCase(uint32_t stream)
 {
     Draw draw(stream);
     Case made;
-    const size_t count = 1 + size_t(draw() * kMostTechniques);
+    const size_t count = 1 + size_t(draw() * kMaxTechniques);
     for (size_t i = 0; i < count; ++i) {
         ScalabilityLevels levels{"random", {}};
-        const size_t steps = 1 + size_t(draw() * kMostSteps);
+        const size_t steps = 1 + size_t(draw() * kMaxSteps);
         double cost = draw() < 0.3 ? 0.0 : draw();
         double error = 0.0;
         for (size_t k = 0; k < steps; ++k, cost += 0.01 + draw())

@@ -73,7 +73,7 @@ TEST(GasAir, turbulenceOfManyPlacesIsThatOfEachAloneBitForBit)
     const GasAir air(def, step, ThermalFlow{});
     fx::base::HostMemory memory;
     GasDynamicsDef dynamics;
-    dynamics.capacity = Turbulence::kMost + 9;
+    dynamics.capacity = Turbulence::kMax + 9;
     GasDynamics<float> gas(dynamics, &memory);
     std::vector<GasParticle> particles(dynamics.capacity);
     for (size_t i = 0; i < particles.size(); ++i)
@@ -81,7 +81,7 @@ TEST(GasAir, turbulenceOfManyPlacesIsThatOfEachAloneBitForBit)
     ASSERT_TRUE(gas.add(particles).ok());
     Turbulence many, one;
     float fastest = 0;
-    for (const uint32_t count : {1u, 5u, 16u, 17u, Turbulence::kMost})
+    for (const uint32_t count : {1u, 5u, 16u, 17u, Turbulence::kMax})
         for (const uint32_t first : {0u, 3u, 9u}) {
             many.evaluate(air, gas.view(), first, count);
             for (uint32_t k = 0; k < count; ++k) {

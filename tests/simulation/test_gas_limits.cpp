@@ -47,7 +47,7 @@ TEST(GasLimits, extremePresetsStayFiniteAndBounded)
         stage.add({}, std::move(def));
         stage.play(3);
         expectFinite(stage);
-        EXPECT_LE(stage.counters().subSteps, 3u * 65u * (sim::kMostGasSubSteps + 1));
+        EXPECT_LE(stage.counters().subSteps, 3u * 65u * (sim::kMaxGasSubSteps + 1));
     }
 }
 

@@ -54,7 +54,7 @@ constexpr MotionLimit kMotionLimits[] = {{"explosion-0.6", 0.054, 0.060}, {"expl
 
 int octavesOf(int voxels)
 {
-    return voxels < 96 ? 3 : render::kMostDetailOctaves; // as rendering/compositions/volume
+    return voxels < 96 ? 3 : render::kMaxDetailOctaves; // as rendering/compositions/volume
 }
 
 class DetailAccuracy final : public AccuracyTechnique
@@ -138,7 +138,7 @@ base::Status DetailAccuracy::measureExtinction(AccuracySample& out)
     double depths[2] = {}, passing[2] = {};
     size_t covered = 0;
     const std::vector<float>& off = truth(0, true);
-    const std::vector<float>& on = truth(render::kMostDetailOctaves, true);
+    const std::vector<float>& on = truth(render::kMaxDetailOctaves, true);
     for (size_t i = 0; i < off.size(); ++i) {
         const double tau[2] = {double(off[i]), double(on[i])};
         if (std::exp(-tau[0]) >= kClear)

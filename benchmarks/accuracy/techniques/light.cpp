@@ -146,7 +146,7 @@ base::Result<AccuracySample> LightAccuracy::run(size_t index, const std::functio
     slices.multiple = setting.multiple;
     slices.samples = setting.samples;
     if (setting.samples == 4)
-        slices.resolution = {render::kMostSliceTexels, render::kMostSlicePlanes};
+        slices.resolution = {render::kMaxSliceTexels, render::kMaxSlicePlanes};
     const auto picture = painter_->paint(blobs_, viewOf(setting), slices);
     if (!picture.ok())
         return picture.status();

@@ -15,7 +15,7 @@ namespace fx::cli {
 namespace {
 
 constexpr uint32_t kPaths = 1u << 19;
-constexpr double kLeast = 1e-6; // throughput below which a path counts as absorbed
+constexpr double kMin = 1e-6; // throughput below which a path counts as absorbed
 
 struct LitBall
 {
@@ -59,7 +59,7 @@ void follow(render::MediumTracker& tracker, uint32_t number, Shares& io)
     const double r = std::sqrt(area), angle = 2.0 * std::numbers::pi * turn;
     render::FlightStart start{{{r * std::cos(angle), 4.0, r * std::sin(angle)}, {0.0, -1.0, 0.0}}};
     glm::dvec3 throughput(1.0), emitted(0.0);
-    for (uint32_t scatterings = 0; throughput.x > kLeast; ++scatterings) {
+    for (uint32_t scatterings = 0; throughput.x > kMin; ++scatterings) {
         const render::Flight flight = tracker.fly(start, sampler, throughput, emitted);
         if (!flight.isScattered) {
             const glm::dvec3 place =

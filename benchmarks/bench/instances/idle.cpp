@@ -64,8 +64,8 @@ namespace fx::cli {
 namespace {
 
 constexpr int kFrames = 100;
-constexpr double kMostIdle = 500;  ///< instructions of an empty scene at rest
-constexpr double kMostGrowth = 10; ///< instructions that many instances add to a thousand
+constexpr double kMaxIdle = 500;  ///< instructions of an empty scene at rest
+constexpr double kMaxGrowth = 10; ///< instructions that many instances add to a thousand
 constexpr uint32_t kFew = 1000;
 
 constexpr const char* kFountain = R"({"version": 1, "ground": false, "emitters": [{"maxParticles": 64,
@@ -210,7 +210,7 @@ int checkGates(const BenchIdleOptions& options)
     IdleRow base, less, more;
     if (!measureAndPrint(empty, base))
         return kFailed;
-    ok &= gate("instructions of an empty frame", base.instructions, kMostIdle);
+    ok &= gate("instructions of an empty frame", base.instructions, kMaxIdle);
     ok &= gate("GL calls of an empty frame", double(base.glCalls), 0);
     ok &= gate("allocations of an empty frame", double(base.allocations), 0);
     for (uint32_t BenchIdleOptions::*kind : {&BenchIdleOptions::dormant, &BenchIdleOptions::hidden}) {
@@ -219,8 +219,7 @@ int checkGates(const BenchIdleOptions& options)
         many.*kind = std::max(options.*kind, 2 * kFew);
         if (!measureAndPrint(few, less) || !measureAndPrint(many, more))
             return kFailed;
-        ok &=
-            gate("instructions that more instances add", more.instructions - less.instructions, kMostGrowth);
+        ok &= gate("instructions that more instances add", more.instructions - less.instructions, kMaxGrowth);
         ok &= gate("allocations of a frame", double(more.allocations), 0);
     }
     return ok ? kSuccess : kFailed;

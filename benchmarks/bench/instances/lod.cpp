@@ -163,7 +163,7 @@ std::string findFault(const std::vector<LodRow>& rows)
                           "bias %g, pictures %g: one pop in 100 is over %.3f and one is %.3f; allowed are %g "
                           "and %.3f",
                           double(row.what.bias), double(row.what.impostorPixels), row.flight.pop.p99(),
-                          row.flight.pop.largest(), kLodPopP99, kLodPopMost * row.flight.pop.motionLargest());
+                          row.flight.pop.largest(), kLodPopP99, kMaxLodPop * row.flight.pop.motionLargest());
             return text;
         }
     }

@@ -37,7 +37,7 @@ base::Status drawOne(BenchScene& scene, std::vector<float>& outPicture)
 
 bool isSmall(const LodFlight& flight)
 {
-    return flight.pop.p99() <= kLodPopP99 && flight.pop.largest() <= kLodPopMost * flight.pop.motionLargest();
+    return flight.pop.p99() <= kLodPopP99 && flight.pop.largest() <= kMaxLodPop * flight.pop.motionLargest();
 }
 
 FxViewSettings lodSettings(const LodCase& what)

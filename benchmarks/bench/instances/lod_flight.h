@@ -16,10 +16,10 @@ constexpr double kLodWidest = 0.3;     ///< [1] half the width of the field over
 constexpr double kLodEyeHeight = 40.0; ///< [m]
 
 /// In the flight nothing may pop: of the blocks that change at most one in a hundred by more than kLodPopP99,
-/// none by more than kLodPopMost of the largest change of the flight itself. Single pixels at the edge of a
+/// none by more than kMaxLodPop of the largest change of the flight itself. Single pixels at the edge of a
 /// thick flame change as soon as anything moves by a hundredth of a pixel.
 constexpr double kLodPopP99 = 0.04; ///< [1] of what a display shows
-constexpr double kLodPopMost = 0.6; ///< [1]
+constexpr double kMaxLodPop = 0.6;  ///< [1]
 
 /// What is measured.
 struct LodCase

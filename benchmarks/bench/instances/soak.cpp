@@ -64,7 +64,7 @@ extern "C" [[gnu::noinline]] void fxSoakFrames(SoakFrames* frames)
 namespace fx::cli {
 namespace {
 
-constexpr double kMostGrowth = 0.02;   ///< [1] of memory and instructions, last over first
+constexpr double kMaxGrowth = 0.02;    ///< [1] of memory and instructions, last over first
 constexpr uint64_t kSlack = 256 << 10; ///< [byte] of the process, whose pages are not ours alone
 constexpr uint32_t kCountedRounds = 6; ///< under callgrind
 
@@ -201,7 +201,7 @@ SoakRow measure(const BenchSoakOptions& options)
 
 bool gate(const char* what, double first, double last, double slack)
 {
-    if (last <= first * (1.0 + kMostGrowth) + slack)
+    if (last <= first * (1.0 + kMaxGrowth) + slack)
         return true;
     std::fprintf(stderr, "fx bench soak: %s grew from %.0f to %.0f\n", what, first, last);
     return false;

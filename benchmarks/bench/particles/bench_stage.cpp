@@ -15,8 +15,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr base::Ticks kFrame = base::kTicksPerSecond / 60;
 constexpr size_t kCopyBytes = size_t(128) << 20;
-constexpr size_t kLeastCopy = 4096;
-constexpr size_t kLeastPart = size_t(64) << 10;
+constexpr size_t kMinCopy = 4096;
+constexpr size_t kMinPart = size_t(64) << 10;
 constexpr uint32_t kCopyParts = 64;
 
 base::SnapshotSchema allKinds()
@@ -82,8 +82,8 @@ uint64_t BenchStage::particles() const
 
 double copyGigabytes(base::TaskRunner& tasks, double bytes)
 {
-    const size_t half = size_t(std::clamp(0.5 * bytes, double(kLeastCopy), double(kCopyBytes)));
-    const uint32_t parts = uint32_t(std::clamp<size_t>(half / kLeastPart, 1, kCopyParts));
+    const size_t half = size_t(std::clamp(0.5 * bytes, double(kMinCopy), double(kCopyBytes)));
+    const uint32_t parts = uint32_t(std::clamp<size_t>(half / kMinPart, 1, kCopyParts));
     const size_t part = half / parts;
     const size_t repeats = std::max<size_t>(kCopyBytes / 4 / half, 1);
     std::vector<char> from(half, 1);

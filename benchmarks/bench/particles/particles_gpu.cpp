@@ -108,7 +108,7 @@ private:
             }
         rowBytes_ = size_t(words * 4 / program.rows);
         auto rows = render::GlBuffer::create(*device_, words * 4, "rows");
-        auto in = render::GlBuffer::create(*device_, base::kMostSteppedGpuWords * 8, "words");
+        auto in = render::GlBuffer::create(*device_, base::kMaxSteppedGpuWords * 8, "words");
         if (!rows || !in)
             return rows ? in.status() : rows.status();
         rows_ = std::move(*rows);

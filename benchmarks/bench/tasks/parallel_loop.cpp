@@ -23,8 +23,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr uint64_t kLeastSteps = 1 << 13; // about 10 us
-constexpr uint64_t kMostSteps = 1 << 25;  // about 30 ms
+constexpr uint64_t kMinSteps = 1 << 13; // about 10 us
+constexpr uint64_t kMaxSteps = 1 << 25; // about 30 ms
 
 struct Options
 {
@@ -71,7 +71,7 @@ void measure(Options options)
     const Machine machine = readMachine();
     uint64_t sum = 0;
     double breakEven = -1, offer = 0;
-    for (uint64_t steps = kLeastSteps; steps <= kMostSteps; steps += steps / 2) {
+    for (uint64_t steps = kMinSteps; steps <= kMaxSteps; steps += steps / 2) {
         std::vector<double> serial, parallel;
         for (int i = 0; i < options.repeats; ++i) {
             for (const bool isParallel : {false, true}) {
@@ -80,7 +80,7 @@ void measure(Options options)
             }
         }
         const double alone = median(serial), together = median(parallel);
-        if (steps == kLeastSteps)
+        if (steps == kMinSteps)
             offer = together - alone;
         if (together >= alone)
             breakEven = -1;

@@ -45,7 +45,7 @@ double shareError(double share, double depth)
         return std::fabs(share);
     if (depth >= 40.0 * std::pow(40.0 / 0.6, 0.75))
         return std::fabs(share - 1.0);
-    return std::fmax(std::fmax(-share, share - double(render::kMostDetailGain)), 0.0);
+    return std::fmax(std::fmax(-share, share - double(render::kMaxDetailGain)), 0.0);
 }
 
 std::vector<StabilitySweep> extinctions(bool isQuick)

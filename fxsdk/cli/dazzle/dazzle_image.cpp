@@ -18,10 +18,10 @@ namespace fx::cli {
 namespace {
 
 constexpr int kLargestSide = 16384; // [pixel]
-constexpr uint64_t kMostPixels = uint64_t(1) << 25;
-constexpr uint64_t kMostValues = uint64_t(1) << 29;
-constexpr size_t kMostChannels = 256;
-constexpr uint64_t kMostExpansion = 10000; // bytes of picture for a byte of file
+constexpr uint64_t kMaxPixels = uint64_t(1) << 25;
+constexpr uint64_t kMaxValues = uint64_t(1) << 29;
+constexpr size_t kMaxChannels = 256;
+constexpr uint64_t kMaxExpansion = 10000; // bytes of picture for a byte of file
 
 base::Status failed(base::Code code, const std::string& path, const std::string& message)
 {
@@ -33,16 +33,16 @@ base::Status checkSize(const std::string& path, uint64_t fileBytes, int64_t widt
                        size_t channels)
 {
     if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide ||
-        uint64_t(width) * uint64_t(height) > kMostPixels)
+        uint64_t(width) * uint64_t(height) > kMaxPixels)
         return failed(base::Code::TooLarge, path,
                       std::to_string(width) + "x" + std::to_string(height) +
                           " pixels; at most 16384 a side and 2^25 in all");
     const uint64_t values = uint64_t(width) * uint64_t(height) * channels;
-    if (channels > kMostChannels || values > kMostValues)
+    if (channels > kMaxChannels || values > kMaxValues)
         return failed(base::Code::TooLarge, path,
                       std::to_string(channels) +
                           " channels of this size; at most 256, and 2^29 values in all");
-    if (values * sizeof(float) / kMostExpansion > fileBytes)
+    if (values * sizeof(float) / kMaxExpansion > fileBytes)
         return failed(base::Code::TooLarge, path, "would grow more than 10,000-fold when it is read");
     return {};
 }
@@ -91,7 +91,7 @@ base::Result<DazzleImage> readDazzleImage(const std::string& path)
     if (error)
         return failed(base::Code::Io, path, error.message());
     try {
-        std::string beginning(std::min(bytes, kMostHeaderBytes), '\0');
+        std::string beginning(std::min(bytes, kMaxHeaderBytes), '\0');
         std::ifstream file(path, std::ios::binary);
         file.read(beginning.data(), std::streamsize(beginning.size()));
         beginning.resize(size_t(file.gcount()));

@@ -134,7 +134,7 @@ base::Status cutHeader(const std::string& what, uint64_t left)
 {
     if (left > 0)
         return {base::Code::TooLarge,
-                "the header has more than " + std::to_string(kMostHeaderBytes) + " bytes"};
+                "the header has more than " + std::to_string(kMaxHeaderBytes) + " bytes"};
     return {base::Code::Parse, "the header is cut" + what};
 }
 

@@ -10,11 +10,11 @@
 
 namespace fx::cli {
 
-constexpr uint64_t kMostHeaderBytes = uint64_t(4) << 20; ///< of all parts
+constexpr uint64_t kMaxHeaderBytes = uint64_t(4) << 20; ///< of all parts
 
 /// Whether every attribute ends within the file and has the length that its type requires. A file that is not
 /// an OpenEXR file is left to the library.
-/// @param beginning of the file, kMostHeaderBytes or all of it
+/// @param beginning of the file, kMaxHeaderBytes or all of it
 /// @param fileBytes [byte] of the whole file
 /// @return Parse naming the attribute; TooLarge for longer headers
 base::Status checkExrAttributes(std::string_view beginning, uint64_t fileBytes);

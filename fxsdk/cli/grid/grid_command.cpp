@@ -18,7 +18,7 @@
 namespace fx::cli {
 namespace {
 
-constexpr uint64_t kMostText = uint64_t(1) << 31; // [byte] of a file that is read
+constexpr uint64_t kMaxTextBytes = uint64_t(1) << 31; // [byte] of a file that is read
 
 struct GridOptions
 {
@@ -42,7 +42,7 @@ base::Result<sim::FieldGrid> readGrid(const GridOptions& options, const std::str
 
 base::Status runGrid(const GridOptions& options)
 {
-    const base::Result<std::string> bytes = asset::readFile(options.input, kMostText);
+    const base::Result<std::string> bytes = asset::readFile(options.input, kMaxTextBytes);
     if (!bytes)
         return bytes.status();
     const base::Result<sim::FieldGrid> grid = readGrid(options, *bytes);
@@ -77,7 +77,7 @@ void addGridCommand(CLI::App& app, int& outExitCode)
     CLI::Option* nodes =
         command->add_option("--nodes", options->nodes, "NX NY NZ of raw little-endian floats")
             ->expected(3)
-            ->check(CLI::Range(1u, sim::kMostGridNodesOfAxis));
+            ->check(CLI::Range(1u, sim::kMaxGridNodesPerAxis));
     command->add_option("--channels", options->channels, "Of raw floats: 1 or 3; default 1")
         ->check(CLI::IsMember({1u, 3u}))
         ->needs(nodes);

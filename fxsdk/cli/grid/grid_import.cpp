@@ -72,8 +72,8 @@ Status readRows(std::string_view text, std::vector<Row>& rows, uint32_t& outChan
             return atLine(line, "found " + std::to_string(channels) + " channels after " +
                                     std::to_string(outChannels));
         outChannels = channels;
-        if (rows.size() >= sim::kMostGridNodes)
-            return {Code::TooLarge, "more than " + std::to_string(sim::kMostGridNodes) + " nodes"};
+        if (rows.size() >= sim::kMaxGridNodes)
+            return {Code::TooLarge, "more than " + std::to_string(sim::kMaxGridNodes) + " nodes"};
         Row& row = rows.emplace_back(Row{line, {(*numbers)[0], (*numbers)[1], (*numbers)[2]}, {}});
         for (uint32_t c = 0; c < channels; ++c)
             row.value[c] = float((*numbers)[3 + c]);
@@ -133,12 +133,12 @@ Status place(const std::vector<Row>& rows, const std::array<Axis, 3>& axes, sim:
 Status checkShape(const sim::FieldGrid& grid)
 {
     for (int a = 0; a < 3; ++a)
-        if (grid.nodes[a] < 1 || grid.nodes[a] > sim::kMostGridNodesOfAxis)
+        if (grid.nodes[a] < 1 || grid.nodes[a] > sim::kMaxGridNodesPerAxis)
             return {Code::TooLarge, "found " + std::to_string(grid.nodes[a]) +
                                         " nodes along an axis; allowed are 1 to " +
-                                        std::to_string(sim::kMostGridNodesOfAxis)};
-    if (grid.count() > sim::kMostGridNodes)
-        return {Code::TooLarge, "more than " + std::to_string(sim::kMostGridNodes) + " nodes"};
+                                        std::to_string(sim::kMaxGridNodesPerAxis)};
+    if (grid.count() > sim::kMaxGridNodes)
+        return {Code::TooLarge, "more than " + std::to_string(sim::kMaxGridNodes) + " nodes"};
     return {};
 }
 

@@ -28,7 +28,7 @@ render::ViewSettings settingsOf(const RenderArguments& arguments, OutputKind kin
         settings.lighting = lights->view.lighting;
         settings.exposureEv100 = lights->view.exposureEv100;
         render::HostLights& host = settings.hostLights;
-        for (; host.count < std::min(lights->lights.size(), render::kMostHostLights); ++host.count)
+        for (; host.count < std::min(lights->lights.size(), render::kMaxHostLights); ++host.count)
             host.lights[host.count] = toHostLight(lights->lights[host.count]);
     }
     applyArguments(arguments, kind, settings);

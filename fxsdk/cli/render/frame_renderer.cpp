@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr size_t kMostEffects = render::kMostStageLights - FX_MOST_LIGHTS; // whose light surfaces get
+constexpr size_t kMaxEffects = render::kMaxStageLights - FX_MOST_LIGHTS; // whose light surfaces get
 
 double millisecondsSince(Clock::time_point start)
 {
@@ -168,7 +168,7 @@ base::Status FrameRenderer::drawStage(const render::CameraView& camera)
     frame.colorTexture = frame.depthTexture = 0; // the stage has none before its first picture
     if (base::Status status = toStatus(fxView_PrepareLights(view_, &frame)); !status)
         return status;
-    std::array<render::EffectLight, kMostEffects> lights;
+    std::array<render::EffectLight, kMaxEffects> lights;
     size_t count = 0;
     if (!staysOnGpu_) { // what the GPU computes sheds no light, and a snapshot would end that
         const auto snapshot = effects_->snapshot();
@@ -176,7 +176,7 @@ base::Status FrameRenderer::drawStage(const render::CameraView& camera)
             return snapshot.status();
         count = render::effectLights(**snapshot, lights);
     }
-    std::array<render::StageLight, render::kMostStageLights> lit;
+    std::array<render::StageLight, render::kMaxStageLights> lit;
     for (size_t i = 0; i < count; ++i)
         lit[i] = render::effectStageLight(lights[i]);
     const std::span<const render::SceneLight> shown = shownLights();

@@ -85,11 +85,11 @@ public:
     PathPicture(const ReferenceArguments& arguments, int width, int height, std::optional<uint64_t> seed)
     {
         constexpr uint32_t kDefaultSamples = 64;
-        constexpr uint32_t kMostSamples = 65536; // where an error is asked for
+        constexpr uint32_t kMaxSamples = 65536; // where an error is asked for
         settings_.width = width;
         settings_.height = height;
         settings_.error = arguments.error.value_or(0.0);
-        settings_.samples = arguments.paths.value_or(settings_.error > 0.0 ? kMostSamples : kDefaultSamples);
+        settings_.samples = arguments.paths.value_or(settings_.error > 0.0 ? kMaxSamples : kDefaultSamples);
         settings_.path.bounces = arguments.bounces.value_or(std::numeric_limits<uint32_t>::max());
         settings_.sunRadius = 0.5 * arguments.sunAngle * std::numbers::pi / 180.0;
         settings_.seed = seed.value_or(1);

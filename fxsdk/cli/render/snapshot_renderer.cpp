@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLeastNear = 1e-3;          ///< [m]
+constexpr double kMinNearDistance = 1e-3;    ///< [m]
 constexpr float kOrthographicFar = 10000.0f; ///< [m]
 
 } // namespace
@@ -31,7 +31,7 @@ render::CameraView viewOf(const render::ReferenceCamera& camera, double aspect)
         view.view[axis][1] = float(camera.up[axis]);
         view.view[axis][2] = float(-camera.forward[axis]);
     }
-    const float near = float(std::max(camera.nearDistance, kLeastNear));
+    const float near = float(std::max(camera.nearDistance, kMinNearDistance));
     const float high = float(camera.halfHeight), wide = float(camera.halfHeight * aspect);
     view.projection = camera.orthographic
                           ? glm::ortho(-wide, wide, -high, high, near, kOrthographicFar)

@@ -36,7 +36,7 @@ double timesOf(const sim::EventRule& rule, const base::Range& lifetime)
     const base::Ticks life = base::toTicks(0.5 * double(lifetime.min + lifetime.max));
     if (life < rule.age)
         return lifetime.max > lifetime.min ? 0.5 : 0.0;
-    return rule.every > 0 ? std::min(double((life - rule.age) / rule.every) + 1.0, double(sim::kMostAges))
+    return rule.every > 0 ? std::min(double((life - rule.age) / rule.every) + 1.0, double(sim::kMaxEventAges))
                           : 1.0;
 }
 

@@ -12,7 +12,7 @@ namespace fx::preset {
 
 namespace {
 
-constexpr double kMostEvents = 65536.0; // of one kind, of one emitter in a sub-step: what it has room for
+constexpr double kMaxEvents = 65536.0; // of one kind, of one emitter in a sub-step: what it has room for
 constexpr uint64_t kParticleSnapshotBytes = 3 * 40; // in the three snapshots that there are
 
 using Loads = std::vector<sim::StepLoad>;
@@ -27,7 +27,7 @@ double eventsOf(const sim::EventRule& rule, const sim::EmitterDef& emitter, cons
         events = std::min(events * timesOf(rule, emitter.lifetime),
                           rule.every > 0 ? load.alive * (load.seconds / base::toSeconds(rule.every) + 1.0)
                                          : load.alive + load.births);
-    return std::min(events, kMostEvents);
+    return std::min(events, kMaxEvents);
 }
 
 /// Causes come before what they cause in `order`.
@@ -43,7 +43,7 @@ Loads loadsOf(const std::vector<const sim::EmitterDef*>& emitters, const std::ve
         const sim::EmitterDef& emitter = *emitters[i];
         sim::StepLoad& load = loads[i];
         const double capacity = double(emitter.maxParticles);
-        const double fed = std::min(asked[i], std::max(capacity, double(sim::kFewestFed)));
+        const double fed = std::min(asked[i], std::max(capacity, double(sim::kMinEventBirths)));
         const double life = double(emitter.lifetime.max);
         const double turnover = capacity * (seconds / std::max(double(emitter.lifetime.min), 1e-4) + 1.0);
         load.births = std::min(ownBirths(emitter.emission, seconds) + fed, turnover);

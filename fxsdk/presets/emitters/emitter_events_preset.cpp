@@ -118,8 +118,8 @@ void EventLinks::readRule(const PresetValue& value, uint32_t emitter)
     rule.every = base::toTicks(every);
     if (value.has("every") && rule.on != sim::EventKind::Age)
         value.error("every", "found a repetition; only the event age has one");
-    if (every > 0 && double(emitters_[emitter].lifetime.max) > every * double(sim::kMostAges))
-        value.error("every", "found more than " + std::to_string(sim::kMostAges) +
+    if (every > 0 && double(emitters_[emitter].lifetime.max) > every * double(sim::kMaxEventAges))
+        value.error("every", "found more than " + std::to_string(sim::kMaxEventAges) +
                                  " repetitions in the longest life; a longer time between them is needed");
     if (value.has("minSpeed")) {
         value.read("minSpeed", rule.minSpeed);

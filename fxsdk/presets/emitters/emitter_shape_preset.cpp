@@ -16,7 +16,7 @@ namespace fx::preset {
 
 namespace {
 
-constexpr uint64_t kMostMeshText = uint64_t(64) << 20; ///< [byte]
+constexpr uint64_t kMaxMeshText = uint64_t(64) << 20; ///< [byte]
 
 using sim::ShapeKind;
 static_assert(uint8_t(ShapeKind::Cone) == uint8_t(sim::EmitterShape::Cone) &&
@@ -63,7 +63,7 @@ std::optional<std::string> readBytes(const PresetValue& value, const char* membe
 std::optional<asset::ObjTriangles> readMesh(const PresetValue& value, const char* member)
 {
     const std::optional<std::string> text =
-        readBytes(value, member, kMostMeshText, "triangles (*.obj), such as \"file\": \"stone.obj\"");
+        readBytes(value, member, kMaxMeshText, "triangles (*.obj), such as \"file\": \"stone.obj\"");
     if (!text)
         return std::nullopt;
     base::Result<asset::ObjTriangles> mesh = asset::readObjTriangles(*text);
@@ -128,7 +128,7 @@ std::shared_ptr<const sim::FieldGrid> readGrid(const PresetValue& value, const c
                                                uint32_t channels)
 {
     const std::optional<std::string> bytes = readBytes(
-        value, member, sim::kMostGridBytes,
+        value, member, sim::kMaxGridBytes,
         "a grid (*.fxgrid) of " + std::to_string(channels) + (channels == 1 ? " channel" : " channels") +
             ", such as \"file\": \"swirl.fxgrid\"; docs/howto/grids.md tells how to make one");
     if (!bytes)

@@ -10,7 +10,7 @@ namespace fx::render {
 
 namespace {
 
-constexpr uint64_t kFewestCards = 4096;
+constexpr uint64_t kMinCards = 4096;
 
 template <class T>
 T readBuffer(GlDevice& device, uint32_t name)
@@ -54,8 +54,8 @@ uint64_t SlabMedia::cardCapacity(const MediaPass::Inputs& in) const
 {
     const double scale = double(in.width) / double(std::max(width_, 1));
     const uint64_t wanted = std::max({uint64_t(2.0 * scale * scale * double(cardFragments_)),
-                                      uint64_t(in.width) * uint64_t(in.height), kFewestCards});
-    return std::min(std::bit_ceil(wanted), kMostCards);
+                                      uint64_t(in.width) * uint64_t(in.height), kMinCards});
+    return std::min(std::bit_ceil(wanted), kMaxCards);
 }
 
 SlabMedia::Lists SlabMedia::list(FrameGraph& graph, const MediaPass::Inputs& in, ResourceId fieldTiles)

@@ -125,7 +125,7 @@ SlabTilePass::Outputs SlabTilePass::addTo(FrameGraph& graph, const Inputs& in)
     Outputs out;
     const uint32_t columns = uint32_t(tilesAlong(in.width)), rows = uint32_t(tilesAlong(in.height));
     const size_t tiles = size_t(columns) * rows;
-    const uint64_t room = std::clamp<uint64_t>(in.entries, 1, kMostListedBalls);
+    const uint64_t room = std::clamp<uint64_t>(in.entries, 1, kMaxListedBalls);
     ResourceId rects;
     graph.addPass("slab upload", [&](FrameGraph::Builder& builder) {
         rects = makeBuffer(builder, "tiles of balls", std::max<size_t>(in.rects.size_bytes(), 64));
@@ -145,7 +145,7 @@ SlabTilePass::Outputs SlabTilePass::addTo(FrameGraph& graph, const Inputs& in)
         const int listRows = int(std::bit_ceil(uint32_t((room + kListColumns - 1) / kListColumns)));
         out.lists =
             builder.write(builder.create({"balls of tiles", int(kListColumns), listRows, Format::R32UI}));
-        const uint64_t most = in.entries <= kMostListedBalls ? in.rects.size() : kMostListedBalls / tiles;
+        const uint64_t most = in.entries <= kMaxListedBalls ? in.rects.size() : kMaxListedBalls / tiles;
         struct Block
         {
             glm::ivec4 counts;

@@ -19,8 +19,8 @@ inline constexpr ProgramDesc kSlabBallsProgram{"slab balls", nullptr, nullptr, "
 inline constexpr ProgramDesc kSlabTilesProgram{"slab tiles", nullptr, nullptr, "slabs/slab_tiles.comp.glsl",
                                                nullptr};
 
-constexpr uint64_t kMostListedBalls = uint64_t(1) << 23; ///< entries of all lists of a frame, of 4 bytes
-constexpr uint64_t kMostCards = uint64_t(1) << 21;       ///< fragments of cards of a frame, of 32 bytes
+constexpr uint64_t kMaxListedBalls = uint64_t(1) << 23; ///< entries of all lists of a frame, of 4 bytes
+constexpr uint64_t kMaxCards = uint64_t(1) << 21;       ///< fragments of cards of a frame, of 32 bytes
 
 /// Gathers the fragments of cards, in one list a texel. Which order they are drawn in does not matter.
 ///

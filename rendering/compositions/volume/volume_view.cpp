@@ -55,7 +55,7 @@ base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
     stacks_ = {};
     const HostTargets& targets = in.request->targets;
     details_.clear();
-    const int octaves = in.settings->voxels < kCoarseVoxels ? kCoarseOctaves : kMostDetailOctaves;
+    const int octaves = in.settings->voxels < kCoarseVoxels ? kCoarseOctaves : kMaxDetailOctaves;
     for (const GroupDetail& detail : io.details)
         details_.push_back(blockOf(detail, octaves));
     materials_ = details_.empty() ? std::span<const BlobMaterial>() : io.materials;

@@ -92,7 +92,7 @@ glm::dvec3 middleOf(std::span<const MediumCaster> casters, const glm::dvec3& eye
 /// Lights at points that give light, those that light the casters most first.
 struct SortedPoints
 {
-    std::array<Candidate, kMostEffectLights + kMostHostLights> points;
+    std::array<Candidate, kMaxEffectLights + kMaxHostLights> points;
     size_t count = 0;
 
     void add(const HostLight& light, const LightOrigin& origin, const glm::dvec3& middle)
@@ -114,7 +114,7 @@ SortedPoints sortedPoints(const LightListInputs& in)
 {
     SortedPoints sorted;
     const glm::dvec3 middle = middleOf(in.casters, in.eye);
-    for (size_t i = 0; i < std::min(in.effects.size(), kMostEffectLights); ++i)
+    for (size_t i = 0; i < std::min(in.effects.size(), kMaxEffectLights); ++i)
         sorted.add(pointOf(in.effects[i]), {LightKind::Effect, uint32_t(i)}, middle);
     for (size_t i = 0; i < in.settings->hostLights.count; ++i)
         sorted.add(in.settings->hostLights.lights[i], {LightKind::Host, uint32_t(i)}, middle);
@@ -127,11 +127,11 @@ LightList::LightList(std::pmr::memory_resource* memory)
     : origins_(memory), fades_(memory), fadesBefore_(memory), stacks_(memory), stackLights_(memory),
       stackBlocks_(memory)
 {
-    constexpr size_t kMost =
-        kMostLightEntries + kFadingEntries; // so that fading takes no memory when it begins
-    stacks_.reserve(kMost);
-    stackLights_.reserve(kMost);
-    stackBlocks_.reserve(kMost);
+    constexpr size_t kMax =
+        kMaxLightEntries + kFadingEntries; // so that fading takes no memory when it begins
+    stacks_.reserve(kMax);
+    stackLights_.reserve(kMax);
+    stackBlocks_.reserve(kMax);
 }
 
 void LightList::build(const LightListInputs& in)
@@ -222,7 +222,7 @@ void LightList::addCascades(const LightListInputs& in)
         return;
     float side = sunTexel_ * float(stacks_.front().resolution.texels);
     float coarserTexel = sunTexel_;
-    for (count_ = kFinerPlanes; count_ < kMostLightEntries && side > kWideScene; ++count_) {
+    for (count_ = kFinerPlanes; count_ < kMaxLightEntries && side > kWideScene; ++count_) {
         side *= kCascadeRatio;
         const float radius = 0.5f * side;
         const bool hasMedia = std::ranges::any_of(in.casters, [&](const MediumCaster& caster) {

@@ -28,9 +28,9 @@ static_assert(sizeof(SliceStackBlock) == 5 * 16);
 constexpr uint64_t kSliceTexelBytes = 8; ///< depth and its slope towards the next plane, 32 bits each
 constexpr int kSliceTileColumns = 8;     ///< planes of a stack lie in rows of so many tiles
 constexpr size_t kFinerPlanes =
-    kMostLightEntries - 2;     ///< first entry with finer planes of the sun near the eye
+    kMaxLightEntries - 2;      ///< first entry with finer planes of the sun near the eye
 constexpr size_t kSkyAxes = 6; ///< of an icosahedron: both ends of each are sampled, with equal weights
-static_assert(1 + kMostEffectLights + kMostHostLights + kSkyAxes <= kFinerPlanes);
+static_assert(1 + kMaxEffectLights + kMaxHostLights + kSkyAxes <= kFinerPlanes);
 
 /// [1] sine of the elevation of all axes but the first, which is vertical.
 constexpr float kSkyAxisElevation = 0.4472135955f; // 1 / sqrt(5)

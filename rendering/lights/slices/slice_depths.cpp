@@ -54,7 +54,7 @@ void SliceDepths::build(const SliceStack& stack, std::span<const MediumCaster> c
     const int n = stack.resolution.texels;
     const int planes = stack.resolution.planes;
     depths_.assign(size_t(planes) * size_t(n) * size_t(n), 0.0f);
-    std::array<float, kMostSlicePlanes> between;
+    std::array<float, kMaxSlicePlanes> between;
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
             between.fill(0.0f);

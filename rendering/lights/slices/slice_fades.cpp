@@ -33,8 +33,8 @@ SliceFade SliceFades::next(const SliceStack& wanted)
         held_.push_back({sides, sides, 0.0f});
     Held& held = held_[next_++];
     held.weight = std::max(held.weight - kStep, 0.0f);
-    const bool canFade = wanted.resolution.texels <= kMostFadingPlanes.texels &&
-                         wanted.resolution.planes <= kMostFadingPlanes.planes;
+    const bool canFade = wanted.resolution.texels <= kMaxFadingPlanes.texels &&
+                         wanted.resolution.planes <= kMaxFadingPlanes.planes;
     if (!canFade || !isNear(sides, held.now)) {
         held = {sides, sides, 0.0f};
     } else if (sides != held.now && held.weight == 0.0f) {

@@ -15,7 +15,7 @@ namespace fx::render {
 constexpr int kFadeFrames = 16; ///< in which new planes take over
 
 /// Planes above these are replaced at once: those before would not fit into the atlas beside them.
-constexpr SliceResolution kMostFadingPlanes{256, 64};
+constexpr SliceResolution kMaxFadingPlanes{256, 64};
 
 /// How a stack is to be made.
 struct SliceFade

@@ -12,13 +12,13 @@ namespace fx::render {
 
 namespace {
 
-constexpr float kLeastSide = 1e-4f; ///< [m] of a texel, and between planes
+constexpr float kMinSide = 1e-4f; ///< [m] of a texel, and between planes
 
 /// The smallest power of 2^(1/4) that is not below x, so that small changes of x change nothing.
 /// @param given what it is to be instead; 0: nothing
 float quantizedSide(float x, bool isSnapped, float given)
 {
-    const float side = std::max(x, kLeastSide);
+    const float side = std::max(x, kMinSide);
     if (given > 0.0f)
         return given;
     return isSnapped ? std::exp2(std::ceil(4.0f * std::log2(side)) * 0.25f) : side;
@@ -87,8 +87,8 @@ double snappedBelow(float low, float side, const glm::vec3& axis, const glm::dve
 
 SliceResolution usableResolution(const SliceResolution& asked)
 {
-    return {std::clamp((asked.texels + 7) / 8 * 8, 8, kMostSliceTexels),
-            std::clamp(asked.planes, kFewestSlicePlanes, kMostSlicePlanes)};
+    return {std::clamp((asked.texels + 7) / 8 * 8, 8, kMaxSliceTexels),
+            std::clamp(asked.planes, kMinSlicePlanes, kMaxSlicePlanes)};
 }
 
 SlicePlace SliceStack::placeOf(const glm::vec3& position) const

@@ -25,9 +25,9 @@ enum class SliceMapping : uint8_t
     Octahedral, ///< shells around a point
 };
 
-constexpr int kFewestSlicePlanes = 3; ///< before, within and behind the media, wherever snapping moves them
-constexpr int kMostSlicePlanes = 128;
-constexpr int kMostSliceTexels = 512; ///< along a side
+constexpr int kMinSlicePlanes = 3; ///< before, within and behind the media, wherever snapping moves them
+constexpr int kMaxSlicePlanes = 128;
+constexpr int kMaxSliceTexels = 512; ///< along a side
 
 /// What is made of a resolution that was asked for: within the limits, texels a multiple of 8.
 SliceResolution usableResolution(const SliceResolution& asked);

@@ -12,7 +12,7 @@ namespace fx::render {
 namespace {
 
 /// Of as many stacks as there may be, since their number changes while planes fade.
-constexpr size_t kStackBytes = std::bit_ceil((kMostLightEntries + kFadingEntries) * sizeof(SliceStackBlock));
+constexpr size_t kStackBytes = std::bit_ceil((kMaxLightEntries + kFadingEntries) * sizeof(SliceStackBlock));
 
 constexpr int kTallestSpare = 8192; ///< [texel] of an atlas that is higher than it has to be
 

@@ -134,7 +134,7 @@ struct GaussIntervalRule : RuleBase<V, kDegree, kProduct>
 {
     using Base = RuleBase<V, kDegree, kProduct>;
     using typename Base::T;
-    static constexpr uint32_t kMostParts = 64;
+    static constexpr uint32_t kMaxParts = 64;
     const GaussRule<T>& nodes;
     V waiting[Base::kTerms]; ///< moments of the interval before
     bool isWaiting = false;
@@ -189,7 +189,7 @@ struct GaussIntervalRule : RuleBase<V, kDegree, kProduct>
     {
         const V zero = Lanes<V>::all(0);
         const V one = Lanes<V>::all(1);
-        const V most = Lanes<V>::all(T(kMostParts));
+        const V most = Lanes<V>::all(T(kMaxParts));
         const V entry = this->io.depth;
         const V wanted =
             smaller((halfDepth + halfDepth) / Lanes<V>::all(this->rules.caps[kDegree - 2]), most + most);
@@ -244,7 +244,7 @@ struct GaussIntervalRule : RuleBase<V, kDegree, kProduct>
     {
         finish(); // light is added in the order of intervals, whatever other lanes do
         this->io.fallback = chooseLess(Lanes<V>::all(0), half, Lanes<V>::all(1), this->io.fallback);
-        PositiveRule<V, kDegree, kProduct> positive(this->walk, this->rules, this->io, kMostParts);
+        PositiveRule<V, kDegree, kProduct> positive(this->walk, this->rules, this->io, kMaxParts);
         positive.interval(begin, half + half);
         V density[Base::kTerms];
         sumExtinction<V, kDegree, true>(this->blobs, middle, middle, half, this->blobs.nearby[turn], nullptr,

@@ -33,7 +33,7 @@ struct ExpConstants<float>
 {
     using Bits = int32_t;
     static constexpr float kLargest = 87.0f;
-    static constexpr float kLeast = -80.0f;
+    static constexpr float kMin = -80.0f;
     static constexpr float kPerLn2 = 1.44269504f;
     static constexpr float kLn2High = 0.693359375f; // 9 bits, so that n times it is exact
     static constexpr float kLn2Low = -2.12194440e-4f;
@@ -47,7 +47,7 @@ struct ExpConstants<double>
 {
     using Bits = int64_t;
     static constexpr double kLargest = 708.0;
-    static constexpr double kLeast = -700.0;
+    static constexpr double kMin = -700.0;
     static constexpr double kPerLn2 = 1.4426950408889634;
     static constexpr double kLn2High = 6.93147180369123816490e-01;
     static constexpr double kLn2Low = 1.90821492927058770002e-10;
@@ -109,7 +109,7 @@ inline T expOfMinus(T x)
     } else {
         using C = ExpConstants<T>;
         const T most = x < C::kLargest ? x : C::kLargest;
-        const T y = T(0) - (most < C::kLeast ? C::kLeast : most);
+        const T y = T(0) - (most < C::kMin ? C::kMin : most);
         const T shifted = y * C::kPerLn2 + C::kRound;
         const T n = shifted - C::kRound;
         const T r = (y - n * C::kLn2High) - n * C::kLn2Low; // (1)

@@ -149,7 +149,7 @@ HWY_INLINE Pack<T> expOfMinus(Pack<T> x)
     const typename Pack<T>::Tag tag;
     const hn::RebindToSigned<typename Pack<T>::Tag> bits;
     const auto all = [](T c) HWY_ATTR { return Lanes<Pack<T>>::all(c); };
-    const Pack<T> y = all(T(0)) - larger(smaller(all(C::kLargest), x), all(C::kLeast));
+    const Pack<T> y = all(T(0)) - larger(smaller(all(C::kLargest), x), all(C::kMin));
     const Pack<T> shifted = y * all(C::kPerLn2) + all(C::kRound);
     const Pack<T> n = shifted - all(C::kRound);
     const Pack<T> r = (y - n * all(C::kLn2High)) - n * all(C::kLn2Low);           // (1)

@@ -7,16 +7,16 @@ void marchRay(IntervalWalk<V, kDegree, kProduct>& walk, const GroupRules<typenam
               Gathered<V>& io)
 {
     using T = typename Lanes<V>::Scalar;
-    constexpr uint32_t kMostSteps = 1u << 20;
+    constexpr uint32_t kMaxSteps = 1u << 20;
     const RuleBase<V, kDegree, kProduct> base(walk, rules, io);
     RayWork* work = walk.work();
     const V zero = Lanes<V>::all(0);
     const V first = walk.firstEvent(), last = walk.lastEvent();
     const V step = larger(Lanes<V>::all(static_cast<T>(rules.settings.scheme.step) * walk.scale()),
-                          (last - first) * Lanes<V>::all(T(1) / T(kMostSteps)));
+                          (last - first) * Lanes<V>::all(T(1) / T(kMaxSteps)));
     V transmittance = Lanes<V>::all(1);
     walk.rewind();
-    for (uint32_t i = 0; i < kMostSteps && !base.isDone(); ++i) {
+    for (uint32_t i = 0; i < kMaxSteps && !base.isDone(); ++i) {
         const V at = first + step * Lanes<V>::all(T(i) + T(0.5));
         if (!anyLess(at, last))
             break;
@@ -132,7 +132,7 @@ struct AdaptiveRule : RuleBase<V, kDegree, kProduct>
 {
     using Base = RuleBase<V, kDegree, kProduct>;
     using typename Base::T;
-    static constexpr uint32_t kMostParts = 64;
+    static constexpr uint32_t kMaxParts = 64;
     const BoundRule<V, kDegree, kProduct>& bounds;
     LinearRule<V, kDegree, kProduct> parts;
     V allowed; ///< e F_0
@@ -159,10 +159,9 @@ struct AdaptiveRule : RuleBase<V, kDegree, kProduct>
         const V own = chooseLess(zero, isOpen, this->open(length), zero);
         const V share = allowed / larger(bounds.intervals, Lanes<V>::all(1));
         const V wanted = root(passed * light * bend / larger(share, Lanes<V>::all(T(1e-37f))));
-        const V most = Lanes<V>::all(T(kMostParts));
+        const V most = Lanes<V>::all(T(kMaxParts));
         // Where a product above is out of range, `wanted` may be no number: as many parts as there can be.
-        const V number =
-            larger(wholeAbove(chooseLess(wanted, most, wanted, most)), Lanes<V>::all(1)); // (3)
+        const V number = larger(wholeAbove(chooseLess(wanted, most, wanted, most)), Lanes<V>::all(1)); // (3)
         const V used = chooseLess(zero, own, number, Lanes<V>::all(1));
         parts.inParts(begin, own, uint32_t(highest(used)), used);
     }
@@ -242,8 +241,8 @@ void integrateGroup(const GroupRules<typename Lanes<V>::Scalar>& rules,
     }
     const V transmittance = expOfMinus(io.depth);
     for (int c = 0; c < 3; ++c)
-        Lanes<V>::store(out.radiance[c], larger(io.light[c], zero) * Lanes<V>::all(lightUnit) +
-                                             transmittance * background[c]);
+        Lanes<V>::store(out.radiance[c],
+                        larger(io.light[c], zero) * Lanes<V>::all(lightUnit) + transmittance * background[c]);
     Lanes<V>::store(out.opticalDepth, io.depth);
     Lanes<V>::store(out.transmittance, transmittance);
     T fallback[kWidth], left[kWidth];

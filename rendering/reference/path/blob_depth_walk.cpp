@@ -11,7 +11,7 @@ namespace fx::render {
 namespace {
 
 constexpr double kTolerance = 1e-12;
-constexpr int kMostSteps = 100;
+constexpr int kMaxSteps = 100;
 
 /// (1)
 double kernelTo(double u)
@@ -29,7 +29,7 @@ double limited(double u)
 double kernelInverse(double k, double low, double high)
 {
     double u = std::clamp(k, low, high);
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
         const double off = kernelTo(u) - k;
         if (std::abs(off) <= kTolerance)
             break;
@@ -138,7 +138,7 @@ double BlobDepthWalk::parameterAt(double depth) const
     double low = begin_, high = end_;
     double t = depth_ > 0.0 ? low + (high - low) * (depth / depth_) : low;
     const double wanted = before_ + depth;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
         double sum = -wanted, slope = 0.0;
         for (const Chord& chord : chords_) {
             const double u = limited((t - chord.middle) * chord.inverseHalf);

@@ -17,11 +17,11 @@ namespace fx::render {
 namespace {
 
 constexpr double kMargin = 1.0 + 1e-12; ///< of majorants against rounding
-constexpr double kMostAnisotropy = 0.999;
+constexpr double kMaxAnisotropy = 0.999;
 constexpr double kFaint =
     0.1; ///< share of what other lights make of white smoke, below which glow is left to chance
-constexpr double kGlowChance = 0.3;   ///< times the illuminance of the glow over that of other lights
-constexpr double kLeastChance = 0.05; ///< of looking for glow
+constexpr double kGlowChance = 0.3;      ///< times the illuminance of the glow over that of other lights
+constexpr double kMinProbability = 0.05; ///< of looking for glow
 
 /// A ball whose chord contains the current segment.
 struct MetBall
@@ -214,7 +214,7 @@ BlobPathMedium::BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dve
     for (uint32_t place = 0; place < tree_.count(); ++place) {
         const MediumBlob& blob = blobs[tree_.ballAt(place)];
         const double r = blob.radius;
-        const double g = std::clamp(blob.anisotropy, -kMostAnisotropy, kMostAnisotropy);
+        const double g = std::clamp(blob.anisotropy, -kMaxAnisotropy, kMaxAnisotropy);
         substances_[place] = {105.0 * blob.crossSection / (32.0 * std::numbers::pi * r * r * r),
                               1.0 / (r * r), blob.albedo, blob.source, PhaseFunction::henyeyGreenstein(g)};
         hasOnePhase_ &= substances_[place].phase == substances_[0].phase;
@@ -252,7 +252,7 @@ double BlobPathMedium::emissionChance(const glm::dvec3& position) const
     if (!shines())
         return 0.0;
     const glm::dvec3 away = position - glowCenter_;
-    return std::clamp(kGlowChance * glowIntensity_ / (glm::dot(away, away) + glowRadius2_), kLeastChance,
+    return std::clamp(kGlowChance * glowIntensity_ / (glm::dot(away, away) + glowRadius2_), kMinProbability,
                       1.0);
 }
 

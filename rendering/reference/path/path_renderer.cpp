@@ -14,7 +14,7 @@ namespace fx::render {
 namespace {
 
 constexpr int kEdge = 8; ///< [pixel] of a tile
-constexpr uint32_t kMostSamples = 1u << 24;
+constexpr uint32_t kMaxSamples = 1u << 24;
 constexpr uint64_t kVersion = 2; ///< of the arithmetic
 /// Numbers of samples from which pilot paths are counted, so that no path is drawn twice.
 constexpr uint32_t kPilotBegin = 1u << 31;
@@ -74,7 +74,7 @@ double sum(const glm::dvec3& v)
 base::Status checkSettings(const PathPictureSettings& s)
 {
     const auto refused = [](const char* what) { return base::Status(base::Code::InvalidArgument, what); };
-    if (s.samples < 1 || s.samples > kMostSamples)
+    if (s.samples < 1 || s.samples > kMaxSamples)
         return refused("samples must be 1..16777216");
     if (!base::isFinite(s.error) || s.error < 0.0)
         return refused("the error must be finite and at least 0");

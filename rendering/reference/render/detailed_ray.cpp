@@ -10,13 +10,13 @@ namespace fx::render {
 
 namespace {
 
-constexpr int kDeepest = 20;           ///< halvings of a first piece
-constexpr double kLeastSeen = 1e-3;    ///< [1] transmittance, for the error of the optical depth
-constexpr double kThickest = 0.5;      ///< [1] optical depth of half a piece
-constexpr double kDark = 1e-9;         ///< [1] transmittance behind which nothing is seen
-constexpr double kPerLump = 8.0;       ///< first pieces of the length of a lump
-constexpr double kSlight = 0.01;       ///< of the tolerance: blobs of less optical depth need no piece
-constexpr double kMostPieces = 4096.0; ///< first ones
+constexpr int kDeepest = 20;               ///< halvings of a first piece
+constexpr double kMinTransmittance = 1e-3; ///< [1] transmittance, for the error of the optical depth
+constexpr double kThickest = 0.5;          ///< [1] optical depth of half a piece
+constexpr double kDark = 1e-9;             ///< [1] transmittance behind which nothing is seen
+constexpr double kPerLump = 8.0;           ///< first pieces of the length of a lump
+constexpr double kSlight = 0.01;           ///< of the tolerance: blobs of less optical depth need no piece
+constexpr double kMaxPieces = 4096.0;      ///< first ones
 
 double simpson(double a, double m, double b, double length)
 {
@@ -96,7 +96,7 @@ DetailedRay::Span DetailedRay::extent(double begin, double end) const
 double DetailedRay::step(double t, double end) const
 {
     double step = end - t;
-    const double least = step / kMostPieces;
+    const double least = step / kMaxPieces;
     for (size_t i = 0; i < chords_.size(); ++i) {
         const BlobChord& chord = chords_[i];
         const double enter = chord.nearest - chord.half;
@@ -161,7 +161,7 @@ void DetailedRay::refine(const Sample& a, const Sample& m, const Sample& b, int 
         glm::abs(4.0 * (p.sent.light + q.sent.light) - a.sent.light - b.sent.light - 6.0 * m.sent.light);
     const double passing = std::exp(-depth_), allowed = tolerance_ * std::sqrt(length * perLength_);
     const bool isExact =
-        std::abs(first + second - whole) * std::max(passing, kLeastSeen) <= allowed &&
+        std::abs(first + second - whole) * std::max(passing, kMinTransmittance) <= allowed &&
         passing * largest(light) <= allowed * brightest_ &&                                    // (2)
         (std::max(first, second) <= kThickest || passing < kDark || wanted_ == Wanted::Depth); // (3)
     if (isExact || level == kDeepest) {

@@ -11,7 +11,7 @@ namespace fx::render {
 
 namespace {
 
-constexpr double kLeastPixel = 1e-9; ///< [m]
+constexpr double kMinPixel = 1e-9; ///< [m]
 
 const LumpTile& lumpTile()
 {
@@ -29,7 +29,7 @@ PixelWidth::PixelWidth(const ReferenceCamera& camera, int height) : forward(came
 
 double PixelWidth::at(const glm::dvec3& point) const
 {
-    return std::max(perDepth * glm::dot(point, forward) + constant, kLeastPixel);
+    return std::max(perDepth * glm::dot(point, forward) + constant, kMinPixel);
 }
 
 DetailedMedium::DetailedMedium(const MediumDetails& details, const BallTree& tree, const glm::dvec3& eye,
@@ -86,7 +86,7 @@ double DetailedMedium::mostLeft(size_t group, double most) const
 
 double DetailedMedium::mostGain(size_t group) const
 {
-    return double(groups_[group].detail.factor) * double(kMostDetailGain) * (1.0 + 1e-5);
+    return double(groups_[group].detail.factor) * double(kMaxDetailGain) * (1.0 + 1e-5);
 }
 
 void DetailMix::clear()

@@ -31,8 +31,8 @@ struct MediumDetails
         float temperature = 0.0f;           ///< [K]
     };
     std::vector<Group> groups;
-    std::vector<Ball> balls;          ///< one for each of the list, or none at all
-    int octaves = kMostDetailOctaves; ///< 1..kMostDetailOctaves
+    std::vector<Ball> balls;         ///< one for each of the list, or none at all
+    int octaves = kMaxDetailOctaves; ///< 1..kMaxDetailOctaves
 
     bool isGiven() const { return !groups.empty(); }
 };
@@ -85,7 +85,7 @@ private:
     std::vector<MediumDetails::Ball> balls_; ///< by place
     std::vector<glm::vec3> thermal_;         ///< likewise
     PixelWidth pixel_;
-    int octaves_ = kMostDetailOctaves;
+    int octaves_ = kMaxDetailOctaves;
 };
 
 /// Sums of the balls at one point, group by group. One for each thread.

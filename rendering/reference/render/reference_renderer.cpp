@@ -32,7 +32,7 @@ base::Status ReferenceRenderer::build(const ReferenceScene& scene, const Referen
         return status;
     if (settings.samples < 1 || settings.samples > kMaxSamples)
         return {base::Code::InvalidArgument, "samples must be 1..16"};
-    if (settings.skyRings < 1 || settings.skyRings > SceneLights::kMostSkyRings)
+    if (settings.skyRings < 1 || settings.skyRings > SceneLights::kMaxSkyRings)
         return {base::Code::InvalidArgument, "rings of the sky must be 1..64"};
     if (!(settings.detailTolerance >= 1e-6 && settings.detailTolerance <= 0.1))
         return {base::Code::InvalidArgument, "the tolerance of detail must be 1e-6..0.1"};

@@ -22,7 +22,7 @@ bool isUsable(const MediumBlob& blob)
 bool isUsable(const MediumDetails& details, size_t blobs)
 {
     const int32_t groups = int32_t(details.groups.size());
-    return details.balls.size() == blobs && details.octaves >= 1 && details.octaves <= kMostDetailOctaves &&
+    return details.balls.size() == blobs && details.octaves >= 1 && details.octaves <= kMaxDetailOctaves &&
            std::all_of(details.balls.begin(), details.balls.end(), [&](const MediumDetails::Ball& ball) {
                return ball.group >= -1 && ball.group < groups;
            });

@@ -12,15 +12,15 @@ namespace fx::render {
 
 namespace {
 
-constexpr double kCap = 0.5;        ///< [1] optical depth of a part
-constexpr double kMostParts = 64.0; ///< of an interval
-constexpr double kThin = 0.1;       ///< [1] optical depth below which intervals are joined
-constexpr double kLeastIntervals = 24.0;
+constexpr double kCap = 0.5;       ///< [1] optical depth of a part
+constexpr double kMaxParts = 64.0; ///< of an interval
+constexpr double kThin = 0.1;      ///< [1] optical depth below which intervals are joined
+constexpr double kMinIntervals = 24.0;
 constexpr double kDarkest = 1e-6;              ///< transmittance below which nothing is seen any more
 constexpr double kNode = 0.774596669241483377; ///< of Gauss-Legendre on [-1, 1]: sqrt(3/5)
 constexpr double kWidest = 0.4;                ///< [rad] of a part as a lamp sees it
 constexpr double kPerLump = 0.25;              ///< longest piece over the size of the largest lumps
-constexpr double kMostLumps = 1024.0;
+constexpr double kMaxLumps = 1024.0;
 constexpr double kGrowth = 3.0; ///< of the distance from a lamp within a piece
 /// Shifts the directions of the sky from node to node: the powers of 1 / x with x^3 = x + 1.
 constexpr glm::dvec2 kLattice{0.754877666246692760, 0.569840290998053266};
@@ -47,7 +47,7 @@ ScatteredLight::Layers ScatteredLight::along(const TraceRay& trace, const RayHit
         detailed_.trace(trace, hits, begin, end);
     findEvents(ray, end);
     double from = events_.empty() ? begin : events_.front();
-    const double longest = events_.empty() ? 0.0 : (events_.back() - from) / kLeastIntervals;
+    const double longest = events_.empty() ? 0.0 : (events_.back() - from) / kMinIntervals;
     for (size_t k = 1; k < events_.size(); ++k) {
         const double depth = opticalDepth(ray, from, events_[k]);
         const bool isLast = k + 1 == events_.size();
@@ -80,7 +80,7 @@ void ScatteredLight::findEvents(const Ray& ray, double end)
         if (const int32_t group = details.groupOf(ray.hits.place[i]); group >= 0)
             spacing = std::min(spacing, kPerLump * details.lumpSize(size_t(group)));
     const double first = events_.front(), length = events_.back() - first;
-    const double parts = std::min(std::ceil(length / spacing), kMostLumps);
+    const double parts = std::min(std::ceil(length / spacing), kMaxLumps);
     for (double k = 1.0; k < parts; k += 1.0)
         events_.push_back(first + length * k / parts);
     std::sort(events_.begin(), events_.end());
@@ -111,7 +111,7 @@ void ScatteredLight::addInterval(const Ray& ray, const Interval& interval, Layer
 void ScatteredLight::addParts(const Ray& ray, const Interval& interval, size_t lamp, Layers& io)
 {
     const double depth = opticalDepth(ray, interval.from, interval.to);
-    const int parts = int(std::clamp(std::ceil(depth / kCap), 1.0, kMostParts));
+    const int parts = int(std::clamp(std::ceil(depth / kCap), 1.0, kMaxParts));
     const double length = (interval.to - interval.from) / parts;
     for (int part = 0; part < parts; ++part) {
         const Interval piece{interval.from + length * part, interval.from + length * (part + 1)};

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kAllDirections = -2.0; ///< a cosine below all
-constexpr double kWide = 0.1; ///< sine of a ball's angular radius from which it takes more directions
-constexpr double kLeastDistance = 1e-9; ///< [m] that rays are taken to pass a point light at
+constexpr double kWide = 0.1;         ///< sine of a ball's angular radius from which it takes more directions
+constexpr double kMinDistance = 1e-9; ///< [m] that rays are taken to pass a point light at
 
 /// Two unit vectors that stand on `axis` and on each other.
 std::array<glm::dvec3, 2> across(const glm::dvec3& axis)
@@ -139,7 +139,7 @@ void SceneLights::course(size_t index, const TraceRay& ray, Course& out) const
     const glm::dvec3 aside = way - out.nearest * ray.direction;
     const double passing2 = glm::dot(aside, aside);
     const double extent2 = lamp.radius * lamp.radius;
-    out.distance = std::sqrt(std::max(passing2, std::max(extent2, kLeastDistance * kLeastDistance)));
+    out.distance = std::sqrt(std::max(passing2, std::max(extent2, kMinDistance * kMinDistance)));
     out.cuts = {out.nearest};
     if (!lamp.isGroup && extent2 > passing2)
         for (const double sign : {-1.0, 1.0})

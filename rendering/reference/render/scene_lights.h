@@ -48,9 +48,9 @@ void appendCone(const glm::dvec3& axis, double height, int rings, int sectors, d
 class SceneLights
 {
 public:
-    static constexpr int kMostSkyRings = 64;
+    static constexpr int kMaxSkyRings = 64;
 
-    /// @param skyRings 1..kMostSkyRings: each half of the sky is `skyRings` rings of 2 skyRings directions
+    /// @param skyRings 1..kMaxSkyRings: each half of the sky is `skyRings` rings of 2 skyRings directions
     void build(const OpaqueScene& scene, const glm::dvec3& eye, int skyRings);
 
     bool hasSun() const { return sun_.illuminance != glm::dvec3(0.0); }

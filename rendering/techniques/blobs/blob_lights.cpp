@@ -12,7 +12,7 @@ namespace {
 
 namespace column = base::blob_column;
 
-constexpr float kLeastSquare = 1e-6f; // [m2] of the extent
+constexpr float kMinSquare = 1e-6f; // [m2] of the extent
 
 /// (1 - exp(-t)) / t, 1 at t = 0.
 float escape(float t)
@@ -44,7 +44,7 @@ bool lightOf(const base::FrameSnapshot&, const base::SnapshotGroup& g, EffectLig
     }
     if (glow.isDark())
         return false;
-    const float extent = glow.extent(kLeastSquare);
+    const float extent = glow.extent(kMinSquare);
     const float face = std::numbers::pi_v<float> * extent * extent;
     outLight = glow.light(g.info().placement, extent,
                           escape(float(allCrossSections) / face)); // neighbors hide each other

@@ -9,7 +9,7 @@ namespace {
 
 namespace column = base::light_column;
 
-constexpr float kLeastExtent = 0.05f; // [m] of particles, which have no size as lights
+constexpr float kMinExtent = 0.05f; // [m] of particles, which have no size as lights
 
 /// Whether the emitter of a light list is seen as a medium, which glows by itself.
 bool isShownAsMedium(const base::FrameSnapshot& snapshot, const base::GroupInfo& info)
@@ -34,7 +34,7 @@ bool lightOf(const base::FrameSnapshot& snapshot, const base::SnapshotGroup& g, 
     }
     if (glow.isDark() || isShownAsMedium(snapshot, g.info()))
         return false;
-    outLight = glow.light(g.info().placement, glow.extent(kLeastExtent * kLeastExtent), 1.0f);
+    outLight = glow.light(g.info().placement, glow.extent(kMinExtent * kMinExtent), 1.0f);
     return true;
 }
 

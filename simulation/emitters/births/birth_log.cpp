@@ -8,7 +8,7 @@ namespace {
 
 using base::Ticks;
 
-constexpr uint64_t kMostInRun = uint64_t(1) << 31; // so that numbers within a run have 32 bits
+constexpr uint64_t kMaxRunBirths = uint64_t(1) << 31; // so that numbers within a run have 32 bits
 constexpr WideWord kWhole = WideWord(1) << 96;
 
 /// value / divisor for value < divisor < 2^78, rounded up to a multiple of 2^-96.
@@ -29,7 +29,7 @@ WideWord fractionOf(WideInt value, WideInt divisor)
 bool BirthLog::goesOn(const Run& run, uint64_t first, Ticks begin, WideInt sought, WideInt one,
                       WideInt rate) const
 {
-    if (run.rate != rate || run.one != one || run.first + run.count != first || run.count >= kMostInRun)
+    if (run.rate != rate || run.one != one || run.first + run.count != first || run.count >= kMaxRunBirths)
         return false;
     return sought == run.sought - rate * (begin - run.begin) + WideInt(run.count) * one;
 }
@@ -42,7 +42,7 @@ void BirthLog::addRate(uint64_t first, uint64_t count, Ticks begin, WideInt soug
                              fractionOf(one % rate, rate), fractionOf(sought % rate, rate), begin, sought,
                              one, rate});
         Run& run = runs_.back();
-        const uint64_t taken = std::min(count, kMostInRun - run.count);
+        const uint64_t taken = std::min(count, kMaxRunBirths - run.count);
         run.count += taken;
         first += taken;
         count -= taken;

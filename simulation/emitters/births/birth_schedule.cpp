@@ -11,7 +11,7 @@ namespace {
 
 using base::Ticks;
 
-constexpr uint64_t kMostBirths = uint64_t(1) << 62;
+constexpr uint64_t kMaxBirths = uint64_t(1) << 62;
 constexpr WideInt kParticle = WideInt(base::kTicksPerSecond) << 32; // D of a constant rate
 constexpr WideInt kLowestEven = WideInt(1 << 22);                   // q of a rate of 1e-3 /s
 constexpr int kFineBits = 16;                                       // more in D of a rate that changes
@@ -366,7 +366,7 @@ void BirthSchedule::restore(StateReader& reader)
     const uint64_t low = reader.value<uint64_t>(0, 0xFFFFFFFFu, "a birth is overdue");
     progress_ = -((WideInt(high) << 32) + WideInt(low));
     quiet_ = {};
-    nextIndex_ = reader.value<uint64_t>(0, kMostBirths, "an emitter's births are out of range");
+    nextIndex_ = reader.value<uint64_t>(0, kMaxBirths, "an emitter's births are out of range");
     for (ScheduledBurst& burst : bursts_)
         burst.next = reader.value<uint64_t>(0, burst.cycles, "a burst has fewer cycles");
 }

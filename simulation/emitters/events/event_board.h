@@ -11,7 +11,8 @@
 
 namespace fx::sim {
 
-constexpr uint32_t kFewestFed = 4096; ///< births by events that an emitter of any capacity tries in a step
+constexpr uint32_t kMinEventBirths =
+    4096; ///< births by events that an emitter of any capacity tries in a step
 
 /// What was left for one emitter.
 struct EventRequests
@@ -33,7 +34,7 @@ public:
         : scratch_(&scratch), number_(number), notes_(scratch.allocate<Note>(solvers))
     {
         for (size_t i = 0; i < solvers; ++i)
-            notes_[i] = {{}, 0, 0, 0, 0, std::max(capacityOf(i), kFewestFed)};
+            notes_[i] = {{}, 0, 0, 0, 0, std::max(capacityOf(i), kMinEventBirths)};
     }
 
     uint64_t number() const { return number_; }

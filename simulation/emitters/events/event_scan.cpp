@@ -9,8 +9,8 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint32_t kMostEvents = 1u << 16; // of one emitter in one step, unless it has few tiles
-constexpr uint32_t kFewestOfTile = 16;
+constexpr uint32_t kMaxEvents = 1u << 16; // of one emitter in one step, unless it has few tiles
+constexpr uint32_t kMinTileEvents = 16;
 
 bool livesThere(const RowWindow& rows, const ParticleStore& store, uint32_t row)
 {
@@ -53,7 +53,7 @@ EventInterest::EventInterest(std::span<const EventRule> rules, base::Ticks longe
             continue;
         ages_.push_back(rule.age);
         for (base::Ticks age = rule.age + rule.every;
-             rule.every > 0 && age < longest && ages_.size() < kMostAges; age += rule.every)
+             rule.every > 0 && age < longest && ages_.size() < kMaxEventAges; age += rule.every)
             ages_.push_back(age);
     }
     std::stable_sort(ages_.begin(), ages_.end());
@@ -77,7 +77,7 @@ EventRoom::EventRoom(base::Arena& scratch, uint32_t rows, uint32_t mostOfOne)
     : lists_(scratch.allocate<EventList>((rows + kTileRows - 1) / kTileRows))
 {
     const uint32_t tiles = std::max(uint32_t(lists_.size()), 1u);
-    const uint32_t ofTile = std::clamp(kMostEvents / tiles, kFewestOfTile, kTileRows * mostOfOne);
+    const uint32_t ofTile = std::clamp(kMaxEvents / tiles, kMinTileEvents, kTileRows * mostOfOne);
     for (EventList& list : lists_)
         new (&list) EventList(scratch.allocate<ParticleEvent>(ofTile));
 }

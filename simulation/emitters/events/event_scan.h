@@ -44,7 +44,7 @@ namespace fx::sim {
 /// `tick`, with what it has inherited; without its brightness.
 glm::vec3 colorAt(const EmitterSettings& def, const ParticleStore& store, uint32_t row, base::Ticks tick);
 
-constexpr uint32_t kMostContactsOfOne = 10; ///< in one step: obstacles', the host's, the ground's
+constexpr uint32_t kMaxParticleContacts = 10; ///< in one step: obstacles', the host's, the ground's
 
 /// What an emitter's rules want to know of its particles.
 class EventInterest
@@ -54,8 +54,11 @@ public:
     EventInterest(std::span<const EventRule> rules, base::Ticks longest);
 
     bool in(EventKind kind) const { return kinds_[size_t(kind)]; }
-    bool inColor() const { return colors_; }                    ///< of the particle
-    std::span<const base::Ticks> ages() const { return ages_; } ///< ascending, each once, at most kMostAges
+    bool inColor() const { return colors_; } ///< of the particle
+    std::span<const base::Ticks> ages() const
+    {
+        return ages_;
+    } ///< ascending, each once, at most kMaxEventAges
     /// Number of the first age beyond `age`.
     uint32_t firstAfter(base::Ticks age) const
     {
@@ -64,7 +67,7 @@ public:
     /// Events that one particle can have in one step.
     uint32_t mostOfOne() const
     {
-        return 3 + uint32_t(ages_.size()) + (in(EventKind::Collision) ? kMostContactsOfOne : 0);
+        return 3 + uint32_t(ages_.size()) + (in(EventKind::Collision) ? kMaxParticleContacts : 0);
     }
     /// True when an event is what `rule` is about.
     bool answers(const EventRule& rule, const ParticleEvent& event) const;

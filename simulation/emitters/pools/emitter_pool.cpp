@@ -116,7 +116,7 @@ uint32_t EmitterPool::admit(const PoolEntry& entry, base::Ticks now)
 {
     const ParticleStore& own = entry.emitter->store();
     const uint32_t m = free_.empty() ? uint32_t(members_.size()) : free_.back();
-    if (m >= base::PooledRows::kMostMembers)
+    if (m >= base::PooledRows::kMaxMembers)
         return kNoMember;
     now_ = now;
     if (taken_ == 0) // time may have gone on, or back, since the last member left its rows

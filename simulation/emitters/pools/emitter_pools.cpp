@@ -7,7 +7,7 @@ namespace fx::sim {
 
 namespace {
 
-constexpr uint32_t kFewest = 4; // emitters that want to join in one step make a pool worth it
+constexpr uint32_t kMin = 4; // emitters that want to join in one step make a pool worth it
 
 } // namespace
 
@@ -42,7 +42,7 @@ EmitterPool* EmitterPools::offer(const std::shared_ptr<const ParticleProgram>& p
 {
     for (const std::unique_ptr<EmitterPool>& pool : pools_)
         if (pool->fits(*program, pull)) {
-            const bool isWorth = pool->offer(step) >= kFewest || !pool->empty();
+            const bool isWorth = pool->offer(step) >= kMin || !pool->empty();
             return isWorth ? pool.get() : nullptr;
         }
     try {

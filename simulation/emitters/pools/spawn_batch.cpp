@@ -9,7 +9,7 @@ namespace fx::sim {
 
 namespace {
 
-constexpr size_t kMostBirths = 1024; // that wait at a time
+constexpr size_t kMaxBirths = 1024; // that wait at a time
 
 } // namespace
 
@@ -24,7 +24,7 @@ void SpawnBatch::wait(PooledEmitter& emitter, const StepContext& context, std::s
     if (waitsFor(emitter)) { // more than it has rows: in the order of birth
         makeBirths();
     } else {
-        if (births_.size() + births.size() > kMostBirths || open_.size() == kMostBirths)
+        if (births_.size() + births.size() > kMaxBirths || open_.size() == kMaxBirths)
             close();
         open_.push_back(&emitter);
     }
@@ -39,11 +39,11 @@ void SpawnBatch::wait(PooledEmitter& emitter, const StepContext& context, std::s
 /// All that it will ever take, so that later steps allocate nothing.
 void SpawnBatch::makeRoom()
 {
-    owners_.reserve(kMostBirths);
-    alike_.reserve(kMostBirths);
-    alikeOwners_.reserve(kMostBirths);
-    open_.reserve(kMostBirths);
-    births_.reserve(kMostBirths);
+    owners_.reserve(kMaxBirths);
+    alike_.reserve(kMaxBirths);
+    alikeOwners_.reserve(kMaxBirths);
+    open_.reserve(kMaxBirths);
+    births_.reserve(kMaxBirths);
 }
 
 void SpawnBatch::close()

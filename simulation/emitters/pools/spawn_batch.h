@@ -21,9 +21,10 @@ public:
     explicit SpawnBatch(std::pmr::memory_resource* memory);
 
     // ---- a step ----
-    static constexpr size_t kMostAtOnce = 256; ///< births that wait together; more fill vectors by themselves
-    /// `births` of `emitter`, up to kMostAtOnce and up to its rows, are made by close() at the latest, and
-    /// its step is ended then.
+    static constexpr size_t kMaxDeferredBirths =
+        256; ///< births that wait together; more fill vectors by themselves
+    /// `births` of `emitter`, up to kMaxDeferredBirths and up to its rows, are made by close() at the latest,
+    /// and its step is ended then.
     void wait(PooledEmitter& emitter, const StepContext& context, std::span<const Birth> births);
     /// Whether its step is still to be ended.
     bool waitsFor(const PooledEmitter& emitter) const { return !open_.empty() && open_.back() == &emitter; }
@@ -39,7 +40,7 @@ public:
     /// The columns of the last group of the snapshot are to be filled, and its bounds. @return what from
     AppearanceJob& add(base::SnapshotGroup& group)
     {
-        if (partCount_ == kMostParts)
+        if (partCount_ == kMaxParts)
             writeParts();
         AppearancePart& part = parts_[partCount_++];
         part.storage = group.editStorage();
@@ -68,8 +69,8 @@ private:
     std::pmr::vector<PooledEmitter*> open_; ///< steps to be ended
     StepCounters* counters_ = nullptr;
 
-    static constexpr size_t kMostParts = 64; ///< with what they read they stay in the caches near the core
-    std::array<AppearancePart, kMostParts> parts_;
+    static constexpr size_t kMaxParts = 64; ///< with what they read they stay in the caches near the core
+    std::array<AppearancePart, kMaxParts> parts_;
     size_t partCount_ = 0;
     uint64_t rows_ = 0; ///< of the publication
     base::FrameSnapshot* snapshot_ = nullptr;

@@ -73,7 +73,7 @@ class CollisionOp final : public TileOp, public GpuModuleSource
 public:
     explicit CollisionOp(std::span<const CollisionDef> defs)
     {
-        for (const CollisionDef& def : defs.first(std::min(defs.size(), kMostObstacles))) {
+        for (const CollisionDef& def : defs.first(std::min(defs.size(), kMaxObstacles))) {
             entries_.push_back({makeObstacle(def), def.response, std::clamp(def.restitution, 0.0f, 1.0f),
                                 std::clamp(def.friction, 0.0f, 1.0f)});
             dependsOnScene_ =

@@ -13,7 +13,7 @@
 
 namespace fx::sim {
 
-/// @param defs at most kMostObstacles are used
+/// @param defs at most kMaxObstacles are used
 std::unique_ptr<TileOp> makeCollisionOp(std::span<const CollisionDef> defs);
 
 } // namespace fx::sim

@@ -9,7 +9,7 @@ namespace fx::sim {
 
 namespace {
 
-constexpr int kMostPushes = 4;
+constexpr int kMaxPushOuts = 4;
 constexpr float kSlowShare = 1.0f / 1024; ///< of the speed that the rest of the step takes away
 
 /// [m] how far above an obstacle a particle goes on, so that rounding does not put it inside.
@@ -40,7 +40,7 @@ public:
     ContactState follow()
     {
         pushOut(leg_.from);
-        for (int contacts = 0; contacts <= kMostContacts; ++contacts) {
+        for (int contacts = 0; contacts <= kMaxContacts; ++contacts) {
             const ObstacleEntry* met = nullptr;
             const LegContact contact = firstContact(met);
             if (!met)
@@ -125,7 +125,7 @@ private:
         leg_.seconds -= spent;
         const float sinking = -glm::dot(leg_.acceleration, contact.normal) * leg_.seconds;
         const float leaving = glm::dot(velocity, contact.normal);
-        if (contacts + 2 >= kMostContacts || kSlowShare * sinking > leaving) { // (3)
+        if (contacts + 2 >= kMaxContacts || kSlowShare * sinking > leaving) { // (3)
             velocity -= leaving * contact.normal;
             removeInward(leg_.acceleration, contact.normal);
         }
@@ -158,7 +158,7 @@ private:
     bool pushOut(glm::vec3& io) const
     {
         bool isOut = false;
-        for (int k = 0; k < kMostPushes && !isOut; ++k) {
+        for (int k = 0; k < kMaxPushOuts && !isOut; ++k) {
             isOut = true;
             for (const ObstacleEntry& entry : obstacles_) {
                 if (!entry.obstacle->isThere(step_))

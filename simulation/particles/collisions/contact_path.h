@@ -16,7 +16,7 @@
 ///       v0 = 2 (x1 - x0) / T - v1,   a = (v1 - v0) / T                                      (1)
 ///   which free flight under a constant acceleration is. At a contact after t
 ///       v = v0 + a t,   v' = v - (1 + e) (v.n) n - c (v - (v.n) n)                           (2)
-///   and the rest T - t goes on from there with v' and a, l above the obstacle. After kMostContacts of them,
+///   and the rest T - t goes on from there with v' and a, l above the obstacle. After kMaxContacts of them,
 ///   or where v.n is too small to leave again within the rest, the particle slides:
 ///       v' <- v' - min(v'.n, 0) n,   a <- a - min(a.n, 0) n                                  (3)
 ///   What ends inside of matter in spite of all that goes back to the beginning of its last leg   (4)
@@ -58,13 +58,13 @@ struct ContactState
     float contact = 1.0f; ///< [1] of the step, of the first contact, or of the one that kills
 };
 
-constexpr int kMostContacts = 8;      ///< of one particle in one step
-constexpr size_t kMostObstacles = 16; ///< of one emitter
+constexpr int kMaxContacts = 8;      ///< of one particle in one step
+constexpr size_t kMaxObstacles = 16; ///< of one emitter
 
 /// Contacts of a step that begin; (2) of event-ticks says which do.
 struct ContactList
 {
-    std::array<TileContact, kMostContacts + 1> contacts;
+    std::array<TileContact, kMaxContacts + 1> contacts;
     uint32_t count = 0;
 };
 

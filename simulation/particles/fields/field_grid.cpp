@@ -89,12 +89,12 @@ void readHeader(Cursor& cursor, FieldGrid& out)
 void checkHeader(Cursor& cursor, const FieldGrid& grid)
 {
     for (const uint32_t n : {grid.nodes.x, grid.nodes.y, grid.nodes.z})
-        if (n < 1 || n > kMostGridNodesOfAxis)
+        if (n < 1 || n > kMaxGridNodesPerAxis)
             return cursor.fail(Code::TooLarge, "found " + std::to_string(n) +
                                                    " nodes along an axis; allowed are 1 to " +
-                                                   std::to_string(kMostGridNodesOfAxis));
-    if (grid.count() > kMostGridNodes)
-        return cursor.fail(Code::TooLarge, "more than " + std::to_string(kMostGridNodes) + " nodes");
+                                                   std::to_string(kMaxGridNodesPerAxis));
+    if (grid.count() > kMaxGridNodes)
+        return cursor.fail(Code::TooLarge, "more than " + std::to_string(kMaxGridNodes) + " nodes");
     if (grid.channels != 1 && grid.channels != 3)
         return cursor.fail(Code::InvalidArgument, "allowed are 1 or 3 channels");
     for (int k = 0; k < 3; ++k)

@@ -44,9 +44,9 @@
 
 namespace fx::sim {
 
-constexpr uint32_t kMostGridNodesOfAxis = 4096;
-constexpr size_t kMostGridNodes = size_t(1) << 24;
-constexpr uint64_t kMostGridBytes = uint64_t(kMostGridNodes) * 12 + 1024; ///< of a file
+constexpr uint32_t kMaxGridNodesPerAxis = 4096;
+constexpr size_t kMaxGridNodes = size_t(1) << 24;
+constexpr uint64_t kMaxGridBytes = uint64_t(kMaxGridNodes) * 12 + 1024; ///< of a file
 
 /// Immutable once it is shared. Any thread.
 struct FieldGrid

@@ -30,7 +30,7 @@
 
 namespace fx::sim {
 
-constexpr size_t kMostSplinePoints = 256;
+constexpr size_t kMaxSplinePoints = 256;
 
 /// Immutable. Any thread.
 class SplinePath

@@ -101,10 +101,10 @@ TileBound boundOf(const VectorFieldDef& def)
 /// See GpuModuleSource.
 bool describe(const VectorFieldDef& def, base::GpuModules& out)
 {
-    constexpr size_t kMostOnGpu = size_t(1) << 24; // numbers, which go with each emitter
+    constexpr size_t kMaxOnGpu = size_t(1) << 24; // numbers, which go with each emitter
     const FieldGrid& grid = *def.grid;
     const auto [low, perCell] = VectorFieldConstants(def);
-    if (grid.values.size() > kMostOnGpu)
+    if (grid.values.size() > kMaxOnGpu)
         return false;
     out.add(def.isAcceleration ? base::GpuModule::FieldForce : base::GpuModule::FieldAir,
             {low.x, low.y, low.z, perCell.x, perCell.y, perCell.z, float(grid.nodes.x), float(grid.nodes.y),

@@ -14,7 +14,7 @@ namespace {
 
 /// A frame is at most this many of its first shortest steps long, so that steps can shrink a thousand times a
 /// thousand times before they meet the tick; longer times are cut into frames.
-constexpr double kMostSteps = 1 << 20;
+constexpr double kMaxSteps = 1 << 20;
 
 /// [unit] of a sub-step: of all particles, of those whose rates are evaluated, and of their ordered pairs.
 uint64_t workOf(uint64_t particles, uint64_t evaluated, uint64_t pairs)
@@ -155,7 +155,7 @@ AdvanceReport runFrames(DynamicsState<T>& s, double seconds, base::TaskRunner& t
     }
     while (advance.left > 0 && s.count > 0 && report.subSteps < s.def.maxSubSteps) {
         if (advance.frame == 0.0) {
-            advance.frame = std::min(advance.left, kMostSteps * shortestStep(s, tasks));
+            advance.frame = std::min(advance.left, kMaxSteps * shortestStep(s, tasks));
             openFrame(s, advance.frame, tasks);
         }
         while (s.now < kFrameTicks && report.subSteps < s.def.maxSubSteps) {

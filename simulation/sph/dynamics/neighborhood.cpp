@@ -15,8 +15,8 @@ constexpr double kOnlyMargin = 0.05;  ///< the same where no second search follo
 constexpr double kLargeMargin = 0.14; ///< of lists that serve several steps
 constexpr double kSlowStep = 0.015;   ///< way per step, in supports, below which lists serve several steps
 constexpr double kLastMargin = 0.08;  ///< of lists at the end of a frame, which serve the next beginning
-constexpr double kLeastRoom = 0.015;  ///< growth of supports that lists must leave room for
-constexpr double kLeastRoomOfFast = 0.03; ///< the same where steps are long
+constexpr double kMinSupportMargin = 0.015;    ///< growth of supports that lists must leave room for
+constexpr double kMinFastSupportMargin = 0.03; ///< the same where steps are long
 
 template <class T>
 PointColumns<T> pointsNow(const DynamicsState<T>& s)
@@ -118,7 +118,8 @@ double roomOfLists(const DynamicsState<T>& s)
     // Entries stay complete while 2 moved + growth <= margin, both in units of the larger support of a pair.
     const ListState& kept = s.listState;
     const double room = (1.0 + kept.margin - 2.0 * kept.moved) / (1.0 + kept.growth) - 1.0;
-    return kept.valid && room >= (kept.perStep < kSlowStep ? kLeastRoom : kLeastRoomOfFast) ? room : 0.0;
+    return kept.valid && room >= (kept.perStep < kSlowStep ? kMinSupportMargin : kMinFastSupportMargin) ? room
+                                                                                                        : 0.0;
 }
 
 template <class T>

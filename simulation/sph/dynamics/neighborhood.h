@@ -10,8 +10,8 @@ namespace fx::sim {
 template <class T>
 bool treeIsGood(const DynamicsState<T>& s)
 {
-    constexpr double kMostLoosened = 0.25;
-    return s.treeIsSorted && s.tree.loosened() <= kMostLoosened;
+    constexpr double kMaxLoosenedShare = 0.25;
+    return s.treeIsSorted && s.tree.loosened() <= kMaxLoosenedShare;
 }
 
 /// Sorts particles by their current positions and moves all columns. Records and active slots are invalid

@@ -8,10 +8,10 @@ namespace fx::sim {
 
 namespace {
 
-constexpr double kFarthest = 1e9;    ///< [m], and [m/s] of velocities
-constexpr double kMostMass = 1e20;   ///< [kg]
-constexpr double kLeastMass = 1e-20; ///< [kg]
-constexpr double kMostEnergy = 1e18; ///< [J/kg]
+constexpr double kFarthest = 1e9;   ///< [m], and [m/s] of velocities
+constexpr double kMaxMass = 1e20;   ///< [kg]
+constexpr double kMinMass = 1e-20;  ///< [kg]
+constexpr double kMaxEnergy = 1e18; ///< [J/kg]
 
 base::Status refuse(const char* why)
 {
@@ -37,9 +37,9 @@ base::Status checkParticle(const GasParticle& particle, const Domain& domain)
         if (!isWithin(particle.velocity[a], -kFarthest, kFarthest))
             return refuse("the velocity of a gas particle must be finite and within 1e9 m/s");
     }
-    if (!isWithin(particle.mass, kLeastMass, kMostMass))
+    if (!isWithin(particle.mass, kMinMass, kMaxMass))
         return refuse("the mass of a gas particle must lie between 1e-20 and 1e20 kg");
-    if (!isWithin(particle.energy, 0.0, kMostEnergy))
+    if (!isWithin(particle.energy, 0.0, kMaxEnergy))
         return refuse("the energy of a gas particle must lie between 0 and 1e18 J/kg");
     return {};
 }

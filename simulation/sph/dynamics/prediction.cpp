@@ -76,7 +76,7 @@ void fillRecord(DynamicsState<T>& s, uint32_t i)
     record.stepLevel = T(gas.level[i]);
 }
 
-constexpr uint32_t kFewest = 6; ///< all records are filled where more than one in so many is active
+constexpr uint32_t kMin = 6; ///< all records are filled where more than one in so many is active
 constexpr uint32_t kPairBatch = 128;
 
 /// Fills the record of `i` if it belongs to an earlier prediction; done once, by the first thread.
@@ -152,7 +152,7 @@ void collectActive(DynamicsState<T>& s, base::TaskRunner& tasks)
 template <class T>
 void fillFirst(DynamicsState<T>& s, base::TaskRunner& tasks)
 {
-    s.recordsAreComplete = uint64_t(s.activeCount) * kFewest > s.count;
+    s.recordsAreComplete = uint64_t(s.activeCount) * kMin > s.count;
     if (++s.round == 0) { // numbers have been used up
         std::fill_n(s.recordRound.data(), s.recordRound.capacity(), 0u);
         s.round = 1;

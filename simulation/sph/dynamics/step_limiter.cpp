@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t kRowBatch = 1024;
 constexpr uint32_t kPairBatch = 128;
 constexpr uint8_t kNoLimit = 255;
-constexpr uint32_t kMostLevels = 200; ///< of wanted steps, which may be longer than a frame
+constexpr uint32_t kMaxLevels = 200; ///< of wanted steps, which may be longer than a frame
 
 /// Difference of levels that the limiter allows; a large number where it is off.
 uint32_t allowedDifference(const GasDynamicsDef& def)
@@ -125,7 +125,7 @@ void limitWantedSteps(DynamicsState<T>& s, base::TaskRunner& tasks)
     const double unit = shortestStep(s, tasks); // level 0: nothing is shorter
     parallelRows(tasks, s.count, kRowBatch, [&s, unit](uint32_t begin, uint32_t end) {
         for (uint32_t i = begin; i < end; ++i)
-            s.gas.level[i] = uint8_t(stepLevel(double(s.gas.wantedStep[i]) / unit, kMostLevels));
+            s.gas.level[i] = uint8_t(stepLevel(double(s.gas.wantedStep[i]) / unit, kMaxLevels));
     });
     clearLimits(s);
     offerLimits(s, difference, tasks);

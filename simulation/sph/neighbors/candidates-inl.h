@@ -72,16 +72,16 @@ private:
 template <class T>
 struct Candidates
 {
-    static constexpr uint32_t kMost = 2048;
+    static constexpr uint32_t kMax = 2048;
     static constexpr uint32_t kPadding = 64;
 
     uint32_t count = 0;
-    std::array<uint32_t, kMostImages + 1> segment{}; ///< first of each image, and the end
-    alignas(64) T at[3][kMost + kPadding];           ///< [m] as their images show them
-    alignas(64) T reach2[kMost + kPadding];          ///< [m2] (1 + margin)^2 support^2
-    alignas(64) uint32_t entry[kMost + kPadding];
+    std::array<uint32_t, kMaxImages + 1> segment{}; ///< first of each image, and the end
+    alignas(64) T at[3][kMax + kPadding];           ///< [m] as their images show them
+    alignas(64) T reach2[kMax + kPadding];          ///< [m2] (1 + margin)^2 support^2
+    alignas(64) uint32_t entry[kMax + kPadding];
 
-    static bool isFull(uint32_t end) { return end + hn::MaxLanes(hn::ScalableTag<T>()) > kMost; }
+    static bool isFull(uint32_t end) { return end + hn::MaxLanes(hn::ScalableTag<T>()) > kMax; }
 
     /// Writes the lanes of `mask` from `end` on. @return the new end
     template <class D, class V, class M>

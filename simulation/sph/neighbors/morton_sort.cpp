@@ -19,8 +19,8 @@ constexpr uint32_t kBlock = 32768;  ///< particles of a histogram
 constexpr uint32_t kDigitBits = 11; ///< of a pass at most
 constexpr uint32_t kDigits = 1u << kDigitBits;
 constexpr uint32_t kPlaceBits = 29; ///< of a word; the rest are bits of its key
-constexpr uint32_t kMostPasses = (64 - kPlaceBits) / kDigitBits;
-constexpr uint32_t kMostDepth = 4;  ///< of curves within cells of curves
+constexpr uint32_t kMaxPasses = (64 - kPlaceBits) / kDigitBits;
+constexpr uint32_t kMaxDepth = 4;   ///< of curves within cells of curves
 constexpr uint32_t kInsertion = 32; ///< runs up to this length are sorted by insertion
 
 uint32_t blocksOf(size_t count)
@@ -82,9 +82,9 @@ std::pair<double, double> extremes(const T* x, uint32_t begin, uint32_t end)
 /// Cell of a coordinate; what is out of range or not a number lands in a border cell.
 uint32_t cellOf(double x, double low, double perCell)
 {
-    constexpr double kMost = double((1u << kMortonAxisBits) - 1);
+    constexpr double kMax = double((1u << kMortonAxisBits) - 1);
     const double cell = (x - low) * perCell;
-    return uint32_t(cell < kMost ? (cell > 0 ? cell : 0.0) : kMost);
+    return uint32_t(cell < kMax ? (cell > 0 ? cell : 0.0) : kMax);
 }
 
 } // namespace
@@ -202,7 +202,7 @@ void MortonSort<T>::sortRange(Range range, uint32_t depth, std::span<uint32_t> h
     }
     const uint32_t enough = uint32_t(std::bit_width(range.count())) + 3; // most slots are told apart then
     const uint32_t wanted = std::min(highBit, enough);
-    const uint32_t passes = std::min((wanted + kDigitBits - 1) / kDigitBits, kMostPasses);
+    const uint32_t passes = std::min((wanted + kDigitBits - 1) / kDigitBits, kMaxPasses);
     const uint32_t digitBits = std::min((wanted + passes - 1) / passes, kDigitBits);
     const uint32_t sorted = passes * digitBits;
     const uint32_t lowBit = highBit > sorted ? highBit - sorted : 0;
@@ -318,7 +318,7 @@ void MortonSort<T>::sortRunsOf(Range range, uint32_t lowBit, uint32_t depth)
 template <class T>
 void MortonSort<T>::sortCell(Range range, uint32_t depth)
 {
-    if (depth == kMostDepth || range.count() <= kInsertion)
+    if (depth == kMaxDepth || range.count() <= kInsertion)
         return;
     std::array<double, 3> low;
     double extent = 0;

@@ -28,7 +28,7 @@ struct SeenImage
     uint32_t bits = 0; ///< of the entries, kMirrorX << axis
 };
 
-constexpr uint32_t kMostImages = 27; ///< nothing, the low or the high wall on each of three axes
+constexpr uint32_t kMaxImages = 27; ///< nothing, the low or the high wall on each of three axes
 
 /// All that a search needs to know.
 template <class T>
@@ -40,7 +40,7 @@ struct SearchSetup
     bool wraps = false;       ///< some axis is periodic
     std::array<T, 3> slack{}; ///< [m] bound of rounding errors of boxes on periodic axes
     uint32_t imageCount = 1;
-    std::array<SeenImage<T>, kMostImages> images; ///< ascending by bits; the first is no mirror
+    std::array<SeenImage<T>, kMaxImages> images; ///< ascending by bits; the first is no mirror
 };
 
 template <class T>

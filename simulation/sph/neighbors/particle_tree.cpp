@@ -16,7 +16,7 @@ constexpr size_t kBoxPadding = 64;
 
 size_t boxCapacity(size_t capacity)
 {
-    return capacity + capacity / 4 + kTreeMostLevels * kBoxPadding;
+    return capacity + capacity / 4 + kMaxTreeLevels * kBoxPadding;
 }
 
 uint32_t chunksOf(uint32_t count)
@@ -76,8 +76,8 @@ void ParticleTree<T>::cutLeaves(base::TaskRunner& tasks)
     levelCount_[0] = leaves;
 }
 
-/// Cuts slots [begin, end) into the largest cells of the curve's tree that hold at most kLeafMost of them,
-/// and what no cell can separate into runs of that length. @return the number of leaves
+/// Cuts slots [begin, end) into the largest cells of the curve's tree that hold at most kMaxLeafParticles of
+/// them, and what no cell can separate into runs of that length. @return the number of leaves
 template <class T>
 uint32_t ParticleTree<T>::cutChunk(uint32_t begin, uint32_t end, uint32_t* leaves) const
 {
@@ -85,9 +85,9 @@ uint32_t ParticleTree<T>::cutChunk(uint32_t begin, uint32_t end, uint32_t* leave
     uint32_t count = 0;
     for (uint32_t first = begin; first < end;) {
         leaves[count++] = first;
-        // The cell that begins here is as large as the keys before and kLeafMost slots on allow.
+        // The cell that begins here is as large as the keys before and kMaxLeafParticles slots on allow.
         uint32_t size = first > begin ? differingBits(keys[first - 1], keys[first]) : kMortonBits + 1;
-        const uint32_t most = std::min(first + kLeafMost, end);
+        const uint32_t most = std::min(first + kMaxLeafParticles, end);
         if (most < end)
             size = std::min(size, differingBits(keys[first], keys[most]));
         const uint64_t corner = keys[first];

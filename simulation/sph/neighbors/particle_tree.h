@@ -25,9 +25,9 @@ struct PointColumns
     uint32_t count;
 };
 
-constexpr uint32_t kTreeFanOut = 8;      ///< children of a node
-constexpr uint32_t kTreeMostLevels = 11; ///< 8^10 leaves and a root
-constexpr uint32_t kLeafMost = 16;       ///< particles of a leaf
+constexpr uint32_t kTreeFanOut = 8;        ///< children of a node
+constexpr uint32_t kMaxTreeLevels = 11;    ///< 8^10 leaves and a root
+constexpr uint32_t kMaxLeafParticles = 16; ///< particles of a leaf
 
 /// Read access for searches. Level 0 are the leaves: leaf k holds the slots leafBegin[k] .. leafBegin[k + 1]
 /// - 1. Box k of level l + 1 covers the boxes 8 k .. 8 k + 7 of level l; the last level has one box. Boxes
@@ -38,8 +38,8 @@ struct TreeView
 {
     uint32_t count = 0;  ///< particles
     uint32_t levels = 0; ///< 0 for an empty tree
-    std::array<uint32_t, kTreeMostLevels> levelFirst{};
-    std::array<uint32_t, kTreeMostLevels> levelCount{};
+    std::array<uint32_t, kMaxTreeLevels> levelFirst{};
+    std::array<uint32_t, kMaxTreeLevels> levelCount{};
     const uint32_t* leafBegin = nullptr;
     std::array<const T*, 3> low{};      ///< [m] of boxes
     std::array<const T*, 3> high{};     ///< [m]
@@ -49,9 +49,9 @@ struct TreeView
 };
 
 /// Tree over particles sorted along a Morton curve of 64-bit keys. A leaf is the largest cell of the curve's
-/// binary tree with at most kLeafMost particles; eight leaves that follow on each other share a box, eight
-/// such boxes the next, so that no pointers are needed and eight children are tested at once. Its memory is
-/// fixed by the capacity: 92 bytes a particle in float, 147 in double.
+/// binary tree with at most kMaxLeafParticles particles; eight leaves that follow on each other share a box,
+/// eight such boxes the next, so that no pointers are needed and eight children are tested at once. Its
+/// memory is fixed by the capacity: 92 bytes a particle in float, 147 in double.
 template <class T>
 class ParticleTree
 {
@@ -88,8 +88,8 @@ private:
     bool fresh_ = true; ///< sorted, not yet refit
     double loosened_ = 0;
     uint32_t levels_ = 0;
-    std::array<uint32_t, kTreeMostLevels> levelFirst_{};
-    std::array<uint32_t, kTreeMostLevels> levelCount_{};
+    std::array<uint32_t, kMaxTreeLevels> levelFirst_{};
+    std::array<uint32_t, kMaxTreeLevels> levelCount_{};
     MortonSort<T> sort_;
     base::Column<uint32_t> leafBegin_;
     base::Column<uint32_t> chunkLeaves_; ///< leaves of each chunk of slots

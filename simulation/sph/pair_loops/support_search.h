@@ -14,7 +14,7 @@ template <class T>
 class SupportSearch
 {
 public:
-    static constexpr uint32_t kMostEvaluations = 19; ///< and one more at the result, by the caller
+    static constexpr uint32_t kMaxEvaluations = 19; ///< and one more at the result, by the caller
 
     /// @param want [kg] 3 N m / (4 pi)
     /// @param bottom, top [m] 0 < bottom <= top
@@ -52,12 +52,12 @@ public:
             return;
         }
         const T safe = inside(next, grows);
-        done_ = isWithin(safe, tolerance_ * tolerance_) || evaluations_ >= kMostEvaluations;
+        done_ = isWithin(safe, tolerance_ * tolerance_) || evaluations_ >= kMaxEvaluations;
         support_ = safe;
     }
 
 private:
-    static constexpr uint32_t kMostProposals = 8; ///< before the bracket is halved in every step
+    static constexpr uint32_t kMaxProposals = 8; ///< before the bracket is halved in every step
 
     bool isNewton(T mass, T growth) const
     {
@@ -80,7 +80,7 @@ private:
     /// The proposal if it is inside of the bracket, or a bound not tried yet, or the bracket's middle.
     T inside(T next, bool grows) const
     {
-        if (evaluations_ < kMostProposals) {
+        if (evaluations_ < kMaxProposals) {
             if (next > low_ && next < high_)
                 return next;
             if (grows && next >= top_ && high_ == top_)

@@ -178,7 +178,7 @@ TEST(FieldDetail, sharesOverFadedNoiseAreMeansOverIt)
 
 TEST(FieldDetail, whatIsLeftStaysBelowItsBound)
 {
-    EXPECT_EQ(formula::fxDetailGain(0.0f, 0.25f), kMostDetailGain);
+    EXPECT_EQ(formula::fxDetailGain(0.0f, 0.25f), kMaxDetailGain);
     for (const float ramp : {0.05f, 0.25f, 0.4f, 1.0f}) {
         FieldDetailNumbers numbers = fireball();
         numbers.ramp = ramp;

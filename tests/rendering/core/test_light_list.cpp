@@ -79,13 +79,13 @@ TEST_F(LightListTest, theSunComesFirstThenPointsByTheLightThatArrivesThenTheSky)
 TEST_F(LightListTest, neverMoreLightsThanItHasPlaceFor)
 {
     settings_.slices.castingPoints = 4;
-    for (size_t i = 0; i < kMostHostLights; ++i)
+    for (size_t i = 0; i < kMaxHostLights; ++i)
         addHost({double(i), 3.0, 0.0}, 100.0f);
     effects_.assign(20, {{0.0, 2.0, 0.0}, glm::vec3(10.0f), 0.5f});
     build();
-    constexpr size_t kMost = 1 + kMostEffectLights + kMostHostLights;
-    EXPECT_EQ(size_t(list_.block().counts.x), kMost);
-    EXPECT_EQ(list_.lights().size(), kMost + kSkyAxes);
+    constexpr size_t kMax = 1 + kMaxEffectLights + kMaxHostLights;
+    EXPECT_EQ(size_t(list_.block().counts.x), kMax);
+    EXPECT_EQ(list_.lights().size(), kMax + kSkyAxes);
     EXPECT_EQ(list_.stacks().size(), 1 + 4 + kSkyAxes);
 }
 

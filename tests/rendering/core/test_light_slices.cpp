@@ -369,7 +369,7 @@ TEST(SliceStack, noPlanesNoShadowAndOnePlaneIsDefined)
     for (const bool isParallel : {true, false}) {
         const SliceStack one =
             isParallel ? parallelStack(casters, {16, 1}) : pointStack(casters, {0.0f, 4.0f, 0.0f}, {16, 1});
-        EXPECT_EQ(one.resolution.planes, kFewestSlicePlanes);
+        EXPECT_EQ(one.resolution.planes, kMinSlicePlanes);
         const SliceDepths depths = filled(one, casters);
         const SliceDepth behind =
             depths.depthAt(isParallel ? -9.0f * kTowards : glm::vec3(0.0f, -9.0f, 0.0f));

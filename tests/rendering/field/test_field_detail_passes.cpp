@@ -50,7 +50,7 @@ FieldDetailBlock blockOf(const FieldDetailNumbers& n)
     block.erosion = {n.length(), n.thinnest, n.densest, n.ramp};
     block.noise = {n.gain, n.fade, n.cooling, n.glow};
     block.lumps.z = 1.0f;
-    block.lumps.w = float(kMostDetailOctaves);
+    block.lumps.w = float(kMaxDetailOctaves);
     return block;
 }
 
@@ -171,7 +171,7 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
                                                        glm::vec3(carried[0], carried[1], carried[2]);
             }
             const float share =
-                detailAt(numbers(), wanted, smooth, 0.5f * field.corner.w, kMostDetailOctaves).share;
+                detailAt(numbers(), wanted, smooth, 0.5f * field.corner.w, kMaxDetailOctaves).share;
             const double error =
                 std::abs(double(second[at + 3] * field.limits.y - (share - 1.0f) * extinction));
             most = std::max(most, error / double(field.limits.y));

@@ -241,7 +241,7 @@ TEST_F(FrameBuilderTest, aFarEffectThatIsDrawnAsAPictureAloneCastsTheSameShadowB
     request.camera = render::perspectiveView({{0, 0, 200}, {0, 0, 0}}, 1.0f, 1.0f, 0.1f);
     const auto camera = render::cameraGeometry(request.camera);
     render::ViewSettings settings;
-    settings.lod.impostorPixels = render::LodSettings::kMostImpostorPixels;
+    settings.lod.impostorPixels = render::LodSettings::kMaxImpostorPixels;
     render::FrameBuilder builder(std::pmr::get_default_resource());
     render::LevelOfDetail lod(std::pmr::get_default_resource());
     for (const bool castsShadows : {true, false}) {

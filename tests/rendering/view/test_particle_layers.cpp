@@ -306,7 +306,7 @@ TEST(DrawBatcher, everyElementIsDrawnOnceAndTheOrderIsRightToASlab)
     }
     EXPECT_EQ(next[0], 1000u);
     EXPECT_EQ(next[1], 1000u);
-    EXPECT_LE(built.size(), render::DrawBatcher::kMostBatches);
+    EXPECT_LE(built.size(), render::DrawBatcher::kMaxBatches);
     EXPECT_GE(built.size(), 15u);
 }
 
@@ -327,7 +327,7 @@ TEST(DrawBatcher, whatOnlyAddsIsNotCutAgainstOthersThatAdd)
     EXPECT_EQ(batcher.build(streams).size(), 3u);
     streams[1].adds = false;
     EXPECT_GT(batcher.build(streams).size(), 3u) << "the control: one of them covers";
-    EXPECT_LE(batcher.build(streams).size(), render::DrawBatcher::kMostBatches);
+    EXPECT_LE(batcher.build(streams).size(), render::DrawBatcher::kMaxBatches);
 }
 
 TEST(DrawBatcher, manyStreamsAreWholeRatherThanManyBatches)
@@ -347,6 +347,6 @@ TEST(DrawBatcher, manyStreamsAreWholeRatherThanManyBatches)
         for (const auto& batch : built)
             drawn += batch.count;
         EXPECT_EQ(drawn, 100 * streams.size());
-        EXPECT_LE(built.size(), std::max<size_t>(render::DrawBatcher::kMostBatches, streams.size()));
+        EXPECT_LE(built.size(), std::max<size_t>(render::DrawBatcher::kMaxBatches, streams.size()));
     }
 }

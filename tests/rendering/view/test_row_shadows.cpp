@@ -275,8 +275,8 @@ TEST_F(RowShadows, aStretchOfRowsKeepsItsCrossSectionAndItsVolume)
     auto snapshot = emptySnapshot();
     addParticles(snapshot, particles);
     const auto casters = castersOf(snapshot);
-    EXPECT_LE(casters.size(), render::kMostCastersOfGroup);
-    EXPECT_GE(casters.size(), render::kMostCastersOfGroup / 2);
+    EXPECT_LE(casters.size(), render::kMaxGroupCasters);
+    EXPECT_GE(casters.size(), render::kMaxGroupCasters / 2);
     EXPECT_NEAR(sectionOf(casters), expected, 1e-4 * expected);
     double volume = 0.0;
     for (const MediumCaster& caster : casters)
@@ -290,7 +290,7 @@ TEST_F(RowShadows, aStretchOfRowsKeepsItsCrossSectionAndItsVolume)
     auto strip = emptySnapshot();
     addRibbon(strip, points);
     const double area = 0.05 * 3.0 * 32.0 / 35.0 * std::log(2.0);
-    EXPECT_LE(castersOf(strip).size(), render::kMostCastersOfGroup);
+    EXPECT_LE(castersOf(strip).size(), render::kMaxGroupCasters);
     EXPECT_NEAR(sectionOf(castersOf(strip)), area, 1e-3 * area);
 }
 
@@ -301,8 +301,8 @@ TEST_F(RowShadows, manyGroupsShareTheMostCasters)
     for (int i = 0; i < 100; ++i)
         addParticles(snapshot, particles);
     const auto casters = castersOf(snapshot);
-    EXPECT_LE(casters.size(), render::kMostRowCasters);
-    EXPECT_GE(casters.size(), 100u * render::kFewestCastersOfGroup);
+    EXPECT_LE(casters.size(), render::kMaxRowCasters);
+    EXPECT_GE(casters.size(), 100u * render::kMinGroupCasters);
     const double section = 30000.0 * double(render::crossSectionOfDepth(std::log(2.0f), 0.5f));
     EXPECT_NEAR(sectionOf(casters), section, 1e-4 * section);
 }

@@ -132,7 +132,7 @@ TEST(TriangleTree, allThatAreEquallyNearAreTold)
     tree.nearest(packet, 0, found);
     EXPECT_EQ(found.equals[0], 11u);
     EXPECT_EQ(found.equals[1], 1u);
-    EXPECT_EQ(tree.at(found.equal[sim::PacketNearest::kMostEquals], {0.5, 0, 0}).distance, 0.5);
+    EXPECT_EQ(tree.at(found.equal[sim::PacketNearest::kMaxEqualTriangles], {0.5, 0, 0}).distance, 0.5);
     const sim::TriangleTree::Nearest corner = tree.at(found.triangle[2], {3, 3, 3});
     EXPECT_EQ(corner.point, glm::dvec3(1));
 }

@@ -82,7 +82,7 @@ TEST(FireParcel, theThreeGasesAddUpToOneExactlyForAnyStep)
             ASSERT_GE(p.burning, 0.0);
             ASSERT_GE(p.burnt, 0.0);
             ASSERT_TRUE(std::isfinite(p.temperature) && std::isfinite(ledger.radiated)) << i;
-            ASSERT_LE(p.mixing, kMostMixing);
+            ASSERT_LE(p.mixing, kMaxMixing);
         }
     }
 }

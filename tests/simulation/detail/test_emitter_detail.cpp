@@ -120,5 +120,5 @@ TEST(EmitterDetail, turbulenceRenewsItSooner)
     def->detail.liveliness = 2.0f;
     EXPECT_NEAR(base::toSeconds(sim::EmitterDetail::periodOf(*def)), 0.25 / (4.4 * 0.3), 1e-6);
     def->forces.curlStrength = 1e6f;
-    EXPECT_NEAR(base::toSeconds(sim::EmitterDetail::periodOf(*def)), 1.0 / sim::kMostGenerationRate, 1e-6);
+    EXPECT_NEAR(base::toSeconds(sim::EmitterDetail::periodOf(*def)), 1.0 / sim::kMaxGenerationRate, 1e-6);
 }

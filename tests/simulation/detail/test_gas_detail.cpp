@@ -65,7 +65,7 @@ TEST(GasDetail, aCoordinateIsThePlaceAtBirthAsLongAsTheGenerationLives)
         EXPECT_LE(now.fade(), 1.0f);
     }
     EXPECT_GE(births, 2u);
-    EXPECT_LE(births, uint32_t(sim::kMostGenerationRate) + 1);
+    EXPECT_LE(births, uint32_t(sim::kMaxGenerationRate) + 1);
 }
 
 TEST(GasDetail, livelinessRenewsItMoreOften)

@@ -41,8 +41,8 @@ TEST(GenerationClock, howeverStrongTheShearItLivesAQuarterOfASecond)
     uint64_t born = 0;
     for (int i = 0; i < 60; ++i)
         born += clock.advance(1e9, 1.0 / 60.0);
-    EXPECT_LE(born, uint64_t(sim::kMostGenerationRate));
-    EXPECT_GE(born, uint64_t(sim::kMostGenerationRate) - 1);
+    EXPECT_LE(born, uint64_t(sim::kMaxGenerationRate));
+    EXPECT_GE(born, uint64_t(sim::kMaxGenerationRate) - 1);
 }
 
 // (1) of material-coordinates: in homogeneous flow without divergence the mean squares are tied.

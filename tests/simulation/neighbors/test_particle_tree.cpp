@@ -58,7 +58,7 @@ TEST(ParticleTree, leavesCoverAllPlacesAndHoldFewParticlesEach)
     EXPECT_EQ(tree.leafBegin[tree.levelCount[0]], cloud.count());
     for (uint32_t leaf = 0; leaf < tree.levelCount[0]; ++leaf) {
         EXPECT_LT(tree.leafBegin[leaf], tree.leafBegin[leaf + 1]);
-        EXPECT_LE(tree.leafBegin[leaf + 1] - tree.leafBegin[leaf], sim::kLeafMost);
+        EXPECT_LE(tree.leafBegin[leaf + 1] - tree.leafBegin[leaf], sim::kMaxLeafParticles);
     }
     EXPECT_LT(tree.levelCount[0], cloud.count() / 5) << "leaves with hardly anybody inside";
 }

@@ -25,7 +25,7 @@ Outcome search(double want, double bottom, double top, double guess,
     while (!search.isDone()) {
         const double H = search.support(), e = 1e-6 * H;
         search.tell(mass(H), H * (mass(H + e) - mass(H - e)) / (2 * e));
-        EXPECT_LE(++evaluations, SupportSearch<double>::kMostEvaluations);
+        EXPECT_LE(++evaluations, SupportSearch<double>::kMaxEvaluations);
     }
     EXPECT_GE(search.support(), bottom);
     EXPECT_LE(search.support(), top);

@@ -197,7 +197,7 @@ TEST(EventBoard, keepsTheFirstEventsThatFillTheRoomAndCountsAll)
 {
     base::HostMemory memory;
     base::Arena arena(&memory);
-    constexpr uint32_t kRoom = 2 * kFewestFed, kCount = 100, kEvents = 5000;
+    constexpr uint32_t kRoom = 2 * kMinEventBirths, kCount = 100, kEvents = 5000;
     EventBoard board(arena, 1, 1, [](size_t) { return kRoom; });
     for (uint32_t i = 0; i < kEvents; ++i) {
         EventBirth birth{};
