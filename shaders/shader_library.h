@@ -14,7 +14,7 @@ namespace fx::shaders {
 /// @return nothing when `name` or one of its includes does not exist
 std::optional<std::string> assemble(std::string_view name, std::string_view defines);
 
-/// One file as it is, as a string literal: includes are not expanded. Empty when it does not exist.
+/// Text of one file, without expanding includes. Empty when the file does not exist.
 std::string_view text(std::string_view name);
 
 } // namespace fx::shaders

@@ -1,9 +1,9 @@
 /// @file asset_table.h
-/// Images and meshes by id: what presets name, what particles carry as a number, and what views draw.
+/// Images and meshes by id. Presets name them, particles store their ids, and views draw them.
 ///
-/// Assets never change and live as long as their table. Equal content gets the same id, so that a hundred
-/// presets with one texture hold it once. Threads: add from any, one waits for the other; read from any
-/// without waiting.
+/// Assets never change and live as long as their table. Equal content gets the same id, so a texture that a
+/// hundred presets use is stored once. Threads: any. Additions are serialized by a mutex; reading takes no
+/// lock.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -30,7 +30,7 @@ struct ImageAsset
 {
     int width = 0;      ///< [texel] >= 1
     int height = 0;     ///< [texel] >= 1
-    bool isSrgb = true; ///< color is encoded by the sRGB curve (opacity never is); false: numbers as they are
+    bool isSrgb = true; ///< color is encoded by the sRGB curve (opacity never is); false: linear
     std::pmr::vector<uint8_t> rgba;
 };
 
@@ -60,8 +60,8 @@ public:
 
     /// @return the id; InvalidArgument for sizes that do not fit each other; Capacity
     Result<AssetId> addImage(int width, int height, bool isSrgb, std::span<const uint8_t> rgba);
-    /// @return the id; InvalidArgument for no triangle, an index beyond the vertices, what is not finite;
-    /// Capacity
+    /// @return the id; InvalidArgument without a triangle, with an index beyond the vertices or a value that
+    ///         is not finite; Capacity
     Result<AssetId> addMesh(std::span<const MeshVertex> vertices, std::span<const uint32_t> indices);
 
     /// Null when `id` is no image (mesh) of this table.

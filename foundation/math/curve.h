@@ -1,5 +1,6 @@
 /// @file curve.h
-/// Values that change over a life, and values drawn from a range: what presets are made of.
+/// Curves over the lifetime of a particle, and ranges from which random values are drawn. Presets consist of
+/// both.
 #pragma once
 
 #include <array>
@@ -18,8 +19,8 @@ struct CurveKey
     std::array<float, N> value;
 };
 
-/// Piecewise linear curve over [0, 1], held as 65 equally spaced samples so that evaluation is one lerp.
-/// Sampling a key that falls between two samples costs accuracy: error <= |slope change| / (8 * 64).
+/// Piecewise linear curve over [0, 1], held as 65 equally spaced samples so that evaluation is one lerp. Near
+/// a key that falls between two samples the error is at most |slope change| / (8 * 64).
 template <size_t N>
 class Curve
 {
@@ -27,8 +28,8 @@ public:
     Curve() { table_.fill({}); }
     /// The same value for all t.
     explicit Curve(const std::array<float, N>& constant) { table_.fill(constant); }
-    /// @param keys sorted by t, at least one, all finite; equal t make a jump (the later key holds from
-    /// there)
+    /// @param keys sorted by t, at least one, all finite; two keys of equal t make a jump, after which the
+    ///         later key holds
     explicit Curve(std::span<const CurveKey<N>> keys);
 
     /// Value at t; t outside [0, 1] (NaN included) is clamped.

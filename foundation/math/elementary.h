@@ -1,6 +1,6 @@
 /// @file elementary.h
-/// Elementary functions for simulation kernels: the same bits on every machine, which the C library does not
-/// promise.
+/// Elementary functions for simulation kernels. They give the same bits on every machine; those of the C
+/// library may not.
 ///
 /// Only +, -, *, / and conversions are used, in a fixed order; callers build with -ffp-contract=off.
 #pragma once
@@ -148,8 +148,8 @@ struct SinCos
     double cos;
 };
 
-/// @formula sine-cosine-of-turns
-/// Sine and cosine of 2 pi times the argument; counting in turns makes the reduction exact.
+/// @formula sine-cosine-of-turns Sine and cosine of 2 pi times the argument. With the argument in turns, the
+///          range reduction is exact.
 ///
 /// symbol   unit   meaning
 ///   t       turn   angle

@@ -1,5 +1,6 @@
 /// @file geometry.h
-/// Boxes and placements. World positions are double; what hangs on them is float relative to it.
+/// Boxes and placements. World positions are double; positions of elements are float, relative to a world
+/// position.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -23,12 +24,12 @@ struct Bounds
     }
 };
 
-/// Where an instance stands: world = position + rotation * (scale * local).
+/// Transform of an instance: world = position + rotation * (scale * local).
 struct Placement
 {
     glm::dvec3 position{0.0};                   ///< [m] world
     glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f}; ///< unit
-    float scale = 1.0f;                         ///< > 0; lengths, not speeds of time, are scaled
+    float scale = 1.0f;                         ///< > 0; scales lengths, not time
 };
 
 } // namespace fx::base

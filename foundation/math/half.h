@@ -1,5 +1,6 @@
 /// @file half.h
-/// One float to binary16, as the particle kernels do it for many (half-floats).
+/// Conversion of single floats to half floats (binary16), equal to the vectorized one of the particle
+/// kernels.
 #pragma once
 
 #include <bit>
@@ -7,7 +8,7 @@
 
 namespace fx::base {
 
-/// To nearest, ties to even; what is outside of [0, 65504] is clamped, NaN becomes 0.
+/// Rounds to nearest, ties to even. Values outside of [0, 65504] are clamped; NaN becomes 0.
 inline uint32_t toHalf(float x)
 {
     const float bounded = x > 0.0f ? (x < 65504.0f ? x : 65504.0f) : 0.0f;
@@ -17,7 +18,7 @@ inline uint32_t toHalf(float x)
     return (bits - (112u << 23) + 0xFFFu + ((bits >> 13) & 1u)) >> 13;
 }
 
-/// A column Color: red in the lowest 16 bits, then green, blue, opacity.
+/// Value of a column "color": red in the lowest 16 bits, then green, blue, opacity.
 inline uint64_t packHalfs(float red, float green, float blue, float opacity)
 {
     return uint64_t(toHalf(red)) | uint64_t(toHalf(green)) << 16 | uint64_t(toHalf(blue)) << 32 |

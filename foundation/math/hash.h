@@ -16,7 +16,7 @@ inline uint64_t hashWord(uint64_t hash, uint64_t word)
     return x ^ (x >> 31);
 }
 
-/// Mixes `size` bytes and their number (XXH3 of the xxHash library): as fast as memory is read.
+/// Mixes `size` bytes and their number, by XXH3 of the xxHash library, at about the speed of reading memory.
 uint64_t hashBytes(uint64_t hash, const void* data, size_t size);
 
 } // namespace fx::base

@@ -1,5 +1,5 @@
 /// @file arena.h
-/// Scratch memory of one step or one frame: bump to allocate, one call to forget everything.
+/// Scratch memory of one step or one frame: a bump allocator that is reset as a whole.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,9 @@
 
 namespace fx::base {
 
-/// A stack of blocks that keeps its memory across reset(), so that a frame like the one before allocates
-/// nothing. Holds trivially destructible data only: nothing is destroyed. One thread at a time.
+/// A stack of blocks that keeps its memory across reset(), so that a frame that needs no more than the last
+/// one allocates nothing. Only for trivially destructible data: destructors are not called. One thread at a
+/// time.
 class Arena
 {
 public:
@@ -27,8 +28,8 @@ public:
         return {static_cast<T*>(allocateBytes(count * sizeof(T))), count};
     }
 
-    /// Forgets all allocations. When they had spread over several blocks, one block of their sum
-    /// and a quarter replaces them.
+    /// Frees all allocations together. If they occupied several blocks, one block of 1.25 times their total
+    /// size replaces these.
     void reset();
 
 private:

@@ -12,8 +12,7 @@
 
 namespace fx::base {
 
-/// Structure-of-arrays stores are made of these. The capacity is chosen once; nothing reallocates behind a
-/// pointer.
+/// Element of structure-of-arrays stores. The capacity is fixed at construction, so pointers stay valid.
 template <class T>
 class Column
 {

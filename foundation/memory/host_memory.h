@@ -9,8 +9,8 @@
 
 namespace fx::base {
 
-/// The host's allocator. Null functions mean the C++ runtime's own.
-/// allocate returns null when there is no memory; release takes what allocate was given.
+/// The host's allocator. Null functions mean the C++ runtime's own. allocate() returns null when memory is
+/// exhausted; release() gets the size and alignment that were passed to allocate().
 struct AllocatorHooks
 {
     void* user = nullptr;
@@ -18,13 +18,13 @@ struct AllocatorHooks
     void (*release)(void* user, void* memory, size_t size, size_t alignment) = nullptr;
 };
 
-/// [byte] of what a processor translates with one entry, where the system gives such pages.
+/// [byte] size of a large page on x86-64.
 constexpr size_t kLargePage = size_t(2) << 20;
 
-/// Everything that lives longer than a call comes from here. Without hooks, blocks of kLargePage and more
-/// begin at a multiple of it, and Linux is asked for such pages: many columns that are read side by side else
-/// wait for the translation of addresses. Hosts with hooks decide for themselves. Throws std::bad_alloc,
-/// which fxsdk/api turns into FX_ERROR_OUT_OF_MEMORY. Thread-safe when the hooks are.
+/// Source of all memory that outlives a call. Without hooks, blocks of at least kLargePage are aligned to it,
+/// and on Linux madvise() requests large pages: reading many columns side by side otherwise misses the TLB.
+/// With hooks, the host chooses the pages. Throws std::bad_alloc, which fxsdk/api turns into
+/// FX_ERROR_OUT_OF_MEMORY. Thread-safe when the hooks are.
 class HostMemory final : public std::pmr::memory_resource
 {
 public:

@@ -1,5 +1,5 @@
 /// @file out_of_memory.h
-/// A failed allocation that says what it was for. Made and thrown without memory of its own.
+/// std::bad_alloc with the purpose of the allocation. It is constructed and thrown without allocating.
 #pragma once
 
 #include <algorithm>

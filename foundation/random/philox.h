@@ -47,8 +47,8 @@ inline float toUnitFloat(uint32_t word)
     return float(word >> 8) * 0x1.0p-24f;
 }
 
-/// What a random number is for. Each purpose draws from a stream of its own, so adding one leaves others as
-/// they were.
+/// Purpose of a random number. Each purpose has its own stream, so a new purpose does not change the numbers
+/// of others.
 enum class RandomPurpose : uint32_t
 {
     BirthPhase,

@@ -1,5 +1,5 @@
 /// @file nearest_name.h
-/// Guesses what a misspelled name was meant to be.
+/// Finds the known name that is nearest to a misspelled one.
 #pragma once
 
 #include <optional>

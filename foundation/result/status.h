@@ -22,7 +22,7 @@ enum class Code : int
     NotFound = -6,        ///< a file or asset does not exist
     TooLarge = -7,        ///< an input exceeds its documented size limit and was not read
     Parse = -8,           ///< a text is not well formed
-    Schema = -9,          ///< a preset or scene is well formed but says something that is not allowed
+    Schema = -9,          ///< a preset or scene is well-formed JSON but violates its schema
     Version = -10,        ///< a struct, preset or header of a version that this library cannot take
     GlUnsupported = -11,  ///< the GL context lacks a version or function that is required
     GlFailed = -12,       ///< GL refused a shader, a framebuffer or an allocation
@@ -54,7 +54,7 @@ private:
     std::string message_;
 };
 
-/// A value, or the status that says why there is none.
+/// A value, or the status of the failure.
 template <class T>
 class [[nodiscard]] Result
 {

@@ -1,5 +1,5 @@
 /// @file floating_point_scope.h
-/// The floating-point mode that simulation runs in, whatever the host has set.
+/// Sets the floating-point mode of the simulation, independent of the host's, and restores the host's mode.
 #pragma once
 
 #if defined(__SSE2__)

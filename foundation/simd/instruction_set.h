@@ -15,7 +15,7 @@ namespace fx::base {
 /// In order of width.
 enum class InstructionSet : uint8_t
 {
-    Scalar, ///< what every processor of the architecture has, one number at a time
+    Scalar, ///< baseline of the architecture, without vectors
     Sse4,
     Avx2,
     Avx512
@@ -28,7 +28,7 @@ std::optional<InstructionSet> instructionSetOf(std::string_view name);
 /// Once in a process, applies the limit of the environment variable FXSDK_SIMD; an unknown value is ignored.
 /// Cheap and thread-safe.
 void applyInstructionSetLimit();
-/// What came of FXSDK_SIMD: empty when it is unset or was understood, otherwise a sentence for the user.
+/// Warning about the environment variable FXSDK_SIMD; empty if it is unset or valid.
 std::string_view instructionSetNote();
 
 /// The one in use: the widest that both the processor and the limit allow.

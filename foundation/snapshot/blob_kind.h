@@ -2,10 +2,9 @@
 /// The kind "blob": a ball of participating medium with the polynomial kernel. Vocabulary of the techniques
 /// that publish gas and of the passes that draw it; the snapshot container does not include this.
 ///
-/// Extinction at distance r from the center is crossSection * W(r; radius) with
-/// W(r; R) = 105 / (32 pi R^3) (1 - (r/R)^2)^2, see shaders/formulas/kernel_optical_depth.fx.h.
-/// The medium emits as a gray body: source = (1 - albedo) * B(temperature) + emission, never without
-/// extinction.
+/// Extinction at distance r from the center is crossSection * W(r; radius) with W(r; R) = 105 / (32 pi R^3)
+/// (1 - (r/R)^2)^2, see shaders/formulas/kernel_optical_depth.fx.h. The medium emits as a gray body: source =
+/// (1 - albedo) * B(temperature) + emission, never without extinction.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"
@@ -42,7 +41,7 @@ enum : size_t
 namespace blob_constant {
 enum : size_t
 {
-    Layer,        ///< MediaLayer that takes what FireShare leaves
+    Layer,        ///< MediaLayer of the share that is not fire
     DetailAmount, ///< [1] strength of procedural detail, 0 shows the bare kernel
     DetailScale,  ///< [1] noise periods across a blob's diameter
     Anisotropy,   ///< [1] Henyey-Greenstein g of scattering, (-1, 1)

@@ -46,9 +46,10 @@ public:
     std::pmr::memory_resource* memory() const { return memory_; }
     Ticks tick() const { return tick_; }
     uint64_t sequence() const { return sequence_; } ///< 1 for the first published, then rising by 1; 0: never
-    /// [s] of the step that ended here; what was born within it is drawn on its way. 0: there was none.
+    /// [s] length of the step that ended with this snapshot; 0 if no step did. Particles that were born
+    /// within the step are drawn from their birth on.
     float secondsBack() const { return float(toSeconds(step_)); }
-    Ticks step() const { return step_; } ///< the same, as begin() was told
+    Ticks step() const { return step_; } ///< the same, as passed to begin()
     size_t groupCount() const { return groupCount_ + (roster_ ? roster_->entries.size() : 0); }
     /// The first call for a group of a pool gives all rows of pools to their groups. It allocates nothing.
     const SnapshotGroup& group(size_t index) const
@@ -73,8 +74,7 @@ public:
 
     /// Hash of the tick and of every id, column, constant and placement, computed anew at each call.
     uint64_t hash() const { return hashAt(tick_); }
-    /// The same as if the step had ended at `tick`: where nothing is to be seen, a snapshot stands for later
-    /// ones too.
+    /// The hash for a step that ended at `tick`. A snapshot without elements also represents later steps.
     uint64_t hashAt(Ticks tick) const;
 
     // ---- for the writer, before publication ----
@@ -86,7 +86,8 @@ public:
     SnapshotGroup& addGroup(KindId kind, size_t capacity, ColumnSet present = kAllColumns)
     {
         if (groupCount_ < groups_.size() && groups_[groupCount_].prepareAgain(kind, capacity, present, true))
-            return groups_[groupCount_++]; // as in the snapshot before: there is none that fits better
+            return groups_[groupCount_++]; // at the same index as in the previous snapshot; no other one fits
+                                           // better
         return findGroup(kind, capacity, present);
     }
     /// The same for a writer that respects SnapshotGroup::keepsConstants().
@@ -104,9 +105,10 @@ public:
     PooledRows& addPool(KindId kind, size_t capacity, ColumnSet present, uint32_t each);
     size_t poolCount() const { return poolCount_; }
     const PooledRows& pool(size_t index) const { return *pools_[index]; }
-    /// Which groups the pools hold and where they stand among those that were added. After all groups and
-    /// pools, once.
-    /// @param ends for each stretch that GroupRoster::Entry::stretch counts: groups added by its end
+    /// Sets which groups the pools contain and their order among the groups that were added. Called once,
+    /// after all groups and pools are added.
+    /// @param ends number of groups added by the end of each run of added groups, see
+    ///         GroupRoster::Entry::stretch
     void setRoster(std::shared_ptr<const GroupRoster> roster, std::span<const uint32_t> ends);
     size_t addedCount() const { return groupCount_; } ///< groups that were added, without those of pools
 
@@ -127,8 +129,8 @@ private:
     std::pmr::vector<SnapshotGroup>
         groups_; ///< the first groupCount_ are valid, the rest keep memory for later
     size_t poolCount_ = 0;
-    std::vector<std::unique_ptr<PooledRows>> pools_; ///< the first poolCount_ are valid, likewise
-    std::shared_ptr<const GroupRoster> roster_;      ///< null: there are no pools
+    std::vector<std::unique_ptr<PooledRows>> pools_; ///< the first poolCount_ are valid
+    std::shared_ptr<const GroupRoster> roster_;      ///< null without pools
     std::pmr::vector<uint32_t> ends_;                ///< see setRoster()
     std::pmr::vector<uint32_t> places_;              ///< by group, see placeOf(); where pools are
     uint64_t listed_ = 0;                            ///< shape of the roster that they and ends_ are of

@@ -1,9 +1,9 @@
 /// @file gpu_modules.h
-/// What moves the particles of an emitter whose motion has no closed form, as a list of modules that a shader
-/// is put together from, and the steps in which it happens.
+/// Modules of motion without a closed form: a list from which a compute shader is assembled, and the steps
+/// that it takes.
 ///
-/// What a module does, operation by operation, stands in shaders/gpu_particles/gpu_particle_forces.glsl and
-/// gpu_particle_contacts.glsl; the meaning of its numbers is explained there.
+/// shaders/gpu_particles/gpu_particle_forces.glsl and gpu_particle_contacts.glsl implement the modules and
+/// explain their numbers.
 #pragma once
 
 #include "foundation/time/ticks.h"
@@ -37,7 +37,7 @@ enum class GpuModule : uint32_t
     Ground,
     Sphere,
     Box,
-    Depth, ///< what a view's depth texture shows, see rendering/gpu_particles/gpu_depth.h
+    Depth, ///< surfaces in a view's depth texture, see rendering/gpu_particles/gpu_depth.h
 };
 constexpr GpuModule kFirstGpuContact = GpuModule::Bounce;
 constexpr GpuModule kFirstGpuObstacle = GpuModule::Plane;
@@ -46,7 +46,7 @@ struct GpuModuleUse
 {
     GpuModule module;
     uint32_t numbers; ///< place of its first number in GpuModules::numbers
-    uint32_t word;    ///< place of its first word in what is written for a step
+    uint32_t word;    ///< offset of its first word in the data of a step
 
     bool operator==(const GpuModuleUse&) const = default;
 };
@@ -67,10 +67,11 @@ public:
 
     std::vector<GpuModuleUse> uses;
     std::vector<float> numbers;
-    uint32_t stepWords = 0;     ///< besides the head
-    bool kills = false;         ///< particles may die before their time
-    bool sticks = false;        ///< particles may stop for good
-    bool dependsOnHost = false; ///< it meets the host's geometry, where there is any: then only the CPU can
+    uint32_t stepWords = 0; ///< besides the head
+    bool kills = false;     ///< particles may die before their time
+    bool sticks = false;    ///< particles may stop for good
+    /// It collides with the host's geometry; if a scene has some, the emitter runs on the CPU.
+    bool dependsOnHost = false;
 };
 
 /// The head of a step as the GPU reads it.

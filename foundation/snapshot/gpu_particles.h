@@ -52,7 +52,7 @@ inline constexpr KindDesc kGpuParticleKind{"gpuParticle", kGpuParticleColumns, k
 enum class GpuShape : uint32_t
 {
     Point,
-    Ball,     ///< of radius size[0]; the share `inner` of it is empty
+    Ball,     ///< of radius size[0]; empty within the share `inner` of it
     Box,      ///< half extents size, heading along +Y
     Cone,     ///< on the disc of radius size[0], heading within the angle of +Y whose cosine is cosLimit
     BoxFaces, ///< on the faces, heading outwards
@@ -62,7 +62,7 @@ enum class GpuShape : uint32_t
     TallCone, ///< in the cone above the disc of radius size[0], or on its side, heading away from its tip
 };
 
-/// What tells the frame of the texture.
+/// How the frame of a flipbook texture is chosen.
 enum class GpuFrames : uint32_t
 {
     First,
@@ -73,7 +73,7 @@ enum class GpuFrames : uint32_t
 constexpr size_t kGpuCurveSamples = kCurveSamples + 1;
 constexpr size_t kGpuCurvePieces = 10;
 
-/// What never changes. Ranges are {min, max} with min = max where nothing is drawn.
+/// Constants of an emitter. Ranges are {min, max}; min = max means a constant without a random draw.
 struct GpuParticleNumbers
 {
     float position[3]; ///< [m] center of the shape
@@ -98,15 +98,15 @@ struct GpuParticleNumbers
     float perFastest; ///< [s/m] 1 / the speed at which the curves over speed end
     float height;     ///< [m] of the cone
     float slope[3];   ///< [1] of its side, in three parts whose sum is exact
-    /// Red, green, blue, opacity, size over life; size and opacity multiply what was drawn at birth. Samples
-    /// at equal distances, or kGpuCurvePieces values at 0 of the lines that the pieces lie on, as many
-    /// slopes, and where pieces begin (infinite for those that there are not).
+    /// Red, green, blue, opacity, size over life; size and opacity multiply the values drawn at birth. Either
+    /// samples at equal distances, or kGpuCurvePieces linear pieces: their values extrapolated to t = 0,
+    /// their slopes and their beginnings (infinite for unused pieces).
     float lifeCurves[5][kGpuCurveSamples];
     float speedCurves[5][kGpuCurveSamples];
 };
 static_assert(sizeof(GpuParticleNumbers) == 4 * (38 + 10 * kGpuCurveSamples));
 
-/// What decides which program computes an emitter: those that agree in all of it share one.
+/// Key of the compute program of an emitter. Emitters with equal features share a program.
 struct GpuParticleFeatures
 {
     GpuShape shape = GpuShape::Point;
@@ -136,7 +136,7 @@ public:
     GpuParticleFeatures features;
     GpuParticleNumbers numbers{};
     std::vector<float> moduleNumbers; ///< see GpuModules
-    uint32_t rows = 0;                ///< of what is computed
+    uint32_t rows = 0;                ///< computed particles
     bool kills = false;               ///< see GpuModules
     bool dependsOnHost = false;       ///< likewise
     float meanRadius = 0.0f;          ///< [m] about so much, to estimate costs
@@ -161,7 +161,7 @@ struct GpuBirthRun
     uint32_t rest[3];     ///< [2^-96] r of the first birth
 };
 
-/// What acts on all particles from a moment on.
+/// Conditions of all particles from a time on.
 struct GpuCondition
 {
     int64_t age;   ///< [tick] of that moment; that of the first one is not less than any particle's
@@ -202,9 +202,9 @@ GpuParticleMoment gpuMomentOf(const SnapshotGroup& group);
 GpuStepRun gpuStepRunOf(const SnapshotGroup& group, const GpuParticleMoment& moment, uint32_t run);
 /// How many steps of a run ended at or before `tick`, when it is `now`.
 uint32_t gpuStepsBefore(const GpuStepRun& run, int64_t now, int64_t tick);
-/// True when the steps of `group` go on from `mark`.
+/// True when the steps of `group` continue at `mark`.
 bool goesOnFrom(const SnapshotGroup& group, const GpuStepMark& mark);
-/// Where it has come to.
+/// The mark after the steps of `group`.
 GpuStepMark gpuMarkOf(const SnapshotGroup& group);
 
 /// [tick] The age of birth number `j` of a run. (1)

@@ -1,7 +1,7 @@
 /// @file material_kind.h
-/// The kind "material": coordinates that balls of medium carry, from which the detail of their summed field
-/// is read, so that it moves with the medium. Vocabulary of the techniques that publish media and of the
-/// passes that draw them as fields; the snapshot container does not include this.
+/// The kind "material": noise coordinates of balls of medium. The detail of their summed field is evaluated
+/// at these coordinates, so that it moves with the medium. Included by techniques that publish media and by
+/// passes that draw them as fields, not by the snapshot container.
 ///
 /// A group of this kind follows the group of the kind "blob" of the same solver, and has the same elements in
 /// the same order. A solver publishes it only where its preset gives detail of the field.
@@ -38,11 +38,11 @@ enum : size_t
     Generation, ///< [1] number of the younger generation modulo kGenerationCycle
     Fade,       ///< [1] its weight, 0 .. 1
     Length0,    ///< [m] size of the largest lumps of the generation in the columns Place0
-    Length1,    ///< [m] the same of Place1
+    Length1,    ///< [m] length of the generation of Place1
     Growth0,    ///< [1] radii of balls at the birth of that generation over their radii now
     Growth1,
     Thinnest, ///< [1] optical depth of a lump up to which the medium is eroded away
-    Densest,  ///< [1] optical depth of a lump from which on none of it is
+    Densest,  ///< [1] optical depth of a lump above which it is not eroded
     Ramp,     ///< [1] width of the threshold: small is crisp
     Gain,     ///< [1] amplitude of each octave of the noise over that of the one before
     Cooling,  ///< [1] share of the temperature that is lost at the surface of lumps

@@ -1,15 +1,14 @@
 /// @file particle_kind.h
-/// The kinds "particle", "ribbon" and "light": what emitters publish besides media. Vocabulary of the
-/// technique that writes them and of the passes and hosts that draw them; the snapshot container does not
-/// include this.
+/// The kinds "particle", "ribbon" and "light", which emitters publish besides media. Included by the
+/// technique that writes them and by the passes and hosts that draw them, not by the snapshot container.
 ///
 /// A particle keeps its row for life: row i of two successive snapshots is the same particle when it lives in
 /// both and its age in the newer one is at least the time between them. A row of radius 0 is empty. Rows of a
 /// ribbon that follow each other and name the same strip are joined.
 ///
 /// A color is four binary16 numbers, red in the lowest 16 bits, then green, blue, opacity. Red, green and
-/// blue are linear Rec. 709 and not multiplied by the opacity. What is seen is
-/// color * (luminance + lit * light that falls on the particle / pi).
+/// blue are linear Rec. 709 and not multiplied by the opacity. The visible luminance is color * (luminance +
+/// lit * illuminance of the particle / pi).
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"
@@ -59,7 +58,7 @@ enum : size_t
     Arc, ///< from the particle's birth; with ArcPerTile 0 instead 0 at the end of the strip to 1 at its head
     Color,
     Strip,
-    Age, ///< since the particle was there
+    Age, ///< since the birth of the particle
     Count
 };
 }
@@ -85,7 +84,7 @@ enum class ParticleShape : uint32_t
     Mesh,   ///< an instanced mesh
 };
 
-/// How what is drawn meets what is behind it.
+/// Blending with the background.
 enum class ParticleBlend : uint32_t
 {
     Alpha,    ///< covers with its opacity
@@ -93,7 +92,7 @@ enum class ParticleBlend : uint32_t
     Opaque,   ///< hides where its opacity is at least one half; writes depth
 };
 
-/// How the square of a sprite stands.
+/// Orientation of the quad of a sprite.
 enum class SpriteAlignment : uint32_t
 {
     Camera,   ///< faces the camera
@@ -105,7 +104,7 @@ enum class SpriteAlignment : uint32_t
 /// In which order the rows of a group are drawn.
 enum class ParticleOrder : uint32_t
 {
-    None,     ///< rows as they are
+    None,     ///< no conversion of rows
     Depth,    ///< far to near
     Oldest,   ///< oldest first
     Youngest, ///< youngest first
@@ -115,11 +114,13 @@ enum class ParticleOrder : uint32_t
 namespace particle_constant {
 enum : size_t
 {
-    Shape,     ///< ParticleShape
-    Layer,     ///< MediaLayer that the light and opacity are accounted to
-    Blend,     ///< ParticleBlend
-    Order,     ///< ParticleOrder
-    OrderBias, ///< [m] > 0 draws the group as if it were so much nearer to the camera
+    Shape, ///< ParticleShape
+    Layer, ///< MediaLayer that the light and opacity are accounted to
+    Blend, ///< ParticleBlend
+    Order, ///< ParticleOrder
+    /// [m] added to the distance for sorting: > 0 draws the group as if it were nearer to the camera by this
+    /// length.
+    OrderBias,
     Alignment, ///< SpriteAlignment
     AxisX,     ///< [1] local unit vector of the alignments Axis and Plane
     AxisY,     ///< [1]
@@ -129,7 +130,7 @@ enum : size_t
                ///< or the length of a ribbon, runs along it
     Luminance, ///< [cd/m2] that color 1 emits
     Lit,       ///< [1] share of the scene's light that color 1 scatters, 0..1
-    Softness,  ///< [m] depth over which a particle fades into what it cuts, 0: hard
+    Softness,  ///< [m] depth over which a particle fades where it intersects opaque surfaces; 0: hard edge
     Texture,   ///< id in the AssetTable, 0: a round spot that fades to its edge
     TileColumns, ///< [1] frames of the texture side by side, >= 1
     TileRows,    ///< [1] frames of the texture above each other, >= 1
@@ -139,7 +140,8 @@ enum : size_t
     Mesh,        ///< id in the AssetTable, 0: none
     ArcPerTile,  ///< [m] length of a ribbon that one width of texture covers; 0: the strip's own
     Edge,        ///< [1] share of a ribbon's half width over which it fades to its edges, 0..1
-    TailAge,     ///< [s] age at which a ribbon ends; its rows may go on a little, for moments before this one
+    /// [s] age at which a ribbon ends; it may have some older rows, for interpolation of earlier moments.
+    TailAge,
     Count
 };
 }

@@ -1,8 +1,8 @@
 /// @file pooled_groups.h
-/// Many small groups of one kind that are published as one pool of rows, in whatever order suits the writer.
+/// Many small groups of one kind that are published as one pool of rows, in any order.
 ///
 /// Readers call FrameSnapshot::group() as for any other group: the first call copies each row of each pool to
-/// its group. A snapshot that is never read, or whose pools are read in place, as views do, has no such cost.
+/// its group. A snapshot that is not read, or whose pools are read in place as by views, has no such cost.
 #pragma once
 
 #include "foundation/snapshot/snapshot_group.h"
@@ -60,7 +60,7 @@ private:
     size_t floatsInAll_ = 0;
 };
 
-/// What rows of a group lie within.
+/// Parameters of the bounds of a group's rows.
 struct RowExtent
 {
     glm::vec3 low{std::numeric_limits<float>::infinity()};
@@ -126,19 +126,19 @@ struct PooledRows
     std::pmr::vector<uint32_t> counts; ///< by member: count of its group
     uint32_t groupCapacity = 0;        ///< of each group
     RowCopier copier;
-    size_t radiusColumn = 0;   ///< a row with 0 there is empty
+    size_t radiusColumn = 0;   ///< column of the radius; a row of radius 0 is empty
     uint64_t number = 0;       ///< of the constants, see SnapshotGroup::keepsConstants()
-    float corner = 1;          ///< [1] farthest corner of what is drawn, over the radius
+    float corner = 1;          ///< [1] distance of the farthest drawn corner, over the radius
     size_t ageColumn = 0;      ///< where rows move
     size_t velocityColumn = 0; ///< the first of three; 0: rows have none
     float along = 0;           ///< [s] of its way by which a row is longer to each side, along the way
-    float across = 0;          ///< [s] the same of rows that lie anyhow, over `corner`
+    float across = 0;          ///< [s] the same for rows of arbitrary orientation, over `corner`
     float secondsBack = 0;     ///< [s] rows are also drawn on their way since then
     uint64_t writer = 0;       ///< number of the writer of owners and places, 0: none
-    uint64_t writtenUpTo = 0;  ///< how far, in the writer's own count
+    uint64_t writtenUpTo = 0;  ///< number of the last write, counted by the writer
 
 private:
-    /// @return [m] how far a row reaches that is `radius` large
+    /// @return [m] distance of the farthest point of a row of this radius
     float measureMoving(uint32_t row, const glm::vec3& at, float radius, RowExtent& io) const;
 };
 
@@ -152,14 +152,14 @@ struct GroupRoster
         uint32_t solver = 0;
         uint32_t pool = 0;    ///< of the snapshot
         uint32_t member = 0;  ///< of the pool
-        uint32_t stretch = 0; ///< it stands behind so many stretches of added groups
+        uint32_t stretch = 0; ///< number of runs of added groups that precede it
         bool isCosmetic = false;
     };
     std::vector<Entry> entries;
-    uint64_t shape = 0; ///< of which pools the entries are; another one for each other list
+    uint64_t shape = 0; ///< identifies the pools and their entries; equal shapes mean equal lists
 };
 
-/// The groups that the rows of pools belong to, made when they are asked for.
+/// The groups of the rows of pools, created on first access.
 class SpreadGroups
 {
 public:
@@ -167,13 +167,14 @@ public:
         : memory_(memory), groups_(memory), scratch_(memory), first_(memory), ends_(memory), rows_(memory)
     {}
 
-    /// A new publication: nothing is spread any more, and there is memory for all. Writer.
+    /// Begins a new publication: discards the groups and reserves memory for all. [writer]
     void prepare(const FrameSnapshot& snapshot);
     /// The group of an entry of the snapshot's roster. Any thread.
     const SnapshotGroup& group(const FrameSnapshot& snapshot, size_t entry);
-    bool isDone() const { return done_.load(std::memory_order_acquire); } ///< group() has been called
-    /// Calls f(group) for all groups in order; those of pools last for the call alone and take no memory of
-    /// their own. Any thread, one at a time.
+    /// Whether group() has been called since prepare().
+    bool isDone() const { return done_.load(std::memory_order_acquire); }
+    /// Calls f(group) for all groups in order; groups of pools exist only during the call and need no memory
+    /// of their own. Any thread, one at a time.
     template <class F>
     void forEach(const FrameSnapshot& snapshot, F&& f)
     {
@@ -191,9 +192,9 @@ private:
     void open(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry, SnapshotGroup& group) const;
     void fill(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry, SnapshotGroup& group) const;
 
-    std::mutex mutex_;              ///< guards what follows while it is being spread
-    std::atomic<bool> done_{false}; ///< it has been, and is constant until the next publication
-    uint64_t shape_ = 0;            ///< that there is memory for
+    std::mutex mutex_;              ///< guards the members below while groups are created
+    std::atomic<bool> done_{false}; ///< groups exist, and are constant until the next publication
+    uint64_t shape_ = 0;            ///< shape for which memory is reserved
     std::pmr::memory_resource* memory_;
     std::pmr::vector<SnapshotGroup> groups_;  ///< by entry of the roster
     std::pmr::vector<SnapshotGroup> scratch_; ///< of visit(), by pool

@@ -18,7 +18,7 @@
 
 namespace fx::base {
 
-/// What a group is, apart from its columns.
+/// Identity, size, placement and bounds of a group.
 struct GroupInfo
 {
     KindId kind = 0;
@@ -56,7 +56,7 @@ public:
     }
     bool has(size_t index) const { return (present_ >> index & 1) != 0; }
     ColumnSet present() const { return present_; }
-    /// Where a column of floats begins, whatever count() says.
+    /// Begin of a column of floats, also when count() is 0.
     const float* start(size_t index) const { return place(index); }
     std::span<const float> constants() const { return {constants_.data(), constantCount_}; }
     /// Of the kind "gpuParticle", see gpu_particles.h; null elsewhere.
@@ -75,13 +75,12 @@ public:
     }
     void setProgram(std::shared_ptr<const GpuParticleProgram> program) { program_ = std::move(program); }
     std::span<float> editConstants() { return {constants_.data(), constantCount_}; }
-    /// Room for all columns that it has.
+    /// Storage of all columns of the group.
     float* editStorage() { return storage_.data(); }
     size_t capacity() const { return capacity_; }
-    /// True when its constants are those that the writer with the number `writer` has written into its memory
-    /// before, unchanged since: then they need not be written again. Otherwise they are zero, and the writer
-    /// must write them now.
-    /// @param writer not 0; names what is written, for the life of the process
+    /// True when the memory of the group still contains the constants that `writer` wrote; they need not be
+    /// written again. Otherwise the constants are zero and must be written.
+    /// @param writer not 0; unique in the process for each content
     bool keepsConstants(uint64_t writer)
     {
         if (constantsWriter_ == writer)
@@ -95,8 +94,8 @@ public:
     size_t bytes() const { return storage_.capacity() * sizeof(float) + ids_.capacity() * sizeof(uint64_t); }
     /// Makes room for `capacity` elements of `kind`; keeps its memory when that is enough.
     void prepare(const SnapshotSchema& schema, KindId kind, size_t capacity, ColumnSet present = kAllColumns);
-    /// The same where it was prepared for the same the last time and its memory is exactly that; otherwise
-    /// false. Constants are left as they are for keepsConstants(), or are zero when `forgets`.
+    /// As prepare(), if the last call had the same arguments and the memory has exactly the required size;
+    /// otherwise returns false and does nothing. Constants do not change, or become zero when `forgets`.
     bool prepareAgain(KindId kind, size_t capacity, ColumnSet present, bool forgets)
     {
         if (!isExact_ || info_.kind != kind || capacity_ != capacity || present_ != present)
@@ -119,7 +118,7 @@ private:
     const float* place(size_t index) const { return storage_.data() + size_t(lines_[index]) * kRowsPerLine; }
     static constexpr size_t kRowsPerLine = 16; ///< floats in 64 bytes
 
-    // What is read and written for each publication stands together in front.
+    // The members used by each publication come first, so that they share cache lines.
     GroupInfo info_;
     size_t capacity_ = 0;
     ColumnSet present_ = 0;

@@ -18,7 +18,7 @@ struct SnapshotPair
     const FrameSnapshot* older = nullptr; ///< null before the second
 };
 
-/// Snapshots in rotation: the two newest published, one being written, and whatever readers still hold.
+/// Snapshots in rotation: the two newest published ones, the one being written, and those that readers hold.
 /// beginWrite and publish: scene thread. acquire and release: any thread, in pairs.
 class SnapshotRing
 {
@@ -28,12 +28,12 @@ public:
     /// @param step [tick] length of the step that ends at `tick`; 0: none does
     /// @return a snapshot without readers, cleared for writing; when all are held, the ring grows by one
     FrameSnapshot& beginWrite(Ticks tick, Ticks step = 0);
-    /// Makes what was written the newest. It must not be changed after this.
+    /// Makes the written snapshot the newest one. It must not be changed afterwards.
     void publish();
-    /// What was written becomes the predecessor of what is written next, in place of the newest one of now.
-    /// Readers see it only when that is published.
+    /// Makes the written snapshot the predecessor of the next written one, instead of the present newest one.
+    /// Readers get both together, when the next one is published.
     void stageOlder();
-    /// The newest has no predecessor any more: time did not lead from that one to it.
+    /// Removes the predecessor of the newest snapshot, for a jump in time between the two.
     void forgetOlder();
 
     SnapshotPair acquire();

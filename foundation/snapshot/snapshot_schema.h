@@ -36,8 +36,8 @@ struct KindDesc
     std::string_view name;
     std::span<const ColumnDesc> columns;   ///< per element
     std::span<const ColumnDesc> constants; ///< per group, F32 only
-    bool hasIds = true; ///< elements are sorted by ids; false: the kind says how else one is
-                        ///< found again
+    /// Elements are sorted by ids; false: the kind defines another way to match elements of two snapshots.
+    bool hasIds = true;
 
     /// The name identifies a kind.
     bool operator==(const KindDesc& other) const { return name == other.name; }
@@ -57,7 +57,7 @@ constexpr ColumnSet kAllColumns = ~ColumnSet(0);
 class SnapshotSchema
 {
 public:
-    /// Registers `kind` and returns its id; a name that is already there keeps its id. Throws
+    /// Registers `kind` and returns its id; a name that is already registered keeps its id. Throws
     /// std::length_error when it has more columns or constants than a kind may have.
     KindId add(const KindDesc& kind);
     KindId find(std::string_view name) const; ///< kNoKind when absent

@@ -1,6 +1,6 @@
 /// @file streak.h
-/// A moving ball as an open shutter sees it: balls of equal distance along its way, each with its share of
-/// the medium, so close that the picture shows a line.
+/// Motion blur of a moving ball: balls at equal distances along its path, each with an equal share of the
+/// medium, close enough to look like a line.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 /// @file loop_order.h
-/// Tells ThreadSanitizer what it cannot see of TBB, which is not built with it: the calls of a loop come
-/// after what its caller did before the loop, and before what the caller does after it. Calls of one loop
-/// stay unordered among each other, so that their races are found. Nothing at all in other builds.
+/// Annotations for ThreadSanitizer, because TBB is not built with it: the calls of a loop happen after the
+/// caller's code before the loop, and before the caller's code after it. Calls of one loop stay unordered, so
+/// races among them are found. Without ThreadSanitizer the annotations are empty.
 #pragma once
 
 #if defined(FX_THREAD_SANITIZER)

@@ -19,8 +19,8 @@ struct ParallelForHook
     void (*run)(void* user, uint32_t count, uint32_t minBatch, LoopBody body, void* argument) = nullptr;
 };
 
-/// Runs loops whose iterations do not depend on each other. How the range is cut never changes results:
-/// bodies write only what belongs to their indices, and sums are taken over fixed blocks afterwards.
+/// Runs loops whose iterations do not depend on each other. The division of the range never changes results:
+/// bodies write only data of their own indices, and sums are taken over fixed blocks afterwards.
 class TaskRunner
 {
 public:

@@ -1,10 +1,9 @@
 /// @file work_budget.h
-/// How much work one update may do, counted and not timed: the same calls stop at the same place on every
-/// machine, with any number of threads.
+/// Limit of the work of one update. Work is counted, not timed, so the same calls stop at the same point on
+/// every machine with any number of threads.
 ///
-/// The unit is about 10 ns of one core of 2020: a particle that a force moves costs one or a few of them.
-/// What each piece of work counts was fitted with `fx bench work-units`, see
-/// docs/howto/bounded-updates.md.
+/// The unit is about 10 ns of one core of 2020: a particle that a force moves costs one or a few of them. The
+/// units of each kind of work were fitted with `fx bench work-units`, see docs/howto/bounded-updates.md.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +15,8 @@ namespace fx::base {
 constexpr uint64_t kNoWorkLimit = UINT64_MAX;
 constexpr double kSecondsPerUnit = 10e-9; ///< [s] of a unit, about
 
-/// Units that are left of those that were granted. What is begun is brought to the next place where it can
-/// rest, so the last piece may cost more than is left.
+/// Units left of the granted ones. Work that has begun continues to the next point where it can be
+/// interrupted, so the last piece may cost more than is left.
 class WorkBudget
 {
 public:
@@ -31,7 +30,8 @@ public:
     }
     bool isSpent() const { return left_ == 0; }
     uint64_t left() const { return left_; }
-    /// How many of `most` things that count `each` units are begun before nothing is left.
+    /// Number of items, at most `most`, that can begin before the budget is used up, if each counts `each`
+    /// units.
     uint32_t affords(double each, uint32_t most) const
     {
         const double things = std::ceil(double(left_) / each);

@@ -9,16 +9,16 @@
 
 namespace fx::base {
 
-/// What one advance of the clock came to.
+/// Result of one advance of the clock.
 struct StepPlan
 {
     uint32_t steps = 0;     ///< fixed steps to take now
     Ticks firstStep = 0;    ///< tick at which the first of them begins
     bool refused = false;   ///< dt was negative or not finite: nothing advanced
-    Ticks droppedTicks = 0; ///< time that was given up because dt exceeded the clamp
+    Ticks droppedTicks = 0; ///< time that was dropped because dt exceeded the maximum
 };
 
-/// The state of a clock, without its rules.
+/// The state of a clock, without its step length and limits.
 struct ClockState
 {
     Ticks now = 0;
@@ -26,26 +26,27 @@ struct ClockState
     double remainder = 0; ///< [tick]
 };
 
-/// Accumulator clock: step k covers [k, k + 1) * stepTicks whatever the frame rate, so any sequence of dt
-/// with the same sum takes the same steps.
+/// Accumulator clock: step k covers [k, k + 1) * stepTicks at any frame rate, so all sequences of dt with the
+/// same sum take the same steps.
 class StepClock
 {
 public:
     /// @param stepTicks length of a step, > 0
-    /// @param maxFrameTicks longest dt that is simulated; what exceeds it is dropped and reported
+    /// @param maxFrameTicks longest dt that is simulated; longer ones are shortened and the difference is
+    ///         reported
     StepClock(Ticks stepTicks, Ticks maxFrameTicks) : stepTicks_(stepTicks), maxFrameTicks_(maxFrameTicks) {}
 
-    /// Advances by `dt` [s]. 0 is legal and does nothing; negative, NaN and infinite are refused.
-    /// Takes no more steps at once than the longest dt comes to; what was postponed before comes with them.
+    /// Advances by `dt` [s]. 0 does nothing; negative, NaN and infinite values are refused. Plans at most the
+    /// steps of the longest dt, postponed ones included.
     StepPlan advance(double dt);
-    /// The last `steps` of a plan have not been taken: they come again with the next one.
+    /// Postpones the last `steps` of a plan to the next plan.
     void postpone(uint32_t steps) { steps_ -= steps; }
-    /// A step that was postponed has been taken by itself.
+    /// Marks one postponed step as taken.
     void takePostponed() { ++steps_; }
     /// Whole steps of now() that have been postponed.
     Ticks debt() const { return (now_ / stepTicks_ - steps_) * stepTicks_; }
     bool isBehind() const { return now_ - simulated() >= stepTicks_; } ///< debt() is not 0
-    /// Gives up what of the debt exceeds `most`. @return that
+    /// Drops the part of the debt above `most`. @return the dropped part
     Ticks forgive(Ticks most);
 
     Ticks now() const { return now_; }                      ///< continuous time
@@ -59,8 +60,8 @@ public:
         steps_ = state.steps;
         remainder_ = state.remainder;
     }
-    /// Where now() lies between the last two steps, in [0, 1): 0 shows the older, 1 would show the newer.
-    /// In debt the newer is shown.
+    /// Position of now() between the last two steps, in [0, 1): 0 is the older, 1 the newer. While there is
+    /// debt, the newer one is shown.
     double interpolation() const
     {
         return std::min(double(now_ - simulated()) / double(stepTicks_), 1.0 - 0x1p-53);

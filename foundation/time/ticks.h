@@ -16,7 +16,7 @@ constexpr double toSeconds(Ticks ticks)
     return double(ticks) / double(kTicksPerSecond);
 }
 
-/// Nearest tick. The caller has checked that `seconds` is finite and |seconds| < 1e9.
+/// Nearest tick. Requires a finite `seconds` with |seconds| < 1e9.
 inline Ticks toTicks(double seconds)
 {
     return Ticks(std::llround(seconds * double(kTicksPerSecond)));

@@ -1,6 +1,6 @@
-/// @formula black-body-contrast
-/// By what power of temperature the luminance of a black body changes, so that small temperature differences inside a
-/// blob can be applied to a color that was computed once for the blob.
+/// @formula black-body-contrast Exponent of temperature in the luminance of a black body, so that small
+///          temperature differences inside a blob can be applied to a color that was computed once for the
+///          blob.
 ///
 /// symbol    unit   meaning
 ///   T       K      temperature, > 0

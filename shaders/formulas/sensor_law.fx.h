@@ -1,5 +1,4 @@
-/// @formula sensor-law
-/// How much glare a sensor shows for the light that exceeds what its pixels can hold.
+/// @formula sensor-law Glare of a sensor as a function of the light above the saturation of its pixels.
 ///
 /// symbol    unit   meaning
 ///   over    1      mean overflow per pixel in units of the saturation value, >= 0
@@ -14,7 +13,8 @@
 ///       A >= B exp(-2) for B > 0,   A >= -B for B < 0,   A >= 0 for B = 0                       (2)
 ///   checkSensorLaw() refuses what breaks (2): brighter light would give less glare.
 /// @source    [UBT96] dazzle of the CCD sensor
-/// @deviation over is a mean per pixel, so that A, B and C do not depend on the resolution; the dazzle itself, on GPU
+/// @deviation over is a mean per pixel, so that A, B and C do not depend on the resolution; the dazzle
+/// itself, on GPU
 ///            and CPU, evaluates (1) in double with an exp() of its own, see dazzle_budget.comp.glsl
 /// @valid     over >= 0; C over may overflow to +inf, where gain is A
 /// @accuracy  float: relative error of gain <= 2^-20 when A, B >= 0; exactly A when B = 0; the dazzle's own:
