@@ -4,7 +4,7 @@
 ///
 /// Without cameras (fxScene_SetFocus) every instance is in sight. With cameras, an instance whose bounds no
 /// camera sees is hidden: it is not stepped, not shown, and costs nothing. When it comes into sight again, it
-/// catches up as its preset's member "offscreen" says:
+/// catches up as its preset's member "offscreen" specifies:
 ///   analytic       jumps there: the same bits as if it had never been hidden
 ///   replay         takes the missing steps, so many an update (FxSceneDef::catchUpSteps): the same bits; an
 ///                  absence longer than FxSceneDef::maxCatchUpTicks is left out instead, and counted
@@ -30,7 +30,7 @@ typedef struct FxFocus
     /// Set by fxDefaultFocus(); do not touch.
     uint32_t structSize;
 
-    /// [pixel] of the picture, 1..65536; default 1080.
+    /// [pixel] height of the picture, 1..65536; default 1080.
     float height;
 
     /// [m] world position that the matrices are relative to, each within +-1e9.
@@ -76,10 +76,10 @@ typedef struct FxActivationHints
     /// [1] 0..1e6, multiplies the size on the picture when a budget is exceeded; default 1.
     float priority;
 
-    /// [m] 0..1e9, largest distance at which it is seen; 0 (default): no limit.
+    /// [m] 0..1e9, largest distance at which the instance is seen; 0 (default): no limit.
     float maxDistance;
 
-    /// 1: it is occluded and treated as out of sight; default 0.
+    /// 1: the instance is occluded and treated as out of sight; default 0.
     uint32_t occluded;
 } FxActivationHints;
 
@@ -98,17 +98,17 @@ typedef struct FxBudget
     /// Set by fxDefaultBudget(); do not touch.
     uint32_t structSize;
 
-    /// Alive at once; 0 (default): no limit.
+    /// Particles alive at once; 0 (default): no limit.
     uint32_t particles;
 
-    /// [ms] 0..1e6 of a step, as estimated; 0 (default): no limit.
+    /// [ms] 0..1e6, estimated time of a step; 0 (default): no limit.
     float milliseconds;
 
-    /// [ns] 0..1e9 of a step, for the estimate; 0 (default): measured, so that the set of hidden instances
-    /// differs from run to run.
+    /// [ns] 0..1e9, time per particle and step, for the estimate; 0 (default): measured, so that the set of
+    /// hidden instances differs from run to run.
     float nanosecondsPerParticle;
 
-    /// [byte] of particles, as estimated from the presets' capacities; 0 (default): no limit.
+    /// [byte] memory of particles, estimated from the presets' capacities; 0 (default): no limit.
     uint64_t bytes;
 } FxBudget;
 
@@ -174,7 +174,7 @@ typedef struct FxFrameStats
     uint32_t beyondBudget;  ///< in sight, but hidden by the budget
     uint32_t wentOut;       ///< became hidden
     uint32_t cameBack;      ///< reached the present again
-    uint32_t judged;        ///< bounds, of instances or of groups of hidden ones, tested against cameras
+    uint32_t judged;        ///< bounds tested against cameras, of instances or of groups of hidden ones
     uint32_t simulations;   ///< existing
     uint32_t particles;     ///< alive in active instances
     uint64_t particleSteps; ///< particles advanced, catching up apart

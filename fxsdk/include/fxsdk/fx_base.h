@@ -113,7 +113,7 @@ FX_API const char* fxResultName(FxResult result);
 /// Message of the last failed call on this thread: the function, the argument and the remedy. Successful
 /// calls do not change it. [any]
 /// @return UTF-8 text, empty when no call of this thread has failed; valid until the next failure on this
-/// thread
+///         thread
 FX_API const char* fxGetLastErrorMessage(void);
 
 #ifdef __cplusplus

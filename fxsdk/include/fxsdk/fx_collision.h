@@ -93,8 +93,8 @@ static inline FxContactHook fxDefaultContactHook(void)
 /// @param mesh not kept; null: no geometry
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, not finite or out of range; an index beyond the vertices;
 ///         no triangle with an area), FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (more than 2^24 cells:
-///         the message says how many), FX_ERROR_OUT_OF_MEMORY, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT.
-///         A failure leaves the scene as it was.
+///         the message says how many), FX_ERROR_OUT_OF_MEMORY, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT. A
+///         failure leaves the scene as it was.
 FX_API FxResult fxScene_SetCollisionMesh(FxScene* scene, const FxCollisionMesh* mesh);
 
 /// Sets the contact callback from the next step on. It is called for presets with an obstacle of the shape

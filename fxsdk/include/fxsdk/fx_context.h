@@ -23,10 +23,10 @@ typedef struct FxAllocator
     void* user;
 
     /// @param size [byte] > 0 @param alignment a power of two, at most 4096
-    /// @return memory, or null when there is none
+    /// @return memory, or null when it is exhausted
     void* (*allocate)(void* user, size_t size, size_t alignment);
 
-    /// @param memory not null; size and alignment are what allocate was given
+    /// @param memory not null; size and alignment are those of its allocation
     void (*release)(void* user, void* memory, size_t size, size_t alignment);
 } FxAllocator;
 
@@ -48,8 +48,8 @@ typedef struct FxParallelFor
 /// How much a log message matters.
 typedef enum FxLogLevel
 {
-    FX_LOG_INFO = 0,                   ///< what was chosen, such as the name of the GL renderer
-    FX_LOG_WARNING = 1,                ///< the result may differ from what was asked for
+    FX_LOG_INFO = 0,                   ///< information such as the name of the GL renderer
+    FX_LOG_WARNING = 1,                ///< the result may differ from the request
     FX_LOG_ERROR = 2,                  ///< a call failed; it also returned a code
     FX_LOG_LEVEL_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never sent
 } FxLogLevel;
@@ -82,10 +82,10 @@ typedef struct FxAssetHook
     void* user;
 
     /// @param name relative, '/'-separated, without ".." @param outSize [byte] receives the length
-    /// @return the bytes, or null when there is no such asset
+    /// @return the bytes, or null when the asset does not exist
     const void* (*open)(void* user, const char* name, size_t* outSize);
 
-    /// Called once for every successful open, with what it returned.
+    /// Called once for every successful open, with the returned data and its size.
     void (*close)(void* user, const void* data, size_t size);
 } FxAssetHook;
 
@@ -106,19 +106,19 @@ typedef struct FxContextDef
     /// Set by fxDefaultContextDef(): FX_VERSION of the header the caller was built with.
     uint32_t headerVersion;
 
-    /// Default: the C++ runtime's.
+    /// Default: the C++ runtime's allocator.
     FxAllocator allocator;
 
     /// Default: the library's own threads.
     FxParallelFor parallelFor;
 
-    /// Default: silence.
+    /// Default: messages are discarded.
     FxLog log;
 
     /// Default: no GL.
     FxGlLoader gl;
 
-    /// Default: files.
+    /// Default: the file system.
     FxAssetHook assets;
 
     /// Most threads to use without parallelFor, 0..256, and never more than the machine has; 0 (default): as
@@ -138,7 +138,7 @@ static inline FxContextDef fxDefaultContextDef(void)
     return def;
 }
 
-/// What a context holds. Fill structSize with sizeof before the call.
+/// Contents and memory of a context. Fill structSize with sizeof before the call.
 typedef struct FxMemoryStats
 {
     uint32_t structSize;      ///< set by the caller
@@ -166,8 +166,8 @@ FX_API FxResult fxDestroyContext(FxContext* context);
 /// Compiles all GPU programs of all views, so that no frame compiles programs. Further calls cost nothing.
 /// [GL thread]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NO_GL, FX_ERROR_GL_FAILED (the message has the
-/// compiler's log),
-///         FX_ERROR_WRONG_THREAD, FX_ERROR_OUT_OF_MEMORY. After a failure it may be called again.
+///         compiler's log), FX_ERROR_WRONG_THREAD, FX_ERROR_OUT_OF_MEMORY. After a failure it may be called
+///         again.
 FX_API FxResult fxContext_WarmUp(FxContext* context);
 
 /// Makes the calling thread the GL thread: call it after the OpenGL context has become current there. No GL

@@ -46,15 +46,15 @@ typedef struct FxPresetInfo
 ///             system
 /// @param outPreset receives the id; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_NOT_FOUND, FX_ERROR_IO, FX_ERROR_TOO_LARGE,
-/// FX_ERROR_PARSE,
-///         FX_ERROR_SCHEMA, FX_ERROR_VERSION (messages name file, line and JSON pointer), FX_ERROR_CAPACITY
-///         (2^24 presets), FX_ERROR_RE_ENTRANT (called from the asset hook), FX_ERROR_OUT_OF_MEMORY
+///         FX_ERROR_PARSE, FX_ERROR_SCHEMA, FX_ERROR_VERSION (messages name file, line and JSON pointer),
+///         FX_ERROR_CAPACITY (2^24 presets), FX_ERROR_RE_ENTRANT (called from the asset hook),
+///         FX_ERROR_OUT_OF_MEMORY
 FX_API FxResult fxLoadPresetFile(FxContext* context, const char* path, FxPresetId* outPreset);
 
 /// Loads a preset from a text in memory. [any]
 /// @param text        UTF-8, need not be zero-terminated; not kept
 /// @param length      [byte] of text, 1..4 MiB
-/// @param displayName stands for the file's name in messages; may be null
+/// @param displayName used as the file's name in messages; may be null
 /// @param outPreset   receives the id; untouched on failure
 /// @return as fxLoadPresetFile
 FX_API FxResult fxLoadPresetText(FxContext* context, const char* text, size_t length, const char* displayName,
@@ -73,7 +73,7 @@ FX_API FxResult fxUnloadPreset(FxContext* context, FxPresetId preset);
 /// Reads properties of a preset. [any]
 /// @param ioInfo structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_STALE_ID, FX_ERROR_VERSION (structSize),
-/// FX_ERROR_RE_ENTRANT
+///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxGetPresetInfo(FxContext* context, FxPresetId preset, FxPresetInfo* ioInfo);
 
 #ifdef __cplusplus

@@ -7,8 +7,9 @@
 /// freeing.
 ///
 /// Time: a scene advances in fixed steps. fxScene_Update() adds the frame's time and takes as many whole
-/// steps as fit; what is left waits for the next call, and views interpolate. Hence any frame rate gives the
-/// same particles. Before its start and after its end an instance costs only the memory of its definition.
+/// steps as fit; the remainder is added to the next call, and views interpolate. Hence any frame rate gives
+/// the same particles. Before its start and after its end an instance costs only the memory of its
+/// definition.
 #ifndef FXSDK_FX_SCENE_H
 #define FXSDK_FX_SCENE_H
 
@@ -62,8 +63,8 @@ typedef struct FxSceneDef
     /// instance is simulated by itself. Results are the same.
     uint32_t shareInstances;
 
-    /// 1: every instance is always stepped and shown, to find out what culling changes; default 0. See
-    /// fx_activation.h.
+    /// 1: every instance is always stepped and shown, to compare results with and without culling; default 0.
+    /// See fx_activation.h.
     uint32_t disableCulling;
 
     /// 1: the state never depends on cameras: only instances that can be caught up bit for bit are hidden,
@@ -239,7 +240,7 @@ typedef struct FxSceneStatistics
     /// Values limited to keep the state finite.
     uint64_t clamped;
 
-    /// Instances that ended at their start because there was no memory.
+    /// Instances that ended at their start because memory was exhausted.
     uint64_t wakeFailures;
 
     /// Calls of fxScene_Update refused because dt was negative or not finite.
@@ -349,8 +350,8 @@ FX_API FxResult fxScene_SetTransform(FxScene* scene, FxInstanceId instance, cons
 
 /// Changes the parameters of an instance from the next step on. [scene thread]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null or out of range), FX_ERROR_VERSION (structSize),
-/// FX_ERROR_STALE_ID,
-///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (as fxScene_SetTransform)
+///         FX_ERROR_STALE_ID, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY (as
+///         fxScene_SetTransform)
 FX_API FxResult fxScene_SetParameters(FxScene* scene, FxInstanceId instance,
                                       const FxInstanceParameters* parameters);
 
@@ -375,7 +376,8 @@ FX_API FxResult fxScene_SetInstanceSpeed(FxScene* scene, FxInstanceId instance, 
 /// steps from the beginning. [scene thread]
 /// @param seconds [s] 0..86400 since its beginning, rounded to a tick
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (out of range, not started, ended), FX_ERROR_STALE_ID,
-/// FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. A failure leaves the scene as it was.
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. A failure leaves the scene as
+///         it was.
 FX_API FxResult fxScene_SeekInstance(FxScene* scene, FxInstanceId instance, double seconds);
 
 /// Triggers the births that a preset defines for an event of the host: a member of an emitter's "events" with
@@ -416,7 +418,7 @@ FX_API FxResult fxScene_Update(FxScene* scene, double dtSeconds);
 /// Reads the counters of the scene. [scene thread]
 /// @param ioStatistics structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
-/// FX_ERROR_RE_ENTRANT
+///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxScene_GetStatistics(FxScene* scene, FxSceneStatistics* ioStatistics);
 
 /// Lists the instances of a scene. [scene thread]

@@ -114,7 +114,7 @@ FX_API FxResult fxScene_GetSnapshotGroup(FxScene* scene, FxSnapshotId snapshot, 
 /// @param column   0..columnCount - 1
 /// @param ioColumn structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (step, group or column out of range), FX_ERROR_STALE_ID,
-/// FX_ERROR_VERSION
+///         FX_ERROR_VERSION
 FX_API FxResult fxScene_GetSnapshotColumn(FxScene* scene, FxSnapshotId snapshot, FxSnapshotStep step,
                                           uint32_t group, uint32_t column, FxSnapshotColumn* ioColumn);
 

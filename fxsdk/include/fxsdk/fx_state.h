@@ -18,7 +18,7 @@ extern "C" {
 /// and excluded, wherever they are computed. [scene thread]
 /// @param outHash receives the hash; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
-/// FX_ERROR_OUT_OF_MEMORY (after a seek)
+///         FX_ERROR_OUT_OF_MEMORY (after a seek)
 FX_API FxResult fxScene_GetStateHash(FxScene* scene, uint64_t* outHash);
 
 /// Hashes everything that later steps depend on: instances with their parameters, and the whole state of
@@ -27,7 +27,7 @@ FX_API FxResult fxScene_GetStateHash(FxScene* scene, uint64_t* outHash);
 /// replays. [scene thread]
 /// @param outHash receives the hash; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
-/// FX_ERROR_OUT_OF_MEMORY
+///         FX_ERROR_OUT_OF_MEMORY
 FX_API FxResult fxScene_GetSimulationHash(FxScene* scene, uint64_t* outHash);
 
 /// Writes the state of a scene: clock, counters, instances with their ids and parameters, simulations.
@@ -47,11 +47,10 @@ FX_API FxResult fxScene_SaveState(FxScene* scene, void* buffer, size_t capacity,
 /// fxScene_GetInstances. Views show the restored step; held snapshots do not change. [scene thread]
 /// @param state the bytes of fxScene_SaveState; not kept
 /// @param size  [byte]
-/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, or another step, gravity, ground or
-///         collision mesh), FX_ERROR_PARSE (not a
-///         state, cut or damaged), FX_ERROR_VERSION (saved by another version), FX_ERROR_NOT_FOUND (a
-///         preset), FX_ERROR_CAPACITY (maxInstances), FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
-///         FX_ERROR_OUT_OF_MEMORY. A failure leaves the scene as it was.
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, or another step, gravity, ground or collision mesh),
+///         FX_ERROR_PARSE (not a state, cut or damaged), FX_ERROR_VERSION (saved by another version),
+///         FX_ERROR_NOT_FOUND (a preset), FX_ERROR_CAPACITY (maxInstances), FX_ERROR_WRONG_THREAD,
+///         FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY. A failure leaves the scene as it was.
 FX_API FxResult fxScene_RestoreState(FxScene* scene, const void* state, size_t size);
 
 #ifdef __cplusplus

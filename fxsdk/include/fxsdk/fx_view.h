@@ -51,11 +51,14 @@ enum
 /// Values of FxViewSettings::composition: how media that overlap are put together.
 enum
 {
-    FX_COMPOSITION_SORTED =
-        0, ///< one particle over the other, farthest first; where they overlap, no order is right
-    FX_COMPOSITION_SLABS = 1, ///< summed up in slabs across the ray of each pixel: no order is seen
-    FX_COMPOSITION_VOLUME =
-        2 ///< balls of an effect summed up in voxels, through which rays march: no order of balls is seen
+    /// Particles blended over each other, farthest first. Where particles overlap, no order is right.
+    FX_COMPOSITION_SORTED = 0,
+
+    /// Particles summed in slabs across the ray of each pixel; the result does not depend on their order.
+    FX_COMPOSITION_SLABS = 1,
+
+    /// Balls of an effect summed in voxels, which are ray-marched; the result does not depend on their order.
+    FX_COMPOSITION_VOLUME = 2
 };
 
 /// Values of FxViewSettings::budgetClock.
@@ -197,9 +200,9 @@ typedef struct FxViewSettings
     /// are small on the picture get fewer.
     uint32_t voxels;
 
-    /// 1..16 frames of the view after which light slices follow media that move: shadows of media lag behind
-    /// by up to one frame less, and the passes that fill the planes are spared in between. Lights that move
-    /// are followed at once, media that come to rest in the next frame; default 1.
+    /// 1..16, number of frames between updates of light slices for moving media; default 1. Shadows of media
+    /// lag by up to one frame less than this number, and the passes that fill the planes are not executed in
+    /// between. Moving lights update the slices at once, media that come to rest in the next frame.
     uint32_t lightRefreshFrames;
 } FxViewSettings;
 
@@ -256,8 +259,8 @@ typedef struct FxFrameDef
     float view[16];
 
     /// Eye to clip, column-major, right-handed; perspective (elements 11 and 15 are -1 and 0) or orthographic
-    /// (0 and 1), infinite far plane, off-center, jitter and mirroring allowed; near maps to what
-    /// depthConvention says; required: the default, identity, is refused.
+    /// (0 and 1), infinite far plane, off-center, jitter and mirroring allowed; near maps as in
+    /// depthConvention; required: the default, identity, is refused.
     float projection[16];
 
     /// FX_DEPTH_...; default FX_DEPTH_STANDARD.
@@ -277,7 +280,7 @@ typedef struct FxFrameDef
     uint32_t colorTexture;
 
     /// GL name of a GL_TEXTURE_2D with its depth, one texel for each pixel; 0 (default): nothing occludes.
-    /// Particles on the GPU collide with it where their preset says so (shape "depth").
+    /// Particles on the GPU collide with it if their preset has an obstacle of the shape "depth".
     uint32_t depthTexture;
 
     /// GL name, with FX_TARGET_FRAMEBUFFER; default 0.
@@ -296,8 +299,8 @@ typedef struct FxFrameDef
     /// [s] 0..1e6 since the last frame of this view, used only for adaptation; default 1/60.
     double deltaTime;
 
-    /// GL name of a GL_TEXTURE_2D with depth, the host's shadow map of the sun: what it hides from the sun is
-    /// in shadow in media too; 0 (default): the sun reaches all media.
+    /// GL name of a GL_TEXTURE_2D with depth, the host's shadow map of the sun, by which opaque surfaces cast
+    /// shadows on media; 0 (default): the sun reaches all media.
     uint32_t sunShadowTexture;
 
     /// FX_DEPTH_... of sunShadowTexture; default FX_DEPTH_STANDARD.
@@ -336,16 +339,16 @@ typedef struct FxLayerTextures
     /// RGBA32F [cd/m2 times exposure] that reaches the eye from fire; A: its visible share.
     uint32_t fire;
 
-    /// RGBA32F, the same of smoke.
+    /// RGBA32F, the same for smoke.
     uint32_t smoke;
 
-    /// RGBA32F, the same of dust.
+    /// RGBA32F, the same for dust.
     uint32_t dust;
 
     /// R32F [m] transmittance-weighted distance of the media; +inf where there is none.
     uint32_t depth;
 
-    /// R32F [1] through all media.
+    /// R32F [1] optical depth through all media.
     uint32_t opticalDepth;
 
     /// RGBA32F, the sum of the three layers.
@@ -359,8 +362,7 @@ typedef struct FxLayerTextures
 /// @param settings null for the defaults
 /// @param outView  receives the view; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, out of range, or a scene of another context),
-/// FX_ERROR_VERSION,
-///         FX_ERROR_NO_GL, FX_ERROR_WRONG_THREAD, FX_ERROR_OUT_OF_MEMORY
+///         FX_ERROR_VERSION, FX_ERROR_NO_GL, FX_ERROR_WRONG_THREAD, FX_ERROR_OUT_OF_MEMORY
 FX_API FxResult fxCreateView(FxContext* context, FxScene* scene, const FxViewSettings* settings,
                              FxView** outView);
 
@@ -370,8 +372,7 @@ FX_API FxResult fxDestroyView(FxView* view);
 
 /// Changes the settings from the next frame on. [GL thread]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member), FX_ERROR_VERSION,
-/// FX_ERROR_WRONG_THREAD,
-///         FX_ERROR_RE_ENTRANT
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_SetSettings(FxView* view, const FxViewSettings* settings);
 
 /// Draws the scene, interpolated between its last two steps, over the host's picture. Targets are checked in
@@ -387,13 +388,13 @@ FX_API FxResult fxView_Render(FxView* view, const FxFrameDef* frame);
 /// Reads the counters of the last frame. [GL thread]
 /// @param ioStatistics structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
-/// FX_ERROR_RE_ENTRANT
+///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetStatistics(FxView* view, FxViewStatistics* ioStatistics);
 
 /// Reads the layer textures of the last frame. [GL thread]
 /// @param ioTextures structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
-/// FX_ERROR_RE_ENTRANT
+///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetLayerTextures(FxView* view, FxLayerTextures* ioTextures);
 
 /// Reads the number of passes of the last frame. [GL thread]

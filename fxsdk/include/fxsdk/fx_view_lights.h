@@ -33,7 +33,7 @@ typedef struct FxLight
     /// Set by fxDefaultLight(); do not touch.
     uint32_t structSize;
 
-    /// [m] 0..1e4, of a ball that glows; 0: a point; default 0.05.
+    /// [m] 0..1e4, radius of a luminous ball; 0: a point; default 0.05.
     float radius;
 
     /// [m] world position, each within +-1e9; default 0.
@@ -64,7 +64,7 @@ static inline FxLight fxDefaultLight(void)
     return light;
 }
 
-/// What a shader needs to know of the shadow that media cast in one light. Fill structSize with sizeof before
+/// Parameters by which a shader computes the shadow of media in one light. Fill structSize with sizeof before
 /// the call. The members from `right` on are a std140 uniform block of 13 vec4 for the GLSL of
 /// fxGetMediaShadowGlsl(), which explains each. Places are relative to FxFrameDef::origin.
 typedef struct FxMediaShadow
@@ -92,27 +92,27 @@ typedef struct FxMediaShadow
     float place[4];
 } FxMediaShadow;
 
-/// What a light of media takes. Fill structSize with sizeof before the call.
+/// Cost of a light in media. Fill structSize with sizeof before the call.
 typedef struct FxLightCost
 {
-    /// sizeof(FxLightCost) of the caller.
+    /// Set by the caller.
     uint32_t structSize;
 
     /// FX_LIGHT_...
     uint32_t kind;
 
-    /// Of the light among those of its kind.
+    /// Index of the light among those of its kind.
     uint32_t index;
 
-    /// Of light slices; 0: media cast no shadow in it. Lights are brightest first, and
-    /// FxViewSettings::castingLights of those at points have planes.
+    /// Number of planes of its light slices; 0: media cast no shadows in this light. Point lights are sorted
+    /// by decreasing brightness, and the first FxViewSettings::castingLights have planes.
     uint32_t planes;
 
-    /// [byte] of the planes.
+    /// [byte] memory of the planes.
     uint64_t bytes;
 
-    /// Along which media are integrated when the planes are filled. The time of that grows with them; `fx
-    /// bench slices` measures it.
+    /// Number of rays along which media are integrated to fill the planes. The time grows with it; `fx bench
+    /// slices` measures it.
     uint64_t rays;
 } FxLightCost;
 
@@ -139,7 +139,7 @@ FX_API FxResult fxView_PrepareLights(FxView* view, const FxFrameDef* frame);
 /// @param index    of the light; one that does not exist has no shadow
 /// @param ioShadow structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
-/// FX_ERROR_RE_ENTRANT
+///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetMediaShadow(FxView* view, uint32_t kind, uint32_t index, FxMediaShadow* ioShadow);
 
 /// GLSL 4.20 with the struct FxMediaShadow and the function
@@ -160,7 +160,7 @@ FX_API FxResult fxView_GetEffectLightCount(FxView* view, uint32_t* outCount);
 /// @param index   0..fxView_GetEffectLightCount() - 1
 /// @param ioLight structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
-/// FX_ERROR_RE_ENTRANT
+///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetEffectLight(FxView* view, uint32_t index, FxLight* ioLight);
 
 /// Reads the number of lights that light media in the frame that was prepared or rendered last: sun, host's,
@@ -169,12 +169,12 @@ FX_API FxResult fxView_GetEffectLight(FxView* view, uint32_t index, FxLight* ioL
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetLightCostCount(FxView* view, uint32_t* outCount);
 
-/// Reads what one of them takes. [GL thread]
+/// Reads the cost of one light. [GL thread]
 /// @param index  0..fxView_GetLightCostCount() - 1: the sun, then points by the light that arrives at the
 ///               media, then the sky
 /// @param ioCost structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
-/// FX_ERROR_RE_ENTRANT
+///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetLightCost(FxView* view, uint32_t index, FxLightCost* ioCost);
 
 #ifdef __cplusplus

@@ -57,24 +57,24 @@ typedef struct FxQualityChoice
 /// thread]
 /// @param text        UTF-8, need not be zero-terminated; not kept; null: the built-in one again
 /// @param length      [byte] of text, 1..64 KiB; 0 with null
-/// @param displayName stands for the file's name in messages; may be null
+/// @param displayName used as the file's name in messages; may be null
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_TOO_LARGE, FX_ERROR_PARSE, FX_ERROR_SCHEMA,
-/// FX_ERROR_VERSION (the message names line, place and remedy; nothing has changed), FX_ERROR_WRONG_THREAD,
-///         FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
+///         FX_ERROR_VERSION (the message names line, place and remedy; nothing has changed),
+///         FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT, FX_ERROR_OUT_OF_MEMORY
 FX_API FxResult fxView_SetQualityCalibration(FxView* view, const char* text, size_t length,
                                              const char* displayName);
 
 /// Reads the result of the frame budget in the last frame. [GL thread]
 /// @param ioReport structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
-/// FX_ERROR_RE_ENTRANT
+///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetQualityReport(FxView* view, FxQualityReport* ioReport);
 
 /// Reads the quality of one technique in the last frame. [GL thread]
 /// @param index    0..FxQualityReport::techniques - 1
 /// @param ioChoice structSize must be set; the rest is overwritten on success and untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
-/// FX_ERROR_RE_ENTRANT
+///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetQualityChoice(FxView* view, uint32_t index, FxQualityChoice* ioChoice);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 /// @file fx_view_statistics.h
-/// What a view counts: the answer of fxView_GetStatistics() of fx_view.h, which includes this.
+/// Counters of a view, read by fxView_GetStatistics(). fx_view.h includes this.
 ///
 /// Threads: plain data. Ownership: the caller's.
 #ifndef FXSDK_FX_VIEW_STATISTICS_H
@@ -32,7 +32,7 @@ typedef struct FxViewStatistics
     /// Draws and dispatches.
     uint32_t drawCalls;
 
-    /// During the frame; 0 after fxContext_WarmUp().
+    /// Programs compiled during the frame; 0 after fxContext_WarmUp().
     uint32_t programsCompiled;
 
     /// Reserved; 0.
@@ -56,10 +56,10 @@ typedef struct FxViewStatistics
     /// Allocations from the context's allocator during the frame.
     uint64_t allocations;
 
-    /// Of the particles' covering rectangles, at layerScale; what fragmentBudget is compared with.
+    /// Estimated fragments of the particles' bounding rectangles, at layerScale; limited by fragmentBudget.
     uint64_t estimatedFragments;
 
-    /// [1] in use: that of the settings, or less to keep fragmentBudget.
+    /// [1] layerScale in use: that of the settings, or less to keep fragmentBudget.
     float layerScale;
 
     /// 1: camera, settings and scene are as in the last frame, and its gathered, sorted and uploaded data are
@@ -119,10 +119,10 @@ typedef struct FxViewStatistics
     /// FX_COMPOSITION_SLABS with countOverdraw.
     uint64_t listedBlobs;
 
-    /// The same that were left out because the lists were full: the picture lacks them.
+    /// Entries of these lists that were left out because the lists were full: the picture lacks them.
     uint64_t spilledBlobs;
 
-    /// Fragments of sprites, meshes, ribbons and impostors that were left out, likewise.
+    /// Fragments of sprites, meshes, ribbons and impostors that were left out because the lists were full.
     uint64_t spilledFragments;
 } FxViewStatistics;
 
