@@ -12,7 +12,7 @@ namespace fx::preset {
 Techniques techniques();
 std::span<const MissingTechnique> missingTechniques();
 
-/// Registers what the techniques publish. Called once per context.
+/// Registers the kinds that the techniques publish. Called once per context.
 void registerKinds(base::SnapshotSchema& schema, Techniques techniques = preset::techniques());
 
 } // namespace fx::preset

@@ -1,5 +1,5 @@
 /// @file active_list.h
-/// What is stepped, in order of creation: the only instances that an update visits.
+/// The active instances in order of creation. An update visits no others.
 #pragma once
 
 #include <cstdint>

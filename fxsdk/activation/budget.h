@@ -7,7 +7,7 @@
 
 namespace fx::activation {
 
-/// What all instances together may take; 0 stands for no limit.
+/// Limits of the cost of all instances together; 0: no limit.
 struct Budget
 {
     uint64_t particles = 0;

@@ -14,7 +14,7 @@
 
 namespace fx::activation {
 
-/// Where an instance can be seen: a ball that holds all of it.
+/// Bounding sphere of an instance.
 struct Ball
 {
     glm::dvec3 center{0.0}; ///< [m] world
@@ -45,9 +45,10 @@ public:
     Frustum(const glm::dvec3& origin, const glm::mat4& view, const glm::mat4& projection,
             const Limits& limits);
 
-    /// @param sight [m] how far the ball can be seen
+    /// @param sight [m] largest distance at which the ball is seen
     Sight judge(const Ball& ball, double sight) const;
-    /// The same, more generous by a tenth of the radius: what is in sight does not flicker at the rim.
+    /// As judge(), with a hysteresis of a tenth of the radius for balls that are in sight, against flickering
+    /// at the frustum's boundary.
     Sight judgeSeen(const Ball& ball, double sight) const;
     /// [pixel] radius of the ball on the picture, at most its height.
     double pixels(const Ball& ball) const;
@@ -71,10 +72,10 @@ public:
     void add(const Frustum& frustum) { frusta_.push_back(frustum); }
     bool everything() const { return frusta_.empty(); }
 
-    /// Seen when one camera sees it; else what the one that came nearest to it says.
+    /// Seen if any camera sees the ball; otherwise the reason of the camera that comes closest to seeing it.
     /// @param isSeen it was in sight before
     Sight judge(const Ball& ball, double sight, bool isSeen) const;
-    /// [pixel] the most that a camera shows of it; without cameras, one.
+    /// [pixel] largest radius on the picture of any camera; 1 without cameras.
     double pixels(const Ball& ball) const;
 
 private:

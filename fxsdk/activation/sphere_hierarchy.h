@@ -11,10 +11,9 @@
 
 namespace fx::activation {
 
-/// A balanced binary tree of bounding spheres: inserting and removing are logarithmic, a query visits what is
-/// in sight and what lies beside it. The idea of growing such a tree leaf by leaf, kept balanced by
-/// rotations, is that of many physics engines' broad phases; see Ericson, Real-Time Collision Detection,
-/// section 6.2.
+/// A balanced binary tree of bounding spheres: insertion and removal take logarithmic time, a query visits
+/// the nodes in sight and their siblings. Incremental insertion with rotations is common in the broad phase
+/// of physics engines; see Ericson, Real-Time Collision Detection, section 6.2.
 class SphereHierarchy
 {
 public:
@@ -24,7 +23,7 @@ public:
     explicit SphereHierarchy(std::pmr::memory_resource* memory) : nodes_(memory), stack_(memory) {}
 
     /// Strong guarantee.
-    /// @param sight [m] how far it can be seen, may be infinite
+    /// @param sight [m] largest distance at which the ball is seen, may be infinite
     Leaf insert(uint32_t key, const Ball& ball, double sight);
     void remove(Leaf leaf); ///< allocates nothing
     uint32_t size() const { return leaves_; }

@@ -49,14 +49,14 @@ public:
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
         explicit operator bool() const { return entered_ != nullptr; }
-        /// The object is destroyed next: nothing may enter it any more, and the scope does not touch it
-        /// again.
+        /// Refuses further calls because the object is about to be destroyed; the scope does not access it
+        /// afterwards.
         void close()
         {
             entered_->close();
             entered_ = nullptr;
         }
-        base::Status status() const ///< made when it is asked for: every call passes through here
+        base::Status status() const ///< constructed on request only, because every call checks it
         {
             if (entered_)
                 return {};
@@ -70,9 +70,9 @@ public:
         const char* rule_ = nullptr; ///< that was broken
     };
 
-    /// Whether a call is inside, as any thread may ask.
+    /// Whether a call is in progress. [any thread]
     bool busy() const { return busy_.load(std::memory_order_relaxed); }
-    /// Nothing may enter any more, for the callbacks of a destruction.
+    /// Refuses further calls, such as those from callbacks of a destruction.
     void close()
     {
         closed_.store(true, std::memory_order_relaxed);

@@ -51,7 +51,7 @@ public:
             status_ = invalid(failure);
     }
 
-    /// @param fault null, or what is wrong with the argument
+    /// @param fault description of the argument's fault, or null
     void noFault(const char* fault, const char* name)
     {
         if (status_.ok() && fault)
@@ -67,7 +67,7 @@ private:
 
 /// Unit within 1e-3, in the order x, y, z, w. Not finite is not unit.
 bool isUnitQuaternion(const float* xyzw);
-/// The rotation of a unit quaternion with what is left of its length error removed.
+/// The rotation of a unit quaternion, normalized.
 glm::quat toRotation(const float* xyzw);
 /// Orthonormal within 1e-3, right-handed, last row 0 0 0 1, column-major.
 bool isRigid(const float* matrix);

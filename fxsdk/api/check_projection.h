@@ -11,8 +11,9 @@ namespace fx::api {
 /// mirrored and oblique ones are good.
 const char* projectionFault(const float* projection);
 
-/// Null, or why a frame cannot be drawn with the matrix, which projectionFault() finds good. Frames read
-/// distances and rays from its elements, so what else it does must lie in the view matrix.
+/// Null, or the reason why a frame cannot be drawn with the matrix, although projectionFault() accepts it.
+/// Distances and rays of a frame are computed from single elements, so the matrix must contain nothing that
+/// belongs into the view matrix.
 /// @param isReversed near maps to the larger depth
 const char* frameProjectionFault(const float* projection, bool isReversed);
 

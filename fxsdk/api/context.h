@@ -1,5 +1,5 @@
 /// @file context.h
-/// What is behind FxContext: the host's hooks and everything that scenes and views share.
+/// Implementation of FxContext: the host's hooks and the data that scenes and views share.
 #pragma once
 
 #include "foundation/assets/asset_table.h"
@@ -31,7 +31,7 @@ enum IdType : uint8_t
 
 using PresetTable = scene::IdTable<std::shared_ptr<const sim::EffectDef>>;
 
-/// Both halves of the techniques of a context: what presets can say, and what views can draw.
+/// Both halves of the techniques of a context: preset members and drawing.
 struct TechniqueLists
 {
     preset::Techniques presets = preset::techniques();

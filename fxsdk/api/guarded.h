@@ -22,7 +22,7 @@ constexpr FxResult toResult(base::Code code)
 void rememberError(std::string_view function, std::string_view message) noexcept;
 const char* lastError() noexcept;
 
-/// Sends what rememberError() kept to the host's log, if there is one.
+/// Writes the error stored by rememberError() to the host's log, if the host has one.
 void logLastError(const FxLog& log, FxResult code) noexcept;
 
 /// Runs the body of a C function. Nothing leaves it but a code.

@@ -49,10 +49,11 @@ public:
                            [](const Slot& slot) { return slot.held.has_value(); });
     }
 
-    /// Forgets the snapshot and hands out what has to be released. Nothing when the id is stale.
+    /// Removes the snapshot and returns it for release. Empty when the id is stale.
     std::optional<base::SnapshotPair> take(scene::LocalId id)
     {
-        std::optional<Held> gone; // its memory goes back to the host, who may call, after the lock
+        std::optional<Held>
+            gone; // destroyed after unlocking, because the host's release callback may call the API
         {
             std::lock_guard lock(mutex_);
             Slot* slot = slotOf(id);

@@ -1,5 +1,5 @@
 /// @file overlay.h
-/// What the activation overlay draws of an instance.
+/// Box and color of an instance in the activation overlay.
 #pragma once
 
 #include "fxsdk/scene/scene.h"

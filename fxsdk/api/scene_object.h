@@ -1,5 +1,5 @@
 /// @file scene_object.h
-/// What is behind FxScene.
+/// Implementation of FxScene.
 #pragma once
 
 #include "fxsdk/api/check.h"
@@ -34,11 +34,11 @@ struct FxScene
 
     bool isBehind = false; ///< the last update left steps to the next
 
-    // Updates for which it counts that a view has computed particles, and that rows were asked for.
+    // Number of updates for which a view's computation of particles, or a request for rows, is remembered.
     static constexpr uint32_t kRemembered = 240;
     std::atomic<uint32_t> gpuSeen{0};
     std::atomic<uint32_t> rowsWanted{0};
-    /// Whether emitters that ask for the GPU are to be computed there in this update.
+    /// Whether emitters that prefer the GPU are computed there in this update.
     bool computesOnGpu()
     {
         const auto count = [](std::atomic<uint32_t>& left) {
@@ -70,7 +70,7 @@ inline void checkQuality(Checks& check, uint32_t quality, const char* name)
     check.range(quality, uint32_t(FX_QUALITY_DEFAULT), uint32_t(FX_QUALITY_REFERENCE), name);
 }
 
-/// @param preferred what FX_QUALITY_DEFAULT means
+/// @param preferred the level for FX_QUALITY_DEFAULT
 inline sim::QualityLevel toQuality(uint32_t quality, sim::QualityLevel preferred)
 {
     return quality == FX_QUALITY_DEFAULT ? preferred : sim::QualityLevel(quality - FX_QUALITY_LOW);

@@ -1,5 +1,5 @@
 /// @file shown_frame.h
-/// What a frame holds on to from its preparation until it is drawn.
+/// Snapshots that a frame holds from its preparation until it is drawn.
 #pragma once
 
 #include "fxsdk/fx_view.h"

@@ -18,7 +18,7 @@ inline std::string_view cutUtf8(std::string_view text, size_t most)
     return text.substr(0, most);
 }
 
-/// Copies what fits into `capacity` > 0 bytes and ends it with a zero.
+/// Copies `text`, cut to `capacity` > 0 bytes with the terminating zero.
 inline void copyText(std::string_view text, char* buffer, size_t capacity)
 {
     const std::string_view fitting = cutUtf8(text, capacity - 1);

@@ -45,8 +45,8 @@ base::Status readStruct(const T* given, const char* name, const T& defaults, T& 
     return {};
 }
 
-/// Gives the caller as much of `filled` as its version of T holds; what is longer is zeroed. structSize
-/// stays.
+/// Copies as many members of `filled` as the caller's version of T has, and sets unknown members to zero.
+/// structSize does not change.
 template <class T>
 base::Status writeStruct(const T& filled, T* io, const char* name)
 {

@@ -1,5 +1,5 @@
 /// @file view_object.h
-/// What is behind FxView.
+/// Implementation of FxView.
 #pragma once
 
 #include "fxsdk/api/context.h"
@@ -45,7 +45,7 @@ struct FxView
 
     FxContext* context;
     FxScene* scene;
-    std::pmr::vector<fx::scene::Mark> marks; ///< room for what the overlay shows
+    std::pmr::vector<fx::scene::Mark> marks; ///< marks of the overlay
     std::pmr::vector<fx::render::OverlayBox> overlay;
     fx::render::ViewRenderer renderer;
     fx::quality::ViewQuality quality;

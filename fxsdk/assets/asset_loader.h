@@ -1,6 +1,6 @@
 /// @file asset_loader.h
-/// What one document names: its files, and images and meshes as ids in the asset table. The one way by which
-/// presets come to files.
+/// Loads the files that one document names, images and meshes as ids of the asset table. Presets access files
+/// only through it.
 #pragma once
 
 #include "foundation/assets/asset_table.h"
@@ -18,21 +18,22 @@ constexpr uint64_t kMaxMeshBytes = uint64_t(32) << 20;  ///< [byte] of an OBJ fi
 enum class ImageUse
 {
     Color,   ///< sRGB
-    Numbers, ///< motion vectors, masks: as they are
+    Numbers, ///< motion vectors, masks: linear
 };
 
-/// What to do about an asset that is missing or damaged.
+/// Handling of an asset that is missing or damaged.
 enum class MissingAsset
 {
     IsAnError,
     ShowsPlaceholder, ///< a magenta and black checkerboard, a tetrahedron; motion vectors of nothing
 };
 
-/// Loads into one table what one document names. Threads: one at a time.
+/// Loads the assets of one document into one table. Threads: one at a time.
 class AssetLoader
 {
 public:
-    /// @param folder where the document lies below the resolver's folder, with '/' at its end; empty: there
+    /// @param folder folder of the document relative to the resolver's folder, with '/' at its end; empty:
+    ///         the resolver's
     AssetLoader(const AssetResolver& resolver, base::AssetTable& table, MissingAsset missing,
                 std::string folder = {})
         : resolver_(resolver), table_(table), missing_(missing), folder_(std::move(folder))
@@ -40,13 +41,13 @@ public:
 
     /// The bytes behind `name`, relative to the document. @return as AssetResolver::read
     base::Result<std::string> read(std::string_view name, uint64_t maxBytes);
-    /// Of all bytes that were read, in order; 0 when there were none.
+    /// Hash of all bytes read, in order; 0 when none were.
     uint64_t contentHash() const { return contentHash_; }
     const base::AssetTable& table() const { return table_; }
 
     /// @param columns, rows frames that the image must divide into, >= 1
-    /// @param outWarning gets why a placeholder stands in; untouched otherwise
-    /// @return NotFound, TooLarge, Parse, Schema (it does not divide), naming the asset and what to do
+    /// @param outWarning receives the reason for a placeholder; untouched otherwise
+    /// @return NotFound, TooLarge, Parse, Schema (it does not divide), naming the asset and the remedy
     base::Result<base::AssetId> image(std::string_view name, ImageUse use, int columns, int rows,
                                       std::string& outWarning);
     base::Result<base::AssetId> mesh(std::string_view name, std::string& outWarning);
@@ -62,7 +63,7 @@ private:
     uint64_t contentHash_ = 0;
 };
 
-/// Ids of the placeholders, which are made when they are first asked for.
+/// Ids of the placeholders, which are created on first use.
 base::Result<base::AssetId> placeholderImage(base::AssetTable& table, ImageUse use);
 base::Result<base::AssetId> placeholderMesh(base::AssetTable& table);
 

@@ -1,10 +1,9 @@
 /// @file asset_resolver.h
-/// Finds what presets and scenes name: other presets, images, meshes. The one place that turns a name into
-/// bytes.
+/// Finds the files that presets and scenes name: presets, images, meshes. All names are resolved here.
 ///
 /// A name is `library:NAME` (compiled into the library), or relative to the folder of the file that uses it.
 /// It is never absolute, never climbs out of the folder, not even through a symbolic link. Threads: any;
-/// reading one resolver from several threads is safe when the host's hook is.
+/// several threads may read from one resolver if the host's hook is thread-safe.
 #pragma once
 
 #include "foundation/result/embedded_text.h"
@@ -18,12 +17,13 @@
 
 namespace fx::asset {
 
-/// The host's own storage (an archive, a data base), asked before the folder.
+/// The host's own storage, such as an archive or a data base. It is searched before the folder.
 struct ReadHook
 {
     void* user = nullptr;
-    /// Hands the asset's bytes to `deliver` in one call and returns 0; returns 1 when there is no such asset,
-    /// 2 when it has more than `maxBytes`, and anything else when it cannot be read. `name` ends with a zero.
+    /// Passes the asset's bytes to `deliver` in one call and returns 0. Returns 1 when the asset does not
+    /// exist, 2 when it has more than `maxBytes`, and any other number when it cannot be read. `name` ends
+    /// with a zero.
     int (*read)(void* user, const char* name, uint64_t maxBytes,
                 void (*deliver)(void* sink, const void* data, size_t size), void* sink) = nullptr;
 };
@@ -31,7 +31,7 @@ struct ReadHook
 class AssetResolver
 {
 public:
-    /// @param folder  where relative names begin; empty: there are no files, only the library and the hook
+    /// @param folder where relative names begin; empty: no files, only the library and the hook
     /// @param library texts known as library:NAME, by file name NAME.fx.json, or NAME when it has a dot;
     ///                must outlive the resolver
     AssetResolver(std::string folder, std::span<const base::EmbeddedText> library, const ReadHook& hook = {})
@@ -43,8 +43,8 @@ public:
     /// @return InvalidArgument for a name that is not allowed, NotFound, TooLarge, Io
     base::Result<std::string> read(std::string_view name, uint64_t maxBytes) const;
 
-    /// The file behind `name`, every link followed. Empty when there is none: the name is not allowed or is
-    /// one of the library, nothing is there, or a hook is asked first.
+    /// Path of the file of `name` with all links resolved. Empty when the name is not allowed or belongs to
+    /// the library, when the file does not exist, or when a hook is set.
     std::string fileOf(std::string_view name) const;
 
     const std::string& folder() const { return folder_; }

@@ -13,7 +13,7 @@
 
 namespace fx::asset {
 
-/// What the faces of an OBJ file refer to, as far as it has been read.
+/// Points of an OBJ file that its faces refer to, up to the line that was read last.
 struct ObjPoints
 {
     std::vector<glm::vec3> positions;
@@ -45,7 +45,7 @@ struct ObjHandler
 };
 
 /// Reads all lines of `text`.
-/// @return all points; Parse with the number of the line and the reason; what `face` returned
+/// @return all points; Parse with the number of the line and the reason; the error of `face`
 base::Result<ObjPoints> parseObj(std::string_view text, const ObjHandler& handler);
 
 /// The next word of `io`, separated by blanks, which is taken off; empty at the end.
@@ -72,7 +72,7 @@ struct ObjTriangles
     std::vector<uint32_t> indices; ///< three a triangle
 };
 
-/// Positions alone, for what is simulated with them. Polygons become fans.
+/// Reads positions only, for simulation. Polygons become fans.
 /// @return Parse with the line and the reason
 base::Result<ObjTriangles> readObjTriangles(std::string_view text);
 

@@ -1,5 +1,5 @@
 /// @file diagnostic.h
-/// What is wrong with a preset or scene, said so that its author can repair it.
+/// Findings about a preset or scene, with place and remedy for its author.
 #pragma once
 
 #include <string>
@@ -14,14 +14,14 @@ struct Diagnostic
     int line = 0;         ///< from 1; 0 when the finding concerns the whole file
     int column = 0;       ///< from 1, in bytes
     std::string pointer;  ///< JSON pointer, "" for the whole document
-    std::string message;  ///< what was found and what is allowed, at most 1 KiB, printable UTF-8
+    std::string message;  ///< the value found and the allowed ones, at most 1 KiB, printable UTF-8
     bool warning = false; ///< true: the file can be used all the same
 };
 
 /// "file:line:column: /pointer: message".
 std::string toString(const Diagnostic& diagnostic);
 
-/// True when one of them is not a warning.
+/// True when any of them is an error.
 bool hasErrors(const std::vector<Diagnostic>& diagnostics);
 
 /// The first errors, one a line, at most 1 KiB.

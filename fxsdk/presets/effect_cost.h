@@ -1,12 +1,12 @@
 /// @file effect_cost.h
-/// What an instance of a preset is expected to need, and warnings where that is much.
+/// Estimated cost of an instance of a preset, and warnings about high costs.
 #pragma once
 
 #include "fxsdk/presets/technique.h"
 
 namespace fx::preset {
 
-/// A step of 1/60 s that counts more is warned about: what updates may spend by default, about 100 ms.
+/// Work of a step of 1/60 s above which a warning is given: the default budget of an update, about 100 ms.
 constexpr double kMuchStepWork = 10e6; // [unit]
 /// Prewarm that counts more is warned about: about 1 s.
 constexpr double kMuchStartWork = 100e6; // [unit]

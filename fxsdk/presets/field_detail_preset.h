@@ -7,7 +7,7 @@
 
 namespace fx::preset {
 
-/// Reads the member "detail" of `element`; without it `out` stays as it is.
+/// Reads the member "detail" of `element`; without it `out` does not change.
 void readFieldDetail(const PresetValue& element, sim::FieldDetail& out);
 
 } // namespace fx::preset

@@ -1,5 +1,5 @@
 /// @file findings.h
-/// Collects what is wrong with a document while its text is out of reach; places follow at the end.
+/// Collects findings about a parsed document by JSON pointer. Lines and columns are added at the end.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -30,7 +30,7 @@ struct Finding
     size_t offset = kUnknownOffset; ///< [byte] in the text, when known
 };
 
-/// A document that is migrated has members at other pointers than its text; this tells which came from where.
+/// Maps a JSON pointer of the migrated document to that of the original text.
 struct Renaming
 {
     std::string now;
@@ -40,7 +40,7 @@ struct Renaming
 class Findings
 {
 public:
-    /// @param assets reads files that the document names; null: there are none
+    /// @param assets reads files that the document names; null: none
     explicit Findings(asset::AssetLoader* assets = nullptr) : assets_(assets) {}
     asset::AssetLoader* assets() const { return assets_; }
 
@@ -53,7 +53,7 @@ public:
         renamings_.push_back({std::move(now), std::move(before)});
     }
 
-    bool full() const { return list_.size() >= kLimit; } ///< what comes now is dropped
+    bool full() const { return list_.size() >= kLimit; } ///< further findings are dropped
     bool hasErrors() const { return firstCode_ != base::Code::Ok; }
     base::Code firstCode() const { return firstCode_; } ///< of the first error; Ok without errors
     size_t size() const { return list_.size(); }

@@ -16,8 +16,8 @@ struct JsonPlace
     size_t value = 0; ///< [byte] offset of the value
 };
 
-/// The places of JSON pointers in `text`, one each. What does not exist is found at its nearest ancestor. The
-/// first of several equal members counts. Text after a syntax error is not looked at.
+/// The places of JSON pointers in `text`, one each. A pointer to a missing value gets the place of its
+/// nearest ancestor. The first of several equal members counts. Text after a syntax error is ignored.
 std::vector<JsonPlace> locateJson(std::string_view text, std::span<const std::string> pointers);
 
 } // namespace fx::preset

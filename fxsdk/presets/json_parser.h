@@ -1,5 +1,5 @@
 /// @file json_parser.h
-/// JSON text to a document, refusing early whatever is too large, too deep, ambiguous or not JSON (RFC 8259).
+/// Parses JSON text (RFC 8259). Text that is too large, too deep or ambiguous is refused before it is built.
 #pragma once
 
 #include "fxsdk/presets/findings.h"

@@ -1,6 +1,6 @@
 /// @file json_sax.h
-/// What the two readers of JSON text share: where in the text, and where in the document, an event happens.
-/// Private to the preset front end.
+/// Common base of the two readers of JSON text: text position and JSON pointer of a SAX event. Private to the
+/// preset front end.
 #pragma once
 
 #include <cstddef>
@@ -82,7 +82,7 @@ private:
     std::string key_;       ///< escaped
 };
 
-/// `name` with '~' and '/' escaped as JSON pointers want it.
+/// `name` with '~' and '/' escaped as in JSON pointers.
 std::string escapePointer(std::string_view name);
 
 } // namespace fx::preset

@@ -24,7 +24,7 @@ constexpr int kSceneVersion = 1;
 std::span<const MigrationStep> presetMigrations();
 std::span<const MigrationStep> sceneMigrations();
 
-/// Applies what is needed to reach version `current`; the document's own version must be there and not newer.
+/// Applies the migrations up to version `current`. The document must have a version, at most `current`.
 /// @return false when `findings` got an error
 bool migrate(nlohmann::json& document, int current, std::span<const MigrationStep> steps, Findings& findings);
 

@@ -7,7 +7,7 @@
 
 namespace fx::preset {
 
-/// Markdown: a table per object with member, meaning, unit, what is allowed, default and cost.
+/// Markdown: a table per object with member, meaning, unit, allowed values, default and cost.
 std::string parameterReference();
 
 /// The assembled JSON Schema of presets or scenes as text, for editors.

@@ -1,7 +1,7 @@
 /// @file preset_loader.h
-/// From the text of a preset (`*.fx.json`) to an effect that can run, or to everything that is wrong with it.
+/// Loads a preset (`*.fx.json`) as an effect, or reports all of its faults.
 ///
-/// Threads: any; nothing is shared between calls. Nothing is read but what the call names.
+/// Threads: any; calls share no data. Only the named text and its assets are read.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -29,22 +29,22 @@ constexpr uint64_t kPresetBytes = uint64_t(4) << 20;
 
 /// The presets that are compiled in; names are `NAME.fx.json`.
 std::span<const base::EmbeddedText> presetLibrary();
-/// The same, followed by the files that they name: what a resolver takes as its library.
+/// The same, followed by their assets: the library of a resolver.
 std::span<const base::EmbeddedText> libraryFiles();
 
 /// Where images and meshes that presets name go to.
 struct PresetAssets
 {
-    base::AssetTable* table = nullptr; ///< null: they are read, checked and forgotten
+    base::AssetTable* table = nullptr; ///< null: assets are read and checked, but not stored
     asset::MissingAsset missing = asset::MissingAsset::IsAnError;
 };
 
 /// Parses, migrates, validates and builds. The status of a failure holds the first findings.
 /// @param displayName names the text in messages
-/// @param outDiagnostics receives every finding, warnings included, whether it fails or not; may be null
-/// @param resolver where files that the preset names come from; null: from the library alone
+/// @param outDiagnostics receives all findings, including warnings, on success and on failure; may be null
+/// @param resolver reads files that the preset names; null: only those of the library
 /// @param folder   of the preset below the resolver's folder, with '/' at its end
-/// @param techniques what the preset's members can be
+/// @param techniques define the preset's members
 /// @return Parse, TooLarge, Version, Schema
 base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::string& displayName,
                                           std::vector<Diagnostic>* outDiagnostics = nullptr,
@@ -52,8 +52,8 @@ base::Result<LoadedPreset> loadPresetText(std::string_view text, const std::stri
                                           const PresetAssets& assets = {}, const std::string& folder = {},
                                           Techniques techniques = preset::techniques());
 
-/// The same for an asset: `library:NAME`, or a name relative to the resolver's folder.
-/// Files that it names are relative to it.
+/// The same for an asset: `library:NAME`, or a name relative to the resolver's folder. Files that it names
+/// are relative to it.
 base::Result<LoadedPreset> loadPresetAsset(std::string_view name, const asset::AssetResolver& resolver,
                                            std::vector<Diagnostic>* outDiagnostics = nullptr,
                                            const PresetAssets& assets = {},

@@ -18,9 +18,9 @@
 
 namespace fx::preset {
 
-/// One object. Each read() changes `out` when the member is there and leaves the default otherwise; types
-/// have been checked by the schema. What a schema cannot say (min <= max, keys in order) is checked here and
-/// becomes a finding.
+/// One JSON object, whose types the schema has checked. Each read() sets `out` if the member exists and
+/// leaves the default otherwise. Conditions that a schema cannot express (min <= max, keys in order) are
+/// checked here and reported as findings.
 class PresetValue
 {
 public:
@@ -42,8 +42,8 @@ public:
     void read(const char* member, base::Range& out) const;
     void read(const char* member, base::ScalarCurve& out) const;
     void read(const char* member, base::ColorCurve& out) const;
-    /// Time [s] and value of each step of a member of the kind "steps" or "switches", as they are written;
-    /// one value stands for a step at time 0. Empty when absent.
+    /// Time [s] and value of each step of a member of the kind "steps" or "switches", without conversion; a
+    /// single value is a step at time 0. Empty when absent.
     std::vector<std::pair<double, double>> steps(const char* member) const;
 
     /// Reads one of the names in `choices`.
@@ -66,9 +66,9 @@ public:
     /// Reads element `index` of an array of vectors.
     void readElement(const char* member, size_t index, glm::vec3& out) const;
     /// The bytes of the asset that the member names.
-    /// @return what the resolver failed with, NotFound when the member is absent or there is no resolver
+    /// @return the resolver's error, NotFound when the member is absent or no resolver is set
     base::Result<std::string> readAsset(const char* member, uint64_t maxBytes) const;
-    /// What reads the files that this document names; null when there are none.
+    /// Loader of the files that this document names; null without files.
     asset::AssetLoader* assets() const { return findings_.assets(); }
 
     const std::string& pointer() const { return pointer_; }

@@ -1,5 +1,5 @@
 /// @file schema_validator.h
-/// Checks documents against a JSON Schema with valijson and explains what it objects to.
+/// Validates documents against a JSON Schema with valijson and explains violations.
 #pragma once
 
 #include "fxsdk/presets/findings.h"
@@ -25,8 +25,7 @@ public:
     /// Adds an error to `findings` for each thing in `document` that the schema forbids, until findings are
     /// full.
     /// @param longArrays members (pointers) whose elements are checked one by one, so that the memory for
-    /// findings
-    ///        stays small in documents with many elements; each must be an array in the schema
+    ///         findings stays small in documents with many elements; each must be an array in the schema
     /// @param document is the same afterwards
     void validate(nlohmann::json& document, std::span<const std::string_view> longArrays,
                   Findings& findings) const;

@@ -1,5 +1,5 @@
 /// @file technique.h
-/// The preset half of a technique: what it adds to the format of presets, and how its members become solvers.
+/// The preset half of a technique: its members of the preset format, and their conversion to solvers.
 #pragma once
 
 #include "foundation/snapshot/snapshot_schema.h"
@@ -26,16 +26,16 @@ struct Technique
     /// Reads one validated element and adds one solver to `effect`.
     void (*build)(const PresetValue& element, sim::EffectDef& effect);
 
-    /// Resolves what elements say of each other, once the solvers of all techniques are there. Called also
-    /// after errors. Null: they say nothing.
+    /// Resolves references between elements, after the solvers of all techniques have been built. Called also
+    /// after errors. Null: elements have no references.
     void (*link)(const PresetValue& root, sim::EffectDef& effect) = nullptr;
 
-    /// Warns of what is valid in the preset `root` and has no effect. Called without errors only. Null: there
-    /// are no such warnings.
+    /// Warns of members of the preset `root` that are valid and have no effect. Called without errors only.
+    /// Null: no warnings.
     void (*lint)(const PresetValue& root, const sim::EffectDef& effect) = nullptr;
 
-    /// Makes the costs of its solvers exact, and names the members that decide them. `ioCosts` has one for
-    /// each element, as the definition of its solver states it. Null: they are exact.
+    /// Refines the costs of its solvers and names the members that determine them. `ioCosts` has one entry
+    /// for each element, initialized from the definition of its solver. Null: no refinement.
     void (*estimate)(const PresetValue& root, const sim::EffectDef& effect,
                      std::span<SolverCost> ioCosts) = nullptr;
 

@@ -1,11 +1,11 @@
 /// @file budget_controller.h
-/// Keeps frames within a time by choosing the quality of each technique. It uses no clock and no GL: frame
-/// times and elapsed time are inputs, so that equal inputs give equal choices.
+/// Keeps frames within a time budget by choosing the quality of each technique. It uses no clock and no GL:
+/// frame times and elapsed time are inputs, so equal inputs give equal choices.
 ///
-/// Quality falls at once, as far as needed, when the next frame is expected to take more than 0.92 of the
-/// budget; it aims at 0.8. It rises by one step a technique after 45 frames without a change, not within a
-/// second of a fall, and ever more slowly where rising has soon been followed by falling.
-/// Only what is drawn depends on it, never what is simulated.
+/// Quality is lowered at once when the predicted time of the next frame exceeds 0.92 of the budget; the
+/// target is 0.8. It is raised by one step per technique after 45 frames without a change, not within a
+/// second after lowering it, and after longer intervals each time a rise was soon followed by a fall. It
+/// affects drawing only, not simulation.
 #pragma once
 
 #include "fxsdk/quality/scalability_choice.h"
@@ -17,14 +17,15 @@ namespace fx::quality {
 class BudgetController
 {
 public:
-    static constexpr double kTarget = 0.8;       ///< [budget] what is aimed at
+    static constexpr double kTarget = 0.8;       ///< [budget] target
     static constexpr double kLimit = 0.92;       ///< [budget] expected beyond: fall at once
     static constexpr uint32_t kCalmFrames = 45;  ///< before a rise
     static constexpr double kRestSeconds = 1.0;  ///< [s] without a rise after a fall
     static constexpr double kProbation = 3.0;    ///< [s] a fall this soon after a rise doubles the patience
     static constexpr uint32_t kMaxPatience = 16; ///< times kCalmFrames
 
-    /// Starts with the best of each technique; throws std::bad_alloc. Everything else allocates nothing.
+    /// Starts with the highest level of each technique; throws std::bad_alloc. The other functions do not
+    /// allocate.
     /// @param techniqueLevels 1 to kMaxTechniques, each with costs that rise and errors that fall
     explicit BudgetController(std::vector<ScalabilityLevels> techniqueLevels);
 
@@ -50,7 +51,7 @@ public:
     double error() const { return error_; }         ///< [1] of the last choice
     bool isSaturated() const { return saturated_; } ///< even the lowest settings are expected to be too slow
     uint64_t switches() const { return switches_; } ///< frames that changed a choice
-    void reset();                                   ///< forgets all, starts at the top
+    void reset();                                   ///< resets all state and starts at the highest levels
 
 private:
     struct Memory ///< of one technique

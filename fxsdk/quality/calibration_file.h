@@ -26,9 +26,9 @@ base::Result<Calibration> builtInCalibration();
 
 nlohmann::ordered_json toJson(const Calibration& calibration);
 nlohmann::ordered_json toJson(const Knobs& knobs);
-/// {"particles": 0.5, "detail": true} without what is for programs only: "particles 0.5, detail on".
+/// Text of knobs for display: {"particles": 0.5, "detail": true} gives "particles 0.5, detail on".
 std::string toText(const Knobs& knobs);
-/// What readCalibration() reads, a step a line.
+/// Text for readCalibration(), one step a line.
 std::string calibrationText(const Calibration& calibration);
 
 } // namespace fx::quality

@@ -1,5 +1,5 @@
 /// @file cost_model.h
-/// What a technique's relative costs mean in milliseconds of this scene, learned from measured frames.
+/// Converts relative costs of techniques to milliseconds of the present scene, fitted to measured frames.
 #pragma once
 
 #include "fxsdk/quality/scalability_levels.h"
@@ -8,10 +8,9 @@
 
 namespace fx::quality {
 
-/// The live scale of each technique: milliseconds = scale * step.cost. Follows the mean slowly. A frame that
-/// is much too slow counts as little more than usual; the third in a row is believed at once. While a
-/// technique is switched off nothing can be seen of it: what was known is slowly taken for less, so that it
-/// will be tried again.
+/// Scale of each technique: milliseconds = scale * step.cost, a moving average. A single frame that is much
+/// too slow is clamped; the third in a row is used fully. While a technique is off, its scale cannot be
+/// measured and decays slowly, so that it will be tried again.
 class CostModel
 {
 public:

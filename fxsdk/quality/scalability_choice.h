@@ -8,7 +8,7 @@
 
 namespace fx::quality {
 
-/// What a choice is made of; all spans have one element per technique.
+/// Inputs of a choice; all spans have one element per technique.
 struct ChoiceInputs
 {
     std::span<const ScalabilityLevels> techniqueLevels;

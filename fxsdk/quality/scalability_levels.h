@@ -1,5 +1,5 @@
 /// @file scalability_levels.h
-/// What a technique costs and how wrong it is, setting by setting: the data that quality is chosen from.
+/// Cost and error of a technique at each level, from which quality is chosen.
 #pragma once
 
 #include "rendering/techniques/draw_techniques.h"
@@ -18,8 +18,7 @@ constexpr size_t kMaxTechniques = 8; ///< techniques that are chosen at once
 constexpr size_t kMaxSteps = 16;     ///< of one technique
 constexpr size_t kMaxKnobs = 16;     ///< of all techniques
 
-/// Settings of techniques that a step lowers, by render::QualityKnob::name; what is absent stays as the host
-/// has it.
+/// Settings that a step lowers, by render::QualityKnob::name; all others keep the host's values.
 class Knobs
 {
 public:
@@ -75,13 +74,13 @@ void forEachKnob(F&& f, render::DrawTechniques techniques = render::drawTechniqu
                 f(knob);
 }
 
-/// What `first` sets, and what `second` sets besides.
+/// The knobs of `first`, and those of `second` that `first` lacks.
 Knobs merged(const Knobs& first, const Knobs& second);
 
 /// Index of the step of each technique.
 using Choice = std::array<uint8_t, kMaxTechniques>;
 
-/// Lowers `ioSettings` to what the knobs say. Never above what the host asked for.
+/// Lowers `ioSettings` to the values of the knobs; never raises them.
 void apply(const Knobs& knobs, render::ViewSettings& ioSettings);
 
 } // namespace fx::quality

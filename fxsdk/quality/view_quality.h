@@ -15,7 +15,7 @@ namespace fx::quality {
 /// The host's budget.
 struct BudgetOptions
 {
-    double milliseconds = 0; ///< [ms] 0: quality is what the settings say
+    double milliseconds = 0; ///< [ms] 0: settings are used unchanged
     render::TimingClock clock = render::TimingClock::Gpu;
 };
 
@@ -25,26 +25,26 @@ public:
     /// Without a calibration so far takes the built-in one.
     base::Status setOptions(const BudgetOptions& options);
     const BudgetOptions& options() const { return options_; }
-    /// Exchanges the scalability levels; what was learned is forgotten. Strong guarantee.
+    /// Replaces the scalability levels and resets the cost model. Strong guarantee.
     void setCalibration(Calibration calibration);
 
-    /// For measurements: this setting whatever it costs; frames are timed, the controller learns nothing.
+    /// For measurements: forces this setting. Frames are timed, and the cost model does not change.
     void force(const std::optional<Knobs>& knobs) { forced_ = knobs; }
 
     /// Lowers the renderer's settings for one frame, which follows; end() gives them back.
     void begin(render::ViewRenderer& renderer, double deltaTime, bool hold);
     void end(render::ViewRenderer& renderer);
-    /// Takes what has been measured so far; begin() and end() do so too.
+    /// Collects the available frame times; begin() and end() do so too.
     void collect(render::ViewRenderer& renderer);
 
-    /// Off: there is no budget. Gpu or Host as asked for; nothing when GL has no clock, and quality is fixed.
+    /// Off without a budget; Gpu or Host as requested; empty when GL has no timestamps, and quality is fixed.
     std::optional<render::TimingClock> clock() const { return clock_; }
     /// Whether the controller chose the settings of the last frame.
     bool isControlled() const
     {
         return controller_ && !forced_ && clock_ && *clock_ != render::TimingClock::Off;
     }
-    /// Null before a calibration. Its last element stands for what no technique can change.
+    /// Null before a calibration. Its last element represents passes that no technique can lower.
     const BudgetController* controller() const { return controller_ ? &*controller_ : nullptr; }
     const Choice& choice() const { return chosen_; } ///< of the last frame
     bool wasHeld() const { return held_; }

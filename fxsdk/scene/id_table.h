@@ -1,5 +1,6 @@
 /// @file id_table.h
-/// Values named by ids that go stale when the value is removed, and what such an id looks like from outside.
+/// A table of values with generational ids, which are stale after the removal of their value, and their
+/// 64-bit encoding.
 #pragma once
 
 #include "foundation/math/hash.h"
@@ -27,10 +28,10 @@ constexpr uint32_t indexOf(LocalId id)
 }
 
 /// A table of T. Removed indices are reused first-in first-out, so that an id goes stale as long ago as
-/// possible; an index whose uses are spent is retired, so that no identity ever comes back.
+/// possible; an index whose generations are used up is never used again, so that ids are unique.
 ///
-/// An index takes a few bytes. Values lie densely in an array of their own, which is as long as the largest
-/// number of values at a time, however many indices there are.
+/// An index takes a few bytes. Values are stored densely in a separate array, whose length is the largest
+/// number of values at a time, independent of the number of indices.
 template <class T>
 class IdTable
 {
@@ -60,8 +61,8 @@ public:
         return (uint64_t(slot.use) << kIdPartBits) | index;
     }
 
-    /// Takes the last add() back: the table gives out the same identities in the same order as if it had
-    /// never been called. Nothing may have been added or removed since. Allocates nothing.
+    /// Reverts the last add(): later ids are the same as if it had not been called. Requires that no value
+    /// was added or removed since. Allocates nothing.
     void cancel(LocalId id)
     {
         const uint32_t index = indexOf(id);
@@ -135,9 +136,8 @@ public:
         writer.value(kNone);
     }
 
-    /// Fills an empty table with identities, values from restoreValue(). The memory it takes grows with the
-    /// bytes that have been read and with the values found, of which there are at most as many as the table
-    /// may hold.
+    /// Fills an empty table with identities, values from restoreValue(). Memory grows with the bytes read and
+    /// the number of values, which is at most the capacity of the table.
     template <class F>
     void restore(sim::StateReader& reader, F&& restoreValue)
     {
@@ -170,7 +170,7 @@ private:
     struct Slot
     {
         uint32_t use = 0;      ///< number of times the index has been given out
-        uint32_t link = kNone; ///< place of the value while it is used, else the next free index
+        uint32_t link = kNone; ///< index of the value while in use, otherwise the next free index
         bool used = false;
     };
 

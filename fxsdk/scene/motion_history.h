@@ -1,8 +1,8 @@
 /// @file motion_history.h
-/// Where an instance has been and what has blown about it for as long as that matters to what is alive.
+/// Extremes of placement and wind of an instance over the lifetime of its particles.
 ///
-/// Time is cut into parts that are at least as long as anything lives. What is alive was born within the
-/// last two of them, so that two sums tell enough, however often the host moves the instance.
+/// Time is divided into intervals at least as long as the longest lifetime. All living particles were born
+/// within the last two intervals, so two sets of extremes suffice, however often the host moves the instance.
 #pragma once
 
 #include "foundation/math/geometry.h"
@@ -15,7 +15,7 @@
 
 namespace fx::scene {
 
-/// What was so at one moment, or the most of several.
+/// The inputs at one time, or their extremes over several times.
 struct BoundsInputs
 {
     glm::dvec3 low{std::numeric_limits<double>::infinity()}; ///< [m] world, of positions
@@ -42,7 +42,7 @@ public:
     void forget() { unknown_ = 2; }
 
     bool isKnown() const { return unknown_ == 0; }
-    /// All has been as it is now: later notes of the same change nothing.
+    /// True when all past inputs equal the present ones, so that further equal notes have no effect.
     bool isSettled() const;
     BoundsInputs all() const;
 

@@ -1,6 +1,6 @@
 /// @file scene.h
-/// The instance table over the simulated world: which instances exist, which are stepped, and what views
-/// show.
+/// The instance table over the simulated world: existing instances, active instances, and the snapshots for
+/// views.
 ///
 /// Threads: one thread at a time (the scene thread); acquire() and release() from any thread.
 #pragma once
@@ -37,7 +37,7 @@ struct SceneOptions
     sim::Environment environment;
     bool shareInstances = true; ///< false: identical instances are simulated one by one
     bool culling = true;        ///< false: everything is stepped always
-    bool lockStep = false;      ///< what cannot be caught up bit for bit is never out of sight
+    bool lockStep = false;      ///< instances that cannot be caught up bit for bit are never hidden
     base::Ticks releaseAfter = 5 * base::kTicksPerSecond; ///< out of sight, until memory is given back
     base::Ticks maxCatchUp = 30 * base::kTicksPerSecond;  ///< longest absence that is replayed
     uint64_t catchUpSteps = 200'000;          ///< particle steps of an update that may be spent on replays
@@ -63,14 +63,14 @@ enum class Reason : uint32_t
     Outside, ///< of all frusta
     TooFar,
     TooSmall,
-    Occluded,   ///< the host says so
+    Occluded,   ///< marked as occluded by the host
     Budget,     ///< others matter more
     CatchingUp, ///< its past is being simulated
     NothingMoves,
     Ended,
 };
 
-/// What a debug overlay shows of an instance.
+/// An instance in the debug overlay.
 struct Mark
 {
     glm::dvec3 position; ///< [m] world
@@ -79,7 +79,7 @@ struct Mark
     Reason reason;
 };
 
-/// What the host says about how much an instance matters.
+/// Hints of the host about the significance of an instance.
 struct ActivationHints
 {
     float priority = 1;    ///< [1] multiplies the size on the picture
@@ -105,7 +105,7 @@ struct InstanceSetup
 {
     std::shared_ptr<const sim::EffectDef> effect;
     uint64_t seed = 0;
-    base::Ticks startTick = 0; ///< what is past means the next step
+    base::Ticks startTick = 0; ///< a time in the past means the next step
     base::Placement placement;
     /// Placement at the last step, when the host has moved it since; only where the effect depends on it.
     std::optional<base::Placement> cameFrom = {};
@@ -116,7 +116,7 @@ struct InstanceSetup
     std::optional<sim::InstanceClock> clock = {}; ///< once the host has changed its time
 };
 
-/// Exact counts since the scene was created, unless they say "now".
+/// Exact counts since the scene was created, unless marked "now".
 struct SceneCounters
 {
     uint32_t instances = 0;   ///< now; the sum of the next six
@@ -135,7 +135,7 @@ struct SceneCounters
     sim::StepCounters work;
 };
 
-/// What a view draws: two steps and the moment between them.
+/// Input of a view: two steps and the position of the shown time between them.
 struct Presentation
 {
     base::SnapshotPair snapshots;
@@ -153,8 +153,8 @@ public:
     LocalId add(InstanceSetup setup);
     bool contains(LocalId id) { return instances_.find(id) != nullptr; }
 
-    // What is changed while a step is in hand, of which a former update has done a part, holds from its end
-    // on; a step ends when it is published.
+    // Changes during an incomplete step, which a former update began, take effect at its end; a step ends
+    // with its publication.
 
     // The id must name an instance of this scene.
     void remove(LocalId id);
@@ -168,12 +168,12 @@ public:
     /// Takes an instance to a local time; the next update() shows it, also one without a step.
     /// @return InvalidArgument before its start and after its end
     base::Status seek(LocalId id, base::Ticks local);
-    /// Tells an instance that what its preset calls `name` happened `count` times.
+    /// Triggers the host event `name` of an instance's preset `count` times.
     /// @return NotFound when its preset has no such event, InvalidArgument before its start
     base::Status postEvent(LocalId id, std::string_view name, uint32_t count);
     void setHints(LocalId id, const ActivationHints& hints);
 
-    /// What is known about why an instance costs what it costs.
+    /// State and estimated cost of an instance.
     struct Activity
     {
         InstanceState state = InstanceState::Finished;
@@ -191,9 +191,9 @@ public:
     void setFocus(std::span<const activation::Frustum> frusta);
     void setBudget(const activation::Budget& budget);
 
-    /// Exchanges the geometry that effects collide with; null for none. Strong guarantee.
+    /// Replaces the geometry that effects collide with; null for none. Strong guarantee.
     /// @param cellSize see sim::DistanceField::build
-    /// @return what building the field fails with
+    /// @return the error of building the field
     base::Status setCollisionMesh(const sim::TriangleMesh* mesh, float cellSize);
     /// The same with a field that has been built already.
     void setCollisionField(std::shared_ptr<const sim::DistanceField> field)
@@ -201,7 +201,7 @@ public:
         world_.setField(std::move(field));
     }
 
-    /// What stands in the way of particles that ask the host; see sim::World::setContact().
+    /// Sets the contact callback of the host; see sim::World::setContact().
     void setContact(const sim::HostContact& contact)
     {
         completeStep();
@@ -212,11 +212,11 @@ public:
     /// See sim::World::setGpuParticles.
     void setGpuParticles(bool onGpu) { world_.setGpuParticles(onGpu); }
 
-    /// Advances by dt [s] and publishes the last two of the steps taken. Where the budget of work is spent
-    /// before all are complete, the next updates go on, and simulated time is behind.
-    /// Throws std::bad_alloc after all steps when memory ran out in one: time has advanced, and what needed
-    /// the memory is missing.
-    /// @return false when dt was negative or not finite; then only the counter of refusals has changed
+    /// Advances by dt [s] and publishes the last two of the steps taken. If the work budget is used up before
+    /// all steps are complete, the next updates continue them, and simulated time lags. Throws std::bad_alloc
+    /// after all steps when memory ran out in one: time has advanced, and instances without memory are
+    /// missing.
+    /// @return false when dt was negative or not finite; then only the counter of refused updates has changed
     bool update(double dt);
 
     SceneCounters counters() const;
@@ -224,16 +224,16 @@ public:
     const UpdateCounters& lastUpdate() const { return update_; }
     double nanosecondsPerParticle() const; ///< [ns] of a step, given or measured
     const base::StepClock& clock() const { return clock_; }
-    /// Of what is to be seen at the last step and of its time, however the updates were cut.
+    /// Hash of the published particles of the last step and of its time, independent of the division into
+    /// updates.
     uint64_t stateHash();
 
-    /// Hash of everything that decides what later steps give; apart from the part of a step that has not been
-    /// taken yet, so that it does not depend on the frame rate.
-    /// What is out of sight is caught up first when that can be done without a trace.
+    /// Hash of everything that later steps depend on, except the remainder of the clock, so that it does not
+    /// depend on the frame rate. Hidden instances are caught up first if that does not change later results.
     uint64_t simulationHash();
-    /// Writes all that restore() needs; what is out of sight is caught up first.
+    /// Writes the state for restore(). Hidden instances are caught up first.
     void save(sim::StateWriter& writer);
-    /// Finds the effect of a fingerprint among those that no instance has any more; null when there is none.
+    /// Finds an effect without instances by its fingerprint; null when it does not exist.
     using FindEffect = std::function<std::shared_ptr<const sim::EffectDef>(uint64_t fingerprint)>;
     /// Takes the state of a scene with the same step, gravity, ground and geometry, identities included, and
     /// publishes it. Strong guarantee.
@@ -253,7 +253,7 @@ public:
     void copyMarks(std::pmr::vector<Mark>& out);
 
     Presentation acquire();
-    /// True while there is nothing in what acquire() gives. [any thread]
+    /// True while the snapshots of acquire() are empty. [any thread]
     bool showsNothing() const { return showsNothing_.load(std::memory_order_acquire); }
     void release(const base::SnapshotPair& snapshots) { ring_.release(snapshots); }
 
@@ -275,7 +275,7 @@ private:
         double reach = 0;                    ///< [m] world
         float localReach = 0;                ///< [m] of the effect in a wind of reachWind
         float reachWind = -1;                ///< [m/s] local; negative before it was measured
-        std::unique_ptr<MotionHistory> past; ///< where what is now does not tell everything
+        std::unique_ptr<MotionHistory> past; ///< null while present values suffice for the bounds
     };
     struct Restored; ///< a state on its way into the scene
 
@@ -301,7 +301,7 @@ private:
     void makeChanges();
     void letArrive();
     void wait(uint32_t index);
-    /// From when on what is changed now holds.
+    /// Tick from which changes made now take effect.
     base::Ticks present() const
     {
         return clock_.simulated() + (world_.isStepping() ? clock_.stepTicks() : 0);
@@ -316,7 +316,7 @@ private:
     activation::Ball ballOf(const Instance& instance) const;
     double significanceOf(const Instance& instance) const;
     uint64_t particlesOf(const Instance& instance) const;
-    void measure(Instance& instance) const; ///< how far it reaches
+    void measure(Instance& instance) const; ///< updates the bounds
     BoundsInputs boundsInputsOf(const InstanceSetup& setup, const sim::Influence& influence) const;
     BoundsInputs pastOf(Instance& instance, bool stays, const sim::Influence& influence) const;
     Reason judge(const Instance& instance, bool isSeen);
@@ -347,7 +347,7 @@ private:
     void stageReturned(base::Ticks tick);
     void showSought();
     void heedSought(const base::StepPlan& plan);
-    /// With presentation_ held, unless there is nothing to see.
+    /// Requires the lock of presentation_, unless nothing is visible.
     void show(base::Ticks newest, double interpolation);
     static sim::InstanceStart startOf(const IdTable<Instance>& instances, uint32_t index);
 
@@ -381,7 +381,7 @@ private:
     activation::Budget budget_;
     std::pmr::vector<activation::Candidate> candidates_; ///< scratch
     std::pmr::vector<LocalId> arrived_; ///< entered the world with a past that is not simulated yet
-    std::pmr::vector<Seek> seeks_;      ///< asked for while a step is in hand
+    std::pmr::vector<Seek> seeks_;      ///< requested during an incomplete step
     base::WorkBudget work_;             ///< of the update
     uint64_t stepWork_ = 0;             ///< [unit] spent on the step in hand
     uint64_t shownWork_ = 0;            ///< [unit] spent on the publication in hand, or the last one
@@ -402,7 +402,7 @@ private:
     uint64_t nextSerial_ = 0;
 
     std::mutex presentation_; ///< makes publication and the members below one change for acquire()
-    std::atomic<double> interpolation_{0}; ///< changed without the mutex while there is nothing to see
+    std::atomic<double> interpolation_{0}; ///< changed without the mutex while nothing is visible
     std::atomic<double> shownTime_{0};     ///< likewise
     std::atomic<bool> showsNothing_{false};
     std::pmr::vector<Mark> marks_;

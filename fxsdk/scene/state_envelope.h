@@ -1,8 +1,8 @@
 /// @file state_envelope.h
-/// What is around a saved state: a header by which foreign, older, cut and damaged ones are recognized.
+/// Header of a saved state, by which foreign, outdated, truncated and damaged states are recognized.
 ///
 /// magic u32 · version of the SDK u32 · layout u32 · 0 u32 · size of the state u64 · checksum u64 · the
-/// state. In the byte order of the machine; another order shows in the magic number.
+/// state. In the byte order of the machine; the magic number reveals another order.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -15,7 +15,7 @@ namespace fx::scene {
 
 constexpr size_t kStateHeaderBytes = 32;
 
-/// Raised with every change of what a state consists of between two versions of the SDK.
+/// Incremented with every change of the state's layout within one version of the SDK.
 constexpr uint32_t kStateLayout = 2;
 
 /// @param sdkVersion as FX_VERSION

@@ -1,5 +1,5 @@
 /// @file instance_play.h
-/// What happens to one effect of a scene while it runs: what a host would do to it by calls.
+/// Changes of one effect of a scene over time, which a host would make by API calls.
 ///
 /// All times are those of the scene [s], not of the effect.
 #pragma once
@@ -28,7 +28,7 @@ struct TimedValue
     double value = 0;
 };
 
-/// Something that the host says.
+/// An event of the host.
 struct Trigger
 {
     double time = 0; ///< [s] not before the instance's start or the trigger before
@@ -59,7 +59,7 @@ struct InstancePlay
     }
 };
 
-/// The last value whose time has come, `before` when there is none.
+/// The last value whose time is not in the future, `before` when no value is.
 double valueAt(const std::vector<TimedValue>& values, double time, double before);
 
 /// Rotation about x, then y, then z.

@@ -1,5 +1,5 @@
 /// @file key_interpolation.h
-/// Smooth values between keys: what cameras and instances move by.
+/// Smooth interpolation between keys, for the motion of cameras and instances.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,7 +10,7 @@
 
 namespace fx::scene_file {
 
-/// Rate of change at key `i`: the same on both sides of it, 0 at the ends.
+/// Derivative at key `i`: equal on both sides, 0 at the ends.
 template <class Key>
 glm::dvec3 tangentAt(const std::vector<Key>& keys, size_t i, glm::dvec3 Key::*member)
 {

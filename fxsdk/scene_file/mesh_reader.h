@@ -13,10 +13,10 @@ namespace fx::scene_file {
 constexpr size_t kMaxTriangles = 1'000'000;
 
 /// Reads asset `name`; materials come through the same resolver. Polygons are triangulated; colors are the
-/// materials' Kd, taken as linear and clamped to [0, 1], 0.5 gray without material; normals that are missing
-/// are those of the triangles.
-/// @param outWarning what the file says that was not understood; empty when all was
-/// @return what the resolver failed with, Parse, TooLarge
+/// materials' Kd, taken as linear and clamped to [0, 1], 0.5 gray without material; missing normals are
+/// replaced by those of the triangles.
+/// @param outWarning names unknown statements of the file; empty without such
+/// @return the resolver's error, Parse, TooLarge
 base::Result<render::StageMesh> readMesh(const std::string& name, const asset::AssetResolver& resolver,
                                          std::string& outWarning);
 

@@ -1,5 +1,5 @@
 /// @file preview.h
-/// How tools show a preset by itself: its member "preview".
+/// The member "preview" of a preset, by which tools show it.
 #pragma once
 
 #include "fxsdk/scene_file/scene_file.h"
@@ -17,12 +17,12 @@ struct Preview
     bool hasCamera = false;     ///< the scene's camera is the preset's
 };
 
-/// Reads the member "preview" of a valid preset into the scene of one instance that shows it; what the preset
-/// does not say stays as it was.
+/// Reads the member "preview" of a valid preset into a scene with one instance; absent members do not change
+/// the scene.
 /// @param text     the preset
-/// @param resolver finds the mesh and the image that it names
-/// @param outDiagnostics receives every finding; may be null
-/// @return Schema, or what an asset failed with
+/// @param resolver finds the mesh and the image of the preview
+/// @param outDiagnostics receives all findings; may be null
+/// @return Schema, or the error of an asset
 base::Result<Preview> readPreview(std::string_view text, const std::string& displayName,
                                   const asset::AssetResolver& resolver, SceneFile& io,
                                   std::vector<preset::Diagnostic>* outDiagnostics = nullptr);

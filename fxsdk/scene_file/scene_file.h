@@ -1,8 +1,7 @@
 /// @file scene_file.h
-/// From a scene (`*.scene.json`) to all that a tool needs to draw it: camera, lights, background, mesh,
-/// instances.
+/// Loads a scene (`*.scene.json`) for tools: camera, lights, background, mesh, instances.
 ///
-/// For tools: libfxsdk does not contain it. Threads: any; nothing is shared between calls.
+/// libfxsdk does not contain it. Threads: any; calls share no data.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -33,18 +32,18 @@ struct SceneInstance
     double start = 0.0;                         ///< [s] scene time, >= 0
     uint64_t seed = 1;
     sim::InstanceParameters parameters;
-    InstancePlay play; ///< what happens to it
+    InstancePlay play; ///< its changes over time
 
-    /// Where it is at a scene time [s].
+    /// Placement at a scene time [s].
     base::Placement placementAt(double time) const;
 };
 
 /// A preset that instances use. Tools that go through the C API load it again by its text.
 struct ScenePreset
 {
-    std::string name; ///< as the scene file says it
+    std::string name; ///< as written in the scene file
     std::string text; ///< the JSON behind it
-    std::string file; ///< where it lies; empty: in the library
+    std::string file; ///< path; empty: in the library
     std::shared_ptr<const sim::EffectDef> effect;
 };
 
@@ -56,9 +55,10 @@ struct SceneFile
     render::ViewSettings view;              ///< exposure, lighting, shimmer, dazzle, form, tone map, detail
     render::StageBackground background;
     render::StageMesh mesh;    ///< empty when the scene has none
-    std::string meshFile;      ///< where it lies; empty: in the library, or there is none
+    std::string meshFile;      ///< path; empty: in the library, or no mesh
     bool meshCollides = false; ///< effects collide with it
-    float meshCellSize = 0.0f; ///< [m] of the grid that stands for it then; 0: as fine as four million allow
+    /// [m] cell size of its collision grid; 0: the smallest with at most four million cells.
+    float meshCellSize = 0.0f;
     std::vector<ScenePreset> presets;
     std::vector<SceneInstance> instances;
     std::vector<preset::Diagnostic> warnings;
@@ -70,8 +70,8 @@ constexpr uint64_t kMeshBytes = uint64_t(64) << 20;
 constexpr uint64_t kImageBytes = uint64_t(256) << 20;
 
 /// @param resolver finds the mesh, the image and the presets that the scene names
-/// @param outDiagnostics receives every finding, warnings included, whether it fails or not; may be null
-/// @return Parse, TooLarge, Version, Schema, or what an asset failed with
+/// @param outDiagnostics receives all findings, including warnings, on success and on failure; may be null
+/// @return Parse, TooLarge, Version, Schema, or the error of an asset
 base::Result<SceneFile> loadSceneText(std::string_view text, const std::string& displayName,
                                       const asset::AssetResolver& resolver,
                                       std::vector<preset::Diagnostic>* outDiagnostics = nullptr);

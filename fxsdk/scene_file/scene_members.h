@@ -1,5 +1,5 @@
 /// @file scene_members.h
-/// Readers of the members of a validated scene. Each adds findings for what a schema cannot say.
+/// Readers of the members of a validated scene. Each adds findings for faults that a schema cannot exclude.
 #pragma once
 
 #include "fxsdk/assets/asset_resolver.h"
@@ -21,13 +21,13 @@ render::ViewSettings readView(const preset::PresetValue& root);
 /// All but the preset.
 SceneInstance readInstance(const preset::PresetValue& instance);
 
-// What stands behind the effects, in scene_stage.cpp, with the files that the members name.
+// The opaque surroundings, in scene_stage.cpp, with the files that the members name.
 
 /// Adds to `findings` that the asset named by the member could not be read.
 void reportAsset(const preset::PresetValue& value, const char* member, const base::Status& status,
                  preset::Findings& findings);
 
-/// Reads the member "mesh" of a scene into `scene`, which keeps what it had without one.
+/// Reads the member "mesh" of a scene into `scene`; without it, `scene` does not change.
 void readSceneMesh(const preset::PresetValue& mesh, const asset::AssetResolver& resolver,
                    preset::Findings& findings, SceneFile& scene);
 
@@ -35,9 +35,9 @@ void readSceneMesh(const preset::PresetValue& mesh, const asset::AssetResolver& 
 void readBackground(const preset::PresetValue& background, const asset::AssetResolver& resolver,
                     preset::Findings& findings, SceneFile& scene);
 
-// What happens to an instance, in instance_play_reader.cpp.
+// Changes of an instance over time, in instance_play_reader.cpp.
 
-/// @param value  the instance; what is wrong becomes findings
+/// @param value the instance; faults are added to the findings
 /// @param start  [s] of the instance
 InstancePlay readPlay(const preset::PresetValue& value, double start);
 

@@ -11,16 +11,16 @@
 
 namespace fx::preset {
 
-/// What an instance of a preset needs.
+/// Estimated cost of an instance of a preset.
 struct Needs
 {
     uint64_t solverBytes = 0; ///< [byte] that its solvers can take
     sim::EffectCost cost;
 };
 
-/// Everything that is wrong with the preset (`*.fx.json`) or scene (`*.scene.json`) at `path`; empty when it
-/// is valid. The presets, mesh and image of a scene are checked with it.
-/// @param outNeeds receives what an instance of a valid preset needs, else nothing; may be null
+/// All faults of the preset (`*.fx.json`) or scene (`*.scene.json`) at `path`; empty when it is valid. The
+/// presets, mesh and image of a scene are checked too.
+/// @param outNeeds receives the estimated cost of an instance of a valid preset; may be null
 std::vector<Diagnostic> validateFile(const std::string& path, Needs* outNeeds = nullptr);
 
 } // namespace fx::preset

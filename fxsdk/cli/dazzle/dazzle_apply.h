@@ -15,19 +15,19 @@ enum class DazzleAlgorithm
     Paper8 ///< 256 levels between 0 and white, formula dazzle-levels
 };
 
-/// What happened, for reports.
+/// Results for reports.
 struct DazzleOutcome
 {
     double overflow[3] = {}; ///< [1] mean per pixel in units of white; red, green, blue
     uint32_t replaced = 0;   ///< values that were not finite, negative or too large
 };
 
-/// Three numbers "A,B,C" into the sensor law.
-/// @return InvalidArgument naming what is allowed, also when more light would give less glare
+/// Parses "A,B,C" as the parameters of the sensor law.
+/// @return InvalidArgument naming the allowed form, also when more light would give less glare
 base::Status readSensor(const std::string& text, render::DazzleSettings& ioSettings);
 
-/// Changes the channels R, G, B, or Y of a gray picture; all others stay as they are.
-/// @return InvalidArgument when there is none of them
+/// Changes the channels R, G, B, or Y of a gray picture, and no others.
+/// @return InvalidArgument when the picture has none of these channels
 base::Result<DazzleOutcome> applyDazzle(DazzleImage& ioImage, DazzleAlgorithm algorithm,
                                         const render::DazzleSettings& settings);
 

@@ -22,7 +22,7 @@ struct DazzleImage
     int height = 0;
     std::vector<DazzlePlane> planes;
     std::vector<std::string> leftOut; ///< channels of whole numbers, which are no light
-    float whiteLuminance = 0;         ///< [cd/m2] of the value 1; 0 when the file does not say
+    float whiteLuminance = 0;         ///< [cd/m2] of the value 1; 0 when the file does not state it
 };
 
 /// The first part of the file, scan lines or tiles, its data window alone. At most 16384 pixels a side, 2^25

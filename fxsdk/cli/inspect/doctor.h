@@ -1,5 +1,5 @@
 /// @file doctor.h
-/// What fx doctor looks at.
+/// Checks of fx doctor.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ struct Check
     std::string name;
     bool ok = true;
     bool required = false; ///< fx render cannot work without it
-    std::string detail;    ///< what was found
-    std::string remedy;    ///< what to do when it is not ok
+    std::string detail;    ///< the finding
+    std::string remedy;    ///< the remedy when it is not ok
 };
 
 /// The EGL devices that the system offers, by name of their driver or device file; needs no context.

@@ -1,5 +1,5 @@
 /// @file usage_message.h
-/// What is said about a command line that makes no sense.
+/// Message about an invalid command line.
 #pragma once
 
 #include <string>

@@ -23,7 +23,7 @@ public:
 
     /// Draws another list from the next picture on.
     void show(std::span<const render::MediumBlob> blobs);
-    /// What draws them: its settings, pictures and statistics.
+    /// The renderer, for settings, pictures and statistics.
     SnapshotRenderer& pictures();
 
     /// @param time [s] of the picture, which only the camera depends on

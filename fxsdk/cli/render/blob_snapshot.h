@@ -1,5 +1,5 @@
 /// @file blob_snapshot.h
-/// A list of blobs as a snapshot, which is what the GL renderer draws.
+/// Converts a list of blobs to a snapshot, the input of the GL renderer.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"

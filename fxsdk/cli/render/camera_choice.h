@@ -14,7 +14,7 @@ class CameraChoice
 {
 public:
     /// @param plan with the camera of --view
-    /// @return what the file of --camera failed with
+    /// @return the error of the file of --camera
     static base::Result<CameraChoice> create(const ReferenceArguments& arguments, const ReferencePlan& plan);
 
     bool isNone() const { return !fixed_ && !path_; }

@@ -5,8 +5,8 @@
 
 namespace fx::cli {
 
-/// True when particles of the scene collide with what the view sees, and no other effect lights the stage:
-/// lights are read from snapshots, and a reader of snapshots gets particles computed on the CPU.
+/// True when particles of the scene collide with the depth texture of the view and no other effect lights the
+/// stage. Lights of effects are read from snapshots, and reading snapshots moves particles to the CPU.
 bool showsDepthContacts(const scene_file::SceneFile& file);
 
 } // namespace fx::cli

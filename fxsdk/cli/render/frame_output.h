@@ -1,5 +1,5 @@
 /// @file frame_output.h
-/// Puts rendered frames into files: PNG, EXR or a video. Every file is complete or not there.
+/// Writes rendered frames to files: PNG, EXR or a video. Incomplete files are never left behind.
 #pragma once
 
 #include "fxsdk/cli/render/frame_renderer.h"
@@ -12,8 +12,8 @@ namespace fx::cli {
 class FrameOutput
 {
 public:
-    /// Checks what can be checked before the work begins: the folder, the ffmpeg program.
-    /// @param exposureEv100 of the view, noted in EXR files
+    /// Checks the folder and the ffmpeg program before rendering begins.
+    /// @param exposureEv100 of the view, written to EXR files
     static base::Result<std::unique_ptr<FrameOutput>> create(const RenderPlan& plan, float exposureEv100);
     virtual ~FrameOutput() = default;
 

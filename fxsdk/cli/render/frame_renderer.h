@@ -91,7 +91,7 @@ private:
     std::unique_ptr<EffectScene> effects_;
     FxView* view_ = nullptr;
     bool staysOnGpu_ = false;   ///< all particles are computed on the GPU as long as no reader requests rows
-    base::Ticks lastTick_ = -1; ///< of the frame before; -1: there was none
+    base::Ticks lastTick_ = -1; ///< of the previous frame; -1 before the first one
     Picture background_;
     FrameCounters counters_;
 };

@@ -15,7 +15,7 @@
 
 namespace fx::cli {
 
-/// One picture at a time. See ReferenceRenderer and PathRenderer for what the calls do.
+/// One picture at a time. The functions are those of ReferenceRenderer and PathRenderer.
 class PictureRenderer
 {
 public:
@@ -28,7 +28,7 @@ public:
     virtual uint32_t tileCount() const = 0;
     virtual void restore(uint32_t tile, std::span<const float> values) = 0;
     virtual base::Status render(render::TileJournal* journal, const render::RenderCallbacks& callbacks) = 0;
-    /// @param outPixels keeps what the channels of `io` point to
+    /// @param outPixels owns the pixels that the channels of `io` point to
     virtual void addChannels(render::ExrImage& io, std::vector<std::vector<float>>& outPixels) const = 0;
     /// @param seconds that render() took
     virtual void addStatistics(nlohmann::json& io, double seconds) const = 0;

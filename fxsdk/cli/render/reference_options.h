@@ -28,7 +28,7 @@ struct ReferenceArguments
     std::string camera;          ///< a scene file whose camera is used
     int skyRings = 3;            ///< 4 skyRings^2 directions of the sky with --scattering single
     int samples = 1;
-    std::optional<uint32_t> paths;   ///< of a pixel; none: 64, or as many as `error` asks for
+    std::optional<uint32_t> paths;   ///< of a pixel; empty: 64, or as many as `error` requires
     std::optional<double> error;     ///< [1] standard error of written values
     std::optional<uint32_t> bounces; ///< none: any number
     double sunAngle = 0.53;          ///< [degree] diameter of the sun

@@ -28,14 +28,14 @@ struct RenderArguments
     std::string size = "1280x720";
     std::string frames; ///< "A:B", empty for the default
     std::string quality = "high";
-    std::string form;        ///< empty: what quality says
+    std::string form;        ///< empty: that of the quality
     std::string composition; ///< empty: the scene's
     std::string slabs;       ///< empty: the scene's
     std::string voxels;      ///< empty: the scene's
     std::string renderer = "gl";
     std::string statistics; ///< file, empty for none
     std::string times;      ///< "A,B,..." [s] instead of frames; empty: none
-    std::string compute;    ///< empty: what emitters say
+    std::string compute;    ///< empty: that of each emitter
     std::string lights;     ///< a scene file whose lights, sky and exposure are used; empty: the scene's own
     double framesPerSecond = 30.0;
     std::optional<double> time; ///< [s] none: the preset's preview's, or half a second
@@ -45,7 +45,7 @@ struct RenderArguments
     float lodBias = 0.0f;
     float impostorPixels = 0.0f; ///< [pixel]
     uint32_t fragmentBudget = 0; ///< 0: none
-    std::string lightSlices;     ///< "off" or planes of the sun; empty: as the settings say
+    std::string lightSlices;     ///< "off" or the number of planes of the sun; empty: that of the settings
     int lightRefresh = 1;        ///< [frame]
     bool noDazzle = false;
     bool noShimmer = false;
@@ -80,13 +80,14 @@ struct RenderPlan
 
 void addRenderOptions(CLI::App& command, RenderArguments& arguments);
 
-/// Understands what CLI11 cannot check. @return InvalidArgument, which is a usage error
+/// Converts arguments to a plan and checks what CLI11 cannot check. @return InvalidArgument, which is a usage
+/// error
 base::Result<RenderPlan> planRender(const RenderArguments& arguments);
 
-/// Says what was rendered, unless JSON is printed.
+/// Prints a summary of the rendering, unless JSON is printed.
 void printRendered(const RenderArguments& arguments, const RenderPlan& plan, const std::string& machine);
 
-/// What the arguments change in the settings of a scene. EXR files hold the scene-linear picture that their
+/// Applies the arguments to the settings of a scene. EXR files hold the scene-linear picture that their
 /// layers add up to: no tone map, no dazzle, no shimmer.
 void applyArguments(const RenderArguments& arguments, OutputKind kind, render::ViewSettings& settings);
 

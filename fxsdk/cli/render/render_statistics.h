@@ -8,7 +8,7 @@
 
 namespace fx::cli {
 
-/// Times in milliseconds, the rest as the names say; `allocations` are those of the library during the frame.
+/// Statistics of a frame. Times are in milliseconds; `allocations` are those of the library during the frame.
 nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool withOverdraw);
 
 } // namespace fx::cli

@@ -1,5 +1,5 @@
 /// @file compute_override.h
-/// Loads presets of a scene with another word on what computes their particles.
+/// Loads presets of a scene with a different member "compute".
 #pragma once
 
 #include "foundation/result/status.h"
@@ -18,10 +18,10 @@ std::string gpuObstacleOf(const scene_file::SceneFile& scene);
 class ComputeOverride
 {
 public:
-    /// @param compute "cpu", "gpu" or "auto"; empty: presets stay as they are
+    /// @param compute "cpu", "gpu" or "auto"; empty: presets are not changed
     explicit ComputeOverride(std::string compute) : compute_(std::move(compute)) {}
 
-    /// What the context needs; null functions when presets stay as they are.
+    /// Asset hook for the context; its functions are null when presets are not changed.
     FxAssetHook hook();
     base::Result<FxPresetId> load(FxContext* context, const scene_file::ScenePreset& preset);
 

@@ -13,14 +13,14 @@
 
 namespace fx::cli {
 
-/// A scene with one instance of the preset in the origin, or as its preview says.
+/// A scene with one instance of the preset at the origin, or as described by its member "preview".
 /// @param input      a file *.fx.json, or library:NAME
-/// @param outPreview receives what the preset says of its preview; may be null
+/// @param outPreview receives the preset's preview; may be null
 base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input,
                                                   scene_file::Preview* outPreview = nullptr);
 
-/// Puts the camera where it sees most of the media between the start and `until`; simulates to find out.
-/// Does nothing when there are none.
+/// Simulates the effect and places the camera so that it sees most of the media between the start and
+/// `until`. Does nothing without media.
 base::Status frameEffect(scene_file::SceneFile& scene, base::Ticks until, const EffectSceneOptions& options);
 
 } // namespace fx::cli

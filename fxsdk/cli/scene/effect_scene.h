@@ -25,12 +25,12 @@ struct EffectSceneOptions
 {
     FxGlLoader gl{nullptr, nullptr}; ///< none: simulation only
     int stepsPerSecond = 60;
-    uint32_t quality = FX_QUALITY_DEFAULT; ///< FxQuality of what is simulated
+    uint32_t quality = FX_QUALITY_DEFAULT; ///< FxQuality of the simulation
     std::optional<uint64_t> seed;          ///< instance k gets seed + k instead of the file's
-    std::string compute = {}; ///< "cpu", "gpu" or "auto" instead of what emitters say; empty: as they say
+    std::string compute = {}; ///< "cpu", "gpu" or "auto" instead of the emitters' own; empty: their own
 };
 
-/// What a view shows: a moment between two steps.
+/// The time that a view shows: a point between two steps.
 struct SceneMoment
 {
     base::SnapshotPair snapshots; ///< older is null before the second step
@@ -46,15 +46,16 @@ public:
     EffectScene(const EffectScene&) = delete;
     EffectScene& operator=(const EffectScene&) = delete;
 
-    /// Steps until a view shows exactly the moment `tick`, which must not lie before the last one. A view
-    /// shows a state between the last two steps, so the clock runs one step ahead of what is shown.
+    /// Steps until a view shows exactly the time `tick`, which must not precede the last one. A view shows a
+    /// state between the last two steps, so the clock is one step ahead of the picture.
     /// @return Interrupted when the user asked to stop
     base::Status showMoment(base::Ticks tick);
 
-    /// Copies the last step into a snapshot as renderers know it. Valid until the next call.
+    /// Copies the last step into a snapshot for renderers. Valid until the next call.
     base::Result<const base::FrameSnapshot*> snapshot();
 
-    /// Copies the last two steps: what a view would show now. Valid until the next call, of snapshot() too.
+    /// Copies the last two steps, which a view would interpolate now. Valid until the next call of this
+    /// function or of snapshot().
     base::Result<SceneMoment> moment();
 
     /// Center and radius [m] of every sprite and mesh of the last step, in the world.

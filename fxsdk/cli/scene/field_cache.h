@@ -17,13 +17,13 @@
 
 namespace fx::cli {
 
-/// Where the field of a mesh is kept: beside it, by a name that tells sizes of cells apart.
+/// Path of the cached field of a mesh: beside the mesh, with the cell size in its name.
 std::filesystem::path fieldFileOf(const std::filesystem::path& meshFile, const sim::TriangleMesh& mesh,
                                   float cellSize);
 
-/// The field of a mesh, from `file` or made and written there. Throws std::bad_alloc.
-/// @param file see fieldFileOf(); empty: it is made, and kept nowhere
-/// @return what sim::DistanceField::build() fails with
+/// Reads the field of a mesh from `file`, or builds it and writes the file. Throws std::bad_alloc.
+/// @param file see fieldFileOf(); empty: the field is built and not written
+/// @return the error of sim::DistanceField::build()
 base::Result<std::shared_ptr<const sim::DistanceField>> fieldOf(const sim::TriangleMesh& mesh, float cellSize,
                                                                 const std::filesystem::path& file,
                                                                 base::TaskRunner& tasks,

@@ -1,8 +1,8 @@
 /// @file instance_director.h
-/// Does to running instances what their scene file says, as a host would, step by step.
+/// Moves, triggers and changes running instances as described in the scene file, before each step.
 ///
-/// What a step sees depends on nothing but its number: the same for every way to a moment.
-/// Threads: the scene thread.
+/// The state of a step depends only on its number, not on the frames or seeks that lead to it. Threads: the
+/// scene thread.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -20,10 +20,10 @@ public:
     /// Instances without a play are left alone.
     void add(const scene_file::SceneInstance& instance, FxInstanceId id);
 
-    /// To be called before each step of the scene. What has a time happens with the step whose beginning is
-    /// nearest to it; to an instance that has not started then, with its second step. At the end of the step
-    /// the instance is where its keys have it then.
-    /// @param from, to when the step begins and ends
+    /// Called before each step of the scene. An event takes place in the step whose beginning is nearest to
+    /// its time; if the instance has not started then, in the second step of the instance. At the end of the
+    /// step the instance has the placement of its keys for that time.
+    /// @param from, to begin and end of the step
     base::Status beforeStep(FxScene* scene, base::Ticks from, base::Ticks to);
 
 private:

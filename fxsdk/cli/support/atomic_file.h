@@ -1,6 +1,6 @@
 /// @file atomic_file.h
-/// Files that are either complete or not there: written under a temporary name in the same folder, flushed to
-/// the disk, then renamed.
+/// Atomic replacement of files: written under a temporary name in the same folder, flushed to the disk, then
+/// renamed.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -28,8 +28,8 @@ public:
     /// @return Io naming the file and the system's reason
     base::Status open();
     base::Status write(std::string_view bytes);
-    /// @param durable waits until the bytes are on the disk: a machine that stops leaves the old file or the
-    ///                new one. Without, what comes after such a stop may be neither
+    /// @param durable waits until the bytes are on the disk, so that after a crash of the machine either the
+    ///         old or the new file exists; otherwise neither may be complete
     base::Status commit(bool durable = true);
 
 private:
@@ -41,8 +41,8 @@ private:
     int descriptor_ = -1;
 };
 
-/// Finds out before long work what would fail at its end.
-/// @return Io when `target` is a folder or lies in none
+/// Checks a target before long work.
+/// @return Io when `target` is a folder or its folder does not exist
 base::Status checkTarget(const std::filesystem::path& target);
 
 /// open, write, commit.

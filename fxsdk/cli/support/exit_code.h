@@ -1,5 +1,5 @@
 /// @file exit_code.h
-/// What the fx command returns to the shell.
+/// Exit codes of the fx command.
 #pragma once
 
 #include "foundation/result/status.h"

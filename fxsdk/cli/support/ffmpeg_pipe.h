@@ -13,27 +13,27 @@
 
 namespace fx::cli {
 
-/// Path of the ffmpeg program found in PATH; empty when there is none.
+/// Path of the ffmpeg program in PATH; empty when it is not found.
 std::filesystem::path findFfmpeg();
 
 class FfmpegPipe
 {
 public:
     FfmpegPipe() = default;
-    ~FfmpegPipe(); ///< without finish(): stops ffmpeg and removes what it wrote
+    ~FfmpegPipe(); ///< without finish(): stops ffmpeg and removes its output
     FfmpegPipe(const FfmpegPipe&) = delete;
     FfmpegPipe& operator=(const FfmpegPipe&) = delete;
 
-    /// @param width, height [pixel] of every frame; odd sizes are padded by a pixel, the codec needs even
-    /// ones
+    /// @param width, height [pixel] of every frame; odd sizes are padded by a pixel, because the codec
+    ///         requires even ones
     /// @param framesPerSecond > 0
-    /// @return NotFound when ffmpeg is not installed (the message says how to get it), Io
+    /// @return NotFound when ffmpeg is not installed (the message explains how to install it), Io
     base::Status start(const std::filesystem::path& target, int width, int height, double framesPerSecond);
 
     /// One frame: width * height * 3 bytes, sRGB, rows from the top.
     base::Status write(std::span<const uint8_t> rgb);
 
-    /// Waits for ffmpeg and puts the file in place.
+    /// Waits for ffmpeg and renames the file to its final name.
     base::Status finish();
 
 private:

@@ -1,9 +1,9 @@
 /// @file interrupt.h
-/// Ctrl-C (SIGINT) and SIGTERM as a flag that long work looks at between steps and frames, so that it ends by
-/// the clean way. A program that does not look in time, or is asked a second time, is ended on the spot with
-/// the same exit code; temporary files and child processes that were entered here do not outlive it.
+/// Ctrl-C (SIGINT) and SIGTERM as a flag that long work checks between steps and frames, so that it can clean
+/// up. If the flag is not checked in time, or a second signal arrives, the program is terminated at once with
+/// the same exit code, after removing registered temporary files and killing registered child processes.
 ///
-/// Threads: installInterruptHandler() once from main; everything else from anywhere.
+/// Threads: installInterruptHandler() once from main; all other functions from any thread.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -24,11 +24,11 @@ void installInterruptHandler(unsigned secondsToStop = kSecondsToStop);
 /// Whether the user has requested a stop. The caller ends at its next safe point.
 bool interruptRequested();
 
-/// The status that says so.
+/// The status of an interruption.
 base::Status interruptedStatus();
 
-/// While it lives, a file is removed, or a process killed, when the program is ended on the spot. At most 32
-/// at a time; what exceeds them is not entered.
+/// Registers, during its lifetime, a file to remove or a process to kill if the program is terminated. At
+/// most 32 at a time; further ones are ignored.
 class EndsWithProgram
 {
 public:

@@ -1,5 +1,5 @@
 /// @file json_line.h
-/// The output of --json: one object a line on standard output, each saying where and by what it was made.
+/// The output of --json: one object a line on standard output, each with the version and the machine.
 #pragma once
 
 #include "foundation/result/status.h"

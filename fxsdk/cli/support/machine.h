@@ -1,5 +1,5 @@
 /// @file machine.h
-/// What the fx command ran on, for reports.
+/// Description of the machine, for reports.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ namespace fx::cli {
 
 struct Machine
 {
-    std::string cpu;        ///< model name, "unknown" when the system does not say
+    std::string cpu;        ///< model name, "unknown" when the system does not provide it
     int cores = 0;          ///< logical processors this process may use
     uint64_t memory = 0;    ///< [byte] of the machine
     std::string simd;       ///< widest instruction set, such as "AVX2"

@@ -31,8 +31,8 @@ struct OutputTarget
     std::filesystem::path frame(int64_t number) const;
 };
 
-/// Understands NAME.png, NAME.exr, NAME.mp4 and NAME with one place holder %d, %4d or %04d. "%%" is refused.
-/// @return InvalidArgument that names what is allowed
+/// Parses NAME.png, NAME.exr, NAME.mp4 and NAME with one placeholder %d, %4d or %04d. "%%" is refused.
+/// @return InvalidArgument naming the allowed forms
 base::Result<OutputTarget> parseOutputTarget(const std::string& text);
 
 } // namespace fx::cli

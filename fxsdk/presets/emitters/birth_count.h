@@ -15,16 +15,15 @@ double ownBirths(const sim::Emission& emission, double seconds);
 /// How often the event happens in a particle's life; at a collision, once.
 double timesOf(const sim::EventRule& rule, const base::Range& lifetime);
 
-/// Births in the emitters of one preset, those that events cause included, as they are to be expected. Each
-/// emitter is asked for the births within the longest lives of others, which are few: each answer is found
-/// once, so that the work grows with the rules times the different lives, however rules lead from emitter to
-/// emitter. Events make no circle.
+/// Expected births in the emitters of one preset, including births by events. Births of an emitter within a
+/// lifetime are computed once for each different lifetime and cached, so the work is proportional to the
+/// number of rules times the number of different lifetimes. Events form no cycle.
 class BirthCount
 {
 public:
     explicit BirthCount(const std::vector<const sim::EmitterDef*>& emitters);
 
-    /// Alive at once, if there were room for all.
+    /// Particles alive at once, with unlimited capacity.
     double alive(size_t index) { return wanted(lifeOf(index), index); }
 
 private:
@@ -36,9 +35,10 @@ private:
 
     /// Number of the emitter's longest life in `lives_`.
     size_t lifeOf(size_t index) const;
-    /// Births of emitter number `index` within any time of life number `life`, if there were room for all.
+    /// Births of emitter number `index` within a time span of lifetime number `life`, with unlimited
+    /// capacity.
     double wanted(size_t life, size_t index);
-    /// The same with the room that there is.
+    /// The same, limited by the capacity.
     double within(size_t life, size_t index);
     double causedBy(size_t cause, const sim::EventRule& rule, size_t life);
 

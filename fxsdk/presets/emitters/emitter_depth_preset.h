@@ -1,5 +1,5 @@
 /// @file emitter_depth_preset.h
-/// Collisions with what a view shows (shape "depth" of an emitter's "collisions").
+/// Collisions with the depth texture of a view (shape "depth" of an emitter's "collisions").
 #pragma once
 
 #include "fxsdk/presets/preset_value.h"
@@ -7,9 +7,8 @@
 
 namespace fx::preset {
 
-/// Warns of such collisions where the CPU computes the emitter, and says why it does: its particles move
-/// freely.
-/// @param root the preset, whose emitters `effect` holds as its first solvers, joined by their events
+/// Warns that such collisions have no effect when the CPU computes the emitter, with the reason for the CPU.
+/// @param root the preset; the first solvers of `effect` are its emitters, linked by their events
 void warnOfDepthOnCpu(const PresetValue& root, const sim::EffectDef& effect);
 
 } // namespace fx::preset

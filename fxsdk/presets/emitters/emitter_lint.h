@@ -13,8 +13,8 @@ void lintForces(const PresetValue& element, bool hasGround);
 void lintShape(const PresetValue& element);
 void lintAppearance(const PresetValue& element, const sim::EmitterDef& emitter);
 
-/// What does not fit: emitters whose particles, those that events give birth to included, exceed their
-/// capacity, and memory above 1 GiB.
+/// Warns of emitters whose particles, including births by events, exceed the capacity, and of memory above 1
+/// GiB.
 void lintCapacity(const PresetValue& root, const sim::EffectDef& effect);
 
 } // namespace fx::preset

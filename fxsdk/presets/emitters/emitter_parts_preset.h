@@ -1,6 +1,6 @@
 /// @file emitter_parts_preset.h
-/// Reads the parts of one element of a preset's "emitters". Each adds findings for what its schema cannot
-/// forbid; what a finding is about is then left out of the emitter.
+/// Reads the parts of one element of a preset's "emitters". Each adds findings for faults that the schema
+/// cannot exclude, and omits the faulty part from the emitter.
 #pragma once
 
 #include "fxsdk/presets/preset_value.h"
@@ -12,7 +12,7 @@
 
 namespace fx::preset {
 
-/// shape, position, size, ...: EmitterDef::shape and its fellows, or EmitterDef::births for what those lack.
+/// shape, position, size, ...: EmitterDef::shape and related members, or EmitterDef::births for other shapes.
 void readEmitterShape(const PresetValue& element, sim::EmitterDef& emitter);
 /// rate, bursts, ...
 void readEmitterEmission(const PresetValue& emission, sim::Emission& out);

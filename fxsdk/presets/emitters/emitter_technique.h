@@ -12,11 +12,11 @@ namespace fx::preset {
 
 std::string_view emitterSchema();
 
-/// Adds the emitter that `element` describes to `effect`. Adds findings, and no emitter that could do harm,
-/// when the element says what its schema cannot forbid.
+/// Adds the emitter that `element` describes to `effect`. Adds findings, and no invalid emitter, for faults
+/// that the schema cannot exclude.
 void buildEmitter(const PresetValue& element, sim::EffectDef& effect);
 
-/// Joins emitters by their events; warns of collisions with the depth of a view that the CPU cannot compute.
+/// Links emitters by their events; warns of collisions with the depth of a view that the CPU cannot compute.
 void linkEmitters(const PresetValue& root, sim::EffectDef& effect);
 
 /// Warns of members without effect and of capacities that are too small.

@@ -9,8 +9,8 @@ namespace fx::preset {
 
 std::string_view fragmentsSchema();
 
-/// Adds the burst of fragments that `element` describes to `effect`, and findings about what its schema
-/// cannot say.
+/// Adds the burst of fragments that `element` describes to `effect`, and findings for faults that the schema
+/// cannot exclude.
 void buildFragments(const PresetValue& element, sim::EffectDef& effect);
 
 void estimateFragments(const PresetValue& root, const sim::EffectDef& effect, std::span<SolverCost> ioCosts);
