@@ -10,15 +10,15 @@
 
 namespace fx::render {
 
-constexpr uint32_t kAbsentKey = ~0u; ///< of what is no number
+constexpr uint32_t kAbsentKey = ~0u; ///< key of NaN
 
-/// What a list of keys is like.
+/// Range and order of a list of keys.
 struct KeySpan
 {
-    uint32_t lowest, highest; ///< of those that are not kAbsentKey; both 0 when there is none
+    uint32_t lowest, highest; ///< of keys other than kAbsentKey; both 0 without such
     uint32_t absent;          ///< how many are kAbsentKey
     uint32_t changed;         ///< how many are others than before
-    uint32_t newcomers;       ///< how many of those were kAbsentKey
+    uint32_t newcomers;       ///< number of those that were kAbsentKey before
 };
 
 /// Sets of elements: element i is bit i % 8 of byte i / 8, with room for a multiple of 64 bits.
@@ -28,8 +28,8 @@ struct KeyChanges
     uint8_t* newcomers;
 };
 
-/// Keys whose rising order is that of the values, or their falling order with flip = ~0.
-/// @param ioKeys those of the list before, which are replaced  @param out what else is written
+/// Keys whose ascending order is that of the values, or their descending order with flip = ~0.
+/// @param ioKeys keys of the previous list; replaced by the new ones @param out further outputs
 KeySpan makeKeys(const float* values, uint32_t flip, uint32_t* ioKeys, const KeyChanges& out, size_t count);
 
 /// Columns of one group.
@@ -41,7 +41,7 @@ struct RowColumns
 
 /// Distance of each row from `eye`, or, with `isParallel`, along the unit vector `eye`; NaN for rows whose
 /// radius is not above 0.
-/// @param scale, offset what is written is distance * scale + offset  @param out [m]
+/// @param scale, offset the output is distance * scale + offset @param out [m]
 void rowDistances(const RowColumns& rows, const glm::vec3& eye, bool isParallel, float scale, float offset,
                   float* out);
 

@@ -1,5 +1,5 @@
 /// @file depth_sort.h
-/// Order of drawing: by distance or age, ties by position in the list, whatever the number of elements.
+/// Order of drawing: by distance or age, ties by position in the list.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,14 @@
 
 namespace fx::render {
 
-/// Radix sort that keeps its memory, and its last order to begin with: where few elements have moved, come
-/// or gone since, only those are sorted and merged in. The result is the same as if it began anew.
+/// Radix sort that keeps its memory and starts from its last order: if few elements have moved, been added or
+/// removed since, only those are sorted and merged. The result is that of a full sort.
 ///
-/// Stable: equal keys keep the order of the input, so that an image does not flicker when several elements
-/// are equally far.
+/// Stable: equal keys keep the order of the input, so that elements at equal distances do not flicker.
 class DepthSort
 {
 public:
-    /// Stands for "leave this element out".
+    /// Key of elements to leave out.
     static constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
 
     explicit DepthSort(std::pmr::memory_resource* memory)

@@ -15,7 +15,7 @@ namespace fx::render {
 /// Things that are drawn one after the other in a fixed order.
 struct DrawStream
 {
-    uint32_t batch = 0; ///< the source says what it numbers
+    uint32_t batch = 0; ///< number of the source's batch
     uint32_t count = 0;
     const float* distances =
         nullptr; ///< [m] of the elements; null: all count as `distance`, and stay together
@@ -38,14 +38,14 @@ public:
 
     static constexpr uint32_t kMaxBatches = 16;
 
-    /// Cuts the streams into batches, farthest first. Streams stay whole whose ranges of distance do not
-    /// overlap, or which only add. Where others overlap, that range is cut into slabs of equal thickness, 32
-    /// or as many as kMaxBatches batches allow: between slabs the order is by distance. Within one it is
-    /// stream by stream: first what was drawn last, so that it goes on, then the one that is farther in the
-    /// middle. Things in a wrong order are no farther apart than a slab is thick: for two streams 1/13 of the
-    /// range that they share, for three 1/6.
+    /// Cuts the streams into batches, farthest first. Streams are not divided if their ranges of distance do
+    /// not overlap or their blending is additive. Where others overlap, that range is divided into slabs of
+    /// equal thickness, 32 or as many as kMaxBatches batches allow. Slabs are sorted by distance. Within a
+    /// slab, streams are drawn one after the other: first the stream that was drawn last, to avoid a state
+    /// change, then by the distance of their centers. Elements in a wrong order are at most one slab
+    /// thickness apart: for two streams 1/13 of the range that they share, for three 1/6.
     ///
-    /// More than kMaxBatches streams are one batch each, or little more.
+    /// More than kMaxBatches streams give about one batch each.
     /// @param streams each of at least one element
     /// @return valid until the next call
     std::span<const DrawBatch> build(std::span<const DrawStream> streams);

@@ -1,6 +1,6 @@
 /// @file incremental_sort.h
-/// Incremental sorting: keeps what is still sorted of the last order, merges what has moved. Loops over whole
-/// vectors, compiled for each instruction set.
+/// Incremental sorting: keeps the sorted part of the last order and merges the moved elements. Vectorized
+/// loops, compiled for each instruction set.
 #pragma once
 
 #include <cstddef>

@@ -37,7 +37,7 @@ struct ExrImage
     int width = 0;  ///< [pixel] 1..16384
     int height = 0; ///< [pixel] 1..16384
     std::vector<ExrChannel> channels;
-    float whiteLuminance = 0.0f; ///< [cd/m2] that the value 1 stands for; 0 when that is not known
+    float whiteLuminance = 0.0f; ///< [cd/m2] of the value 1; 0 when unknown
 };
 
 /// Channels R, G, B, A of an interleaved RGBA image; `layer` is put before the names ("fire" gives "fire.R").

@@ -26,7 +26,8 @@ static_assert(sizeof(FieldBlock) == 48);
 /// The detail of one field; shaders/field/field_detail.glsl reads this layout.
 struct FieldDetailBlock
 {
-    glm::vec4 rows[6]; ///< coordinates in cells of the generations, without what balls carry: dot(xyz, p) + w
+    /// Coordinates in cells of the generations, without the offsets of balls: dot(xyz, p) + w.
+    glm::vec4 rows[6];
     glm::vec4 erosion; ///< x size of lumps [m]; y, z thinnest, densest; w ramp
     glm::vec4 noise;   ///< x gain; y weight of the second generation; z cooling; w glow
     glm::vec4 lumps;   ///< xy size of the generations' lumps [m]; z factor that keeps the whole; w octaves

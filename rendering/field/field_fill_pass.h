@@ -13,9 +13,8 @@ namespace fx::render {
 ///         bricks       buffer of FieldBrickBlock
 ///         brickBalls   buffer of numbers of balls
 ///         materials    buffer of BlobMaterial, one a ball; lumpTile of LumpTilePass
-/// writes  textures     what the balls emit, absorb and scatter, and the table of bricks. Each sample is
-/// written
-///                      by one invocation, which adds its balls in the order of the list, so that equal
+/// writes textures emission, absorption and scattering of the balls, and the table of bricks. Each sample is
+/// written by one invocation, which adds its balls in the order of the list, so that equal
 ///                      inputs give equal bits
 /// Formula: kernel-optical-depth (1).
 class FieldFillPass
@@ -35,7 +34,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// With what layers and detail need, or without.
+/// The program with or without layers and detail.
 const ProgramDesc& fieldFillProgram(bool layers, bool detail);
 
 } // namespace fx::render

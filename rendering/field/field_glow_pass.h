@@ -15,8 +15,8 @@ struct GlowTextures
     ResourceId cells = {};   ///< RGBA32F emitted light, extinction
     ResourceId scatter = {}; ///< RGBA16F extinction times albedo
     ResourceId rays = {};    ///< RGBA16F radiance, of all directions beside each other
-    ResourceId first = {};   ///< RGBA16F mean radiance of what is emitted
-    ResourceId light = {};   ///< RGBA16F the same with what is scattered
+    ResourceId first = {};   ///< RGBA16F mean radiance of emitted light
+    ResourceId light = {};   ///< RGBA16F mean radiance of emitted and scattered light
 };
 
 /// Mean radiance in each cell of the light of all media of a grid, any number of times scattered.
@@ -25,8 +25,7 @@ struct GlowTextures
 ///         grids          buffer of FieldGlowBlock
 ///         field          filled textures, not yet lit
 ///         lumpTile       of LumpTilePass
-/// writes  all of GlowTextures; `light` is the result
-/// Formula: field-glow.
+/// writes  all of GlowTextures; `light` is the result Formula: field-glow.
 class FieldGlowPass
 {
 public:

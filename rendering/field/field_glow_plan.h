@@ -24,7 +24,8 @@ class FieldGlowPlan
 public:
     explicit FieldGlowPlan(std::pmr::memory_resource* memory);
 
-    /// Writes the number of its grid + 1 into FieldBlock::limits.w of each field, 0 where it has none.
+    /// Writes the number of its grid + 1 into FieldBlock::limits.w of each field, 0 for fields without a
+    /// grid.
     /// @param emitted [exposed m2] of each field: cross section times light of its balls
     /// @param eye [m] world position that fields are relative to
     void build(std::span<FieldBlock> ioFields, std::span<const float> emitted, const glm::dvec3& eye);

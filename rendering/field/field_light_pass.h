@@ -1,5 +1,5 @@
 /// @file field_light_pass.h
-/// The pass that finds what light each sample of the bricks scatters to the eye.
+/// The pass that computes the light that each sample of the bricks scatters to the eye.
 #pragma once
 
 #include "rendering/field/field_textures.h"
@@ -39,7 +39,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// With what layers and detail need, or without.
+/// The program with or without layers and detail.
 const ProgramDesc& fieldLightProgram(bool layers, bool detail);
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file field_march_pass.h
-/// The pass that marches through the sum of all fields of a view and of what lies loose in it.
+/// The pass that marches through all fields of a view, summed with balls and cards outside of fields.
 #pragma once
 
 #include "rendering/field/field_textures.h"
@@ -16,8 +16,9 @@ const ProgramDesc& fieldMarchProgramAt(size_t index);
 /// them.
 struct LooseMedia
 {
-    ResourceId tiles; ///< tiles that show something, with fields or without: arguments of a draw; invalid:
-                      ///< there is nothing loose
+    /// Non-empty tiles, with or without fields: arguments of a draw; invalid without balls and cards outside
+    /// of fields.
+    ResourceId tiles;
     ResourceId lists; ///< of balls
     ResourceId balls; ///< as texels; invalid: none
     CardLists cards;
@@ -31,8 +32,8 @@ struct LooseMedia
 /// reads   textures         that FieldFillPass and FieldLightPass have written; fieldTexels, tiles
 ///         distance         [m] along the ray to opaque geometry
 ///         loose            and lights, for its balls
-/// writes  media            as the media pass, drawn over `under`
-/// Parts of the window without fields, balls and cards cost nothing. Keeps no state.
+/// writes  media            as the media pass, drawn over `under` Parts of the window without fields, balls
+/// and cards cost nothing. Keeps no state.
 class FieldMarchPass
 {
 public:

@@ -1,9 +1,9 @@
 /// @file field_plan.h
-/// Where the voxels lie in which the balls of each effect are summed up: lattices, the bricks of them that
-/// hold medium, the balls of each brick, and the parts of the window in which a field is seen.
+/// Layout of the voxels in which the balls of each effect are summed: lattices, their occupied bricks, the
+/// balls of each brick, and the rectangle of each field in the window.
 ///
-/// Lattices are fixed in the world, so that voxels do not swim when effect or eye moves; the sides of voxels
-/// are powers of 2^(1/4). A brick is there where a ball touches it and the view may see it. A sample sums the
+/// Lattices are fixed in the world, so that voxels do not swim when the effect or the eye moves; the sides of
+/// voxels are powers of 2^(1/4). A brick exists if a ball touches it and it may be visible. A sample sums the
 /// balls of its brick in the order of the list of balls, so that equal inputs give equal bits.
 #pragma once
 
@@ -43,7 +43,7 @@ public:
 
     std::span<const FieldBlock> fields() const { return fields_; }
     std::span<const FieldBrickBlock> bricks() const { return bricks_; }
-    /// One entry a brick of each field's box, x fastest: number of the brick + 1, or 0 where there is none.
+    /// One entry a brick of each field's box, x fastest: number of the brick + 1, or 0 without a brick.
     std::span<const uint32_t> table() const { return table_; }
     std::span<const uint32_t> balls() const { return balls_; } ///< of all bricks
     /// One a part of the window, from clip position -1, -1, x fastest; none without bricks.
@@ -64,7 +64,7 @@ private:
         float voxel = 0.0f;   ///< [m]
         glm::vec3 low{0.0f};  ///< [m] of all balls that can be seen, relative to the eye
         glm::vec3 high{0.0f}; ///< [m]
-        uint32_t field = 0;   ///< number, of those that have balls
+        uint32_t field = 0;   ///< number among the fields with balls
 
         bool hasBalls() const { return low.x <= high.x; }
     };
@@ -89,7 +89,7 @@ private:
     std::pmr::vector<uint32_t> table_;
     std::pmr::vector<uint32_t> balls_;
     std::pmr::vector<uint32_t> loose_;
-    std::pmr::vector<float> peaks_;   ///< [1/m] of each brick: sum of what its balls have in their centers
+    std::pmr::vector<float> peaks_;   ///< [1/m] of each brick: sum of the central extinctions of its balls
     std::pmr::vector<float> emitted_; ///< [exposed m2] of each field
     FieldGlowPlan glow_;
     std::pmr::vector<uint32_t> stamps_; ///< of tiles: number of the last field + 1

@@ -1,5 +1,5 @@
 /// @file field_slices_pass.h
-/// The pass that adds what detail makes of fields to the light slices.
+/// The pass that adds the effect of detail on fields to the light slices.
 #pragma once
 
 #include "rendering/field/field_textures.h"

@@ -8,9 +8,9 @@
 
 namespace fx::render {
 
-constexpr int kFieldColumns = 1024; ///< texels in a row; shaders/field/field_blocks.glsl knows it
-constexpr int kTableColumns = 1024; ///< of the table of bricks, likewise
-constexpr uint32_t kFieldTexelUnit = 11, kBrickTableUnit = 12; ///< texture units, likewise
+constexpr int kFieldColumns = 1024; ///< texels in a row; also in shaders/field/field_blocks.glsl
+constexpr int kTableColumns = 1024; ///< of the table of bricks; also in the shader
+constexpr uint32_t kFieldTexelUnit = 11, kBrickTableUnit = 12; ///< texture units; also in the shader
 
 /// Rows of a texture that holds so many texels, a power of two so that it is seldom made anew.
 int rowsOfTexels(size_t count, int columns);
@@ -36,8 +36,7 @@ private:
 
 extern const ProgramDesc kFieldTexelProgram;
 
-/// reads   list     buffer of vec4
-/// writes  texture  RGBA32F of kFieldColumns
+/// reads   list     buffer of vec4 writes  texture  RGBA32F of kFieldColumns
 class FieldTexelPass
 {
 public:

@@ -16,21 +16,21 @@
 
 namespace fx::render {
 
-/// What all blobs of a group have in common.
+/// Detail of all blobs of a group.
 struct GroupDetail
 {
     FieldDetailNumbers numbers; ///< lengths in the space of the group
     glm::mat3
-        toCells[2]; ///< coordinates in cells of the generations, without what blobs carry: toCells p + first
+        /// Coordinates in cells of the generations, without the offsets of blobs: toCells p + first.
+        toCells[2];
     glm::vec3 first[2]; ///< [cell] p in m relative to the eye, world axes
     float scale = 1;    ///< [1] metres of the world over those of the group
-    float factor = 1;   ///< [1] by which what is left is multiplied, so that the whole is kept
+    float factor = 1;   ///< [1] multiplies the eroded extinction, so that its integral is preserved
 };
 
-/// GroupDetail::factor for balls of medium: the integral of the summed extinction over that of what is left
-/// of it on average. Of up to 128 balls eight points are looked at, which integrate polynomials over the
-/// kernel. At most 4.
-/// @param balls all of the group, seen or not
+/// GroupDetail::factor for balls of medium: the integral of the summed extinction over the mean integral
+/// after erosion, at most 4. It is evaluated at eight quadrature points of up to 128 balls each.
+/// @param balls all of the group, visible or not
 float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls);
 
 /// Reads the group of the kind "material" that follows a group of blobs.
@@ -44,9 +44,9 @@ public:
     bool isGiven() const { return chosen_ != nullptr; }
     /// @param place of the group at the moment, relative to the eye
     GroupDetail groupDetail(const base::Placement& place) const;
-    /// What a blob carries, in cells.
+    /// Offset of a blob in noise space, in cells.
     /// @param newer, older number of the blob in its group of blobs; older is not used when !hasOlder
-    /// @param position [m] of the blob at the moment, in the space of the group
+    /// @param position [m] of the blob at the shown time, in the space of the group
     std::array<glm::vec3, 2> carried(size_t newer, size_t older, bool hasOlder,
                                      const glm::vec3& position) const;
 

@@ -31,8 +31,8 @@ public:
     float extinctionAt(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
     MediumDetail at(const glm::vec3& point, float pixel, int octaves = kMaxDetailOctaves) const;
 
-    /// Finds the factor by which what is left is multiplied so that the whole is what the smooth field has:
-    /// the sum of extinctions over that of what is left of them, at the points of a lattice.
+    /// Computes the factor that restores the integral of the smooth field after erosion: the sum of smooth
+    /// extinctions over the sum of eroded ones, at the points of a lattice.
     /// @param spacing [m] of the lattice, at most half of the lumps
     void keepWhole(float spacing);
     float factor() const { return factor_; } ///< [1] > 0

@@ -1,5 +1,5 @@
 /// @file field_detail_numbers.h
-/// The detail of one group of media as numbers, and what it makes of the smooth field at a point.
+/// Parameters of the detail of one group of media, and its effect on the smooth field at a point.
 #pragma once
 
 #include "rendering/field_detail/lump_tile.h"
@@ -46,11 +46,11 @@ struct SmoothMedium
     std::array<glm::vec3, 2> place; ///< [m] carried coordinates
 };
 
-/// What detail makes of it.
+/// The field with detail.
 struct MediumDetail
 {
     float share = 1;       ///< [1] extinction over that of the smooth field
-    float temperature = 1; ///< [1] likewise
+    float temperature = 1; ///< [1] multiplies the temperature
     float noise = 0;       ///< [1] z
 };
 
@@ -59,11 +59,11 @@ struct MediumDetail
 MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, const SmoothMedium& medium,
                       float pixel, int octaves);
 
-/// [1/m] at least what is left of a smooth extinction of at most `most`, whatever the noise. By
-/// GroupDetail::factor it is still to be multiplied.
+/// [1/m] upper bound of the eroded extinction for a smooth extinction of at most `most`, for any noise,
+/// before the multiplication by GroupDetail::factor.
 float mostLeft(const FieldDetailNumbers& numbers, float most);
 
-/// n m of field-detail: the mean of what is left, over the smooth field.
+/// n m of field-detail: mean eroded extinction over the smooth one.
 float keptShare(const FieldDetailNumbers& numbers, float extinction);
 
 } // namespace fx::render

@@ -11,7 +11,8 @@ namespace fx::render {
 
 constexpr int kLumpCells = 8;         ///< along a side of the cube, after which it repeats
 constexpr float kLumpMean = 0.54464f; ///< [1] of lumpAt(), see tests/rendering/core/test_field_detail.cpp
-constexpr float kLumpDeviation = 0.13360f; ///< [1] likewise; between 64 texels read linearly 5 % less
+/// [1] standard deviation; 5 % less with linear interpolation between 64 texels.
+constexpr float kLumpDeviation = 0.13360f;
 
 /// 0 .. 2^24 - 1 for a corner or a cell of the lattice, equal for GLSL: shaders/field/lump_tile.comp.glsl.
 uint32_t lumpHash(uint32_t x, uint32_t y, uint32_t z, uint32_t purpose);

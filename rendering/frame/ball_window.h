@@ -1,6 +1,5 @@
 /// @file ball_window.h
-/// Which part of the window a ball covers: what shaders/shared/blob_quad.glsl draws, before the window cuts
-/// it.
+/// Rectangle of the window that a ball covers, as drawn by shaders/shared/blob_quad.glsl before clipping.
 #pragma once
 
 #include "rendering/frame/view_block.h"

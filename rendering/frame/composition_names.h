@@ -1,5 +1,5 @@
 /// @file composition_names.h
-/// What compositions are called in scene files and options.
+/// Names of compositions in scene files and options.
 #pragma once
 
 #include "rendering/frame/view_types.h"

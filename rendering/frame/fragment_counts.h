@@ -8,7 +8,7 @@
 
 namespace fx::render {
 
-/// What layers can be divided by.
+/// Divisors of the size of layers.
 inline constexpr std::array<int, 3> kLayerDivisors = {1, 2, 4};
 
 /// Fragments if the layers were drawn at each of kLayerDivisors.

@@ -1,7 +1,6 @@
 /// @file row_revisions.h
-/// Numbers that tell whether rows, such as those of particles and ribbons, are those that were uploaded
-/// before, group by group, and whether several groups hold the same rows, as instances do that share a
-/// simulation.
+/// Revisions of rows of particles and ribbons, by group. Equal revisions show that rows have been uploaded
+/// before, or that several groups have the same rows, as instances of a shared simulation.
 ///
 /// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
 #pragma once
@@ -15,7 +14,7 @@
 
 namespace fx::render {
 
-/// Some rows of a group. Equal numbers, 0 apart, stand for the same columns, bit for bit.
+/// Some rows of a group. Equal numbers other than 0 mean equal columns, bit for bit.
 struct RowRevision
 {
     uint32_t first = 0, count = 0;
@@ -74,10 +73,10 @@ public:
         : parts_(memory), before_(memory), alike_(memory), table_(memory), pools_(memory)
     {}
 
-    /// @param older  null, or a snapshot of the same scene; what it shares with `newer` has the same
-    /// revisions
-    /// @param before revisions of `older`; without parts: not known
-    /// @param kinds  those that are stamped; pools are stamped in any case
+    /// @param older null, or a snapshot of the same scene; rows that it shares with `newer` get the same
+    ///         revisions
+    /// @param before revisions of `older`; unknown without parts
+    /// @param kinds kinds that get revisions; pools always get them
     void build(const base::FrameSnapshot& newer, const base::FrameSnapshot* older,
                const SnapshotRowRevisions& before, std::span<const base::KindId> kinds, uint64_t& ioLast);
     SnapshotRowRevisions revisions() const { return {parts_, {}, alike_}; }

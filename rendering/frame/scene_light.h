@@ -10,7 +10,7 @@
 
 namespace fx::render {
 
-/// A point, a ball or a spot. Nothing but what it lights shows it.
+/// A point, a ball or a spot. The light itself is not visible.
 struct SceneLight
 {
     glm::dvec3 position{0.0};  ///< [m] world

@@ -1,5 +1,5 @@
 /// @file screen_share.h
-/// How much of a picture techniques cover: what an error in them matters.
+/// Share of the picture that techniques cover, as the weight of their errors.
 #pragma once
 
 namespace fx::render {

@@ -1,5 +1,5 @@
 /// @file snapshot_match.h
-/// The same group in two snapshots, and where it stands in between.
+/// Matching groups of two snapshots, and their interpolated placement.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -12,11 +12,11 @@ namespace fx::render {
 
 constexpr size_t kNoGroup = ~size_t(0);
 
-/// Index of the group of the same instance, solver and kind; kNoGroup when there is none.
-/// @param older may be null  @param hint where it most likely is
+/// Index of the group of the same instance, solver and kind; kNoGroup when it does not exist.
+/// @param older may be null @param hint most likely index
 size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& name, size_t hint);
 
-/// Where a group stands at share `t` of the way to the newer snapshot, relative to `eye`.
+/// Placement of a group, relative to `eye`, interpolated by `t` towards the newer snapshot.
 /// @param older may be null
 base::Placement placementAt(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
                             const glm::dvec3& eye);

@@ -1,6 +1,5 @@
 /// @file snapshot_revisions.h
-/// Numbers that tell whether two snapshots hold the same, so that what was made of one need not be made
-/// again.
+/// Revisions of snapshots. Equal revisions mean equal content, so that data derived from it can be reused.
 ///
 /// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
 #pragma once
@@ -18,7 +17,7 @@ namespace fx::render {
 /// where they lie; the same groups in another order of rows count as different.
 bool holdSame(const base::FrameSnapshot& a, const base::FrameSnapshot& b);
 
-/// Revisions of the two snapshots of a frame; 0 stands for no snapshot.
+/// Revisions of the two snapshots of a frame; 0: no snapshot.
 struct RevisionPair
 {
     uint64_t newer = 0;

@@ -28,7 +28,7 @@ struct ViewBlock
 };
 static_assert(sizeof(ViewBlock) == 14 * 16);
 
-/// What follows from a camera alone.
+/// Values computed from a camera.
 struct CameraGeometry
 {
     glm::dvec3 eye;               ///< [m] world

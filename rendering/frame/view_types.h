@@ -1,5 +1,5 @@
 /// @file view_types.h
-/// What a host tells the renderer about one frame of one view, in the renderer's terms.
+/// Input of the renderer for one frame of one view.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -65,7 +65,7 @@ struct Lighting
 struct HostLight
 {
     glm::dvec3 position{0.0};  ///< [m] world
-    glm::vec3 intensity{0.0f}; ///< [cd] in the direction where it is largest
+    glm::vec3 intensity{0.0f}; ///< [cd] in the direction of its maximum
     float radius = 0.05f;      ///< [m] > 0, of the ball that glows
     glm::vec3 axis{0, -1, 0};  ///< unit, where a spot shines
     float cosInner = -1.0f;    ///< [1] of the angle up to which a spot has its full intensity
@@ -87,8 +87,9 @@ struct HostLights
 /// Size of the planes of a light.
 struct SliceResolution
 {
-    int texels = 128; ///< along a side of a plane of the sun, 8..512, a multiple of 8; points have half of it
-    int planes = 32;  ///< 3..128; fewer become 3, 0: media cast no shadow
+    /// Along a side of a plane of the sun, 8..512, a multiple of 8; half as many for point lights.
+    int texels = 128;
+    int planes = 32; ///< 3..128; fewer become 3, 0: media cast no shadow
 
     bool operator==(const SliceResolution&) const = default;
 };
@@ -103,8 +104,8 @@ struct SliceSettings
     bool multiple = true;  ///< light that is scattered more than once counts
     int refreshFrames = 1; ///< 1..16 frames after which planes follow media that move
 
-    bool snapped = true; ///< texels and planes keep their places in the world; false: they follow media and
-                         ///< eye, to measure what that does to the picture
+    /// Texels and planes are fixed in the world; false: they follow media and eye, to measure the difference.
+    bool snapped = true;
 
     bool operator==(const SliceSettings&) const = default;
 };
@@ -112,7 +113,7 @@ struct SliceSettings
 /// Heat shimmer.
 struct ShimmerSettings
 {
-    float strength = 1.0f;   ///< [1] scales every offset; 0 leaves the picture as it is, bit for bit
+    float strength = 1.0f;   ///< [1] scales every offset; 0 does not change the picture, bit for bit
     float maxOffset = 12.0f; ///< [pixel] at a height of 720 pixels
 };
 
@@ -129,7 +130,7 @@ struct DazzleSettings
     float fallTime = 0.4f;  ///< [s] when it fades
 };
 
-/// Less of what is far. What is simulated does not depend on it.
+/// Level of detail of distant effects. The simulation does not depend on it.
 struct LodSettings
 {
     float bias = 0.0f; ///< [1] 0: everything is drawn. Otherwise an effect keeps one blob for so many pixels
@@ -139,8 +140,9 @@ struct LodSettings
                                  ///< are drawn as pictures of themselves, at most kMaxImpostorPixels
     static constexpr float kMaxImpostorPixels = 13.0f; ///< a picture has 32 texels, some of them a margin
 
-    bool hold = false; ///< levels and pictures stay as the last frame has left them, whatever the camera
-                       ///< does: to measure what changing them does to the picture
+    /// Levels and impostors do not change, for any camera motion: to measure the effect of their changes on
+    /// the picture.
+    bool hold = false;
 
     bool operator==(const LodSettings&) const = default;
 };
@@ -168,8 +170,9 @@ struct ViewSettings
         false; ///< count contributing fragments and read statistics back: costs a pass and waits for the GPU
     LodSettings lod;
     bool overlay = false; ///< the host of the renderer fills FrameRequest::overlay
-    int layerDivisor = 1; ///< 1, 2, 4: media and particles are drawn at 1, 1/2, 1/4 of the width and height,
-                          ///< at the most; what hides at 1
+    /// 1, 2, 4: media and transparent particles are drawn at no more than 1, 1/2, 1/4 of the width and
+    /// height; opaque ones always at 1.
+    int layerDivisor = 1;
     uint64_t fragmentBudget = 0; ///< estimated fragments a frame above which they are drawn smaller; 0: never
 };
 
@@ -230,28 +233,30 @@ struct FrameStatistics
     uint64_t sprites = 0;                 ///< of them
     uint64_t meshes = 0;                  ///< of them
     uint64_t ribbonPieces = 0;            ///< of them
-    uint64_t gpuParticles = 0;            ///< of those, rows that the GPU computed
+    uint64_t gpuParticles = 0;            ///< rows of those that the GPU computed
     uint64_t particlesThinned = 0;        ///< left to others by the level of detail
-    uint64_t particlesOrdered = 0;        ///< of those drawn, in an order of depth or age
+    uint64_t particlesOrdered = 0;        ///< sorted by depth or age, of those drawn
     uint64_t uploadedBytes = 0;           ///< [byte] of blobs and particles, written for this frame
-    uint64_t keptRowBytes = 0;            ///< [byte] of rows that were there from steps before
+    uint64_t keptRowBytes = 0;            ///< [byte] of rows kept from earlier steps
     uint64_t sharedRowBytes = 0;          ///< [byte] of rows that are the same as another group's of the step
     uint64_t sortedElements = 0;          ///< put into an order of distance or age for this frame
-    bool keptLists = false;               ///< what the last frame gathered, sorted and uploaded served again
-    uint32_t passes = 0;                  ///< executed
+    /// Gathered, sorted and uploaded data of the last frame were reused.
+    bool keptLists = false;
+    uint32_t passes = 0; ///< executed
     uint64_t glCalls = 0;
     uint32_t drawCalls = 0;
     uint32_t programsCompiled = 0;   ///< during this frame; 0 after warm-up
     uint64_t textureBytes = 0;       ///< [byte] held by the view
     uint64_t unsharedBytes = 0;      ///< [byte] of the frame's own resources if none shared memory
-    uint64_t sharedBytes = 0;        ///< [byte] of the same as they are
+    uint64_t sharedBytes = 0;        ///< [byte] of the same with shared memory
     uint64_t coveredPixels = 0;      ///< texels of the media's layers; with countOverdraw
     uint64_t shadedFragments = 0;    ///< at the layers' scale; with countOverdraw
     uint64_t estimatedFragments = 0; ///< of the rectangles of blobs and particles, at the layers' scale
-    int layerDivisor = 1;            ///< of this frame: what was asked for, or more to keep the budget
+    int layerDivisor = 1;            ///< of this frame: that of the settings, or more to keep the budget
     uint64_t listedBalls = 0;  ///< in lists of tiles, one for each tile; with countOverdraw, as the next two
     uint64_t spilledBalls = 0; ///< left out of them because they were full
-    uint64_t spilledCards = 0; ///< fragments of sprites, ribbons and pictures left out, likewise
+    /// Fragments of sprites, ribbons and impostors that were left out because lists were full.
+    uint64_t spilledCards = 0;
     double overflow[3] = {0, 0,
                           0}; ///< with countOverdraw and dazzle: mean overflow per pixel, units of white
 };

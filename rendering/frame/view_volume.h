@@ -1,5 +1,5 @@
 /// @file view_volume.h
-/// What a camera sees, as half-spaces in its axes.
+/// View frustum as half-spaces in eye space.
 #pragma once
 
 #include "rendering/frame/view_block.h"

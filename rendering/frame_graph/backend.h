@@ -1,9 +1,9 @@
 /// @file backend.h
-/// What a pass may ask of a graphics system: whole draws and dispatches, each with all the state it needs.
+/// Interface of passes to a graphics system: draws and dispatches, each with its complete state.
 ///
-/// There is no state between calls, so passes cannot depend on each other's leftovers and the GL state that
-/// the library touches is known in one place (rendering/gl/gl_backend.cpp). Two backends exist: GL, and one
-/// that only records.
+/// No state persists between calls, so passes cannot depend on the state of other passes, and all changes of
+/// GL state are in one place (rendering/gl/gl_backend.cpp). Two backends exist: OpenGL, and a recording one
+/// for tests.
 #pragma once
 
 #include <cstddef>
@@ -141,7 +141,7 @@ public:
 
     virtual void clear(ResourceId texture, const float (&rgba)[4]) = 0;
     virtual void draw(const DrawCall& call) = 0;
-    /// Makes earlier writes visible, runs, and makes its own writes visible to whatever follows.
+    /// Makes earlier writes visible, runs, and makes its own writes visible to later operations.
     virtual void dispatch(const DispatchCall& call) = 0;
     virtual void upload(ResourceId buffer, std::span<const std::byte> bytes) = 0;
     virtual void copyTexture(ResourceId source, ResourceId destination) = 0; ///< same size and format

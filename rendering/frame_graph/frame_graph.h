@@ -2,10 +2,10 @@
 /// The passes of one frame as declared reads and writes: unread results are not computed, and resources of
 /// disjoint lifetimes share memory.
 ///
-/// Use: begin(), import what exists outside, addPass() in any sensible order, keep() what must exist
-/// afterwards, compile(), execute(). The idea is O'Donnell's, "FrameGraph" (GDC 2017). Misuse (a stale
-/// version, reading an unwritten resource, an empty size) is stored in status(); then nothing executes.
-/// Frames that are no larger than one before allocate nothing. Threads: one thread at a time.
+/// Use: begin(), import external resources, addPass() in order of execution, keep() the results, compile(),
+/// execute(). The idea is O'Donnell's, "FrameGraph" (GDC 2017). Misuse (a stale version, reading an unwritten
+/// resource, an empty size) is stored in status(); then nothing executes. Frames that are no larger than one
+/// before allocate nothing. Threads: one thread at a time.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -46,7 +46,7 @@ struct PhysicalTexture
 class FrameGraph
 {
 public:
-    /// Given to a pass's setup: declares what it touches.
+    /// Argument of a pass's setup: declares its resources.
     class Builder
     {
     public:
@@ -69,7 +69,7 @@ public:
 
     explicit FrameGraph(std::pmr::memory_resource* memory);
 
-    /// Forgets the last frame's passes and resources, keeps their memory.
+    /// Removes the passes and resources of the last frame, but keeps their memory.
     void begin();
 
     /// A texture or buffer that exists outside of the graph under a GL name.
@@ -78,9 +78,9 @@ public:
     ResourceId importFramebuffer(const TextureDesc& desc, uint32_t framebuffer);
     ResourceId importBuffer(const BufferDesc& desc, uint32_t name);
 
-    /// Adds a pass. `setup(Builder&)` runs now, may capture by reference and declares what the pass touches;
-    /// it returns the function `execute(Backend&)`, which runs in execute() and captures by value, at most
-    /// kExecuteBytes of trivially copyable state, the resources it has just declared among them.
+    /// Adds a pass. `setup(Builder&)` runs now, may capture by reference and declares the resources of the
+    /// pass; it returns the function `execute(Backend&)`, which runs in execute() and captures by value, at
+    /// most kExecuteBytes of trivially copyable state, the resources it has just declared among them.
     template <class Setup>
     void addPass(std::string_view name, Setup&& setup)
     {
@@ -93,7 +93,7 @@ public:
                      [](void* state, Backend& backend) { (*static_cast<Execute*>(state))(backend); });
     }
 
-    /// What must be there after execute(): whatever leads to it is not culled.
+    /// Marks a result of the frame: passes that contribute to it are not culled.
     void keep(ResourceId resource);
 
     /// Culls passes, orders them (declaration order is kept), computes lifetimes and assigns physical
@@ -125,11 +125,11 @@ public:
     } ///< whether it belongs to this frame
     std::span<const PhysicalTexture> physicalTextures() const { return physicalTextures_; }
     std::span<const size_t> physicalBuffers() const { return physicalBuffers_; } ///< [byte]
-    /// Memory of what lives within the frame, as planned; host's and imported resources do not count.
+    /// Planned memory of the frame's transient resources, without imported ones.
     struct Memory
     {
-        uint64_t unshared; ///< [byte] if each resource had memory of its own
-        uint64_t shared;   ///< [byte] as it is: those that live at different times share
+        uint64_t unshared; ///< [byte] without sharing
+        uint64_t shared;   ///< [byte] with sharing between resources of disjoint lifetimes
     };
     Memory memory() const;
     std::span<const std::string_view> executedPasses() const { return executed_; }

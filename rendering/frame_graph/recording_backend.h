@@ -1,5 +1,6 @@
 /// @file recording_backend.h
-/// A backend without graphics: notes what passes ask for and whether they had declared it. For tests.
+/// A backend without graphics: records the operations of passes and checks them against their declarations.
+/// For tests.
 ///
 /// Threads: one thread at a time.
 #pragma once
@@ -26,7 +27,7 @@ public:
         Copy,
     };
 
-    /// One operation with copies of what it was given; members that the kind does not have are empty.
+    /// One operation with copies of its arguments; members that do not apply to its kind are empty.
     struct Operation
     {
         Kind kind = Kind::Draw;
@@ -54,9 +55,8 @@ public:
     std::vector<Operation> operationsOf(std::string_view pass) const;
     size_t count(Kind kind) const;
 
-    /// One sentence per breach of the graph's contract: touching a resource without having declared it,
-    /// sampling what is being drawn to, targets of unequal size, a draw without program. Empty for correct
-    /// passes.
+    /// One sentence per violation of the graph's contract: use of an undeclared resource, sampling a current
+    /// render target, targets of unequal size, a draw without a program. Empty for correct passes.
     const std::vector<std::string>& violations() const { return violations_; }
 
     void beginPass(std::string_view name) override;

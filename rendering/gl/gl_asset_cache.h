@@ -44,14 +44,14 @@ public:
     GlAssetCache(const GlAssetCache&) = delete;
     GlAssetCache& operator=(const GlAssetCache&) = delete;
 
-    /// The frames of image `id`, `columns` x `rows` of them, row by row from the upper left.
-    /// An id that names no image gives one white texel.
+    /// The frames of image `id`, `columns` x `rows` of them, row by row from the upper left. An id that names
+    /// no image gives one white texel.
     /// @return OutOfMemory, InvalidArgument (more frames than the context's arrays have layers)
     base::Result<GlAtlas> atlas(const base::AssetTable* table, base::AssetId id, int columns, int rows);
     /// @return OutOfMemory, NotFound for an id that names no mesh
     base::Result<GlMesh> mesh(const base::AssetTable* table, base::AssetId id);
 
-    void release();                           ///< deletes all; what is asked for again is made again
+    void release();                           ///< deletes all objects; they are created again on use
     uint64_t bytes() const { return bytes_; } ///< [byte] held
 
 private:

@@ -7,10 +7,10 @@
 ///     if (backend.beginFrame(graph)) { graph.execute(backend); }
 ///     const base::Status status = backend.endFrame();
 ///
-/// Each draw gets exactly the state that it declares: the whole of it is set at beginFrame, then only
-/// differences. What is touched is listed by GlStateGuard. The host's clip control and multisampling are
-/// respected and left alone. A frame like the one before allocates nothing and makes no GL queries per draw.
-/// Threads: [GL thread].
+/// Each draw gets exactly the state that it declares: beginFrame() sets all states, later calls only
+/// differences. GlStateGuard lists the affected states. The host's clip control and multisampling are used
+/// and not changed. A frame with the same resources as the last one allocates nothing and makes no GL queries
+/// per draw. Threads: [GL thread].
 #pragma once
 
 #include "foundation/result/status.h"
@@ -30,11 +30,11 @@
 
 namespace fx::render {
 
-/// What a frame writes into targets of an sRGB format.
+/// Values that a frame writes into targets of an sRGB format.
 enum class SrgbTargets : uint8_t
 {
     Light, ///< linear light, which OpenGL blends as such and encodes
-    Codes, ///< encoded values, which are stored as they are
+    Codes, ///< encoded values, stored without conversion
 };
 
 class GlBackend final : public Backend
@@ -44,7 +44,7 @@ public:
     static constexpr uint32_t kImageUnits = 6;      ///< units 0..5
     static constexpr uint32_t kStorageBindings = 8; ///< bindings 0..7
     static constexpr uint32_t kUniformBindings = 2; ///< bindings 0 (of the call itself) and 1
-    static constexpr uint32_t kColorTargets = 8;    ///< what every OpenGL 4.5 offers
+    static constexpr uint32_t kColorTargets = 8;    ///< minimum that OpenGL 4.5 guarantees
 
     GlBackend(GlDevice& device, std::pmr::memory_resource* memory);
 
@@ -69,9 +69,9 @@ public:
     uint32_t drawCalls() const { return drawCalls_; } ///< draws and dispatches of the last frame
     /// [byte] of textures and buffers held
     uint64_t pooledBytes() const { return pool_.bytes() + uniforms_.bytes(); }
-    /// Tells `timer` which passes begin; null for none. It must outlive its use.
+    /// Reports the begin of passes to `timer`, which may be null and must outlive its use.
     void setTimer(GlPassTimer* timer) { timer_ = timer; }
-    void releasePool(); ///< deletes what is pooled, until the next frame
+    void releasePool(); ///< deletes all pooled objects; the next frame creates them again
 
     void beginPass(std::string_view name) override;
     void endPass() override;

@@ -32,8 +32,8 @@ private:
     size_t bytes_ = 0;
 };
 
-/// Makes `ioBuffer` hold `bytes`, a power of two; leaves what is large enough, whose content is then
-/// undefined. Nothing for 0 bytes.  @return OutOfMemory
+/// Ensures that `ioBuffer` has at least `bytes`, rounded to a power of two. The content is undefined
+/// afterwards. Does nothing for 0 bytes. @return OutOfMemory
 base::Status makeRoom(GlDevice& device, GlBuffer& ioBuffer, size_t bytes, const char* label);
 
 } // namespace fx::render

@@ -67,8 +67,8 @@ public:
     /// same, as long as the device lives.
     const ProgramDesc& generated(const ProgramDesc& like, std::string_view defines);
 
-    /// GL name of the program; compiles late, and counts that, when there was no warm-up. 0 when it does not
-    /// compile: the reason is then in `outStatus`.
+    /// GL name of the program, which is compiled and counted now if it was not warmed up. 0 when it does not
+    /// compile; `outStatus` then has the reason.
     uint32_t program(const ProgramDesc& desc, base::Status& outStatus);
 
     uint32_t programsCompiled() const { return programsCompiled_; } ///< since creation, late ones included
@@ -82,7 +82,7 @@ public:
     void countTextureBytes(int64_t change) { textureBytes_ += static_cast<uint64_t>(change); }
     void countBufferBytes(int64_t change) { bufferBytes_ += static_cast<uint64_t>(change); }
 
-    /// Discards pending GL errors and names the first one; Ok when there was none.
+    /// Discards pending GL errors and names the first one; Ok without errors.
     base::Status takeError(std::string_view where);
 
 private:

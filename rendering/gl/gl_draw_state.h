@@ -1,9 +1,8 @@
 /// @file gl_draw_state.h
-/// The only place that sets GL state for drawing: all of it once a frame, then what differs from draw to
-/// draw.
+/// Sets all GL state for drawing: everything once a frame, then differences between draws.
 ///
-/// It caches the state that it has set since reset(), so other code may not set state until the frame ends.
-/// The states that it changes are listed in gl_touched_state.cpp.
+/// It caches the state since reset(), so no other code may set state until the frame ends. The states that it
+/// changes are listed in gl_touched_state.cpp.
 #pragma once
 
 #include "rendering/frame_graph/backend.h"
@@ -21,13 +20,13 @@ public:
 
     explicit GlDrawState(GlDevice& device);
 
-    /// Every switch that could disturb a draw is set to what draws expect, whatever the host left.
-    /// @param encodeSrgb targets of an sRGB format are given linear light
+    /// Sets every state that affects draws to the expected value, independent of the host's state.
+    /// @param encodeSrgb linear values are written to targets of an sRGB format
     void reset(bool encodeSrgb);
 
     void useProgram(uint32_t program);
     void bindFramebuffer(uint32_t framebuffer, int width, int height); ///< and its whole area as viewport
-    void drawToFirst(bool only); ///< draw buffers but the first are left as they are
+    void drawToFirst(bool only); ///< draw buffers other than the first do not change
     void setBlend(Blend blend);
     void setDepth(bool tested, bool reversed); ///< tested and written, or neither
     void bindTexture(uint32_t unit, uint32_t texture, Sampling sampling);

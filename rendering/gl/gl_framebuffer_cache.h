@@ -1,5 +1,5 @@
 /// @file gl_framebuffer_cache.h
-/// Framebuffer objects by what is attached to them, so that a frame like the one before creates none.
+/// Cache of framebuffer objects by their attachments, so that repeated frames create none.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -29,12 +29,12 @@ public:
         : device_(device), entries_(memory)
     {}
 
-    /// Forgets framebuffers that many frames have not used.
+    /// Deletes framebuffers that were not used for many frames.
     void beginFrame();
 
-    /// `foreign`: some attachment belongs to the host, who may have deleted it and got its name again for
-    /// another texture since the last frame. Such framebuffers are attached and checked anew once a frame.
-    /// @return GlFailed with what is wrong with the attachments
+    /// `foreign`: some attachment belongs to the host, which may have deleted the texture and reused its name
+    /// since the last frame. Such framebuffers are attached and checked again once a frame.
+    /// @return GlFailed with the fault of the attachments
     base::Result<uint32_t> find(const GlAttachments& attachments, bool foreign);
 
     void clear() { entries_.clear(); } ///< deletes all

@@ -15,15 +15,15 @@
 
 namespace fx::render {
 
-/// The host's way to find an OpenGL function ("glDrawArrays") of the current context; null when there is
-/// none.
+/// The host's loader of OpenGL functions ("glDrawArrays") of the current context; returns null when a
+/// function does not exist.
 struct GlLoader
 {
     void* user = nullptr;
     void* (*getProcAddress)(void* user, const char* name) = nullptr;
 };
 
-/// What all functions of one table share.
+/// State shared by all functions of one table.
 struct GlCallMonitor
 {
     uint64_t calls = 0;
@@ -47,7 +47,7 @@ public:
         return pointer_(arguments...);
     }
 
-    /// @return false when the loader does not know the function
+    /// @return false when the loader does not find the function
     bool load(const GlLoader& loader, const char* name, GlCallMonitor& monitor)
     {
         name_ = name;

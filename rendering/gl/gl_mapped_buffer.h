@@ -1,6 +1,6 @@
 /// @file gl_mapped_buffer.h
-/// A buffer that stays mapped: the CPU writes into the memory that draws read from, and a fence tells when
-/// they have.
+/// A persistently mapped buffer: the CPU writes into the memory that draws read, and a fence signals the end
+/// of reading.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -30,12 +30,12 @@ public:
 
     uint32_t name() const { return name_; }
     size_t bytes() const { return bytes_; } ///< [byte]
-    /// What is written here is seen by every draw that follows. To be waited for first.
+    /// Mapped memory. Writes are visible to all later draws. Call wait() before writing.
     std::byte* data() const { return data_; }
 
     void fence(); ///< draws up to here may read the buffer; it must have been created
-    /// Returns when no draw before the last fence() can read it any more.
-    /// @return GlFailed when that does not happen within ten seconds
+    /// Waits until all draws before the last fence() have finished reading.
+    /// @return GlFailed after ten seconds
     base::Status wait();
 
 private:

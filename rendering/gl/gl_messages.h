@@ -1,5 +1,5 @@
 /// @file gl_messages.h
-/// Counts what the driver reports through KHR_debug. Install it in contexts that were made with debug = true.
+/// Counts messages of the driver through KHR_debug. For contexts created with debug = true.
 #pragma once
 
 #include "rendering/gl/gl_device.h"

@@ -1,6 +1,6 @@
 /// @file gl_pass_timer.h
-/// How long groups of passes take: by timestamps of the GPU, read frames later without waiting, or by a clock
-/// of the host around work that is waited for.
+/// Times groups of passes: by timestamps of the GPU, which are read some frames later without waiting, or by
+/// a clock of the host, waiting for the GPU after each group.
 ///
 /// Threads: [GL thread]. Allocates nothing after construction.
 #pragma once
@@ -19,14 +19,14 @@ namespace fx::render {
 enum class TimingClock : uint8_t
 {
     Off,
-    Gpu,  ///< GL timestamps; nothing waits
+    Gpu,  ///< GL timestamps, without waiting
     Host, ///< a clock of the host, with glFinish() wherever the group changes
 };
 
 /// One finished frame.
 struct GroupTimes
 {
-    uint64_t tag = 0;                                  ///< what beginFrame() was given
+    uint64_t tag = 0;                                  ///< argument of beginFrame()
     std::array<double, kMaxPassGroups> milliseconds{}; ///< by number of PassGroups
     double total() const                               ///< [ms]
     {
@@ -41,8 +41,9 @@ double steadyMilliseconds();
 class GlPassTimer
 {
 public:
-    static constexpr size_t kFrames = 6;  ///< that may wait for their results
-    static constexpr size_t kStamps = 12; ///< of one frame; groups that change more often are not told apart
+    static constexpr size_t kFrames = 6; ///< frames whose results may be pending
+    /// Of one frame; further changes of the group are added to the last stamp.
+    static constexpr size_t kStamps = 12;
 
     GlPassTimer(GlDevice& device, PassGroups groups) : device_(device), groups_(std::move(groups)) {}
     ~GlPassTimer();
@@ -60,7 +61,7 @@ public:
     void beginPass(std::string_view name);
     void endFrame(bool succeeded); ///< a frame that failed gives no result
 
-    /// The oldest frame that is finished and not yet taken. Does not wait.
+    /// Takes the times of the oldest finished frame. Does not wait.
     bool take(GroupTimes& out);
 
     HostClock hostClock = steadyMilliseconds;
@@ -69,7 +70,7 @@ private:
     struct Frame
     {
         std::array<uint32_t, kStamps> queries{};
-        std::array<size_t, kStamps> groups{}; ///< of what follows stamp i
+        std::array<size_t, kStamps> groups{}; ///< group of the passes after stamp i
         std::array<double, kStamps> host{};   ///< [ms]
         size_t stamps = 0;
         uint64_t tag = 0;
@@ -82,10 +83,10 @@ private:
     PassGroups groups_;
     std::array<Frame, kFrames> frames_;
     size_t first_ = 0;   ///< oldest frame whose result is awaited
-    size_t waiting_ = 0; ///< frames from there
+    size_t waiting_ = 0; ///< pending pending frames from there
     Frame* open_ = nullptr;
     size_t group_ = 0;
-    int counterBits_ = -1; ///< -1: not asked yet
+    int counterBits_ = -1; ///< -1: not queried yet
 };
 
 } // namespace fx::render

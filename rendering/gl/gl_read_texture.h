@@ -1,5 +1,5 @@
 /// @file gl_read_texture.h
-/// Copies pictures from the GPU for tools and tests. Waits for the GPU; not for frames of a game.
+/// Copies pictures from the GPU for tools and tests. Waits for the GPU.
 #pragma once
 
 #include <cstdint>

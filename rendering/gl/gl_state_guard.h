@@ -17,7 +17,7 @@ namespace fx::render {
 
 class GlDevice;
 
-/// What drawing touches, for people: one line per state, such as "GL_BLEND (draw buffers 0 to 7)".
+/// States that drawing changes, as text: one line per state, such as "GL_BLEND (draw buffers 0 to 7)".
 std::span<const char* const> touchedState();
 
 class GlStateGuard

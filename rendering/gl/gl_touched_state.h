@@ -25,8 +25,8 @@ struct GlTouchedState
     void (*restore)(const GlFunctions& gl, GLenum what, uint32_t index, const GlSavedState& saved);
 };
 
-/// Saved in this order and restored in the opposite order: what saving or restoring others disturbs stands
-/// first.
+/// States are saved in this order and restored in reverse. A state that is changed while others are saved or
+/// restored comes first.
 std::span<const GlTouchedState> glTouchedStates();
 
 constexpr uint32_t kGlSavedStates = 139; ///< sum of the counts

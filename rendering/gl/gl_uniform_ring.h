@@ -10,7 +10,7 @@
 
 namespace fx::render {
 
-/// GL keeps what earlier draws read in order with what is written later, so reuse needs no waiting of ours.
+/// OpenGL orders later writes after the reads of earlier draws, so memory is reused without waiting.
 class GlUniformRing
 {
 public:

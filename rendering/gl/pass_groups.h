@@ -1,5 +1,5 @@
 /// @file pass_groups.h
-/// What the times of passes are added to.
+/// Groups of passes that are timed together.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct TimedPass
 
 constexpr size_t kMaxPassGroups = 8;
 
-/// Groups by number. Group 0, "other", has what is in no list; so have groups beyond kMaxPassGroups.
+/// Groups by number. Passes without a group, and groups beyond kMaxPassGroups, belong to group 0, "other".
 class PassGroups
 {
 public:
@@ -36,7 +36,7 @@ public:
 
     size_t count() const { return count_; }
     std::string_view name(size_t group) const { return names_[group]; }
-    /// 0 when there is no such group.
+    /// 0 for an unknown group.
     size_t find(std::string_view name) const
     {
         for (size_t i = 1; i < count_; ++i)

@@ -1,5 +1,5 @@
 /// @file gpu_depth.h
-/// What a frame shows, as emitters see it that collide with it. Text of the shader:
+/// The depth texture of a frame, for emitters that collide with it. Text of the shader:
 /// shaders/gpu_particles/gpu_particle_depth.glsl.
 ///
 /// @formula depth-contact
@@ -55,7 +55,7 @@
 
 namespace fx::render {
 
-/// What a frame shows.
+/// The depth texture of a frame.
 struct GpuDepth
 {
     ResourceId distance;                ///< as SceneDistancePass writes it; invalid: nothing is known
@@ -75,7 +75,7 @@ struct GpuDepthBlock
 /// @param place of the emitter, in the world
 GpuDepthBlock makeGpuDepthBlock(const GpuDepth& depth, const base::Placement& place);
 
-/// True for emitters that collide with it.
+/// True for emitters that collide with the depth texture.
 bool meetsDepth(const base::GpuParticleFeatures& features);
 
 } // namespace fx::render

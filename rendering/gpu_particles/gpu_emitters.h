@@ -2,7 +2,7 @@
 /// GPU data of emitters that are computed there: a program for each combination of features, and the numbers
 /// of each emitter's definition in a buffer.
 ///
-/// Nothing exists before the first such emitter. Threads: [GL thread].
+/// Nothing is created before the first such emitter. Threads: [GL thread].
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
@@ -29,14 +29,14 @@ public:
         uint64_t usedFrame;
     };
 
-    /// Compiles what computes this emitter and others like it, and what orders them, unless that has
-    /// happened.
+    /// Compiles the compute and sorting programs of emitters with the same features, unless they are compiled
+    /// already.
     /// @return GlFailed (the driver refuses), GlUnsupported (built without FXSDK_GPU_PARTICLES)
     base::Status compile(const base::GpuParticleProgram& emitter);
     /// Valid until the next call. Compiles and uploads at the first call for an emitter.
     /// @return as compile(), OutOfMemory, TooLarge (for the context's storage buffers)
     base::Result<const Entry*> find(const std::shared_ptr<const base::GpuParticleProgram>& emitter);
-    /// Forgets emitters that have not been asked for in a long time.
+    /// Removes emitters that have not been used for a long time.
     void nextFrame();
 
     uint64_t bytes() const; ///< [byte] held

@@ -19,28 +19,27 @@ struct GpuRowsJob
     uint32_t batch;                  ///< that draws them
     bool isNewer;                    ///< as its newer rows, or as its older ones
     BufferPart numbers;              ///< base::GpuParticleNumbers
-    BufferPart words;                ///< base::GpuParticleMoment and what follows it
+    BufferPart words;                ///< base::GpuParticleMoment and the data after it
     std::array<int32_t, 16> columns; ///< places of the columns, as in ParticleBlock
     uint32_t rows;
     // Only of emitters that are stepped, see GpuStates:
-    BufferPart reached = {}; ///< where their particles have come to
+    BufferPart reached = {}; ///< state of their particles
     BufferPart steps = {};   ///< that they take now
     uint32_t stepCount = 0;
     bool meetsDepth = false;
-    base::Placement place = {}; ///< where they stand, for what meets depth
+    base::Placement place = {}; ///< placement, for collisions with depth
 };
 
-/// Computes particles from what their emitters have published. Program: gpu_particles, one permutation for
-/// each way of computing.
+/// Computes particles from the published data of their emitters. Program: gpu_particles, one permutation for
+/// each combination of features.
 ///
 /// reads   distance  [m] along each pixel's ray to what the frame shows, where an emitter collides with it
-/// writes  the rows of batches, in the layout in which the CPU's are uploaded
-/// Absent when there is no job.
+/// writes  the rows of batches, in the layout in which the CPU's are uploaded Absent when there is no job.
 class GpuRowsPass
 {
 public:
     /// @param batches imported already; the written parts get new versions
-    /// @param depth what all steps of the jobs collide with; its camera must stay until the call returns
+    /// @param depth depth texture that all steps of the jobs collide with; its camera must outlive the call
     static void addTo(FrameGraph& graph, std::span<const GpuRowsJob> jobs, std::span<ParticleBatch> batches,
                       const GpuDepth& depth = {});
 };

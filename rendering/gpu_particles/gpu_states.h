@@ -1,9 +1,9 @@
 /// @file gpu_states.h
-/// Where the particles of emitters that are stepped have come to, in one view.
+/// State of stepped particles on the GPU, in one view.
 ///
-/// The state of an emitter goes on from step to step; when it is that of another history (the host has gone
-/// back in time) or there is none yet (the view is new, the emitter has been out of sight for long), its
-/// particles take all steps since their births again, which gives the same bits.
+/// The state of an emitter continues from step to step. If it belongs to another history (the host has gone
+/// back in time) or does not exist (the view is new, or the emitter was hidden for long), its particles take
+/// all steps since their births again, with the same bits.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -27,8 +27,8 @@ class GpuStates
 public:
     GpuStates(GlDevice& device, std::pmr::memory_resource* memory) : device_(device), states_(memory) {}
 
-    /// Fills in what a job needs besides, and takes for granted that it will run, after those before it.
-    /// Nothing where the group's motion has a closed form. At most two jobs of an emitter in a frame.
+    /// Completes a job, and assumes that it will run after the earlier ones. Does nothing if the group's
+    /// motion has a closed form. At most two jobs of an emitter in a frame.
     /// @return OutOfMemory, TooLarge (for the context's storage buffers)
     base::Status prepare(const base::SnapshotGroup& group, GpuRowsJob& ioJob);
     /// Drops states that have not been used for a long time.

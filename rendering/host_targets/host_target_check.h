@@ -1,5 +1,5 @@
 /// @file host_target_check.h
-/// Refuses a frame whose targets it would read or write wrongly, before anything of it is drawn.
+/// Refuses a frame with unsuitable targets before anything is drawn.
 ///
 /// Threads: [GL thread]. No GL state is changed, also on failure.
 #pragma once
@@ -15,11 +15,11 @@ class HostTargetCheck
 public:
     explicit HostTargetCheck(GlDevice& device) : device_(device), textures_(device) {}
 
-    /// @return InvalidArgument with the frame's member, what was found and the remedy
+    /// @return InvalidArgument with the frame's member, the fault and the remedy
     base::Status check(const FrameRequest& request);
 
 private:
-    /// [pixel] of what the frame is drawn to; 0 where OpenGL does not tell, as of a window.
+    /// [pixel] size of the frame's target; 0 where OpenGL does not provide it, as for a window.
     struct Size
     {
         GLint width = 0;

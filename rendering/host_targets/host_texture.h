@@ -1,6 +1,5 @@
 /// @file host_texture.h
-/// Whether a texture of the host is one that a frame reads and writes rightly, and if not, why and what to
-/// do.
+/// Checks whether a frame can read and write a texture of the host, and names fault and remedy.
 ///
 /// Threads: [GL thread]. No GL state is changed.
 #pragma once
@@ -18,7 +17,7 @@ namespace fx::render {
 
 class GlDevice;
 
-/// What a frame does with a texture of the host.
+/// Use of a texture of the host by a frame.
 enum class HostUse : uint8_t
 {
     Nothing,
@@ -27,8 +26,8 @@ enum class HostUse : uint8_t
     ReadDepth,
 };
 
-/// What OpenGL tells about a texture in a few calls. Textures with the same facts are equally good; a texture
-/// that was deleted and made again under the same name is seen by its facts.
+/// Properties of a texture that OpenGL provides in a few calls. Textures with equal properties are equally
+/// suitable; a texture that was recreated under the same name is detected by different ones.
 struct HostTexture
 {
     uint32_t name = 0;
@@ -52,7 +51,7 @@ public:
 
     /// @param member  of the frame, "frame.colorTexture", for the message
     /// @param outFacts untouched on failure
-    /// @return InvalidArgument with what was found and the remedy
+    /// @return InvalidArgument with the fault and the remedy
     base::Status check(uint32_t name, HostUse use, const char* member, HostTexture& outFacts);
 
 private:
@@ -68,7 +67,7 @@ private:
 
 // Names of OpenGL's enumerants, for messages: host_format_names.cpp.
 
-std::string glFormatName(GLenum internalFormat); ///< "GL_RGBA8UI"; a number where it is not known
+std::string glFormatName(GLenum internalFormat); ///< such as "GL_RGBA8UI"; a number for unknown formats
 std::string glTargetName(GLenum target);         ///< "GL_TEXTURE_2D_MULTISAMPLE"; a number otherwise
 
 } // namespace fx::render

@@ -24,7 +24,7 @@ public:
             return std::nullopt;
         return uint8_t(bytes_[position_++]);
     }
-    /// `count` bytes; nothing, and no progress, when there are fewer.
+    /// Takes `count` bytes; empty, without progress, when fewer are left.
     std::optional<std::span<const std::byte>> take(size_t count)
     {
         if (remaining() < count)
@@ -32,7 +32,7 @@ public:
         position_ += count;
         return bytes_.subspan(position_ - count, count);
     }
-    /// Text up to a line feed, which is consumed but not returned; nothing when there is none within `limit`
+    /// Text up to a line feed, which is consumed but not returned; empty without a line feed within `limit`
     /// bytes.
     std::optional<std::string> line(size_t limit)
     {

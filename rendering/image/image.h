@@ -35,7 +35,7 @@ constexpr uint64_t kMaxPixels = uint64_t(1) << 25; ///< width times height
 /// @return TooLarge, Parse
 base::Result<Image> readPng(std::span<const std::byte> bytes);
 
-/// RGB values from a Radiance picture (RGBE, flat or run-length encoded), as they are in the file.
+/// RGB values from a Radiance picture (RGBE, flat or run-length encoded), without conversion.
 /// @return TooLarge, Parse
 base::Result<Image> readHdr(std::span<const std::byte> bytes);
 

@@ -1,5 +1,5 @@
 /// @file image_metrics.h
-/// How far two pictures are apart.
+/// Differences between two pictures.
 #pragma once
 
 #include "foundation/result/status.h"

@@ -43,7 +43,7 @@ size_t effectLights(const base::FrameSnapshot& snapshot, std::span<const LightSo
 class GroupGlow
 {
 public:
-    /// An element whose numbers are not finite is left out, as it is not drawn either.
+    /// An element with values that are not finite is ignored; it is not drawn either.
     /// @param intensity [cd]  @param radius [m]  @return whether it was added
     bool add(const glm::vec3& position, const glm::vec3& intensity, float radius);
 

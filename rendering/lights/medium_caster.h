@@ -6,7 +6,7 @@
 
 namespace fx::render {
 
-/// A ball of medium with the quartic kernel that takes light from what lies behind it.
+/// A ball of medium with the quartic kernel that casts a shadow.
 struct MediumCaster
 {
     glm::vec3 center;   ///< [m] relative to the eye

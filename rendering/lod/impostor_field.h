@@ -1,10 +1,10 @@
 /// @file impostor_field.h
-/// Which effects of a view are drawn as pictures of themselves, where those pictures lie, and when each has
-/// to be taken anew. No GL.
+/// Selects the effects of a view that are drawn as impostors, allocates their textures, and schedules their
+/// re-rendering. No GL.
 ///
-/// Each effect has two pictures in tiles of one texture: while the older fades into the newer the effect is
-/// shown between them, so that nothing jumps. What is shown is at most two intervals old.
-/// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
+/// Each effect has two impostors in tiles of one texture. The older one is cross-faded into the newer one, so
+/// that the picture does not jump. The shown state is at most two intervals old. Threads: one thread at a
+/// time. Frames that are no larger than one before allocate nothing.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -17,7 +17,7 @@
 
 namespace fx::render {
 
-/// What a frame has to know of one effect.
+/// An effect that may be drawn as an impostor.
 struct ImpostorSubject
 {
     uint64_t instance;
@@ -26,7 +26,7 @@ struct ImpostorSubject
     float pixels;     ///< [pixel] of the ball's radius on the picture
 };
 
-/// What is to be done with it in this frame.
+/// How an effect is drawn in this frame.
 struct ImpostorPlan
 {
     float blobShare = 1.0f; ///< [1] of its cross section that is drawn as blobs; 0: none need be gathered
@@ -37,8 +37,10 @@ struct ImpostorPlan
 class ImpostorField
 {
 public:
-    static constexpr float kInterval = 0.1f;     ///< [s] after which a picture of what changes is taken anew
-    static constexpr float kBand = 0.75f;        ///< of the largest size: from there on both are drawn
+    /// [s] interval of re-rendering the impostor of a changing effect.
+    static constexpr float kInterval = 0.1f;
+    /// Share of the largest size above which both the impostor and the effect are drawn.
+    static constexpr float kBand = 0.75f;
     static constexpr float kParallax = 1.0f;     ///< [pixel] by which the view may have turned
     static constexpr float kGrowth = 1.25f;      ///< factor by which the size may have changed
     static constexpr float kFadeSeconds = 0.25f; ///< [s] in which a first picture replaces its blobs
@@ -49,22 +51,22 @@ public:
     {
         float mostPixels;  ///< [pixel] radius up to which effects are pictures; 0: none
         double seconds;    ///< [s] since the last frame
-        uint64_t content;  ///< revision of what is shown: equal ones show the same
-        uint64_t lighting; ///< hash of what lights it: pictures of another lighting are not shown
+        uint64_t content;  ///< revision of the shown content
+        uint64_t lighting; ///< hash of its lighting: impostors of another lighting are not shown
         bool forget;       ///< the camera has jumped
-        bool hold = false; ///< pictures and their shares stay as they are
+        bool hold = false; ///< impostors and their shares do not change
     };
     void begin(const Frame& frame, const CameraGeometry& camera);
-    /// To be asked for once a frame and effect.
+    /// Called once for each effect in a frame.
     ImpostorPlan plan(const ImpostorSubject& subject);
-    void end(); ///< gives back the tiles of effects that were not asked for
+    void end(); ///< frees the tiles of effects that were not planned in this frame
 
     /// Axes of the picture that is taken in `slot`, and the size of its square.
     const ImpostorTaking& taking(uint32_t slot) const { return takings_[slot]; }
     std::span<const ImpostorTaking> takings() const { return takings_; }
     std::span<const ImpostorInstance> shown() const { return shown_; }
     std::span<const float> distances() const { return distances_; } ///< [m] of shown()
-    /// Nothing will change by itself: no fade is under way and no picture is waited for.
+    /// True when no cross-fade is in progress and no impostor is due.
     bool isSettled() const { return settled_; }
 
 private:
@@ -82,7 +84,7 @@ private:
         uint64_t content = 0;
         uint64_t lighting = 0;
         bool hasPicture = false;
-        bool hasOlder = false; ///< there are two
+        bool hasOlder = false; ///< two impostors exist
         bool isUsed = false;
     };
     Entry* find(uint64_t instance);

@@ -1,10 +1,10 @@
 /// @file level_of_detail.h
-/// How much of each effect a view draws, by the size of the effect on the picture.
+/// Share of the particles of each effect that a view draws, by the size of the effect on the picture.
 ///
-/// A view leaves particles out in an order that each of them keeps for life, so that one that has gone does
-/// not come back by the next frame, and those that stay take over the light of the others. All changes are
-/// continuous: a particle on the border is faded. Only what is drawn depends on it.
-/// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
+/// Particles are omitted in an order that is fixed for their lifetime, so that they do not flicker; the
+/// remaining ones take over the light of the others. All changes are continuous: a particle at the threshold
+/// is faded. The simulation does not depend on it. Threads: one thread at a time. Frames that are no larger
+/// than one before allocate nothing.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -18,11 +18,10 @@
 
 namespace fx::render {
 
-/// [0, 1) place of a particle in the order in which particles are left out, highest first.
-///
-/// Multiples of the golden ratio, begun anew at a random place for every 1024 numbers: of any run of births,
-/// and of any second or third of them, about the share s has ranks below s, with errors far below those of
-/// random numbers, and no pattern goes on for long.
+/// [0, 1) rank of a particle; particles with the highest ranks are omitted first. A golden-ratio sequence
+/// with a random offset for each 1024 ids. Of any run of births, also of every second or third birth, about
+/// the share s has ranks below s, with errors far below those of random numbers, and without long regular
+/// patterns.
 inline float birthRank(uint64_t id)
 {
     const uint64_t block = id >> 10;
@@ -99,10 +98,10 @@ public:
 
     explicit LevelOfDetail(std::pmr::memory_resource* memory) : last_(memory), now_(memory) {}
 
-    /// Begins a frame. @param forget levels of the last frame do not matter: the camera has jumped
+    /// Begins a frame. @param forget ignore the levels of the last frame: the camera has jumped
     void begin(const LodSettings& settings, const CameraGeometry& camera, int height, bool forget);
 
-    /// The level of a group, to be asked for once a frame. Without bias everything is drawn.
+    /// The level of a group. Called once a frame. Without bias everything is drawn.
     /// @param place of the group relative to the eye
     LodLevel levelOf(const base::GroupInfo& group, const base::Placement& place);
 
@@ -121,7 +120,7 @@ private:
         uint64_t instance;
         uint32_t solver;
         uint32_t kind;
-        float share;  ///< as it is, within the band around what is wanted
+        float share;  ///< present share, within the hysteresis around the wanted one
         float radius; ///< [pixel] on the picture
         bool operator<(const Entry& other) const;
     };

@@ -1,10 +1,10 @@
 /// @file stochastic_simplification.h
-/// Stochastic simplification [CHPR07] of far effects: which particles, meshes and trails are drawn, how large
-/// and how opaque, so that they cover as much as all.
+/// Stochastic simplification [CHPR07] of far effects: a subset of particles, meshes and trails is drawn,
+/// enlarged or more opaque, so that the total coverage is preserved.
 ///
-/// A row of particles is the same particle for life, and so is a strip of a ribbon: its rank follows from the
-/// number of the row or of the strip, so what has been left out does not come back by the next frame, and a
-/// particle that is drawn stays the whole of its life while its effect keeps its size on the picture.
+/// A row of particles is the same particle for life, and so is a strip of a ribbon: its rank is a function of
+/// the number of the row or strip. So the subset does not flicker, and a particle is drawn for its whole
+/// lifetime while its effect keeps its size on the picture.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -18,7 +18,7 @@
 
 namespace fx::render {
 
-/// What rows are drawn as without a level of detail.
+/// Shape and blending of rows.
 struct DrawnRows
 {
     uint32_t pieces = 0; ///< particles whose radius is above 0, or pieces of strips
@@ -26,14 +26,14 @@ struct DrawnRows
 };
 DrawnRows countDrawn(const base::SnapshotGroup& group, uint32_t first, uint32_t count, bool isRibbon);
 
-/// Rows of a group that came from one effect, which has a level of its own.
+/// Rows of a group that belong to one effect, which has its own level.
 struct RowPart
 {
     base::GroupInfo info; ///< of the group of the effect; its placement is that of the newer snapshot
     uint32_t first, count;
 };
 
-/// What a row is drawn as.
+/// Drawn shape of a row.
 enum class RowShape : uint8_t
 {
     Card, ///< a sprite or mesh of any opacity
@@ -91,11 +91,11 @@ struct SimplificationInputs
     float pixelsPerSlope; ///< [pixel] at distance 1 for 1
 };
 
-/// Looks at every row.
-/// @param outFactors by row: two binary16 numbers, size in the lower half and opacity; 0: it is not drawn.
-///                 Untouched when everything is drawn as it is
-/// @param ioLeftOut grows by the particles, or pieces of strips, that are left to others
-/// @return whether anything is left out or changed
+/// Computes the factors of all rows.
+/// @param outFactors by row: two binary16 numbers, size in the lower half and opacity; 0: not drawn.
+///         Untouched when all rows are drawn unchanged
+/// @param ioLeftOut increased by the number of omitted particles or pieces of strips
+/// @return whether any row is omitted or changed
 bool simplifyRows(const SimplificationInputs& in, LevelOfDetail& lod, std::pmr::vector<uint32_t>& outFactors,
                   uint64_t& ioLeftOut);
 

@@ -12,14 +12,14 @@
 
 namespace fx::render {
 
-/// Fragments of the covering rectangles of all blobs, cut by the window, if they were drawn at each of
-/// kLayerDivisors. What opaque surfaces hide is not taken off.
+/// Fragments of the bounding rectangles of all blobs, clipped to the window, for each of kLayerDivisors.
+/// Occlusion by opaque surfaces is ignored.
 /// @param width, height of the picture [pixel]
 FragmentCounts estimateFragments(std::span<const BlobInstance> blobs, const CameraGeometry& camera, int width,
                                  int height);
 
-/// About how much of the picture the blobs cover, which tells how much an error in them matters. As if they
-/// lay at random places: 1 - exp(-sum of their areas).
+/// Approximate share of the picture that the blobs cover, as the weight of their errors. Assumes random
+/// positions: 1 - exp(-sum of their areas).
 ScreenShare screenShare(std::span<const BlobInstance> blobs, const CameraGeometry& camera);
 
 } // namespace fx::render

@@ -38,12 +38,12 @@ struct GatheredBlob
     std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
 };
 
-/// Blobs of one instance, as a range of those that can be seen.
+/// Range of the blobs of one instance among the visible ones.
 struct InstanceBlobs
 {
     uint64_t instance;
     size_t visibleBegin, visibleEnd;
-    ImpostorPlan plan; ///< what of it is drawn as a picture
+    ImpostorPlan plan; ///< its impostor
 };
 
 /// Blobs that follow each other in an instance: all of a group with detail, or of neighboring groups without.
@@ -51,11 +51,11 @@ struct BlobRun
 {
     size_t instance;                 ///< number in the list of instances
     int detail;                      ///< number of the group's detail; -1: none
-    size_t visibleBegin, visibleEnd; ///< of those that can be seen
+    size_t visibleBegin, visibleEnd; ///< range among the visible blobs
     size_t mediumBegin, mediumEnd;   ///< of all, seen or not
 };
 
-/// What fields of blobs need besides.
+/// Further data for fields of blobs.
 struct FieldGather
 {
     explicit FieldGather(std::pmr::memory_resource* memory) : details(memory), runs(memory) {}
@@ -63,7 +63,7 @@ struct FieldGather
     std::pmr::vector<BlobRun> runs;
 };
 
-/// What a gather left out.
+/// Numbers of omitted blobs.
 struct GatherCounts
 {
     uint32_t culled = 0;
@@ -71,24 +71,24 @@ struct GatherCounts
     uint32_t thinned = 0; ///< for the level of detail
 };
 
-/// Appends to `outVisible` every blob that can be seen, in the order of groups and ids, and to `outMedium`
-/// every blob whether seen or not: what is beside the picture still casts its shadow into it.
+/// Appends to `outVisible` every visible blob, in the order of groups and ids, and to `outMedium` every blob,
+/// because blobs outside of the picture cast shadows into it.
 ///
 /// `outInstances` gets the range of each instance in `outVisible`.
 ///
-/// Elements are matched by id between the two snapshots and interpolated; one that is only in the newer is
-/// carried back along its velocity, and left out if it was not yet born. Blobs smaller than a pixel are
-/// widened to it with their cross section kept, so that they neither vanish nor flicker; a shutter draws a
-/// moving blob out into a streak, see foundation/snapshot/streak.h.
+/// Elements are matched by id between the two snapshots and interpolated; an element of only the newer one is
+/// extrapolated back along its velocity, and omitted before its birth. Blobs smaller than a pixel are widened
+/// to it with their cross section kept, so that they neither vanish nor flicker; with a shutter a moving blob
+/// becomes a streak, see foundation/snapshot/streak.h.
 ///
-/// @param share of the particles that is appended to `outVisible`, (0, 1]: their ids decide which, so that a
-/// particle does not come and go; they take over the cross section of the others. All cast shadows.
-/// @param impostors decides which effects are pictures of themselves; null: none. What is drawn by a picture
-/// alone is not gathered, but at most 16 of its blobs cast the shadow of all; what is taken for one is
-/// gathered with all that is beside the view.
+/// @param share of the particles that is appended to `outVisible`, (0, 1]: selected by id, so that particles
+///         do not flicker; they take over the cross section of the others. All cast shadows.
+/// @param impostors selects the effects that are drawn as impostors; null: none. Blobs of an effect that is
+///         drawn by its impostor alone are not gathered, but at most 16 of them cast the shadow of all; blobs
+///         for re-rendering an impostor are gathered also outside of the view.
 /// @param lod thins out groups that are small on the picture, for shadows too; null: none
-/// @param castsShadows whether what is drawn by a picture alone casts a shadow
-/// @param outFields gets the detail of groups, and runs of blobs; null: they are not needed
+/// @param castsShadows whether effects that are drawn by an impostor alone cast shadows
+/// @param outFields receives the detail of groups, and runs of blobs; may be null
 GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolation,
                          const CameraGeometry& camera, int height, std::pmr::vector<GatheredBlob>& outVisible,
                          std::pmr::vector<MediumCaster>& outMedium,

@@ -1,5 +1,5 @@
 /// @file blob_shading.h
-/// What a blob emits, and what it scatters where no medium shadows it; the rest of its light is found when it
+/// Emitted light of a blob, and its scattered light without shadows of media. Other light is computed when it
 /// is drawn.
 #pragma once
 

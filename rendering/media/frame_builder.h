@@ -24,7 +24,7 @@ public:
 
     /// Builds the list for one frame. Equal input gives equal bits. [GL thread, but no GL]
     /// @param lod begun for this frame
-    /// @param content differs where what is shown differs, for pictures that are kept
+    /// @param content revision of the shown content, for impostors
     /// @param castsShadows as of gatherBlobs()
     /// @param isSorted false: blobs() come in the order of groups and ids
     void build(const base::SnapshotPair& snapshots, const FrameRequest& request, const ViewSettings& settings,
@@ -34,12 +34,12 @@ public:
     std::span<const BlobInstance> blobs() const { return sorted_; } ///< farthest first, unless not sorted
     /// Of blobs(); none where they are sorted.
     std::span<const BlobEffect> effects() const { return effects_; }
-    /// What blobs() carry for the detail of their fields, and that detail; none where they are sorted.
+    /// Materials of blobs() for the detail of their fields; empty if they are sorted.
     std::span<const BlobMaterial> materials() const { return materials_; }
     std::span<const GroupDetail> details() const { return fields_.details; }
     bool anyHeat() const { return anyHeat_; }     ///< some blob bends light
     bool anyDetail() const { return anyDetail_; } ///< some blob has procedural detail
-    /// All that casts shadows, seen or not.
+    /// All shadow casters, visible or not.
     std::span<const MediumCaster> casters() const { return casters_; }
     const GatherCounts& counts() const { return counts_; }
     /// The blobs as a stream whose elements are the drawn ones; count 0 without any.

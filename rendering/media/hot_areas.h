@@ -1,5 +1,5 @@
 /// @file hot_areas.h
-/// Where in the picture hot gas may be: what heat shimmer has to look at.
+/// Areas of the picture that may show hot gas, for heat shimmer.
 #pragma once
 
 #include "rendering/frame/view_block.h"

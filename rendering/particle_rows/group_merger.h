@@ -15,16 +15,16 @@
 
 namespace fx::render {
 
-/// Owns the merged rows of one view; memory is kept from frame to frame, and nothing is done again while the
-/// snapshots hold the same. What was the newer of two snapshots serves as the older one of the next frame,
-/// where the same groups stand in the same places. Rows of pools are read where they lie, and what has its
-/// rows there has room for all that it may ever have, so that others stay in their places.
+/// Owns the merged rows of one view; memory is kept from frame to frame, and rows are merged again only when
+/// the snapshots change. The merged newer snapshot is reused as the older one of the next frame if the same
+/// groups have the same positions. Rows of pools are read in place. Groups with rows in pools get space for
+/// their full capacity, so that other groups keep their positions.
 ///
-/// Groups of techniques with a RowMerge are merged when no order of theirs is lost (they are sorted by
-/// distance, or add, or hide), when they have the same columns and constants, at
-/// most kMaxMergedRows rows each, and stand within kFarthestMerged of each other; where sprites stand by an
-/// axis, also the same rotation. A merged group is relative to where the first of its members stands, with
-/// the world's axes; a particle has the same row in both snapshots.
+/// Groups of techniques with a RowMerge are merged if their order does not matter (they are sorted by
+/// distance, additive or opaque), if they have equal columns and constants and at most kMaxMergedRows rows
+/// each, and if their positions are within kFarthestMerged of each other; sprites aligned to an axis also
+/// need equal rotations. The origin of a merged group is the position of its first member, its axes are the
+/// world's. A particle has the same row in both snapshots.
 class GroupMerger
 {
 public:
@@ -39,11 +39,11 @@ public:
     /// @param newerRows, olderRows  revisions of their groups; without parts: not known
     void build(const base::SnapshotPair& snapshots, const RevisionPair& of,
                const SnapshotRowRevisions& newerRows = {}, const SnapshotRowRevisions& olderRows = {});
-    /// What build() has merged; without groups when there was nothing to merge.
+    /// The merged groups of build(); may have no groups.
     base::SnapshotPair merged() const { return {&newer_, hasOlder_ ? &older_ : nullptr}; }
     RevisionPair revisions() const { return revisions_; } ///< of merged()
-    /// Revisions of the rows of merged(), one part a member. They follow from revisions of what was merged by
-    /// a hash of 64 bits.
+    /// Revisions of the rows of merged(), one part a member. They are 64-bit hashes of the revisions of the
+    /// merged rows.
     SnapshotRowRevisions newerRows() const { return {newerRevisions_, partsBegin_, {}}; }
     SnapshotRowRevisions olderRows() const { return {olderRevisions_, partsBegin_, {}}; }
     /// Which rows of a group of merged() came from which group.
@@ -58,7 +58,7 @@ private:
     struct Member
     {
         MergeSource newer;
-        MergeSource older;             ///< without rows: there is none, or strips
+        MergeSource older;             ///< without rows: no older group, or strips
         size_t newerIndex, olderIndex; ///< in their snapshots
         uint32_t firstRow;
         uint32_t rows;
@@ -108,7 +108,7 @@ private:
 
     std::span<const RowTechnique* const> techniques_;
     const base::SnapshotSchema* schema_;
-    RevisionPair built_; ///< what merged() was made of
+    RevisionPair built_; ///< inputs of merged()
     RevisionPair revisions_;
     std::pmr::vector<Member> members_;
     std::pmr::vector<Set> sets_;
@@ -117,7 +117,7 @@ private:
     std::pmr::vector<size_t> partsBegin_;                           ///< by group of newer_, and the end
     std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< of parts_
     std::pmr::vector<Layout> layout_, layoutBefore_; ///< of newer_ and olderRevisions_ now and until now
-    std::pmr::vector<base::Placement> anchors_, anchorsBefore_; ///< of first members, likewise
+    std::pmr::vector<base::Placement> anchors_, anchorsBefore_; ///< placements of first members
     MergedRows rows_;
     base::FrameSnapshot newer_, older_;
     bool hasOlder_ = false;

@@ -21,9 +21,10 @@ namespace fx::render {
 /// A group of a snapshot whose rows are to be merged, in a pool or not.
 struct MergeSource
 {
-    const base::SnapshotGroup* rows = nullptr;       ///< columns and constants; null: there is no group
-    const base::PooledRows* pool = nullptr;          ///< the rows are those of a pool, and
-    const base::GroupRoster::Entry* entry = nullptr; ///< this is the group; else both null
+    const base::SnapshotGroup* rows = nullptr; ///< columns and constants; null: no group
+    const base::PooledRows* pool = nullptr;    ///< the rows are those of a pool, and
+    /// The group is an entry of a pool; otherwise both are null.
+    const base::GroupRoster::Entry* entry = nullptr;
     uint32_t count = 0;
 
     /// Rows to be kept free for it: the same in all snapshots where the rows are in a pool.
@@ -31,7 +32,7 @@ struct MergeSource
     const base::Placement& placement() const { return entry ? entry->placement : rows->info().placement; }
 };
 
-/// Collects what is to be merged, then writes all of it.
+/// Collects the groups to merge, then writes their rows.
 class MergedRows
 {
 public:

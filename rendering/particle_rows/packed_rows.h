@@ -1,5 +1,5 @@
 /// @file packed_rows.h
-/// Rows of particles as they go over the bus: 24 bytes, and 4 more with a velocity, 4 with a frame, 8 with an
+/// Packed rows of particles for upload: 24 bytes, and 4 more with a velocity, 4 with a frame, 8 with an
 /// orientation. shaders/shared/particle_fetch.glsl reads them.
 ///
 /// Words of a row, each in a column of its own; numbers are those of ParticleBlock::newerAt:
@@ -43,7 +43,7 @@ enum : size_t
 };
 }
 
-/// Places of columns in words from where a group lies; -1: not there.
+/// Offsets of columns in words from the begin of a group; -1: absent.
 using RowPlaces = std::array<int32_t, 16>;
 
 /// Between two snapshots.
@@ -64,8 +64,8 @@ uint32_t packedRowBytes(const RowPlaces& places);
 /// @param out where the group lies
 void packRows(const base::SnapshotGroup& group, uint32_t first, uint32_t count, const RowPlaces& places,
               std::byte* out);
-/// Writes them as they are at a moment between two snapshots: as fetchParticle() finds them there. Those that
-/// are not born yet become empty.
+/// Writes the rows interpolated between two snapshots, equal to fetchParticle(). Rows of particles that are
+/// not born yet become empty.
 /// @param older the same group before
 void packRowsBetween(const base::SnapshotGroup& newer, const base::SnapshotGroup& older,
                      const RowMoment& moment, uint32_t first, uint32_t count, const RowPlaces& places,

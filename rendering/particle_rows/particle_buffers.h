@@ -1,19 +1,19 @@
 /// @file particle_buffers.h
-/// Rows of snapshots on the GPU: each snapshot is written once, column by column, into memory that stays
-/// mapped, and serves as the newer and then as the older of two.
+/// Rows of snapshots on the GPU. Each snapshot is written once, column by column, into persistently mapped
+/// memory, and is used first as the newer and then as the older of two.
 ///
-/// A place that is written again keeps the rows that lie there already, part by part: what stands still is
-/// written three times and then no more, whatever moves beside it. Groups with the same rows share them.
+/// A buffer that is reused keeps unchanged rows, part by part, so rows at rest are written only three times.
+/// Groups with the same rows share them.
 ///
-/// Groups that a frame does not draw are not written; should another frame draw them, they are then.
-/// Groups whose rows are in pools are written only where one of them is drawn by itself.
+/// Groups are written when a frame draws them first. Groups with rows in pools are written only if one of
+/// them is drawn separately.
 ///
-/// Rows of particles are packed, see packed_rows.h: 24 bytes, and 4 with a velocity; those of ribbons
-/// take 32. Three places take turns: the two that frames read, and the one being written.
+/// Rows of particles are packed, see packed_rows.h: 24 bytes, and 4 with a velocity; those of ribbons take
+/// 32. Three buffers are used in rotation: the two that frames read, and the one being written.
 ///
-/// A frame writes one snapshot at most. Where neither of its two is there, as when frames are fewer than
-/// snapshots, one state is written: that of the frame's moment, mixed of both. Only when a second frame shows
-/// the same two are both written, for those that may follow.
+/// A frame writes at most one snapshot. If neither of its two snapshots is present, as when the frame rate is
+/// below the snapshot rate, only the interpolated state of the frame is written. When a second frame shows
+/// the same two snapshots, both are written for further frames.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -36,7 +36,7 @@
 
 namespace fx::render {
 
-/// What tells whether rows are there already.
+/// Revisions by which present rows are recognized.
 struct UploadRevisions
 {
     RevisionPair snapshots; ///< equal ones share a place
@@ -50,7 +50,7 @@ public:
     ParticleBuffers(GlDevice& device, std::span<const RowTechnique* const> techniques,
                     std::pmr::memory_resource* memory);
 
-    /// Writes what is not yet there and fills in the batches' buffers, textures and meshes.
+    /// Writes missing rows and fills in the batches' buffers, textures and meshes.
     /// @return OutOfMemory, GlFailed, TooLarge (a group is larger than the context's storage buffers)
     base::Status prepare(const base::SnapshotPair& snapshots, const UploadRevisions& revisions,
                          ParticleFrame& frame, const base::AssetTable* assets);
@@ -60,12 +60,12 @@ public:
     void idle();
     /// To be called when all draws of the frame have been issued.
     void fence();
-    /// What has to be computed before the frame's batches are drawn.
+    /// Rows to compute on the GPU before the frame's batches are drawn.
     std::span<const GpuRowsJob> jobs() const { return jobs_; }
     /// True once the context has refused to compute particles.
     bool refusesGpu() const { return refusesGpu_; }
     void warmUp(const base::GpuParticleProgram& emitter);
-    /// The last frame has failed: what it was to compute is not there.
+    /// Invalidates the rows that the last frame, which failed, should have computed.
     void forgetComputed();
 
     uint64_t uploadedBytes() const { return uploadedBytes_; } ///< [byte] of the last prepare()
@@ -80,39 +80,40 @@ private:
     struct GroupPlace
     {
         uint64_t offset = 0, bytes = 0;
-        RowPlaces columns{}; ///< in words from the offset; -1: not there
+        RowPlaces columns{}; ///< in words from the offset; -1: absent
         // Only of rows that are computed: those members are about the buffer `computed`.
-        uint64_t wordsOffset = 0, wordsBytes = 0; ///< of what they are computed from
+        uint64_t wordsOffset = 0, wordsBytes = 0; ///< range of the input data
         bool isComputed = false;
-        bool isThere = false;              ///< or will be, when the jobs of this frame have run
-        bool isPacked = false;             ///< as packed_rows.h says
-        bool isWritten = false;            ///< what the CPU has of it; a group that is not drawn is not
+        bool isThere = false;  ///< or will be, when the jobs of this frame have run
+        bool isPacked = false; ///< in the layout of packed_rows.h
+        /// Rows of the CPU are written; false for groups that are not drawn.
+        bool isWritten = false;
         bool isShared = false;             ///< it is the place of a group before it
-        size_t rowsBegin = 0, rowsEnd = 0; ///< of Place::rows: what is there
+        size_t rowsBegin = 0, rowsEnd = 0; ///< valid range of Place::rows
     };
     struct Place
     {
         GlMappedBuffer buffer;
         GlBuffer computed;     ///< rows that the GPU writes
-        uint64_t revision = 0; ///< of what is there; 0: nothing
+        uint64_t revision = 0; ///< revision of the content; 0: none
         uint64_t usedFrame = 0;
-        bool hasPools = false; ///< groups of pools are there, too
+        bool hasPools = false; ///< includes groups of pools
         std::pmr::vector<GroupPlace> groups;
         std::pmr::vector<RowRevision> rows;        ///< of all groups
-        std::pmr::vector<GroupPlace> groupsBefore; ///< what lay there until now
+        std::pmr::vector<GroupPlace> groupsBefore; ///< previous content
         std::pmr::vector<RowRevision> rowsBefore;
 
         explicit Place(std::pmr::memory_resource* memory)
             : groups(memory), rows(memory), groupsBefore(memory), rowsBefore(memory)
         {}
     };
-    /// What groups need of the two buffers of a place.
+    /// Sizes of groups in the two buffers of a place.
     struct Sizes
     {
         uint64_t mapped = 0, computed = 0; ///< [byte]
     };
 
-    /// What is written into a place.
+    /// Input of a write.
     struct Source
     {
         const base::FrameSnapshot* snapshot;
@@ -120,7 +121,7 @@ private:
         SnapshotRowRevisions rows;
         bool withPools; ///< also groups whose rows are in pools
         bool isOlder;   ///< of the two of the frame
-        // Only of what is mixed:
+        // Only for interpolated rows:
         const base::FrameSnapshot* older = nullptr;
         SnapshotRowRevisions olderRows = {};
         RowMoment moment = {};
@@ -138,13 +139,13 @@ private:
     Sizes layOut(const Source& source, std::pmr::vector<GroupPlace>& out) const;
     void layOutRows(const base::SnapshotGroup& group, const RowTechnique& technique, GroupPlace& out) const;
     base::Status ensureComputed(GlBuffer& buffer, uint64_t bytes);
-    /// The rows of a batch; those that are not there become a job.
+    /// Rows of a batch; missing ones of the GPU become a job.
     base::Status takeRows(Place& place, const base::SnapshotGroup& group, size_t index, uint32_t batch,
                           bool isNewer, BufferPart& outPart);
     void write(const Source& source, Place& place);
-    /// @param before what lay there until now, in the same columns; null: something else
+    /// @param before previous content with the same columns; null: other content
     void writeRows(const Source& source, size_t group, const GroupPlace* before, Place& place);
-    /// @param stands they are the same in the snapshot before
+    /// @param stands the rows are equal in the previous snapshot
     void writePart(const Source& source, size_t group, const RowRevision& part, bool stands, Place& place);
     base::Status writeOrders(ParticleFrame& frame);
     base::Status findAssets(ParticleFrame& frame, const base::AssetTable* assets);
@@ -163,7 +164,7 @@ private:
     GpuStates states_;
     std::pmr::vector<GpuRowsJob> jobs_;
     std::pmr::vector<uint8_t> wanted_; ///< by group of the snapshot that is written now: it is drawn
-    std::pmr::vector<size_t> older_;   ///< by group of the newer snapshot; only of what is mixed
+    std::pmr::vector<size_t> older_;   ///< by group of the newer snapshot; only for interpolated rows
     RevisionPair mixed_;               ///< snapshots of which the last frame was mixed
     bool refusesGpu_ = false;
     uint64_t frame_ = 0;

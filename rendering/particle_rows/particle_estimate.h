@@ -9,10 +9,10 @@
 
 namespace fx::render {
 
-/// Fragments of all rows if they were drawn at each of kLayerDivisors, none counted for more than the window.
-/// Only every 61st row is looked at; what the window cuts or opaque surfaces hide is not taken off.
+/// Estimated fragments of all rows for each of kLayerDivisors, each row limited to the size of the window.
+/// Extrapolated from every 61st row; clipping and occlusion are ignored.
 /// @param group   of the technique's kind
-/// @param place   where it stands relative to the eye
+/// @param place placement relative to the eye
 /// @param width, height of the picture [pixel]
 FragmentCounts estimateRows(const base::SnapshotGroup& group, const RowTechnique& technique,
                             const base::Placement& place, const CameraGeometry& camera, int width,

@@ -21,10 +21,10 @@
 
 namespace fx::render {
 
-/// How what is uploaded tells which rows are drawn; the shaders know the numbers.
+/// Form in which the drawn rows are listed; values are those of the shaders.
 enum class OrderForm : uint8_t
 {
-    All,            ///< nothing is: all rows, as they are
+    All,            ///< no list: all rows, in their order
     Rows,           ///< a word each
     FactorsBeside,  ///< a row and its factors, two words
     RowFactorsOnly, ///< no rows, but the factors of each
@@ -37,27 +37,27 @@ struct ParticleGroup
     const base::SnapshotGroup* newer;
     const base::SnapshotGroup* older;  ///< null: none, or of a strip
     size_t newerIndex, olderIndex;     ///< in their snapshots
-    std::span<const uint32_t> order;   ///< rows as they are drawn; empty: all as they are
+    std::span<const uint32_t> order;   ///< rows in order of drawing; empty: all, in their order
     std::span<const uint32_t> factors; ///< by row, see simplifyRows(); empty: nothing is thinned out
     uint32_t texture, motion, mesh;    ///< ids in the asset table
     int columns, rows;                 ///< frames of the texture
     OrderForm orderForm = OrderForm::All;
 };
 
-/// What a frame's particles are made from.
+/// Inputs of the particles of a frame.
 struct ParticleFrameInputs
 {
     const base::SnapshotPair* snapshots;
     const FrameRequest* request;
     const ViewSettings* settings;
     const CameraGeometry* camera;
-    std::span<const uint8_t> left = {};  ///< by group of the newer snapshot: 1 where it is left out
+    std::span<const uint8_t> left = {};  ///< by group of the newer snapshot: 1 if it is omitted
     LevelOfDetail* lod = nullptr;        ///< begun for this frame; null: everything is drawn
     const GroupMerger* merger = nullptr; ///< that made the snapshots; null: they are the scene's
     std::span<const RowTechnique* const> techniques = {};
 };
 
-/// What is drawn; of computed groups their capacity.
+/// Numbers of drawn elements; for groups on the GPU their capacity.
 struct DrawnCounts
 {
     uint64_t sprites = 0;
@@ -74,7 +74,7 @@ public:
 
     void build(const ParticleFrameInputs& in);
 
-    /// Leaves out what is to be computed on the GPU.
+    /// Removes the groups that are computed on the GPU.
     void dropComputed();
 
     std::span<const ParticleGroup> groups() const { return groups_; }
@@ -86,7 +86,7 @@ public:
     const DrawnCounts& drawn() const { return drawn_; }
     uint64_t orderedRows() const { return orderedRows_; } ///< in orders
     uint64_t thinnedRows() const { return thinnedRows_; } ///< left to others by the level of detail
-    /// Estimated, of what does not hide.
+    /// Estimated fragments of transparent rows.
     const FragmentCounts& fragments() const { return fragments_; }
 
 private:

@@ -1,6 +1,5 @@
 /// @file pool_scatter.h
-/// Gives the rows of pools to merged groups, in one pass over each pool: no group of a pool is gathered by
-/// itself.
+/// Copies the rows of pools to merged groups in one pass over each pool, without gathering single groups.
 ///
 /// Threads: one thread at a time. Frames that are no larger than one before allocate nothing.
 #pragma once
@@ -29,9 +28,8 @@ public:
         targets_[first_[entry.pool] + entry.member] = {&entry, group, firstRow, rows};
         isSentTo_[group] = 1;
     }
-    /// Writes all columns of rows that show something, orientations turned and all else as it is; where no
-    /// row was sent there are zeros.
-    /// @param groups each with count() rows; those to which nothing was sent are left alone
+    /// Writes all columns of non-empty rows, with rotated orientations; rows without a source are zero.
+    /// @param groups each with count() rows; groups without a source do not change
     void run(const base::FrameSnapshot& snapshot, std::span<base::SnapshotGroup* const> groups);
     /// Of the rows of an entry whose pool has velocities.
     const base::RowExtent& extentOf(const base::GroupRoster::Entry& entry) const
@@ -62,10 +60,10 @@ private:
 
     std::pmr::vector<size_t> first_;            ///< by pool: of its members in targets_
     std::pmr::vector<Target> targets_;          ///< by member, pool after pool
-    std::pmr::vector<base::RowExtent> extents_; ///< likewise; empty where no rows have velocities
+    std::pmr::vector<base::RowExtent> extents_; ///< extents of rows; empty without velocities
     std::pmr::vector<Move> moves_;              ///< of one pool, group after group
     std::pmr::vector<uint32_t> begin_;          ///< by group: in moves_
-    std::pmr::vector<uint32_t> ends_;           ///< by group: of what is in moves_
+    std::pmr::vector<uint32_t> ends_;           ///< by group: end of its range in moves_
     std::pmr::vector<uint8_t> isSentTo_;        ///< by group: 1 where something was sent
 };
 

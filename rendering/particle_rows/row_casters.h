@@ -1,5 +1,5 @@
 /// @file row_casters.h
-/// Rows of particles and ribbons as balls of medium that take light from what lies behind them.
+/// Converts rows of particles and ribbons to balls of medium that cast shadows.
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
@@ -21,13 +21,13 @@ struct RowCasterInputs
     std::span<const RowTechnique* const> techniques;
     double interpolation;               ///< [0, 1] between the older and the newer snapshot
     glm::dvec3 eye;                     ///< [m] world
-    std::span<const uint8_t> left = {}; ///< by group of the newer snapshot: 1 where it is left out
+    std::span<const uint8_t> left = {}; ///< by group of the newer snapshot: 1 if it is omitted
 };
 
-/// Appends the balls of all groups, seen or not. Rows of a group with more than kMaxGroupCasters come in
-/// stretches of as many rows; the first of a stretch that casts a shadow stands for all of it: it has their
-/// cross section, and as many times its own volume. Where there are many groups, each has less.
-/// Rows that the GPU computes cast no shadow.
+/// Appends the balls of all groups, visible or not. A group with more than kMaxGroupCasters rows is divided
+/// into runs of equal length; the first caster of a run represents all of them, with their total cross
+/// section and a volume increased in proportion. With many groups, each gets fewer casters. Rows that the GPU
+/// computes cast no shadow.
 void gatherRowCasters(const RowCasterInputs& in, std::pmr::vector<MediumCaster>& ioCasters);
 
 constexpr uint32_t kMaxGroupCasters = 256;
@@ -42,7 +42,7 @@ void widenCasters(std::span<MediumCaster> ioCasters, std::span<const MediumCaste
 /// kernel-optical-depth there.  @param radius [m]
 float crossSectionOfDepth(float depth, float radius);
 
-/// [1] optical depth of what covers with `opacity` [0, 1]; solid things have that of kMaxOpacity.
+/// [1] optical depth of a surface of `opacity` [0, 1], limited to that of kMaxOpacity.
 float depthOfOpacity(float opacity);
 constexpr float kMaxOpacity = 0.999f;
 

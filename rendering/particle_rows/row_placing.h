@@ -12,7 +12,7 @@
 
 namespace fx::render {
 
-/// The rows of one group, which may stay where they are. What is behind them is read, up to kRowsBehind.
+/// The rows of one group, which may be transformed in place. Up to kRowsBehind rows after the end are read.
 struct PlacedRows
 {
     const float* from[3]; ///< columns of a vector

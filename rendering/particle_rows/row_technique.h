@@ -1,6 +1,6 @@
 /// @file row_technique.h
-/// How groups of one kind of snapshot data become rows of particles: what differs between sprites, ribbons
-/// and particles that the GPU computes.
+/// Conversion of groups of one kind of snapshot data to rows of particles, for sprites, ribbons and particles
+/// on the GPU.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -22,21 +22,21 @@ struct RowCard
 /// Some rows as one ball of medium, in the group's axes.
 struct RowBall
 {
-    uint32_t row = 0;          ///< that stands for all
+    uint32_t row = 0;          ///< that represents all
     glm::vec3 center{0.0f};    ///< [m] of that row
     float radius = 0.0f;       ///< [m] of that row
     float ownSection = 0.0f;   ///< [m2] extinction cross section of that row; 0: none takes light
     float crossSection = 0.0f; ///< [m2] of all
 };
 
-/// How rows of several groups come into one group, which has an origin and axes of its own.
+/// Columns that are transformed when rows of several groups are merged into one group.
 struct RowMerge
 {
     static constexpr size_t kNone = ~size_t(0);
 
     size_t radius;              ///< column [m], 0 in rows that are not used
     size_t velocity = kNone;    ///< first of three columns, which turn with the group
-    size_t orientation = kNone; ///< first of four columns, likewise
+    size_t orientation = kNone; ///< first of four columns of the orientation
     size_t strip = kNone;       ///< column of strip numbers, which are made different between groups
     base::ColumnSet copied;     ///< columns that are the same in any space, strip numbers among them
 };
@@ -44,9 +44,9 @@ struct RowMerge
 struct RowTechnique
 {
     const base::KindDesc* kind;
-    bool isStrip;    ///< rows are points, and what is drawn lies between two; they are not matched with older
-                     ///< ones
-    bool isComputed; ///< the GPU writes the rows; the group holds what it computes them from
+    /// Rows are points of strips, drawn as pieces between two points; not matched with older rows.
+    bool isStrip;
+    bool isComputed;                           ///< the GPU computes the rows from the data of the group
     std::span<const base::ColumnDesc> columns; ///< of the rows
     base::ColumnSet drawnColumns;              ///< those that drawing reads
 
@@ -58,10 +58,10 @@ struct RowTechnique
     base::Bounds (*bounds)(const base::SnapshotGroup& group); ///< of rows whose writer has given none
     /// Places are the first three columns. Null: groups of the kind are not merged.
     const RowMerge* merge = nullptr;
-    /// `count` of the instances, from number `first`, as what casts their shadow. Null: they cast none.
+    /// A ball that casts the shadow of `count` instances from `first` on. Null: no shadow.
     RowBall (*ball)(const base::SnapshotGroup& group, uint32_t first, uint32_t count) = nullptr;
 
-    /// What is drawn of a group: rows, or what lies between them.
+    /// Number of drawn elements of a group: rows, or pieces between them.
     uint32_t instances(const base::SnapshotGroup& group) const { return rows(group) - (isStrip ? 1u : 0u); }
 };
 

@@ -17,19 +17,20 @@ struct BlobInstance
     glm::vec4 scatter; ///< rgb albedo; w mean cosine of the phase function
     glm::vec4 layer;   ///< x layer * 2 + share of fire
     glm::vec4 emission; ///< rgb emitted light, exposed; w power of temperature by which it follows the detail
-    glm::vec4 lit; ///< xyz [m] where the ball is lit, relative to the eye; w noise periods across the radius,
-                   ///< or -1 minus those of a ball in a picture, which is lit in its center alone
+    /// Xyz [m] where the ball is lit, relative to the eye; w noise periods across the radius, or -1 minus
+    /// those of a ball in an impostor, which is lit at its center only.
+    glm::vec4 lit;
 };
 static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
 
-/// What a ball carries for the detail of its field.
+/// Noise coordinates of a ball, for the detail of its field.
 struct BlobMaterial
 {
     glm::vec4 carried[2]; ///< xyz [cell] coordinates of both generations
 };
 static_assert(sizeof(BlobMaterial) == 32);
 
-/// Balls of one instance that stand together in a list.
+/// Consecutive balls of one instance in a list.
 struct BlobEffect
 {
     uint32_t begin, end; ///< in the list

@@ -1,5 +1,5 @@
 /// @file blob_light_pass.h
-/// The pass that finds what light each blob scatters that changes little within it.
+/// The pass that computes scattered light of blobs that varies little within a blob.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -26,7 +26,7 @@ public:
         ResourceId blobs;
         ResourceId blobLights;
         LightBindings lights;
-        const ViewBlock* view; ///< of what the blobs are drawn for
+        const ViewBlock* view; ///< view of the picture
         uint32_t count;
     };
     struct Outputs

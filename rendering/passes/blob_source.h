@@ -12,8 +12,8 @@ const ProgramDesc& mediaProgram(BillboardForm form, bool detail, bool layers, bo
 constexpr size_t kMediaPrograms = 3 * 2 * 2 * 2;
 const ProgramDesc& mediaProgramAt(size_t index);
 
-/// Draws BlobInstances of a buffer, sorted by falling distance. Formula: kernel-optical-depth, or the form
-/// that is asked for.
+/// Draws BlobInstances of a buffer, sorted by decreasing distance. Formula: kernel-optical-depth, or that of
+/// the chosen billboard form.
 class BlobSource final : public MediaSource
 {
 public:
@@ -21,9 +21,8 @@ public:
     void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const override;
     const BallList* balls() const override { return &list; }
 
-    ResourceId blobs; ///< buffer of BlobInstance
-    ResourceId
-        blobLights; ///< buffer of what BlobLightPass writes for each; invalid without planes for the sky
+    ResourceId blobs;      ///< buffer of BlobInstance
+    ResourceId blobLights; ///< buffer written by BlobLightPass; invalid without planes for the sky
     BillboardForm form = BillboardForm::Kernel;
     bool detail = false; ///< some have procedural detail, and it is drawn
     BallList list;       ///< the same blobs, for compositions that sum them up

@@ -16,13 +16,12 @@ inline constexpr ProgramDesc kDazzleBudgetProgram{"dazzle budget", nullptr, null
 inline constexpr ProgramDesc kDazzleDealProgram{"dazzle deal", nullptr, nullptr,
                                                 "dazzle/dazzle_deal.comp.glsl", nullptr};
 
-/// What a view remembers of the dazzle from frame to frame; std430 layout of the history buffer. All zero is
-/// a view that has seen nothing yet.
+/// Glare adaptation of a view; std430 layout of the history buffer. All zero before the first frame.
 struct DazzleHistory
 {
     double
         adapted[3]; ///< [1] mean overflow per pixel that glare is made from, units of white; red, green, blue
-    double frameMean[3]; ///< [1] the same of the last frame alone
+    double frameMean[3]; ///< [1] that of the last frame, without adaptation
     uint32_t valid;      ///< 1 after the first frame
     uint32_t replaced;   ///< channel values of the last frame that were not finite, negative or too large
 };
@@ -44,9 +43,9 @@ inline constexpr float kDazzleLargest = 0x1p30f;
 /// dt that is zero, negative or NaN keeps everything; tau 0 keeps nothing.
 double dazzleKeep(double deltaTime, double timeConstant);
 
-/// Whether the settings make sense: white in [1e-6, 1e9], times not negative, and a sensor law that never
-/// gives less glare for more light (formula sensor-law, condition 2).
-/// @return InvalidArgument naming the value and what is allowed
+/// Checks the settings: white in [1e-6, 1e9], times not negative, and a sensor law that never gives less
+/// glare for more light (formula sensor-law, condition 2).
+/// @return InvalidArgument naming the value and its range
 base::Status checkSensorLaw(const DazzleSettings& settings);
 
 /// Glare of a sensor whose pixels saturate: light above `white` is taken from its pixels and given to all

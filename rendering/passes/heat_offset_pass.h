@@ -12,12 +12,12 @@ inline constexpr ProgramDesc kHeatOffsetProgram{"heat offset", "shimmer/heat_shi
 /// [s] after which the eddies of hot gas repeat.
 inline constexpr double kHeatPeriod = 8.0;
 
-/// Position of `time` [s] in the period, [0, 1): equal at t and t + kHeatPeriod for every t that doubles can
-/// tell apart. A time that is not finite gives 0.
+/// Position of `time` [s] in the period, [0, 1): equal at t and t + kHeatPeriod for every t. A time that is
+/// not finite gives 0.
 float heatPhase(double time);
 
-/// Where hot gas bends light: blobs with heat draw by how many pixels they displace what lies far behind
-/// them. Formulas: heat-stream, heat-refraction, kernel-optical-depth for the share that is visible.
+/// Refraction by hot gas: blobs with heat draw the displacement in pixels of a distant background. Formulas:
+/// heat-stream, heat-refraction, kernel-optical-depth for the share that is visible.
 ///
 /// reads   blobs     buffer of BlobInstance
 ///         distance  [m] along the ray to opaque geometry

@@ -22,7 +22,7 @@ struct HotArea
 };
 static_assert(sizeof(HotArea) == 16);
 
-/// Displaces the composed picture, media included, by what HeatOffsetPass has found.
+/// Displaces the composed picture, including media, by the result of HeatOffsetPass.
 ///
 /// reads   distance  [m] along the ray to opaque geometry
 ///         heat      of HeatOffsetPass

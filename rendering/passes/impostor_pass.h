@@ -24,10 +24,10 @@ struct ImpostorTaking
     glm::vec3 center; ///< [m] relative to the eye
     float extent;     ///< [m] half the side of the square
     glm::vec3 right, up, forward;
-    uint32_t tile; ///< where it is kept
+    uint32_t tile; ///< tile in the texture of impostors
 };
 
-/// One effect as it is drawn; layout of shaders/blobs/impostor.vert.glsl.
+/// One drawn impostor; layout of shaders/blobs/impostor.vert.glsl.
 struct ImpostorInstance
 {
     glm::vec4 center;     ///< xyz [m] relative to the eye; w half the side of the square [m]
@@ -53,8 +53,8 @@ glm::vec3 placeInTaking(const ImpostorTaking& taking, uint32_t slot, const Camer
 
 /// Copies the pictures that were just taken to the tiles where they are kept.
 ///
-/// reads   taken     RGBA32F premultiplied radiance, kTakingColumns^2 pictures
-/// writes  atlas     RGBA16F, only the tiles of `takings`
+/// reads   taken     RGBA32F premultiplied radiance, kTakingColumns^2 pictures writes  atlas     RGBA16F,
+/// only the tiles of `takings`
 class ImpostorKeepPass
 {
 public:

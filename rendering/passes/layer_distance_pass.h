@@ -18,14 +18,13 @@ inline constexpr float kFlatBlock = 0.02f;
 inline constexpr float kOtherSurface = 0.05f;
 
 /// Reduces the scene's distance to the texels of layers that are smaller than the picture; each covers a
-/// block of divisor x divisor pixels. Read once a frame and shared by all that is drawn into the layers.
+/// block of divisor x divisor pixels. Executed once a frame for all draws into the layers.
 ///
-/// reads   distance  R32F [m] along each pixel's ray, +inf for nothing, of the picture's size
-/// writes  far       R32F [m] largest distance of the block; the middle where the block is flat
-///         near      R32F [m] smallest distance of the block; 0 where one surface is enough, so that nothing
-///                   need be drawn there. Invalid without depth.
-/// Both ends of a block's range are kept: media before a thin pillar and behind it are both drawn. A flat
-/// block beside another surface has that surface's distance as its other end. Keeps no state.
+/// reads   distance  R32F [m] along each pixel's ray, +inf for nothing, of the picture's size writes  far
+/// R32F [m] largest distance of the block; the middle where the block is flat near R32F [m] smallest distance
+/// of the block; 0 where one surface suffices, and nothing is drawn. Invalid without depth. Both ends of a
+/// block's range are kept: media before a thin pillar and behind it are both drawn. A flat block beside
+/// another surface has that surface's distance as its other end. Keeps no state.
 class LayerDistancePass
 {
 public:

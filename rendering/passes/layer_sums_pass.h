@@ -1,5 +1,5 @@
 /// @file layer_sums_pass.h
-/// What is done with the layer targets of the media pass once they are drawn.
+/// Passes that process the layer targets of the media pass.
 #pragma once
 
 #include "rendering/passes/media_pass.h"
@@ -11,12 +11,11 @@ inline constexpr ProgramDesc kLayerOverProgram{"layer over", "shared/fullscreen.
 inline constexpr ProgramDesc kLayerResolveProgram{"layer resolve", "shared/fullscreen.vert.glsl",
                                                   "frame/layer_sums.frag.glsl", nullptr, "FX_OVER=0"};
 
-/// Puts layer targets over others of the same size, as if both had been drawn into the same: media that were
-/// drawn small and enlarged, over solid particles that were drawn at full size.
+/// Composites layer targets over others of the same size, as if both had been drawn into the same targets:
+/// upsampled media over solid particles at full size.
 ///
-/// reads   over   the six layer targets of the media pass
-/// writes  under  the same six, blended in place
-/// Keeps no state.
+/// reads   over   the six layer targets of the media pass writes  under  the same six, blended in place Keeps
+/// no state.
 class LayerOverPass
 {
 public:
@@ -28,8 +27,8 @@ public:
 /// Gives every layer its own share of opacity, adds the layers up, and turns the depth moment into a
 /// distance.
 ///
-/// reads   the media pass's layer targets but the optical depth
-/// writes  fire, smoke, dust, media  RGBA32F exposed radiance reaching the eye, premultiplied
+/// reads   the media pass's layer targets but the optical depth writes  fire, smoke, dust, media  RGBA32F
+/// exposed radiance reaching the eye, premultiplied
 ///         depth                     R32F [m] mean distance weighted by seen opacity, +inf where there are no
 ///         media
 /// The layers' colors and alphas sum to those of media exactly as floats are added. Keeps no state.

@@ -9,14 +9,14 @@
 
 namespace fx::render {
 
-/// Draws what does not hide: media, sprites, ribbons, whatever sources have, in the order of `batches`, so
-/// that layers and techniques are composed by depth.
+/// Draws media, transparent sprites and ribbons in the order of `batches`, so that layers and techniques are
+/// composed by depth.
 ///
-/// reads   what the sources read
+/// reads the buffers of the sources
 ///         distance  [m] along the ray to opaque geometry
 /// writes  media     RGBA32F exposed radiance, premultiplied "over"; or, with layers, the same light in six
 ///         targets
-/// Adds nothing when there is no run. Keeps no state.
+/// Adds nothing without batches. Keeps no state.
 class MediaPass
 {
 public:
@@ -46,7 +46,7 @@ public:
         ResourceId media;                            ///< invalid with layers, or when nothing is drawn
         std::array<ResourceId, LayerTargets> layers; ///< invalid without layers
     };
-    /// @param under what is drawn over; invalid members: nothing
+    /// @param under the targets to draw over; invalid members: none
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in, const Outputs& under);
 };
 

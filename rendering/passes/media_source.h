@@ -1,5 +1,5 @@
 /// @file media_source.h
-/// What the passes of solid things and of media draw, without knowing what it is.
+/// Interface of drawable data for the passes of opaque particles and of media.
 #pragma once
 
 #include "rendering/frame/view_block.h"
@@ -14,10 +14,10 @@ namespace fx::render {
 class MediaSource;
 struct BlobInstance;
 
-/// Some of what a source has, drawn in one go.
+/// Elements of a source that are drawn by one call.
 struct DrawBatch
 {
-    uint32_t batch = 0; ///< the source says what it numbers
+    uint32_t batch = 0; ///< number of the source's batch
     uint32_t first = 0;
     uint32_t count = 0;
     const MediaSource* source = nullptr;
@@ -39,7 +39,7 @@ constexpr uint32_t kCardNodeBinding = 5;
 struct BallList
 {
     ResourceId balls = {};                     ///< buffer of BlobInstance
-    ResourceId lights = {};                    ///< buffer of what BlobLightPass writes for each
+    ResourceId lights = {};                    ///< buffer written by BlobLightPass, one entry for each
     std::span<const BlobInstance> instances{}; ///< the same balls; stay until the graph has executed
     bool detail = false;                       ///< some have procedural detail, and it is drawn
 };
@@ -53,33 +53,33 @@ struct MediaTarget
     bool layers;                         ///< as in MediaPass
     bool isSmall;                        ///< texels are larger than pixels
     LightBindings lights{};              ///< of the view
-    CardLists cards{};                   ///< where cards are gathered, instead of `targets`
+    CardLists cards{};                   ///< lists in which cards are gathered, instead of `targets`
 };
 
-/// Draws batches of its own things. It stays as it is from when its pass is added until the graph has
+/// Draws batches of its elements. It must not change from the addition of its pass until the graph has
 /// executed.
 class MediaSource
 {
 public:
     /// Declares everything that the draws read.
     virtual void read(FrameGraph::Builder& builder) const = 0;
-    /// Draws premultiplied "over" what is there; or, with target.cards, gathers fragments. Balls are drawn
-    /// only.
+    /// Blends premultiplied "over" the target; or, with target.cards, gathers fragments. Balls are never
+    /// gathered.
     virtual void draw(Backend& backend, const DrawBatch& batch, const MediaTarget& target) const = 0;
 
-    /// All that it draws, where that is balls of medium; null: it draws cards.
+    /// The balls of medium that it draws; null: it draws cards.
     virtual const BallList* balls() const { return nullptr; }
 
-    /// Whether something of it hides what is behind it; that is not part of batches.
+    /// Whether it has opaque elements, which are not part of batches.
     virtual bool hasSolids() const { return false; }
-    /// Draws what hides into the targets of SolidPass, the nearest wins.
+    /// Draws the opaque elements into the targets of SolidPass, with depth test.
     virtual void drawSolids(Backend&, const MediaTarget&, ResourceId /*depth*/) const {}
 
 protected:
     ~MediaSource() = default;
 };
 
-/// What quads read besides the ViewBlock and the target's distance.
+/// Inputs of quads besides the ViewBlock and the target's distance.
 struct QuadInputs
 {
     ResourceId instances;     ///< buffer at binding 0
@@ -90,8 +90,8 @@ struct QuadInputs
 
 constexpr uint32_t kBlobLightBinding = 6;
 
-/// Draws the instances of a batch as quads of 6 vertices, premultiplied "over" what is there. The program has
-/// the ViewBlock, with batch.first in pass.y, and the target's distance at texture unit 0.
+/// Draws the instances of a batch as quads of 6 vertices, blended premultiplied "over" the target. The
+/// program has the ViewBlock, with batch.first in pass.y, and the target's distance at texture unit 0.
 void drawQuads(Backend& backend, const ProgramDesc& program, const QuadInputs& inputs, const DrawBatch& batch,
                const MediaTarget& target);
 

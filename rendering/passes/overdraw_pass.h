@@ -15,8 +15,8 @@ inline constexpr ProgramDesc kOverdrawSmallProgram{
 ///
 /// reads   blobs     buffer of BlobInstance
 ///         distance  [m] along the ray to opaque geometry
-/// writes  count     R32F [1] contributing fragments a pixel
-/// Present only when statistics ask for it. Keeps no state.
+/// writes count R32F [1] contributing fragments a pixel Present only when statistics require it. Keeps no
+/// state.
 class OverdrawPass
 {
 public:

@@ -13,9 +13,8 @@ inline constexpr ProgramDesc kOverlayProgram{"activation overlay", "frame/overla
 
 /// Debug lines over the picture: the edges of bounding boxes, each in its color.
 ///
-/// reads   boxes    relative to the camera's origin
-/// writes  picture  the finished picture, by blending; nothing hides the lines
-/// Present only when there are boxes, which is when the view was asked for them. Keeps no state.
+/// reads boxes relative to the camera's origin writes picture the finished picture, by blending; nothing
+/// hides the lines Present only when the view's overlay is enabled and has boxes. Keeps no state.
 class OverlayPass
 {
 public:

@@ -33,7 +33,7 @@ struct ParticleBlock
 };
 static_assert(sizeof(ParticleBlock) == sizeof(ViewBlock) + 8 * 16 + 9 * 16);
 
-/// What is drawn for each row.
+/// Geometry drawn for each row.
 enum class BatchShape : uint8_t
 {
     Sprite,
@@ -48,7 +48,7 @@ struct BufferPart
     uint32_t name = 0; ///< GL buffer
     ResourceId id;     ///< the same in this frame's graph
     uint64_t offset = 0;
-    uint64_t bytes = 0; ///< 0: the part is not there
+    uint64_t bytes = 0; ///< 0: absent
 };
 
 struct ParticleBatch

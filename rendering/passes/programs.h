@@ -1,6 +1,6 @@
 /// @file programs.h
-/// The programs of passes that belong to no technique. With those that techniques list they are all that a
-/// view can need, known beforehand and compiled by the warm-up.
+/// The programs of passes that belong to no technique. These and the programs of techniques are all programs
+/// of a view. They are compiled by the warm-up.
 #pragma once
 
 #include "rendering/frame_graph/backend.h"

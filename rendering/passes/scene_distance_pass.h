@@ -9,12 +9,12 @@ namespace fx::render {
 inline constexpr ProgramDesc kSceneDistanceProgram{"scene distance", "shared/fullscreen.vert.glsl",
                                                    "frame/scene_distance.frag.glsl", nullptr, nullptr};
 
-/// Reads the host's depth once a frame and gives every later pass the same answer to "where does this ray
-/// end".
+/// Converts the host's depth once a frame to the distance at which the ray of each pixel ends, for all later
+/// passes.
 ///
-/// reads   depth     the host's depth buffer, in its own convention
-/// writes  distance  R32F [m] along each pixel's ray to the opaque surface, +inf where there is none
-/// Without a depth buffer the distance is +inf everywhere. Keeps no state.
+/// reads depth the host's depth buffer, in its own convention writes distance R32F [m] along each pixel's ray
+/// to the opaque surface, +inf without a surface Without a depth buffer the distance is +inf everywhere.
+/// Keeps no state.
 class SceneDistancePass
 {
 public:

@@ -5,11 +5,11 @@
 
 namespace fx::render {
 
-/// Draws what hides what is behind it, nearest wins, before any media: what the media pass then
-/// blends over, and where its rays end. The host's depth is read, not written.
+/// Draws opaque particles with depth test before any media. The media pass blends over them and ends its rays
+/// at them. The host's depth is read, not written.
 ///
-/// reads   distance  [m] along the ray to the host's opaque geometry
-/// writes  media, or the layer targets, as the media pass does: exposed radiance, opacity 1 or nothing
+/// reads   distance  [m] along the ray to the host's opaque geometry writes  media, or the layer targets, as
+/// the media pass does: exposed radiance, opacity 1 or nothing
 ///         distance  [m] a new texture, to the nearest of host and particles
 /// Adds nothing without sources. Keeps no state.
 class SolidPass

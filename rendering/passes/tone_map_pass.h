@@ -10,12 +10,11 @@ inline constexpr ProgramDesc kToneMapProgram{"tone map", "shared/fullscreen.vert
 inline constexpr ProgramDesc kToneMapDitherProgram{"tone map (8 bit)", "shared/fullscreen.vert.glsl",
                                                    "frame/tone_map.frag.glsl", nullptr, "FX_DITHER=1"};
 
-/// Exposed radiance to what a display is given. Formulas: film-crosstalk, then tone-curve and srgb-encoding,
-/// each channel for itself.
+/// Converts exposed radiance to display values. Formulas: film-crosstalk, then tone-curve and srgb-encoding,
+/// each channel separately.
 ///
-/// reads   color  RGBA32F exposed radiance
-/// writes  color  sRGB code values in [0, 1]: RGBA32F as they are, or RGBA8 dithered by a fixed pattern that
-/// leaves exact
+/// reads   color  RGBA32F exposed radiance writes  color  sRGB code values in [0, 1]: RGBA32F as they are, or
+/// RGBA8 dithered by a fixed pattern that leaves exact
 ///                8-bit values alone; alpha unchanged
 /// Keeps no state.
 class ToneMapPass

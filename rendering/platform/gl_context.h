@@ -36,7 +36,7 @@ public:
 
 /// Without a window: EGL_MESA_platform_surfaceless, else an EGL device, else the default display. Current on
 /// return.
-/// @return GlUnsupported saying what each of the three answered. Defined in fx_platform_egl.
+/// @return GlUnsupported with the errors of all three. Defined in fx_platform_egl.
 base::Result<std::unique_ptr<GlContext>> createEglContext(const GlContextOptions& options);
 
 /// A window, hidden unless options.visible. Current on return.

@@ -8,7 +8,7 @@
 
 namespace fx::render {
 
-/// Where a camera stands and looks, in world coordinates.
+/// Position and target of a camera, in world coordinates.
 struct CameraPose
 {
     glm::dvec3 position{0.0, 2.0, 10.0}; ///< [m]

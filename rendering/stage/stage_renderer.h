@@ -32,7 +32,7 @@ struct StageMesh
     std::vector<glm::vec3> colors;    ///< [0, 1] linear albedo
 };
 
-/// What is seen where there is no mesh.
+/// Background behind the mesh.
 struct StageBackground
 {
     glm::vec3 luminance{0.0f};    ///< [cd/m2] overhead, used when `image` is empty
@@ -46,7 +46,8 @@ struct StageBackground
 struct StageLight
 {
     HostLight light;
-    float wrap = 0.0f; ///< [1] 0..1 share of it that lights what faces aside: a fireball is wide
+    /// [1] 0..1 wrap of diffuse light beyond the terminator, for wide lights such as fireballs.
+    float wrap = 0.0f;
     std::optional<MediaShadowBlock> shadow = {}; ///< that media cast in it; none: they cast none
 };
 

@@ -1,6 +1,6 @@
 /// @file draw_technique.h
-/// The drawing half of a technique: what it draws of a snapshot, with which passes and programs, and what it
-/// counts. A view only has a list of these descriptions.
+/// The drawing half of a technique: its snapshot data, passes, programs and statistics. A view iterates over
+/// a list of these descriptions.
 ///
 /// Threads: [GL thread].
 #pragma once
@@ -40,7 +40,7 @@ struct DrawTechnique;
 
 constexpr uint32_t kIdleFrames = 300; ///< without use, until buffers and textures are given back
 
-/// What a frame is gathered from.
+/// Inputs of gathering a frame.
 struct GatherInputs
 {
     const base::SnapshotPair* snapshots; ///< without the older one where nothing moves between the two
@@ -52,35 +52,38 @@ struct GatherInputs
     const base::AssetTable* assets;
     std::span<const EffectLight> lights; ///< the brightest of all effects, brightest first
     LevelOfDetail* lod;                  ///< begun for this frame
-    uint64_t content;                    ///< differs where what is shown differs
-    bool castsShadows = true;            ///< there are lights, and media cast shadows
+    uint64_t content;                    ///< revision of the shown content
+    bool castsShadows = true;            ///< lights exist and media cast shadows
     bool needsOrder = true;              ///< balls are drawn one over the other, farthest first
 };
 
-/// What techniques have gathered so far, in the order of their list.
+/// Data gathered by techniques so far, in the order of their list.
 struct GatheredFrame
 {
-    std::pmr::vector<DrawStream>* streams;             ///< what the media pass draws, each with its source
+    std::pmr::vector<DrawStream>* streams;             ///< streams of the media pass, each with its source
     std::pmr::vector<MediumCaster>* casters = nullptr; ///< all media that cast shadows, relative to the eye
-    FragmentCounts fragments{};                        ///< estimated, of what the media pass draws
+    FragmentCounts fragments{};                        ///< estimated fragments of the media pass
     std::span<const BlobInstance> blobs{};             ///< balls of medium
-    std::span<const BlobEffect> effects{};             ///< of those, if they come in the order of instances
-    std::span<const BlobMaterial> materials{};         ///< what those carry for detail, likewise
-    std::span<const GroupDetail> details{};            ///< of effects, likewise
-    bool anyHeat = false;                              ///< some of those bend light
+    /// Ranges of blobs by instance, if blobs are in the order of instances.
+    std::span<const BlobEffect> effects{};
+    /// Noise coordinates of blobs, if they are in the order of instances.
+    std::span<const BlobMaterial> materials{};
+    /// Detail of effects, if blobs are in the order of instances.
+    std::span<const GroupDetail> details{};
+    bool anyHeat = false; ///< some blobs refract light
 };
 
 /// Where in a frame a technique adds its passes. buildViewGraph() has the order of all passes.
 enum class PassStage : uint8_t
 {
-    Pictures, ///< before everything: pictures that the frame shows later
-    Upload,   ///< the distance to what the host has drawn is known; what is drawn gets to where it is read
-    Measure,  ///< behind the media
-    Refract,  ///< the picture has all media: it is bent
-    Sensor,   ///< the picture is complete: what the eye or a camera makes of it
+    Pictures, ///< before everything else: impostors that the frame draws later
+    Upload,   ///< the distance to the host's surfaces is known: data are uploaded or computed
+    Measure,  ///< after the media
+    Refract,  ///< the picture has all media: refraction
+    Sensor,   ///< the picture is complete: effects of the eye or the sensor
 };
 
-/// One frame while its graph is built: what its passes have made so far.
+/// One frame while its graph is built: results of its passes so far.
 struct PassFrame
 {
     const FrameRequest* request;
@@ -92,47 +95,47 @@ struct PassFrame
     LightBindings lights = {};     ///< of the view
     bool hasSmallLayers = false;   ///< their texels are larger than pixels
     bool hasMedia = false;         ///< something is drawn by the media pass or hides
-    ResourceId distance = {};      ///< [m] to what the host, and from Measure on solid particles, show
+    ResourceId distance = {};      ///< [m] to the host's surfaces; from Measure on, also to opaque particles
     ResourceId layerDistance = {}; ///< at the layers' size
     ResourceId picture = {};       ///< from Refract on
     ResourceId blobs = {};         ///< buffer of GatheredFrame::blobs, from Upload on
-    bool anyPass = false;          ///< set by a technique whose passes matter although there are no media
+    bool anyPass = false;          ///< set by a technique whose passes are needed even without media
 };
 
-/// What one view keeps for a technique: its lists, its memory on the GPU. A frame calls begin(), then
-/// gather() or keep(), then addPasses() for each stage, fence(), and endFrame(); or rest() alone.
+/// State of a technique in one view: lists and GPU memory. A frame calls begin(), then gather() or keep(),
+/// then addPasses() for each stage, fence(), and endFrame(); or rest() alone.
 class TechniqueView
 {
 public:
     virtual ~TechniqueView() = default;
 
-    /// Makes what no frame should have to wait for.
+    /// Creates resources in advance, so that no frame waits for them.
     virtual base::Status prepare() { return {}; }
 
-    /// Begins a frame; makes what it needs whatever is in view.
+    /// Begins a frame; creates resources that are independent of the visible data.
     virtual base::Status begin(const ViewSettings&) { return {}; }
     virtual base::Status gather(const GatherInputs&, GatheredFrame&) { return {}; }
-    /// Instead of gather(): the frame draws what the last one has drawn.
+    /// Instead of gather(): the frame reuses the data of the last one.
     virtual void keep() {}
-    /// An equal frame after this one would be the same.
+    /// True when an equal frame after this one would give the same picture.
     virtual bool isSettled() const { return true; }
 
-    /// The source of what hides what is behind it; null: there is none.
+    /// Source of opaque elements; null: none.
     virtual const MediaSource* solids() const { return nullptr; }
-    /// Whether it adds passes that change the picture behind the media.
+    /// Whether it adds passes that change the picture after the media.
     virtual bool altersPicture(const PassFrame&) const { return false; }
     virtual void addPasses(PassStage, FrameGraph&, PassFrame&) {}
 
-    virtual void fence() {} ///< all draws of the frame have been issued
-    /// What this frame was to write is not there: gathering or drawing has failed.
+    virtual void fence() {} ///< called when called when all draws of the frame have been issued
+    /// Invalidates data of this frame, because gathering or drawing has failed.
     virtual void forget() {}
     virtual void endFrame(bool /*succeeded*/) {}
-    /// Instead of all of a frame: there is nothing to draw.
+    /// Called instead of a frame without visible data.
     virtual void rest() {}
 
-    /// Adds what the last frame has drawn.
+    /// Adds counts of the last frame.
     virtual void count(FrameStatistics&) const {}
-    /// Adds counters of the GPU; waits for it.
+    /// Adds counters of the GPU; waits for the GPU.
     virtual void readBack(const GlBackend&, FrameStatistics&) {}
     /// Adds the share of the picture that the last frame has covered.
     virtual void cover(const CameraGeometry&, ScreenShare&) const {}
@@ -140,11 +143,11 @@ public:
 
     /// Whether groups of the kind "gpuParticle" are drawn. False once the context has refused one.
     virtual bool canComputeParticles() const { return true; }
-    /// Compiles what computes the particles of an emitter, where that is possible.
+    /// Compiles the compute program of an emitter, if supported.
     virtual void warmUp(const base::GpuParticleProgram&) {}
 };
 
-/// What a view is made from.
+/// Inputs of creating the state of a view.
 struct TechniqueSetup
 {
     GlDevice* device;
@@ -165,24 +168,24 @@ struct EffectContent
 struct DrawTechnique
 {
     std::string_view name;
-    const base::KindDesc* kind = nullptr; ///< of the snapshot data that it draws; null: none of its own
+    const base::KindDesc* kind = nullptr; ///< kind of its snapshot data; null: none of its own
     /// How groups of the kind become rows of particles, for techniques that are drawn so.
     const RowTechnique* rows = nullptr;
-    /// Makes what a view keeps; null: nothing. Techniques with the same function share what it makes.
+    /// Creates the state of a view; null: none. Techniques with the same function share one state.
     std::unique_ptr<TechniqueView> (*create)(const TechniqueSetup& setup) = nullptr;
-    std::span<const ProgramDesc* const> (*programs)() = nullptr; ///< all that it can need; null: none
-    /// Passes of a frame that exist because of it, each with the group that its time is added to. Techniques
-    /// that are drawn by the media pass name that pass as well.
+    std::span<const ProgramDesc* const> (*programs)() = nullptr; ///< all programs it may use; null: none
+    /// Passes that a frame has because of it, with their timer groups. Techniques that are drawn by the media
+    /// pass include that pass.
     std::span<const TimedPass> passes = {};
     /// Whether an effect with such content uses it; null: an effect that publishes `kind`.
     bool (*isUsedBy)(const EffectContent& content) = nullptr;
     const LightSource* lights =
         nullptr; ///< how groups of `kind` light everything around them; null: not at all
-    /// Refuses settings that cannot be drawn; null: there are none.
+    /// Refuses settings that cannot be drawn; null: accepts all.
     base::Status (*check)(const ViewSettings& settings) = nullptr;
-    /// Whether it changes the picture when there is nothing to see; null: no.
+    /// Whether it changes the picture without visible effects; null: no.
     bool (*actsAlone)(const ViewSettings& settings) = nullptr;
-    const ScalabilitySettings* levels = nullptr; ///< what quality may lower of it; null: nothing
+    const ScalabilitySettings* levels = nullptr; ///< its scalability levels; null: none
 };
 
 } // namespace fx::render

@@ -1,6 +1,6 @@
 /// @file draw_techniques.h
-/// The explicit list of what views can draw. A technique joins by a line here; where it is in the list is the
-/// order in which it gathers and, within a stage of passes, the order of its passes.
+/// The explicit list of drawing techniques. Its order is the order of gathering and, within a stage, of
+/// passes. A new technique is one line in this list.
 #pragma once
 
 #include "rendering/techniques/draw_technique.h"
@@ -20,7 +20,7 @@ bool isDrawn(std::span<const base::KindDesc* const> kinds, DrawTechniques techni
 /// Whether a frame with an effect of this content has passes of `technique`.
 bool isUsed(const DrawTechnique& technique, const EffectContent& content);
 
-/// What the times of passes are added to: those of the frame's own passes and of `techniques`.
+/// Timer groups of the frame's own passes and of those of `techniques`.
 PassGroups passGroups(DrawTechniques techniques);
 
 } // namespace fx::render

@@ -1,6 +1,5 @@
 /// @file quality_knob.h
-/// What quality may lower: the settings of a technique, and the scalability levels (scalability levels) that
-/// they make up.
+/// Scalability of a technique: its adjustable settings, and the levels that they form.
 #pragma once
 
 #include "rendering/frame/screen_share.h"
@@ -29,17 +28,17 @@ struct QualityKnob
     std::span<const std::string_view> choices; ///< of a choice, cheapest first; otherwise empty
     std::string_view schema;                   ///< JSON Schema of the value in calibrations
 
-    /// Lowers the setting to `value`, never above what it is.
+    /// Lowers the setting to `value`; never raises it.
     void (*lower)(float value, ViewSettings& ioSettings);
 };
 
-/// A scalability levels of settings that quality is chosen from, measured by calibrations.
+/// Adjustable settings of a technique. Calibrations measure cost and error of their levels.
 struct ScalabilitySettings
 {
     std::string_view name;    ///< in calibrations, and of the group of passes whose time it is; empty: none
     std::string_view meaning; ///< in the schema of calibrations
 
-    /// [1] how much an error of the scalability levels matters on a picture.
+    /// [1] weight of an error of this technique in a picture.
     double (*weight)(const ScreenShare& covered);
 
     std::span<const QualityKnob> knobs;

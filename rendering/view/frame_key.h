@@ -1,6 +1,6 @@
 /// @file frame_key.h
-/// All that the lists of a frame are made from: while it stays the same, what was gathered, sorted and
-/// uploaded for the last frame serves again.
+/// Key of all inputs of a frame's lists. While it does not change, gathered, sorted and uploaded data of the
+/// last frame are reused.
 #pragma once
 
 #include "rendering/frame/snapshot_revisions.h"

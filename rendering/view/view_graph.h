@@ -1,5 +1,5 @@
 /// @file view_graph.h
-/// Declares the passes of one frame of a view: which exist, in what order, and what they hand to each other.
+/// Declares the passes of one frame of a view, their order and their resources.
 #pragma once
 
 #include "rendering/compositions/media_composition.h"
@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-/// What a frame's passes are made from.
+/// Inputs of the passes of a frame.
 struct ViewGraphInputs
 {
     const FrameRequest* request;
@@ -21,18 +21,18 @@ struct ViewGraphInputs
     /// In the order of their list; they have gathered. Must stay until the graph has executed, as must
     /// the next two.
     std::span<const std::unique_ptr<TechniqueView>> techniques;
-    std::span<const DrawBatch> batches;         ///< of what does not hide
-    std::span<const MediaSource* const> solids; ///< of what hides
+    std::span<const DrawBatch> batches;         ///< of media and transparent particles
+    std::span<const MediaSource* const> solids; ///< of opaque particles
     ViewLights* lights = nullptr;               ///< gathered; null: nothing is lit
-    CompositionView* composition = nullptr;     ///< draws media before `batches`; null: there is none
+    CompositionView* composition = nullptr;     ///< draws media before `batches`; null: none
     int layerDivisor = 1;                       ///< of this frame, >= that of the settings
 };
 
-/// Resources that exist after the frame besides the host's picture; invalid where they were not asked for.
+/// Resources that exist after the frame besides the host's picture; invalid if they were not requested.
 struct ViewGraphOutputs
 {
     ResourceId fire, smoke, dust, media, depth, opticalDepth;
-    bool anyPass = false; ///< false: the host's picture is already what it should be
+    bool anyPass = false; ///< false: the host's picture does not change
 };
 
 /// Fills `graph`, which has begun. Passes that nothing calls for are not added: without blobs no media

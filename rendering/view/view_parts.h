@@ -1,5 +1,5 @@
 /// @file view_parts.h
-/// What a ViewRenderer is made of: what its techniques keep, the lists of a frame, and what it counts.
+/// Parts of a ViewRenderer: states of its techniques, the lists of a frame, and counters.
 #pragma once
 
 #include "rendering/compositions/media_compositions.h"
@@ -47,13 +47,13 @@ struct ViewRenderer::Impl
     void compose(Composition wanted);                 ///< makes its part, in place of that of another
     base::Status fillLights(const ViewSettings& settings);
     void dropPrepared(); ///< lists that were gathered and not drawn
-    /// Whether the lists are those of prepareLights() for this frame; then they are drawn as they are.
+    /// Whether prepareLights() has built the lists of this frame; they are then reused.
     bool takePrepared(const base::SnapshotPair& snapshots, const FrameRequest& request,
                       const ViewSettings& settings);
     void namePasses(bool wasPrepared);
     SnapshotRowRevisions rowsOf(const base::FrameSnapshot* snapshot) const;
     base::Status draw(const FrameRequest& request, const ViewSettings& settings, int divisor);
-    void forget(); ///< what this frame was to write
+    void forget(); ///< invalidates data of this frame
     void askWhetherParticlesAreComputed();
     uint64_t bytes() const;
     FrameStatistics rest();
@@ -65,7 +65,7 @@ struct ViewRenderer::Impl
     std::pmr::memory_resource* memory;
     FrameGraph graph;
     GlBackend backend;
-    FrameGraph lightGraph; ///< of prepareLights(); that of the last frame stays as it is
+    FrameGraph lightGraph; ///< of prepareLights(); separate from that of the last frame
     GlBackend lightBackend;
     DrawTechniques techniques;
     std::pmr::vector<std::unique_ptr<TechniqueView>>
@@ -82,7 +82,7 @@ struct ViewRenderer::Impl
     std::span<const DrawBatch> mediaBatches;
     std::pmr::vector<const MediaSource*> solids;
     SnapshotRevisions revisions;
-    std::optional<FrameKey> key; ///< of the lists above and of what is on the GPU; nothing: not to be used
+    std::optional<FrameKey> key; ///< of the lists above and the data on the GPU; empty: invalid
     bool keptLists = false;      ///< they were not made for this frame
     std::optional<PreparedFrame> prepared;
     bool hasLights = false;                       ///< `lights` are those of the last frame
@@ -94,8 +94,8 @@ struct ViewRenderer::Impl
     GlPassTimer timer;
     TimingClock clock = TimingClock::Off;
     uint64_t tag = 0;
-    bool computesParticles = true; ///< all parts could when last asked: after drawing and compiling
-    uint32_t idleFrames = 0;       ///< one after the other in which there was nothing to draw
+    bool computesParticles = true; ///< result of the last check, after drawing and compiling
+    uint32_t idleFrames = 0;       ///< consecutive frames without visible data
     ViewGraphOutputs outputs;
 };
 

@@ -25,14 +25,14 @@ namespace fx::render {
 
 class GlDevice; ///< rendering/gl: function table, programs, counters of one GL context
 
-/// Textures that stay valid until the next render() of the view; 0 when not asked for.
+/// Textures that stay valid until the next render() of the view; 0 when not requested.
 struct LayerTextures
 {
     uint32_t fire =
         0; ///< RGBA32F radiance that reaches the eye from the fire layer, premultiplied; A its visible share
-    uint32_t smoke = 0; ///< same for smoke
-    uint32_t dust = 0;  ///< same for dust
-    uint32_t depth = 0; ///< R32F [m] transmittance-weighted distance of the media; +inf where there is none
+    uint32_t smoke = 0;        ///< same for smoke
+    uint32_t dust = 0;         ///< same for dust
+    uint32_t depth = 0;        ///< R32F [m] transmittance-weighted distance of the media; +inf without media
     uint32_t opticalDepth = 0; ///< R32F [1]
     uint32_t media = 0;        ///< RGBA32F sum of the layers
 };
@@ -40,7 +40,7 @@ struct LayerTextures
 class ViewRenderer
 {
 public:
-    /// @param techniques what it can draw; must stay
+    /// @param techniques list of techniques; must outlive the view
     ViewRenderer(GlDevice* device, const base::SnapshotSchema* schema, std::pmr::memory_resource* memory,
                  DrawTechniques techniques = drawTechniques());
     ~ViewRenderer();
@@ -55,24 +55,24 @@ public:
     /// Compiles every program that render() can need. After this no frame compiles.
     base::Status warmUp();
 
-    /// Draws `snapshots` over the host's picture. On failure the picture is what the host left, and GL is as
-    /// it was.
+    /// Draws `snapshots` over the host's picture. On failure the picture and the GL state do not change.
     base::Status render(const base::SnapshotPair& snapshots, const FrameRequest& request);
 
-    /// Gathers a frame and fills the planes of its lights, so that the host's surfaces can be darkened by
-    /// media before render() draws these. render() goes on from there when its frame is the same but for
-    /// targets and times; it does nothing twice. `snapshots` must stay until then, or until another call.
-    /// Targets may be absent. On failure GL is as it was.
+    /// Gathers a frame and fills the planes of its lights, so that the host can draw surfaces with shadows of
+    /// media before render(). render() reuses the result if its frame differs only in targets and times.
+    /// `snapshots` must be valid until then, or until another call. Targets may be absent. On failure the GL
+    /// state does not change.
     base::Status prepareLights(const base::SnapshotPair& snapshots, const FrameRequest& request);
 
-    /// The shadow that media cast in a light of the frame that was prepared or drawn last. All light passes
-    /// where there is none.  @param origin [m] world position that places of lookups are relative to
+    /// Shadow of media in a light of the frame that was prepared or drawn last; without a shadow all light
+    /// passes. @param origin [m] world position that places of lookups are relative to
     MediaShadowBlock mediaShadow(LightKind kind, uint32_t index, const glm::dvec3& origin) const;
-    /// Planes of those shadows, filtered linearly; 0 where no light has any. Valid until the next frame.
+    /// Texture of the planes of these shadows, filtered linearly; 0 without planes. Valid until the next
+    /// frame.
     uint32_t mediaShadowTexture() const;
     /// Lights of the effects of that frame, brightest first.
     std::span<const EffectLight> effectLights() const;
-    /// Of the lights of the frame that was prepared or rendered last; none where there are no media.
+    /// Lights of the frame that was prepared or rendered last; empty without media.
     const LightList& lights() const;
 
     /// Measures the next frames; Off is the default and costs nothing. With Gpu where GL has no clock nothing
@@ -82,7 +82,7 @@ public:
     bool hasGpuClock();
     void setHostClock(HostClock clock);   ///< of TimingClock::Host
     bool takeTimes(GroupTimes& out);      ///< see GlPassTimer::take
-    const PassGroups& passGroups() const; ///< of those times
+    const PassGroups& passGroups() const; ///< groups of these times
     /// Of the last frame; only while frames are measured.
     const ScreenShare& covered() const { return covered_; }
     /// Images and meshes that particles name; must outlive the view or the next call. Null: plain particles.
@@ -90,13 +90,13 @@ public:
 
     /// Whether groups of the kind "gpuParticle" are drawn. False once the context has refused one.
     bool canComputeParticles() const;
-    /// Compiles what computes the particles of an emitter. Nothing happens where that is not possible.
+    /// Compiles the compute program of an emitter, if supported.
     void warmUp(const base::GpuParticleProgram& emitter);
 
-    /// The last frame left the picture alone and nothing is kept that time would give back: as long as there
-    /// is nothing to draw, further calls of render() change nothing at all.
+    /// True when the last frame did not change the picture and no memory is left to free: without visible
+    /// data, further calls of render() do nothing.
     bool isAsleep() const { return asleep_; }
-    /// What render() would refuse; all that is left to do for a frame while the view sleeps.
+    /// Checks a request as render() does; the only work for a frame while the view is asleep.
     static base::Status check(const FrameRequest& request);
 
     const FrameStatistics& statistics() const { return statistics_; }

@@ -1,5 +1,6 @@
 /// @file slab_composition.h
-/// Media in slabs across each ray: what overlaps is summed up, so that no order is seen.
+/// Composition of media by slabs across each ray. Overlapping media are summed, so the result does not depend
+/// on their order.
 #pragma once
 
 #include "rendering/compositions/media_composition.h"

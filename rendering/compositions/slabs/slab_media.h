@@ -1,5 +1,5 @@
 /// @file slab_media.h
-/// Balls and cards of a view in lists of tiles, for whatever sums them up along rays.
+/// Per-tile lists of balls and cards of a view, for passes that sum them along rays.
 #pragma once
 
 #include "rendering/compositions/slabs/slab_passes.h"
@@ -24,7 +24,7 @@ public:
     /// Begins the passes of a frame.
     void begin(const ViewSettings& settings);
 
-    /// What list() has made.
+    /// Results of list().
     struct Lists
     {
         SlabTilePass::Outputs tiles;
@@ -48,12 +48,12 @@ private:
     uint64_t cardCapacity(const MediaPass::Inputs& in) const;
 
     GlDevice& device_;
-    const MediaSource* ballSource_ = nullptr; ///< of all balls; null: there are none
-    std::pmr::vector<DrawBatch> cards_;       ///< what else is drawn
+    const MediaSource* ballSource_ = nullptr; ///< of all balls; null without balls
+    std::pmr::vector<DrawBatch> cards_;       ///< batches other than balls
     std::pmr::vector<TileRect> rects_;
     uint64_t cardFragments_ = 0; ///< estimated, of the whole picture
     int width_ = 0;              ///< [pixel] of the picture
-    bool counts_ = false;        ///< what is listed and spilled
+    bool counts_ = false;        ///< counts listed and spilled entries
     ResourceId tiles_, heads_;   ///< of the last frame, to be read back; invalid: not
     uint64_t capacity_ = 0;      ///< of the last frame's cards
 };

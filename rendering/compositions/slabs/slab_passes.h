@@ -22,11 +22,11 @@ inline constexpr ProgramDesc kSlabTilesProgram{"slab tiles", nullptr, nullptr, "
 constexpr uint64_t kMaxListedBalls = uint64_t(1) << 23; ///< entries of all lists of a frame, of 4 bytes
 constexpr uint64_t kMaxCards = uint64_t(1) << 21;       ///< fragments of cards of a frame, of 32 bytes
 
-/// Gathers the fragments of cards, in one list a texel. Which order they are drawn in does not matter.
+/// Gathers the fragments of cards, in one list a texel. The result does not depend on the drawing order.
 ///
-/// reads   what the sources read
+/// reads the buffers of the sources
 ///         distance  [m] along the ray to opaque geometry
-/// writes  cards     lists, and which tiles have any
+/// writes cards lists, and flags of tiles with cards
 class SlabCardPass
 {
 public:
@@ -41,8 +41,8 @@ public:
 
 /// Balls and their lights as texels.
 ///
-/// reads   list     balls, and what BlobLightPass has written for them
-/// writes  texture  RGBA32F, layout of shaders/slabs/slab_balls.glsl; invalid without balls
+/// reads   list     balls, and what BlobLightPass has written for them writes  texture  RGBA32F, layout of
+/// shaders/slabs/slab_balls.glsl; invalid without balls
 class SlabBallPass
 {
 public:
@@ -74,7 +74,7 @@ public:
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };
 
-/// What SlabTilePass counts, from the beginning of `tiles`.
+/// Counters of SlabTilePass, at the beginning of `tiles`.
 struct SlabTileCounts
 {
     uint32_t vertices, tiles, reserved[2];
@@ -82,13 +82,13 @@ struct SlabTileCounts
 };
 static_assert(sizeof(SlabTileCounts) == 32);
 
-/// Sums up all media of a texel in slabs across its ray, and puts these together front to back. Formulas:
+/// Sums all media of a texel in slabs across its ray, and composites the slabs front to back. Formulas:
 /// kernel-quantile, kernel-moment, slab-light.
 ///
 /// reads   what SlabBallPass, SlabTilePass and SlabCardPass have written
 ///         distance  [m] along the ray to opaque geometry
-/// writes  media     as the media pass, drawn over `under`
-/// Tiles without balls and cards cost nothing. Keeps no state.
+/// writes  media     as the media pass, drawn over `under` Tiles without balls and cards cost nothing. Keeps
+/// no state.
 class SlabPass
 {
 public:

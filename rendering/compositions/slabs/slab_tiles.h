@@ -12,7 +12,7 @@
 
 namespace fx::render {
 
-constexpr int kSlabTile = 16; ///< [texel] side; shaders/slabs know it
+constexpr int kSlabTile = 16; ///< [texel] side; also in shaders/slabs
 
 /// First and last tile of a ball, both included; layout of shaders/slabs/slab_tiles.comp.glsl. left > right:
 /// it is beside the picture.

@@ -1,5 +1,5 @@
 /// @file slab_view.h
-/// What a view keeps to draw its media in slabs.
+/// State of a view whose media are drawn in slabs.
 #pragma once
 
 #include "rendering/compositions/media_composition.h"

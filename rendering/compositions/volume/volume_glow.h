@@ -1,5 +1,5 @@
 /// @file volume_glow.h
-/// What a view keeps to spread the light of its fields: grids on the GPU.
+/// State of a view for the propagation of emitted light in its fields: grids on the GPU.
 #pragma once
 
 #include "rendering/field/field_glow_pass.h"
@@ -21,7 +21,7 @@ public:
 
     /// Makes room for grids. @return OutOfMemory
     base::Status makeRoom(std::span<const FieldGlowBlock> grids);
-    /// Imports what a frame needs; without grids nothing is valid.
+    /// Imports the resources of a frame; without grids they are invalid.
     void importAll(FrameGraph& graph, std::span<const FieldGlowBlock> grids);
     /// Uploads the grids and adds the passes. @param in without grids and textures of the glow
     void addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, std::span<const FieldGlowBlock> grids);

@@ -1,5 +1,5 @@
 /// @file volume_view.h
-/// What a view keeps to draw its balls of medium as voxel fields.
+/// State of a view whose balls of medium are drawn as voxel fields.
 #pragma once
 
 #include "rendering/compositions/media_composition.h"
@@ -20,8 +20,8 @@
 
 namespace fx::render {
 
-/// Sums up balls in fields. What no field holds, cards and balls that are too small for voxels, is summed up
-/// in slabs along the same rays; where there is no field at all, as the composition `slabs` does.
+/// Sums balls in fields. Cards and balls that are too small for voxels are summed in slabs along the same
+/// rays. Without fields it works as the composition `slabs`.
 class VolumeView final : public CompositionView
 {
 public:
@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    /// What FieldPlan lists, on the GPU.
+    /// Lists of FieldPlan on the GPU.
     enum List : size_t
     {
         Fields,
@@ -91,9 +91,10 @@ private:
     BlobSource looseSource_;                ///< of balls that are too small for voxels
     std::pmr::vector<BlobInstance> looseBlobs_;
     GlBuffer looseBuffer_, looseLights_;
-    int slabs_ = 16;                      ///< that the loose is at least divided into
-    std::array<GlBuffer, Lists> buffers_; ///< last, so that what is in them is still there in the next frame
-    std::array<ResourceId, Lists> ids_;   ///< of the frame
+    int slabs_ = 16; ///< that the loose is at least divided into
+    /// Imported as last resources, so that their content is preserved for the next frame.
+    std::array<GlBuffer, Lists> buffers_;
+    std::array<ResourceId, Lists> ids_;                        ///< of the frame
     std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< likewise
     bool isKept_ = false; ///< lists and textures are those of the last frame
     uint32_t unused_ = 0; ///< frames, one after the other

@@ -39,7 +39,7 @@ enum class LightKind : uint8_t
 {
     Sun,
     Host,   ///< ViewSettings::hostLights
-    Effect, ///< of what the snapshot holds
+    Effect, ///< of effects in the snapshot
     Sky,    ///< sky and ground, looked up along axes
 };
 
@@ -50,7 +50,7 @@ struct LightOrigin
     uint32_t index = 0; ///< of ViewSettings::hostLights, or of the effects' lights, brightest first
 };
 
-/// What the planes of a light take.
+/// Cost of the planes of a light.
 struct LightCost
 {
     LightOrigin origin;
@@ -60,7 +60,7 @@ struct LightCost
     uint64_t rays = 0;   ///< along which media are integrated when the planes are filled
 };
 
-/// What the lights of a frame are made from.
+/// Inputs of the light list of a frame.
 struct LightListInputs
 {
     const ViewSettings* settings;
@@ -80,10 +80,10 @@ public:
 
     /// The next frame: planes that change their sides fade.
     void build(const LightListInputs& in);
-    /// The same frame once more, from other inputs: what the last build() did is forgotten.
+    /// Builds the list of the same frame again from other inputs, reverting the last build().
     void rebuild(const LightListInputs& in);
-    /// Opaque surfaces shade media from then on. @param shift [m] eye minus what the map's places are
-    /// relative to  @return whether the block has changed
+    /// Sets the shadow map by which opaque surfaces shade media. @param shift [m] eye minus the origin of the
+    /// map's coordinates @return whether the block has changed
     bool setSunShadow(const HostShadowMap& map, const glm::dvec3& shift);
 
     const LightListBlock& block() const { return block_; }
@@ -96,7 +96,8 @@ public:
     std::span<const LightOrigin> origins() const { return origins_; }
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
-    /// Of the first block().counts.x lights, and of the sky behind them where it has planes.
+    /// Number of costs: one for each of the first block().counts.x lights, then one for the sky if it has
+    /// planes.
     size_t costCount() const;
     LightCost costOf(size_t light) const;
     uint64_t placesRevision() const

@@ -31,7 +31,7 @@ class SliceFades
 public:
     explicit SliceFades(std::pmr::memory_resource* memory) : held_(memory) {}
 
-    /// The next frame. @param forgets what is seen has nothing to do with the last frame
+    /// Begins a frame. @param forgets the picture is unrelated to the last frame
     void begin(bool forgets);
     /// The next stack of the frame; stacks come in the same order in each.
     /// @param wanted as the casters need it, snapped

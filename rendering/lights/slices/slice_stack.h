@@ -1,5 +1,5 @@
 /// @file slice_stack.h
-/// Where the planes of a stack of light slices lie in space, and how it is fitted to what casts shadows.
+/// Geometry of the planes of a stack of light slices, and its fit to the shadow casters.
 ///
 /// A stack follows the light: its first plane is nearest to the light, and a plane stores at each texel the
 /// optical depth of all media between the light and that texel. Planes of parallel light are flat and
@@ -29,7 +29,7 @@ constexpr int kMinSlicePlanes = 3; ///< before, within and behind the media, whe
 constexpr int kMaxSlicePlanes = 128;
 constexpr int kMaxSliceTexels = 512; ///< along a side
 
-/// What is made of a resolution that was asked for: within the limits, texels a multiple of 8.
+/// The resolution clamped to the limits, with texels rounded to a multiple of 8.
 SliceResolution usableResolution(const SliceResolution& asked);
 
 /// A place in a stack. Texel centers are at x, y = 0.5, 1.5, ...; plane number k is at plane = k.
@@ -52,7 +52,8 @@ struct SliceStack
     float spacing = 1.0f; ///< [m] between two planes
     float first = 0.0f;   ///< [m] distance of the first shell from a point; 0 for flat planes
     float begin =
-        0.0f; ///< [m] distance from a point up to which media cast no shadow: the radius of what glows
+        /// [m] distance from a point light up to which media cast no shadow: the radius of its glowing gas.
+        0.0f;
 
     SlicePlace placeOf(const glm::vec3& position) const;
     float distanceOf(int plane) const
@@ -75,16 +76,17 @@ SliceRay sliceRay(const SliceStack& stack, float x, float y);
 struct SliceFit
 {
     bool isSnapped =
-        true;             ///< false: sides and corner are those of the casters, to measure what snapping does
+        /// False: sides and corner are those of the casters, to measure the effect of snapping.
+        true;
     float texel = 0.0f;   ///< [m] 0: as large as the casters need, as the next
     float spacing = 0.0f; ///< [m]
 };
 
-/// Fits planes to all casters. Texels and planes keep their places in the world while the casters move: the
-/// sides are powers of 2^(1/4), the corner is a multiple of them.
+/// Fits planes to all casters. Texels and planes are fixed in the world while the casters move: the sides are
+/// powers of 2^(1/4), the corner is a multiple of them.
 /// @param towards unit, to the light  @param eye [m] world position that casters are relative to
-/// @param asked brought to a usable resolution; no planes: no stack
-/// @return whether there are casters and planes
+/// @param asked clamped to a usable resolution; no planes: no stack
+/// @return false without casters or planes
 bool fitParallelSlices(const glm::vec3& towards, std::span<const MediumCaster> casters, const glm::dvec3& eye,
                        const SliceResolution& asked, SliceStack& outStack, const SliceFit& fit = {});
 

@@ -27,11 +27,11 @@ class ViewLights
 public:
     ViewLights(GlDevice* device, std::pmr::memory_resource* memory);
 
-    /// Makes the list of a frame. The planes are filled again only where casters or lights have changed, and
-    /// where nothing but casters has changed, after SliceSettings::refreshFrames.
-    /// @param casters revision: differs where `in.casters` differ in the world
+    /// Makes the list of a frame. Planes are filled again only if casters or lights have changed; if only
+    /// casters have changed, at intervals of SliceSettings::refreshFrames.
+    /// @param casters revision of `in.casters` in the world
     /// @return OutOfMemory
-    /// @param isUsed something is drawn with it or casts a shadow; otherwise it takes no memory on the GPU
+    /// @param isUsed false: nothing is drawn and no shadow is cast, so no GPU memory is allocated
     base::Status gather(const LightListInputs& in, uint64_t casters, bool isUsed = true);
 
     /// Whether the planes are those of the casters that the last gather() was given.
@@ -43,18 +43,18 @@ public:
     /// The host's shadow map of this frame.  @param origin [m] world position that its places are relative to
     void setSunShadow(const HostShadowMap& map, const glm::dvec3& origin);
 
-    /// Imports list and planes, and adds the passes that fill them. @return what draws bind
+    /// Imports list and planes, and adds the passes that fill them. @return bindings for draws
     LightBindings addPasses(FrameGraph& graph);
 
-    void forget();  ///< what this frame was to write is not there
+    void forget();  ///< invalidates data that this frame should have written
     void release(); ///< gives back buffer and planes
     bool hasPlanes() const { return atlas_.name() != 0; }
     uint64_t bytes() const; ///< [byte] held on the GPU
     const LightList& list() const { return list_; }
     uint32_t atlasTexture() const { return atlas_.name(); } ///< GL name; 0: no planes
-    /// Whether the planes hold what the last list says.
+    /// Whether the planes are up to date with the last list.
     bool isFilled() const { return atlas_.name() != 0 && filled_ == wanted_; }
-    /// Of the last list; all light passes where there are no planes, or they are not filled.
+    /// Shadow of a light of the last list; without filled planes, all light passes.
     /// @param origin [m] world position that the places of lookups are relative to
     MediaShadowBlock shadow(LightKind kind, uint32_t index, const glm::dvec3& origin) const;
 
@@ -73,7 +73,8 @@ private:
     LightList list_;
     glm::dvec3 eye_{0.0}; ///< [m] world position that the list is relative to
     std::pmr::vector<CasterBlock> casters_;
-    std::pmr::vector<MediumCaster> held_;    ///< that the planes were filled with; none if they never wait
+    /// Casters that the planes were filled with; empty if planes are filled in every frame.
+    std::pmr::vector<MediumCaster> held_;
     std::pmr::vector<MediumCaster> shifted_; ///< scratch: the same, relative to the eye of the frame
     glm::dvec3 heldEye_{0.0};                ///< [m] world position that `held_` is relative to
     uint64_t heldRevision_ = 0;
@@ -82,7 +83,7 @@ private:
     bool isBehind_ = false;      ///< the planes are those of held casters
     GlBuffer lightBuffer_;
     GlTexture atlas_;
-    uint64_t filled_ = 0;    ///< key of what the planes hold; 0: nothing
+    uint64_t filled_ = 0;    ///< key of the content of the planes; 0: none
     uint64_t wanted_ = 0;    ///< key of this frame
     uint32_t sunShadow_ = 0; ///< GL name of the host's
     bool isKept_ = false;    ///< the list on the GPU is that of the last frame

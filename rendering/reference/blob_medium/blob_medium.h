@@ -1,6 +1,6 @@
 /// @file blob_medium.h
-/// The gas as a medium: a sum of balls with the quartic kernel, in double precision. What the GPU passes are
-/// measured against.
+/// Reference medium: a sum of balls with the quartic kernel, in double precision. GPU passes are compared
+/// with it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -37,7 +37,7 @@ class BlobMedium
 public:
     explicit BlobMedium(std::vector<Blob> blobs);
 
-    /// Where along `ray` the medium can be; nothing of it lies outside.
+    /// Interval of `ray` outside of which there is no medium.
     RaySpan span(const Ray& ray) const;
     double extinctionAt(const glm::dvec3& position) const; ///< [1/m] >= 0
     glm::dvec3 sourceAt(const glm::dvec3& position) const; ///< [cd/m2] emitted light per optical depth

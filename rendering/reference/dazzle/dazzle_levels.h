@@ -1,7 +1,7 @@
 /// @file dazzle_levels.h
-/// The dazzle of 8-bit pictures as it was published, and the same without its faults.
+/// The published algorithm of glare for 8-bit pictures, and a corrected version.
 ///
-/// One channel of a picture is a list of levels: 0..255 can be shown, what is above 255 overflows.
+/// One channel of a picture is a list of levels: 0..255 can be displayed, higher levels overflow.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ namespace fx::render {
 /// @param gain glare per overflow, >= 0; 1 deals all of it
 std::vector<uint8_t> dazzleLevels(std::span<const uint32_t> levels, double gain);
 
-/// The published code with one guard: it ends where it would divide by zero. Kept for comparison.
+/// The published code with one change: it stops instead of dividing by zero. Kept for comparison.
 std::vector<int64_t> dazzleLevelsAsPrinted(std::span<const uint32_t> levels);
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file dazzle_light.h
-/// Light counted in whole quanta: the exact sums of the dazzle, whatever the size of the picture.
+/// Light counted in integer quanta, so that the sums of the glare are exact for any size of the picture.
 #pragma once
 
 #include "rendering/passes/dazzle_pass.h"
@@ -27,9 +27,9 @@ public:
     explicit DazzleCounter(float white);
 
     /// Bits of a value that is finite, not negative and at most `white` times kDazzleLargest; NaN and
-    /// negative become 0, +inf 65504 (or that limit). @param ioReplaced counts what was changed
+    /// negative become 0, +inf 65504 (or that limit). @param ioReplaced counts the changed values
     uint32_t sanitized(uint32_t bits, uint32_t& ioReplaced) const;
-    /// Of a sanitized value; what is below a quantum is left out.
+    /// Quanta of a sanitized value; fractions of a quantum are dropped.
     DazzleQuanta count(uint32_t bits) const;
 
     const DazzleScale& scale() const { return scale_; }

@@ -1,6 +1,6 @@
 /// @file dazzle_reference.h
-/// The dazzle on the CPU, in 128-bit integers: what the GPU programs are compared with, and the path without
-/// a GPU. Equal to DazzlePass bit for bit, for every sensor law.
+/// The dazzle on the CPU, in 128-bit integers: the reference of the GPU programs, and the implementation
+/// without a GPU. Equal to DazzlePass bit for bit, for every sensor law.
 #pragma once
 
 #include "rendering/passes/dazzle_pass.h"
@@ -13,7 +13,7 @@ namespace fx::render {
 /// @param rgba     width * height pixels of four floats, row by row
 /// @param settings accepted by checkSensorLaw()
 /// @param ioHistory as the history buffer of DazzlePass
-/// @return the picture after the dazzle; empty for an empty one, whose history stays as it is
+/// @return the picture after the dazzle; empty for an empty one, whose history does not change
 std::vector<float> dazzleReference(std::span<const float> rgba, int width, int height,
                                    const DazzleSettings& settings, double deltaTime, bool resetHistory,
                                    DazzleHistory& ioHistory);

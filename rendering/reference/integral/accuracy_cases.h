@@ -36,8 +36,8 @@ public:
     const RayPacket<T>& packet(size_t i) const { return packets_[i]; }
     uint64_t hits() const;
 
-    /// What is to be timed: every ray of packets [begin, end). @param outLights one for each packet of the
-    /// picture
+    /// The timed work: integrates every ray of packets [begin, end). @param outLights one for each packet of
+    /// the picture
     void integrate(PacketIntegrator<T>& integrator, size_t begin, size_t end,
                    PacketLight<T>* outLights) const;
 

@@ -1,6 +1,6 @@
 /// @file group_scratch.h
-/// What the integral keeps of a group of rays while it works on them: memory, rules and constants. A group
-/// has as many rays as a number has lanes.
+/// Scratch data of the integral for a group of rays: memory, rules and constants. A group has one ray for
+/// each vector lane.
 #pragma once
 
 #include "rendering/reference/integral/integral_scheme.h"
@@ -57,7 +57,7 @@ struct GroupScratch
     std::vector<uint64_t> candidates; ///< bit i: blob i may matter in the present interval
 };
 
-/// The blobs that matter in the present interval, in the order of summation, with what sums over them share.
+/// The active blobs of the present interval in the order of summation, with terms shared by sums over them.
 template <class T>
 struct NearbyBlobs
 {
@@ -81,7 +81,7 @@ struct BlobLanes
         nearby[2]; ///< two: the light of one interval may be summed after the extinction of the next
 };
 
-/// What the rays of a group bring. Lane arrays of blob k begin at k * stride.
+/// Inputs of the rays of a group. Lane arrays of blob k begin at k * stride.
 template <class T>
 struct GroupInput
 {
@@ -106,7 +106,7 @@ struct GroupOutput
     uint32_t* flags;
 };
 
-/// What does not change from ray to ray.
+/// Data shared by all rays.
 template <class T>
 struct GroupRules
 {

@@ -24,7 +24,7 @@ enum class IntegralMethod : uint8_t
     Adaptive  ///< Paper, with the parts and the end of the ray chosen by a bound on the light from behind
 };
 
-/// What emits. Blob i has extinction rho_i(t) and emits source_i per unit of its optical depth.
+/// Model of emission. Blob i has extinction rho_i(t) and emits source_i per unit of its optical depth.
 enum class SourceModel : uint8_t
 {
     PerBlob, ///< sum over i of rho_i source_i: every blob emits by its own mass
@@ -52,7 +52,7 @@ IntegralScheme highScheme();
 /// adaptive-0.001. Paper never ends a ray early, as published; gauss-3 has cap 0.5, gauss-5 1, gauss-8 2.
 base::Result<IntegralScheme> parseScheme(std::string_view name);
 std::string schemeName(const IntegralScheme& scheme);
-/// What the accuracy report compares, coarse to fine within a method.
+/// Schemes of the accuracy report, coarse to fine within a method.
 const std::vector<std::string>& comparedSchemes();
 
 struct IntegralSettings

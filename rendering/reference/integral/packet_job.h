@@ -85,7 +85,7 @@ template <class T>
 void integrateRays(const PacketJob<T>& job);
 template <class T>
 uint64_t meetRays(const MeetJob<T>& job);
-/// What processors without vectors do: the text of RayIntegrator.
+/// Scalar path, for processors without vectors: the code of RayIntegrator.
 template <class T>
 void integrateOneByOne(const PacketJob<T>& job);
 

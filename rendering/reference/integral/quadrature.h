@@ -60,7 +60,7 @@ std::pair<W, W> gaussNode(uint32_t n, uint32_t i)
     return {x, W(2) / ((W(1) - x * x) * slope * slope)}; // (4)
 }
 
-/// What quadrature constants of T are computed in.
+/// Type in which quadrature constants of T are computed.
 template <class T>
 using Precise = std::conditional_t<(sizeof(T) < sizeof(long double)), long double, T>;
 

@@ -49,7 +49,7 @@ struct RayPacket
 {
     std::vector<T> center; ///< [m] as in RayBlob, one for each ray
     std::vector<T> chord2; ///< [m2]; <= 0 for rays that miss
-    /// What all rays share.
+    /// Data shared by all rays.
     struct Shared
     {
         T radius;
@@ -98,7 +98,7 @@ public:
     /// Uses nearest, farthest and background of `rays`; origin and direction are meetBlobs' matter.
     void integrate(const PacketRays<T>& rays, const RayPacket<T>& packet, PacketLight<T>& outLight);
 
-    /// Counting costs a few percent: off unless asked for.
+    /// Enables counters, which cost a few percent; off by default.
     void countWork(bool isOn);
     const RayWork& work() const;
     void clearWork();

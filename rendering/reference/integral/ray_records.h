@@ -1,8 +1,8 @@
 /// @file ray_records.h
-/// What a ray brings to the integral, and what it gets back.
+/// Inputs and results of the integral for one ray.
 ///
-/// Ray parameters may be counted from any point of the ray. Count them from a place near the blobs, and form
-/// them there in double: a float 1e5 m from its zero resolves 8 mm.
+/// Ray parameters may be counted from any point of the ray. Choose an origin near the blobs, and compute them
+/// in double: a float of 1e5 m resolves 8 mm.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct RayBlob
     uint32_t id;             ///< different for every blob of a ray: the order of summation
 };
 
-/// The visible part of the ray, and what stands behind it.
+/// The visible part of the ray, and the background behind it.
 template <class T>
 struct RayWindow
 {

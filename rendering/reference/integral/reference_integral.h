@@ -1,6 +1,6 @@
 /// @file reference_integral.h
-/// The same integral by adaptive quadrature of its definition: slow, and independent of intervals'
-/// polynomials, of local coefficients and of the schemes. What they are measured against.
+/// The same integral by adaptive quadrature of its definition: slow, but independent of the intervals'
+/// polynomials, of local coefficients and of the schemes, which are compared with it.
 #pragma once
 
 #include "rendering/reference/integral/quadrature.h"

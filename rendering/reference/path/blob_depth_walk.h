@@ -42,7 +42,7 @@ public:
     double emissionDensity() const override;
 
 private:
-    /// Fills what is about emission, after the rest.
+    /// Computes the members about emission; called last.
     void findEmission(double begin, double end);
 
     struct Chord
@@ -63,7 +63,7 @@ private:
     double emitted_ = 0.0;
     std::vector<double> emittedBy_; ///< [cd/m2] of each of `hits_`; empty where the medium emits nothing
     glm::dvec3 origin_{0.0};        ///< [m] of the ray
-    double emissionBegin_ = 0.0, emissionEnd_ = 0.0; ///< [m] what start() was called with
+    double emissionBegin_ = 0.0, emissionEnd_ = 0.0; ///< [m] arguments of start()
 };
 
 } // namespace fx::render

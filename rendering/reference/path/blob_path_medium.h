@@ -32,24 +32,24 @@ class BlobPathMedium final : public PathMedium
 {
 public:
     /// @param eye [m] world position that rays are relative to
-    /// @param illuminance [lx] of other lights: what glows much less is found by chance only
+    /// @param illuminance [lx] of other lights; much fainter emitters are not sampled directly
     /// @param details of the blobs; none: they are smooth  @param pixel of the picture, for details
     BlobPathMedium(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
                    double illuminance = 0.0, const MediumDetails& details = {}, const PixelWidth& pixel = {});
     std::unique_ptr<MediumWalk> walk() const override;
-    /// Null with detail: there is no closed form of its optical depths.
+    /// Null with detail, whose optical depth has no closed form.
     std::unique_ptr<DepthWalk> depthWalk() const override;
 
     /// Grows with the illuminance that the glow would have without medium between.
     double emissionChance(const glm::dvec3& position) const override;
-    /// Whether there is a ball that glows brightly enough to be looked for.
+    /// Whether any ball glows brightly enough for direct sampling.
     bool shines() const { return !shines_.empty(); }
 
-    /// Draws a ball in proportion to what it would emit if it were thin, then a direction that meets it.
+    /// Samples a ball in proportion to its emission without self-absorption, then a direction that hits it.
     glm::dvec3 emissionDirection(const glm::dvec3& position, const std::array<double, 3>& u) const override;
 
-    /// By cells of a grid: the sum over balls of the largest value that each has in the cell, times what
-    /// detail may multiply it by.
+    /// By cells of a grid: the sum over balls of the largest value that each has in the cell, times the
+    /// largest factor of detail.
     double majorant() const override;
 
     /// One ball, in the order of the tree.
@@ -72,8 +72,8 @@ public:
         const glm::dvec3& source = substances_[place].source;
         return source.x + source.y + source.z;
     }
-    /// [1/sr] with which emissionDirection() draws a direction from `position` that meets a ball, because of
-    /// it.
+    /// [1/sr] density, due to one ball, of directions of emissionDirection() from `position` that hit this
+    /// ball.
     double emissionDensity(uint32_t place, const glm::dvec3& position) const;
 
 private:
@@ -91,7 +91,7 @@ private:
     std::vector<Substance> substances_;
     DetailedMedium details_;
     bool hasOnePhase_ = true;
-    /// Fills what is about emission. @param illuminance [lx]
+    /// Computes the members about emission. @param illuminance [lx]
     void findGlow(std::span<const MediumBlob> blobs, double illuminance);
 
     glm::dvec3 glowCenter_{0.0};

@@ -1,5 +1,5 @@
 /// @file homogeneous_medium.h
-/// Media of one extinction inside a ball, a slab or a box: what closed forms are known for.
+/// Media of one extinction inside a ball, a slab or a box: for which closed forms are known.
 #pragma once
 
 #include "rendering/reference/path/path_medium.h"

@@ -14,7 +14,7 @@
 
 namespace fx::render {
 
-/// What paths go through. Members are owned by the caller; coordinates are those of the rays.
+/// Scene of the paths. Members are owned by the caller; coordinates are those of the rays.
 struct PathScene
 {
     const PathMedium* medium = nullptr;       ///< may be null
@@ -44,7 +44,7 @@ struct PathResult
     glm::dvec3 luminance{0.0}; ///< [cd/m2]
     double opacity =
         0.0; ///< [1] 1 - transmittance of the eye's ray, 1 in front of a surface; mean of the channels
-    bool sawBackground = false; ///< the ray from the eye met nothing: what stands behind is seen ...
+    bool sawBackground = false; ///< the camera ray hit nothing: the background is visible ...
     glm::dvec3 throughput{0.0}; ///< [1] ... by this share, and no light of the sky is in `luminance`
 };
 
@@ -52,7 +52,7 @@ struct PathResult
 class PathIntegrator
 {
 public:
-    /// @param scene what it points to must outlive this
+    /// @param scene its objects must outlive this
     PathIntegrator(const PathScene& scene, const PathSettings& settings);
 
     /// One path from the eye.
@@ -71,7 +71,7 @@ private:
     };
 
     SurfaceHit surface(const TraceRay& ray, double begin);
-    /// [lx] of a light, behind what stands between.
+    /// [lx] of a light, attenuated by occluders.
     glm::dvec3 arriving(const LightSample& sample, const glm::dvec3& position, PathSampler& sampler);
 
     /// Light that is scattered at the end of a way.
@@ -88,8 +88,8 @@ private:
     glm::dvec3 scatter(const Way& way, PathSampler& sampler, FlightStart& outNext);
     /// [1] of the way of the eye's ray to infinity.
     double opacity(const Way& way, PathSampler& sampler);
-    /// Ends paths of little throughput by chance, and gives those that go on the weight of both.
-    /// @param least [1] throughput below which that happens
+    /// Russian roulette: ends paths of low throughput at random, and weights the surviving ones accordingly.
+    /// @param least [1] throughput below which it is applied
     static bool survives(double least, glm::dvec3& io, PathSampler& sampler);
     /// Continues above the surface that a way met.
     void reflect(const SurfaceHit& hit, const TraceRay& ray, PathSampler& sampler, FlightStart& outNext,

@@ -1,5 +1,5 @@
 /// @file path_medium.h
-/// What the path tracer asks of a participating medium.
+/// Interface of participating media for the path tracer.
 #pragma once
 
 #include "rendering/reference/path/path_phase.h"
@@ -71,11 +71,11 @@ public:
     /// The medium at a parameter of the ray; see MediumWalk::at() for `choice`
     virtual MediumPoint at(double parameter, double choice) const = 0;
 
-    /// [m] the part of the way outside of which there is no medium; empty where `second` <= `first`
+    /// [m] interval of the path outside of which there is no medium; empty if `second` <= `first`
     virtual std::pair<double, double> extent() const = 0;
 
-    /// [cd/m2] integral over the way of the emitted light, summed over the channels; 0 where what the medium
-    /// emits is found well enough by collisions
+    /// [cd/m2] integral over the way of the emitted light, summed over the channels; 0 if emission is sampled
+    /// well enough by collisions
     virtual double emitted() const = 0;
 
     /// A parameter that is distributed as the emitted light. @param u in [0, 1); emitted() is not 0
@@ -86,7 +86,7 @@ public:
     virtual double emissionDensity() const = 0;
 };
 
-/// A medium. Coordinates are those of the rays it is asked for. Const calls from any thread.
+/// A medium. Coordinates are those of the rays. Const calls from any thread.
 class PathMedium
 {
 public:

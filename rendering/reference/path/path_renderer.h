@@ -1,9 +1,10 @@
 /// @file path_renderer.h
-/// A picture by paths: tiles over threads, with a journal of what is done and the variance of every pixel.
+/// Renders a picture by path tracing: tiles over threads, with a journal of finished tiles and the variance
+/// of every pixel.
 ///
 /// Light of the scene's sun, lamps and sky, of glowing gas and of shining particles is scattered by media and
-/// reflected by diffuse triangles any number of times. Rays from the eye that meet nothing show the scene's
-/// background; all others that escape meet the sky: its luminance above, light reflected by ground of the
+/// reflected by diffuse triangles any number of times. Camera rays that hit nothing show the scene's
+/// background; other rays that escape hit the sky: its luminance above, light reflected by ground of the
 /// lighting's albedo below. The picture has the same bits for any number of threads, and whether it was made
 /// in one run or in several.
 #pragma once
@@ -45,7 +46,7 @@ enum : uint32_t
 };
 }
 
-/// Counts of what was done.
+/// Work counters.
 struct PathWork
 {
     uint64_t paths = 0;
@@ -61,7 +62,7 @@ public:
     PathRenderer();
     ~PathRenderer();
 
-    /// Builds what all tiles share. `tasks` and the spans of `scene` must outlive the renderer.
+    /// Builds the data shared by all tiles. `tasks` and the spans of `scene` must outlive the renderer.
     /// @return InvalidArgument for a number outside its range
     base::Status build(const ReferenceScene& scene, const PathPictureSettings& settings,
                        base::TaskRunner& tasks);
@@ -73,7 +74,7 @@ public:
     void restore(uint32_t tile, std::span<const float> values) { tiles_.restore(tile, values); }
     /// Renders the tiles that are missing.
     /// @param journal receives each tile, may be null
-    /// @return Interrupted when asked to stop, or what the journal failed with
+    /// @return Interrupted on request, or the error of the journal
     base::Status render(TileJournal* journal, const RenderCallbacks& callbacks);
 
     /// One channel (see path_channel), width x height, rows from the top.

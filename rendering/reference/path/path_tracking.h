@@ -25,7 +25,7 @@ enum class FlightEstimator : uint8_t
 /// How the transmittance towards lights is found.
 enum class ShadowEstimator : uint8_t
 {
-    Exact, ///< the medium's own integral where it has one, otherwise ratio tracking
+    Exact, ///< the medium's own integral if available, otherwise ratio tracking
     Ratio, ///< product of the shares of null collisions [NSJ14]
     Delta  ///< 1 when a free path passes the light, otherwise 0
 };
@@ -108,7 +108,7 @@ public:
     MediumTracker(const PathMedium* medium, FlightEstimator flight, ShadowEstimator shadow);
 
     /// One free path.
-    /// @param io throughput, multiplied by what the way and the scattering leave
+    /// @param io throughput, multiplied by the transmittance and the scattering weight
     /// @param outLuminance [cd/m2] light that the medium emitted on the way is added
     Flight fly(const FlightStart& start, PathSampler& sampler, glm::dvec3& io, glm::dvec3& outLuminance);
 

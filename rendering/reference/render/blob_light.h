@@ -1,5 +1,5 @@
 /// @file blob_light.h
-/// What blobs scatter of the light that arrives at their centers.
+/// Scattered light of blobs, from the light that arrives at their centers.
 #pragma once
 
 #include "rendering/reference/render/medium_view.h"

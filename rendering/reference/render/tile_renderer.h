@@ -1,5 +1,5 @@
 /// @file tile_renderer.h
-/// Renders tiles of a picture, each by itself: the same bits in any order and on any thread.
+/// Renders tiles of a picture independently: the same bits in any order and on any thread.
 #pragma once
 
 #include "rendering/reference/render/detailed_ray.h"
@@ -43,7 +43,7 @@ struct ReferenceSettings
 namespace reference_channel {
 enum : uint32_t
 {
-    Color, ///< RGBA, linear, exposed; A is 1 where something opaque stands behind, or the medium's opacity
+    Color, ///< RGBA, linear, exposed; A is 1 in front of opaque surfaces, otherwise the medium's opacity
     Background = 4, ///< RGBA of the opaque scene
     Fire = 8,       ///< RGBA premultiplied
     Smoke = 12,
@@ -54,7 +54,7 @@ enum : uint32_t
 };
 }
 
-/// All that tiles share. Built once, then read by all threads.
+/// Data shared by all tiles. Built once, then read by all threads.
 struct ReferencePicture
 {
     ReferenceSettings settings;
@@ -64,7 +64,7 @@ struct ReferencePicture
     SceneLights lights;
 };
 
-/// Counts of what was done.
+/// Work counters.
 struct ReferenceWork
 {
     uint64_t rays = 0;
@@ -82,8 +82,8 @@ public:
     ~TileRenderer();
 
     /// Writes reference_channel::Count floats for each pixel of `block`, row by row from the top.
-    /// @param shouldStop asked before each few rays; may be empty
-    /// @return false when it was stopped: `out` is not to be used
+    /// @param shouldStop called repeatedly between rays; may be empty
+    /// @return false when it was stopped; `out` is then invalid
     bool render(const PixelBlock& block, std::span<float> out, const std::function<bool()>& shouldStop);
 
     const ReferenceWork& work() const { return work_; }

@@ -14,7 +14,7 @@
 
 namespace fx::render {
 
-/// What the caller of a long render wants to hear. Called from any thread.
+/// Callbacks of a long render. Called from any thread.
 struct RenderCallbacks
 {
     std::function<void(uint32_t done, uint32_t total)> progress; ///< may be empty; one call at a time
@@ -37,7 +37,7 @@ public:
     void restore(uint32_t tile, std::span<const float> values);
     /// Renders the tiles that are missing.
     /// @param journal receives each tile, may be null
-    /// @return Interrupted when asked to stop, or what the journal failed with
+    /// @return Interrupted on request, or the error of the journal
     base::Status render(base::TaskRunner& tasks, const RenderTile& renderTile, TileJournal* journal,
                         const RenderCallbacks& callbacks);
 

@@ -1,5 +1,5 @@
 /// @file triangle_scene.h
-/// Opaque triangles for rays: where a ray ends, and what a light cannot reach.
+/// Opaque triangles: intersection and occlusion of rays.
 #pragma once
 
 #include "rendering/reference/trace/ball_tree.h"

@@ -57,7 +57,7 @@ HWY_INLINE hn::Mask<PlaceTag> placeMask(DoubleMask mask)
     return hn::LoadMaskBits(PlaceTag(), bits);
 }
 
-/// Writes the selected lanes one after another, and perhaps anything behind them.
+/// Compress-stores the selected lanes; memory after them may be overwritten.
 template <class Tag, class T>
 HWY_INLINE void storeSelected(Tag tag, hn::Vec<Tag> v, hn::Mask<Tag> selected, T* to)
 {
@@ -169,14 +169,13 @@ inline void cutHits(double begin, double end, RayHits& io)
     io.setSize(kept);
 }
 
-/// Fills in where the ray enters, and leaves out what it meets before `begin` or behind `end` only. Roots
-/// cost more than everything else, so they are taken of hits alone.
+/// Computes entry points of hits, and removes hits that lie completely before `begin` or after `end`. Square
+/// roots dominate the cost, so they are computed for hits only.
 HWY_INLINE void finishHits(double begin, double end, RayHits& io)
 {
     const DoubleTag tag;
     const size_t size = io.size();
-    for (size_t k = size; k < size + RayHits::kSlack; ++k)
-    { // what vectors reach behind the last hit is inside
+    for (size_t k = size; k < size + RayHits::kSlack; ++k) { // vector stores after the last hit stay inside
         io.nearest[k] = begin;
         io.chordSquare[k] = 1.0;
     }

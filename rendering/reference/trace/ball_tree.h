@@ -1,12 +1,12 @@
 /// @file ball_tree.h
-/// A bounding-volume hierarchy over balls, built anew for every frame, from which rays and tiles of rays get
-/// all balls that they meet.
+/// A bounding-volume hierarchy over balls, rebuilt every frame, for queries of all balls that a ray or a tile
+/// of rays intersects.
 ///
-/// Balls are put in the order of a Hilbert curve, eight of them share a leaf, and eight boxes share a node,
-/// up to one root: a packed tree [KF93], whose places follow from counting, so that it needs no pointers and
-/// every level is built in parallel. Balls of different size stand in different parts of the order, since one
-/// large ball among small ones would blow up their box. Building is one sort and one pass over the balls; the
-/// result has the same bits for any number of workers.
+/// Balls are sorted along a Hilbert curve, eight of them form a leaf, and eight boxes form a node, up to one
+/// root: a packed tree [KF93] with implicit indices, so that it needs no pointers and every level is built in
+/// parallel. Balls of different size are in different parts of the order, because one large ball among small
+/// ones would enlarge their box. Building is one sort and one pass over the balls; the result has the same
+/// bits for any number of workers.
 ///
 /// Threads: build() by one thread at a time; reading by any.
 #pragma once
@@ -22,7 +22,7 @@
 
 namespace fx::render {
 
-/// What the tree is built over.
+/// Element of the tree.
 struct TraceBall
 {
     glm::dvec3 center; ///< [m] finite
@@ -43,26 +43,25 @@ public:
         double radius[kWidth]; ///< [m]
     };
 
-    /// Boxes of eight children, a little larger than what they hold, so that float arithmetic misses nothing.
+    /// Boxes of eight children, enlarged slightly, so that rounding in float never misses an intersection.
     struct alignas(64) Node
     {
         float center[3][kWidth]; ///< [m] relative to the tree's origin
-        float extent[3][kWidth]; ///< [m] half the edge; hugely negative for a child that is not there
+        float extent[3][kWidth]; ///< [m] half the edge; a large negative value for missing children
     };
 
-    /// @param origin [m] the point that rays and results are relative to, best the eye: doubles relative to
-    /// it
-    ///   make the picture independent of where in the world the scene stands
+    /// @param origin [m] origin of rays and results, preferably the eye, so that the picture does not depend
+    ///         on the position of the scene in the world
     void build(std::span<const TraceBall> balls, const glm::dvec3& origin, base::TaskRunner& tasks);
 
     uint32_t count() const { return count_; }
     const glm::dvec3& origin() const { return origin_; }
-    /// The ball that stands at a place of the tree's order: its index in the list that was given to build().
-    /// Place 8 i + k is place k of leaf i.
+    /// Index, in the list passed to build(), of the ball at a position of the tree's order. Position 8 i + k
+    /// is element k of leaf i.
     uint32_t ballAt(uint32_t place) const { return order_[place].index; }
     std::span<const Leaf> leaves() const { return leaves_; }
     /// Nodes of one level. Child k of node i is node 8 i + k one level lower, and leaf 8 i + k on level 0.
-    /// The highest level has one node. No level at all: there are no balls.
+    /// The highest level has one node. 0 without balls.
     uint32_t levels() const { return uint32_t(levelBegin_.size()); }
     const Node& node(uint32_t level, uint32_t index) const { return nodes_[levelBegin_[level] + index]; }
 

@@ -39,7 +39,7 @@ struct CurveBatch
 /// Computes the places of the cells, which are used up.
 void curvePlaces(CurveBatch& io);
 
-/// A key and what it belongs to.
+/// A key and the index of its element.
 struct KeyedIndex
 {
     uint64_t key;

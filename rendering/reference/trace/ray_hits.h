@@ -24,7 +24,7 @@ public:
             grow(size_ + more + kSlack);
     }
     void setSize(size_t size) { size_ = size; }
-    /// Orders by `enter`, equal ones by `place`: the same order whatever the hits came in.
+    /// Sorts by `enter`, then by `place`, so that the result does not depend on the order of insertion.
     void sort();
 
     std::vector<double> enter;   ///< [m] ray parameter where the ray enters; may lie before the ray's start

@@ -1,8 +1,6 @@
 /// @file tile_candidates.h
-/// Balls that the rays of a tile can meet, found once for all of them.
-///
-/// A large tile walks the tree; its parts narrow the large tile's list; each ray tests what its part has
-/// left. Lists stand in the order of the tree.
+/// Candidate balls of all rays of a tile. A large tile traverses the tree; its parts filter the list of the
+/// large tile; each ray tests the list of its part. Lists are in the order of the tree.
 #pragma once
 
 #include "rendering/reference/trace/ball_tree.h"

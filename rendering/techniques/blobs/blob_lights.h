@@ -7,8 +7,8 @@
 namespace fx::render {
 
 /// A blob of cross section s and source B sends B s (1 - exp(-t)) / t candela in every direction, t = 3.5 s /
-/// (pi R^2) being its optical depth: thin gas shows all of its medium, thick gas only its face. What stands
-/// before it is counted by the same factor with the group's own mean optical depth.
+/// (pi R^2) being its optical depth: thin gas shows all of its medium, thick gas only its face. Attenuation
+/// by the rest of the group is estimated by the same factor with the group's mean optical depth.
 extern const LightSource kBlobLights;
 
 } // namespace fx::render

@@ -1,5 +1,5 @@
 /// @file blob_quality.h
-/// What quality may lower of media.
+/// Scalability levels of media.
 #pragma once
 
 #include "rendering/techniques/quality_knob.h"

@@ -45,7 +45,7 @@ private:
     BlobSource takenBlobs_; ///< of pictures that are taken
     DrawBatch takenBatch_;
     ImpostorSource impostors_;
-    GlBuffer blobBuffer_;  ///< lasts, so that what is in it is still there in the next frame
+    GlBuffer blobBuffer_;  ///< persistent, so that its content is reused in the next frame
     GlBuffer lightBuffer_; ///< likewise
     GlBuffer impostorBuffer_;
     GlTexture impostorAtlas_;      ///< pictures of effects; nothing before the first

@@ -1,5 +1,5 @@
 /// @file dazzle_technique.h
-/// Dazzle: the glare of what is brighter than a sensor can take.
+/// Dazzle: glare of light above the saturation of a sensor.
 #pragma once
 
 #include "rendering/techniques/draw_technique.h"

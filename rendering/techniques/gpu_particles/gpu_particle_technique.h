@@ -1,5 +1,5 @@
 /// @file gpu_particle_technique.h
-/// Particles that the GPU computes where it draws them.
+/// Particles that are simulated on the GPU.
 #pragma once
 
 #include "rendering/techniques/draw_technique.h"

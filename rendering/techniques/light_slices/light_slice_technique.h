@@ -1,6 +1,6 @@
 /// @file light_slice_technique.h
-/// Shadows of media as a part of quality: the time of the planes of all lights, and what may be lowered of
-/// them. The passes themselves are those of rendering/lights/slices, which every view has.
+/// Shadows of media as a technique: timer group and scalability levels of light slices. The passes are in
+/// rendering/lights/slices; every view has them.
 #pragma once
 
 #include "rendering/techniques/draw_technique.h"

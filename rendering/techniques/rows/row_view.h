@@ -41,7 +41,7 @@ private:
 
     std::pmr::vector<const RowTechnique*> techniques_;
     GroupMerger merger_;
-    Rows single_; ///< groups as they are
+    Rows single_; ///< groups that are not merged
     Rows joined_; ///< small groups that are drawn alike
     std::pmr::vector<ParticleBatch> batches_;
     BatchSource source_;
