@@ -90,7 +90,7 @@ public:
     bool settle(const glm::vec3& from, glm::vec3& ioPosition, glm::vec3& ioVelocity,
                 const SurfaceResponse& response) const;
 
-    /// The same, but what is left of `seconds` after a surface was met goes on with the new velocity.
+    /// As the other overload, but continues with the new velocity for the rest of `seconds` after a contact.
     bool bounce(const glm::vec3& from, glm::vec3& ioPosition, glm::vec3& ioVelocity,
                 const SurfaceResponse& response, float seconds) const;
 

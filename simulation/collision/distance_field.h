@@ -1,5 +1,5 @@
 /// @file distance_field.h
-/// How far every place is from the host's geometry.
+/// Signed distance of every point to the host's geometry.
 ///
 /// @formula trilinear-distance
 /// Distance to a mesh between the nodes of a grid, and its direction.
@@ -62,20 +62,20 @@ constexpr uint32_t kFieldVersion = 1;
 class DistanceField
 {
 public:
-    /// Takes 4 bytes a node, at most 64 MiB, and about 300 bytes a triangle and 16 for each row of nodes that
-    /// a solid crosses while it works. Equal meshes give equal bits for any number of threads.
-    /// Throws std::bad_alloc.
-    /// @param cellSize [m] 0: as fine as some four million nodes allow
-    /// @return what checkMesh() and planGrid() fail with, InvalidArgument (no triangle with an area)
+    /// Needs 4 bytes per node, at most 64 MiB, and temporarily about 300 bytes per triangle and 16 per row of
+    /// nodes that crosses a solid. Equal meshes give equal bits for any number of threads. Throws
+    /// std::bad_alloc.
+    /// @param cellSize [m] 0: the smallest size with about four million nodes
+    /// @return the errors of checkMesh() and planGrid(), InvalidArgument (no triangle with an area)
     static base::Result<std::shared_ptr<const DistanceField>> build(const TriangleMesh& mesh, float cellSize,
                                                                     base::TaskRunner& tasks,
                                                                     std::pmr::memory_resource* memory);
 
-    /// The grid that build() takes. @return what build() fails with, but for triangles without an area
+    /// The grid of build(). @return the errors of build(), except that for triangles without an area
     static base::Result<DistanceGrid> plan(const TriangleMesh& mesh, float cellSize);
 
-    /// The field whose values() these are, one a node. Throws std::bad_alloc.
-    /// @return null when their number is another, or one of them is no distance in the grid
+    /// The field with these values(), one per node. Throws std::bad_alloc.
+    /// @return null when their number is wrong, or any of them is not a possible distance in the grid
     static std::shared_ptr<const DistanceField> restore(const glm::dvec3& origin, const DistanceGrid& grid,
                                                         std::span<const float> values,
                                                         std::pmr::memory_resource* memory);
@@ -97,7 +97,7 @@ public:
     const DistanceGrid& grid() const { return grid_; }
     std::span<const float> values() const { return {values_.data(), grid_.count()}; } ///< [m] at the nodes
     float cell() const { return grid_.cell; }
-    /// Of places and distances: what steps with it depend on. Never 0.
+    /// Hash of nodes and distances, on which steps depend. Never 0.
     uint64_t hash() const { return hash_; }
 
 private:

@@ -1,5 +1,5 @@
 /// @file distance_grid.h
-/// Where the nodes of a distance field stand.
+/// Lattice of the nodes of a distance field.
 #pragma once
 
 #include "foundation/math/geometry.h"

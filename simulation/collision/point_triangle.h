@@ -1,5 +1,5 @@
 /// @file point_triangle.h
-/// How far a point is from a triangle.
+/// Distance from a point to a triangle.
 ///
 /// @formula point-triangle-distance
 /// The point of a triangle nearest to a given point, by the region that the point's projection lies in.
@@ -32,7 +32,7 @@
 
 namespace fx::sim {
 
-/// What of a triangle a, b, c is nearest: a corner, a side, or the inside.
+/// Nearest feature of a triangle a, b, c: a corner, an edge, or the interior.
 enum class Feature : uint32_t
 {
     A,

@@ -38,7 +38,7 @@
 
 namespace fx::sim {
 
-/// On which side of the way from u to v the row (y, z) runs: +1, -1, or 0 when u and v are one point of it.
+/// Side of the edge from u to v on which the row (y, z) passes: +1, -1, or 0 when u and v are the same point.
 inline int sideOf(const glm::dvec3& u, const glm::dvec3& v, double y, double z)
 {
     const bool isTurned = std::tie(v.x, v.y, v.z) < std::tie(u.x, u.y, u.z);

@@ -12,7 +12,7 @@
 
 namespace fx::sim {
 
-/// Points that are asked for at once: the nearer they lie to each other, the cheaper is each.
+/// Points of one query. The closer they are to each other, the cheaper is each.
 constexpr uint32_t kPacketPoints = 8;
 
 struct PointPacket
@@ -22,15 +22,16 @@ struct PointPacket
     alignas(64) double z[kPacketPoints];
 };
 
-/// What is nearest to each point of a packet.
+/// Nearest triangles of each point of a packet.
 struct PacketNearest
 {
     static constexpr uint32_t kMaxEqualTriangles = 8;
 
-    alignas(64) double squared[kPacketPoints];          ///< [m2] distance
-    uint32_t triangle[kPacketPoints];                   ///< place in the tree of one that is as near
-    uint32_t equals[kPacketPoints];                     ///< how many others are exactly as near
-    uint32_t equal[kPacketPoints * kMaxEqualTriangles]; ///< places of the first of them, point by point
+    alignas(64) double squared[kPacketPoints]; ///< [m2] distance
+    uint32_t triangle[kPacketPoints];          ///< place in the tree of one that is as near
+    /// Number of other triangles at exactly the same distance.
+    uint32_t equals[kPacketPoints];
+    uint32_t equal[kPacketPoints * kMaxEqualTriangles]; ///< positions of the first of them, by point
 };
 
 class TriangleTree
@@ -57,7 +58,7 @@ public:
     /// @param guess place in the tree of a triangle that may be near: the better it is, the faster
     void nearest(const PointPacket& points, uint32_t guess, PacketNearest& out) const;
 
-    /// What nearest() gives for a triangle at a place in the tree.
+    /// Result of nearest() for a given triangle, by position in the tree.
     Nearest at(uint32_t place, const glm::dvec3& p) const;
 
     struct Box
@@ -66,7 +67,7 @@ public:
     };
     struct Node : Box
     {
-        uint32_t first; ///< place of its triangles when `count` > 0, else its second child
+        uint32_t first; ///< position of its triangles when `count` > 0, otherwise its second child
         uint32_t count; ///< triangles of a leaf; 0: children are the next node and `first`
     };
     static constexpr size_t kDeepest = 64; ///< levels; halving 2^22 triangles takes 21

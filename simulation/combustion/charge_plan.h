@@ -1,5 +1,5 @@
 /// @file charge_plan.h
-/// What a charge of stated energy is when the effect begins, and what fireball to expect of it.
+/// Initial state of a charge of given energy, and the expected fireball.
 ///
 /// @formula charge-plan
 /// Mass, ball of gas at the start and fireball, all from the energy.

@@ -72,7 +72,7 @@ struct FireParcel
     double temperature = kAirKelvin; ///< [K]
 };
 
-/// What surrounds a parcel during a step.
+/// Surroundings of a parcel during a step.
 struct FireSurroundings
 {
     double airTemperature = kAirKelvin; ///< [K]
@@ -90,7 +90,7 @@ struct FireLedger
     double givenToAir = 0; ///< [J] left with air beyond the largest mixing
 };
 
-constexpr double kMaxMixing = 1e6; ///< [1] a parcel thinner than this is air
+constexpr double kMaxMixing = 1e6; ///< [1] parcels of higher mixing count as air
 
 /// A parcel of `mass` kilograms of material as the effect begins.
 FireParcel startParcel(const Material& material, double mass);

@@ -1,8 +1,7 @@
 /// @file materials.h
-/// What explodes and burns, in measured numbers: TNT, a petrol fireball, black powder.
-///
-/// Figures per kilogram are per kilogram of the material itself ("own mass"), before any air has mixed in.
-/// Where each comes from stands beside it in materials.cpp.
+/// Measured properties of explosives and fuels: TNT, a petrol fireball, black powder. Quantities per kilogram
+/// refer to the mass of the material itself ("own mass"), without mixed-in air. materials.cpp gives the
+/// source of each.
 #pragma once
 
 #include <span>
@@ -44,7 +43,7 @@ struct Material
     double gasConstant;      ///< [J/(kg K)] of the gas at the start, per kilogram of material
     double startTemperature; ///< [K] of the gas at the start
     double heatCapacity;     ///< [J/(kg K)] of gas and air at constant pressure, mean over 300..2300 K
-    double startSpeed;       ///< [m/s] at the rim, of what a bursting vessel throws out
+    double startSpeed;       ///< [m/s] at the rim, of the content of a bursting vessel
 
     double ignitionTemperature; ///< [K]
     double ignitionDelay;       ///< [s] mean time to ignite when well above it
@@ -66,7 +65,7 @@ struct Material
 extern const ParticleOptics kSootOptics;
 extern const ParticleOptics kSaltOptics;
 
-/// All that presets may name.
+/// All materials that presets can name.
 std::span<const Material> materials();
 /// The material of that name, or null.
 const Material* findMaterial(std::string_view name);

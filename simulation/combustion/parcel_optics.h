@@ -1,5 +1,5 @@
 /// @file parcel_optics.h
-/// What a parcel of burning or burnt gas does to light.
+/// Emission, absorption and scattering of a parcel of burning or burnt gas.
 ///
 /// @formula parcel-optics
 /// Extinction cross section and albedo of a parcel, from the particles it holds.

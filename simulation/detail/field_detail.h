@@ -1,8 +1,7 @@
 /// @file field_detail.h
-/// What a preset says about the detail of a medium's field, and the numbers that follow from it.
-///
-/// The detail itself is made where the field is drawn: balls are summed, and their extinction is eroded by a
-/// threshold on its logarithm, shaders/formulas/field_detail.fx.h.
+/// Parameters of the detail of a medium's field from a preset, and derived numbers. The detail is computed
+/// where the field is drawn: balls are summed, and their extinction is eroded by a threshold on its
+/// logarithm, shaders/formulas/field_detail.fx.h.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -11,7 +10,7 @@
 
 namespace fx::sim {
 
-/// What a medium looks like; it chooses the thresholds.
+/// Appearance of a medium; selects the thresholds.
 enum class DetailMaterial : uint8_t
 {
     Fireball, ///< burning gas with soot: firm billows, cold creases
@@ -22,12 +21,12 @@ enum class DetailMaterial : uint8_t
 
 struct FieldDetail
 {
-    bool given = false; ///< false: smooth balls, or noise of each ball by itself
+    bool given = false; ///< false: smooth balls, or separate noise for each ball
     DetailMaterial material = DetailMaterial::Smoke;
     float billowSize = 1.0f; ///< [1] largest lumps over 1.1 median radii, 0.1 .. 10
     float crispness = 0.5f;  ///< [1] 0 .. 1, of the edges of lumps
     float raggedness = 0.5f; ///< [1] 0 .. 1, strength of small lumps on large ones
-    float liveliness = 1.0f; ///< [1] 0.1 .. 10, how soon the pattern is renewed, over what the flow requires
+    float liveliness = 1.0f; ///< [1] 0.1 .. 10, rate at which the pattern is renewed, over that of the flow
 };
 
 /// Two generations of coordinates, as all balls of a group have them in common.

@@ -14,7 +14,8 @@ namespace fx::sim {
 
 struct ParticleProgram;
 
-/// What all solvers of a definition share, made by the first of them. A copy of a definition makes its own.
+/// Data shared by all solvers of a definition, created by the first of them. A copy of a definition creates
+/// its own.
 class SharedProgram
 {
 public:
@@ -65,8 +66,8 @@ struct EmitterDef final : SolverDef, EmitterSettings
 
 struct EffectDef;
 
-/// The definitions of an effect's emitters by solver index, null for its other solvers: for what reads or
-/// explains emitters. All others ask SolverDef.
+/// The definitions of an effect's emitters by solver index, null for its other solvers: for code that
+/// inspects emitters. Other code uses SolverDef.
 std::vector<const EmitterDef*> emittersOf(const EffectDef& effect);
 
 } // namespace fx::sim

@@ -9,9 +9,8 @@
 
 namespace fx::sim {
 
-/// Rows are those of the particle store. Particles of an emitter do not feel each other, so there is no
-/// gradient to measure: its generations are born at fixed local times, at a rate that follows from its
-/// turbulence.
+/// Rows are those of the particle store. Particles of an emitter do not interact, so no gradient can be
+/// measured: generations begin at fixed local times, at a rate derived from the turbulence.
 class EmitterDetail
 {
 public:
@@ -25,7 +24,7 @@ public:
     void begin(uint64_t next, base::Ticks now);
     /// A step has ended at job.now.
     void follow(const AppearanceJob& job, const StepContext& context);
-    /// Adds the group that belongs to the group of blobs added last, without what is in the rows.
+    /// Adds the group for the group of blobs that was added last, without writing its rows.
     void open(base::Ticks now, base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot) const;
     /// Row `row` of the store becomes element `to`.
     void write(uint32_t row, uint32_t to, base::SnapshotGroup& group) const

@@ -32,8 +32,8 @@ struct EmitterKinds
     base::KindId material = base::kNoKind;
 };
 
-/// Steps particles that do not feel each other. The set of particles, their birth ticks and their rows depend
-/// only on the seed and on what the host asked for, never on how time is cut into steps.
+/// Steps particles that do not interact. The set of particles, their birth ticks and their rows depend only
+/// on the seed and the host's calls, never on the division of time into steps.
 class EmitterSolver final : public Solver,
                             public BudgetedSolver,
                             public SeekableSolver,
@@ -57,7 +57,7 @@ public:
     /// Small emitters are not divided.
     bool proceed(const StepContext& context, base::WorkBudget& work) override
     {
-        const bool isKept = context.board || !isLinked(); // what it keeps in scratch memory
+        const bool isKept = context.board || !isLinked(); // its data in scratch memory
         if (isDivided_ && isKept)
             return goOn(context, work);
         const StepCounters before = *context.counters;
@@ -106,7 +106,7 @@ public:
     base::Ticks restsUntil(base::Ticks tick) const override;
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
-    /// Where particles know nothing of each other nor of those before them, and none is ever dropped.
+    /// Finite if particles do not depend on each other or on earlier ones, and no birth is dropped.
     base::Ticks influenceHorizon(const InstanceParameters& parameters) const override;
     void saveBriefly(StateWriter& writer) const override { saveState(writer, false); }
     void passOver(const StepContext& context, base::Ticks tick) override;
@@ -158,22 +158,22 @@ private:
         Births,
         Young,  ///< moves the new particles
         Move,   ///< moves all particles, without events
-        Answer, ///< what happened gives birth elsewhere
+        Answer, ///< events cause births in other emitters
         Follow, ///< trails
     };
     struct Linked;
     struct OpenStep
     {
-        base::Ticks tick = -1;   ///< at which it begins; -1: there is none
+        base::Ticks tick = -1;   ///< begin of the open step; -1: none
         base::Ticks reached = 0; ///< local time up to which all are born
         StepPart part = StepPart::Old;
         bool isWanted = false; ///< on the GPU
         uint32_t row = 0;      ///< of the part
         uint64_t left = 0;     ///< births that may still be stored
-        uint64_t asked = 0;    ///< births that asked for a row
+        uint64_t asked = 0;    ///< attempted births
         uint64_t refused = 0;  ///< that found it taken
         uint64_t droppedBefore = 0;
-        Linked* linked = nullptr; ///< in scratch memory, where there are events
+        Linked* linked = nullptr; ///< in scratch memory, for emitters with events
         uint64_t board = 0;       ///< number of the EventBoard beside which that lies
     };
     bool isOpen(const StepContext& context) const;
@@ -185,7 +185,7 @@ private:
     bool stepAlone(const StepContext& context, base::WorkBudget& work);
     bool joins(const StepContext& context) const;
     bool isPoolable() const;
-    /// What is asked of it is answered by its own state, which a pool may have run ahead of.
+    /// Updates its state from the pool, which may be ahead, before a query.
     void catchUpWithPool() const
     {
         if (pool_)
@@ -224,13 +224,13 @@ private:
     void leaveGpu();
     void listenAgain();
     void saveFromGpu(StateWriter& writer) const;
-    // where there are events
+    // for emitters with events
     struct Origin
     {
         glm::vec3 position{0.0f}; ///< [m] added to where the birth's own shape puts it
-        glm::vec3 velocity{0.0f}; ///< [m/s] likewise
+        glm::vec3 velocity{0.0f}; ///< [m/s] of the origin
         glm::vec3 tint{1.0f};     ///< [1] multiplies its color
-        bool fed = false;         ///< what a particle went through gave birth to it
+        bool fed = false;         ///< its birth was caused by an event of a particle
         bool byClock = true;
     };
     // where particles stay behind
@@ -287,7 +287,7 @@ private:
         glm::vec3 position{0.0f};
         glm::vec3 intensity{0.0f}; ///< [cd]
         uint32_t row = 0;
-        float sum = 0; ///< what decides which are kept
+        float sum = 0; ///< selects the kept ones
     };
     Light lightOf(uint32_t row, uint32_t i, const MotionTile& motion) const;
     bool findLights(PublicationPlace& place, base::WorkBudget& work) const;
@@ -300,7 +300,7 @@ private:
                        base::SnapshotGroup& material) const;
     void writeMedium(uint32_t solver, uint32_t begin, uint32_t end, class BlobWriter& writer) const;
 
-    // What every step and publication of a small emitter reads stands together.
+    // Members used by every step and publication of a small emitter, adjacent for the cache.
     const EmitterDef& def_;
     const ParticleProgram& program_;
     base::Ticks now_ = 0;         ///< end of the last step
@@ -313,7 +313,7 @@ private:
     bool publishesWithMany_; ///< likewise
     bool poolable_;
     uint32_t member_ = 0;         ///< of the pool
-    EmitterPool* pool_ = nullptr; ///< that computes it; then what follows may be of the past
+    EmitterPool* pool_ = nullptr; ///< pool that computes it; the members below may then be outdated
     EmitterKinds kinds_;
     ParticleStore store_;
     BirthSchedule schedule_;
@@ -328,7 +328,7 @@ private:
     uint64_t hostEvents_ = 0;                ///< so many have been answered
     uint64_t dropped_ = 0;
     base::TaskRunner* tasks_ = nullptr;              ///< of the last step
-    mutable std::pmr::vector<uint32_t> rowsByBirth_; ///< room to sort what a medium publishes
+    mutable std::pmr::vector<uint32_t> rowsByBirth_; ///< scratch for sorting the published rows of a medium
     OpenStep open_;
     bool isDivided_;            ///< its steps are, see proceed()
     uint64_t refusedInRow_ = 0; ///< births that found their row taken, one after the other

@@ -1,5 +1,5 @@
 /// @file fragments_def.h
-/// What a preset says about a burst of incandescent solids. All lengths in the instance's local space.
+/// Definition of a burst of incandescent fragments. All lengths in the instance's local space.
 #pragma once
 
 #include "foundation/math/curve.h"
@@ -20,14 +20,14 @@ enum class FragmentShape : uint8_t
     Cone,       ///< within `angle` of +Y
 };
 
-/// How many fragments there are of each size; see fragment_sizes.h.
+/// Distribution of fragment sizes; see fragment_sizes.h.
 enum class SizeLaw : uint8_t
 {
     Mott,
     PowerLaw,
 };
 
-/// What the fragments are made of and how the air meets them.
+/// Material and drag of fragments.
 struct FragmentMatter
 {
     float density = 7850.0f;      ///< [kg/m3] > 0; steel
@@ -43,7 +43,7 @@ struct FragmentMatter
 struct TrailDef
 {
     float spacing = 0.2f;             ///< [m] 0 leaves none
-    float idle = 0.0f;                ///< [m/s] a slower fragment smokes as if it were this fast
+    float idle = 0.0f;                ///< [m/s] lowest speed used for the smoke rate of a fragment
     uint32_t maxBlobs = 4096;         ///< alive at once
     float coldest = 650.0f;           ///< [K] a fragment below it smokes no more
     base::Range lifetime{1.5f, 3.0f}; ///< [s] > 0
@@ -64,7 +64,7 @@ struct TrailDef
     float anisotropy = 0.3f;
 };
 
-/// What fragments and their smoke count in units of base::WorkBudget, see docs/howto/bounded-updates.md.
+/// Work of fragments and their smoke in units of base::WorkBudget, see docs/howto/bounded-updates.md.
 namespace fragment_work {
 constexpr double kMoved = 24.0; ///< of each fragment and each blob of smoke in a sub-step
 constexpr double kBirth = 20.0; ///< of each that is left or released

@@ -10,8 +10,8 @@
 
 namespace fx::sim {
 
-/// Steps ballistic fragments that do not feel each other. What is released, and which blob of smoke is left
-/// where, depends only on the seed and on what the host asked for.
+/// Steps ballistic fragments that do not interact. Fragments and their smoke depend only on the seed and the
+/// host's calls.
 class FragmentsSolver final : public Solver, public BudgetedSolver
 {
 public:
@@ -43,7 +43,7 @@ private:
     /// A step of which some is still to be done.
     struct OpenStep
     {
-        base::Ticks tick = -1; ///< at which it begins; -1: there is none
+        base::Ticks tick = -1; ///< begin of the open step; -1: none
         bool hasFlown = false; ///< the fragments are at its end; smoke is still to be left
         uint32_t row = 0;      ///< of the smoke that is next: to move, or to be left
     };

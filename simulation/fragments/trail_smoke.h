@@ -1,8 +1,7 @@
 /// @file trail_smoke.h
 /// How the smoke of a fragment is left behind, moves and fades.
 ///
-/// @formula smoke-trail
-/// Blobs at equal distances along the way, and what becomes of each.
+/// @formula smoke-trail Blobs of smoke at equal distances along the path of a fragment, and their evolution.
 ///
 /// symbol   unit   meaning
 ///   L       m      way of a fragment during a step, at least idle speed times its length
@@ -42,7 +41,7 @@
 
 namespace fx::sim {
 
-/// What all blobs of a step have in common.
+/// Data shared by all blobs of a step.
 struct TrailStep
 {
     TrailStep(const FragmentsDef& definition, const StepContext& context);
@@ -53,7 +52,7 @@ struct TrailStep
     CurlNoise noise;
 };
 
-/// Where a fragment was at both ends of what it flew of a step.
+/// Position of a fragment at both ends of its flight in a step.
 struct FragmentWay
 {
     MotionState from;
@@ -61,7 +60,7 @@ struct FragmentWay
     float length;    ///< [m] L, as counted for smoke
     float due;       ///< [m] D before the step
     uint32_t blobs;  ///< left during the step
-    uint32_t stored; ///< of these, those for which there is room
+    uint32_t stored; ///< number of these that fit into the store
     uint32_t first;  ///< row of the first of them
 };
 
@@ -75,7 +74,7 @@ struct SmokeRows
     uint32_t end;
 };
 
-/// Fills `rows` of the smoke that fragment `row` leaves on `way`, as they are at the end of the step.
+/// Writes `rows` of the smoke of fragment `row` along `way`, in their state at the end of the step.
 /// @param begin local time at which the way begins
 void leaveSmoke(const TrailStep& step, const FragmentStore& fragments, uint32_t row, const FragmentWay& way,
                 base::Ticks begin, const SmokeRows& rows, TrailStore& trail);

@@ -33,17 +33,16 @@ constexpr uint64_t trailId(uint32_t fragment, uint32_t blob)
     return (uint64_t(fragment) << 24) | (blob & 0xFFFFFFu);
 }
 
-/// Rows in the order in which they were left. Memory is there for a usual number of them and grows beyond.
+/// Rows in the order of creation. Memory is reserved for a typical number of rows and grows as needed.
 class TrailStore
 {
 public:
-    /// @param most rows that there may ever be
+    /// @param most largest number of rows
     TrailStore(std::pmr::memory_resource* memory, size_t most);
 
-    size_t capacity() const { return most_; }     ///< rows that there may ever be
-    size_t held() const { return id.capacity(); } ///< rows that there is memory for
-    /// Makes sure that there is memory for `rows`, at most capacity(): twice as much as before at the least.
-    /// Strong guarantee.
+    size_t capacity() const { return most_; }     ///< largest number of rows
+    size_t held() const { return id.capacity(); } ///< rows with reserved memory
+    /// Reserves memory for `rows`, at most capacity(), at least doubling it. Strong guarantee.
     void reserve(size_t rows);
     /// [byte] of so many rows.
     static uint64_t bytesOf(size_t rows);

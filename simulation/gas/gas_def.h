@@ -1,5 +1,5 @@
 /// @file gas_def.h
-/// What a preset says about one explosion of gas: what burns, how much energy it has, how it moves and looks.
+/// Definition of one explosion of gas: material, energy, motion and appearance.
 #pragma once
 
 #include "foundation/math/curve.h"
@@ -15,7 +15,7 @@
 
 namespace fx::sim {
 
-/// A charge let go at local time `start`. Mass, size, temperature, pressure, soot and duration follow from
+/// A charge released at local time `start`. Mass, size, temperature, pressure, soot and duration follow from
 /// the material and the energy, see charge_plan.h.
 struct GasDef final : SolverDef
 {

@@ -1,5 +1,5 @@
 /// @file gas_exchange.h
-/// What a gas and the air around it do to each other in a step: burning, mixing, buoyancy, drag.
+/// Exchange between a gas and the surrounding air in a step: burning, mixing, buoyancy, drag.
 ///
 /// @formula gas-exchange
 /// A parcel takes in air, burns with it, is lifted and braked; each part exact over the step, one after the
@@ -44,7 +44,7 @@
 
 namespace fx::sim {
 
-/// What all particles of a step have in common.
+/// Data shared by all particles of a step.
 struct GasExchange
 {
     const GasDef& def;

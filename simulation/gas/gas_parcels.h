@@ -1,5 +1,5 @@
 /// @file gas_parcels.h
-/// What each particle of a gas carries beside its motion: a parcel that burns, and how it is seen.
+/// Data of each gas particle besides its motion: the burning parcel and its optics.
 #pragma once
 
 #include "foundation/memory/column.h"
@@ -19,7 +19,7 @@ struct GasParcels
         : fire(memory, capacity), vigor(memory, capacity), presence(memory, capacity)
     {}
 
-    base::Column<FireParcel> fire; ///< its temperature is what the parcel has at the air's pressure
+    base::Column<FireParcel> fire; ///< its temperature is that at the air's pressure
     base::Column<float> vigor;     ///< [1] this parcel's rate of mixing over the mean
     base::Column<float> presence;  ///< [1] part of the smoke that has not yet dissolved, 1..0
 };

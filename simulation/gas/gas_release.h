@@ -1,5 +1,5 @@
 /// @file gas_release.h
-/// The gas at the moment it is let go.
+/// Initial state of the gas.
 ///
 /// @formula gas-release
 /// Fills a ball evenly with particles of the charge, thrown out unevenly.

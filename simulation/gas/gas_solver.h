@@ -13,8 +13,8 @@
 
 namespace fx::sim {
 
-/// Most sub-steps between two exchanges with the air. What they do not cover is not simulated, and reported
-/// as debt.
+/// Most sub-steps between two exchanges with the air. Time beyond them is not simulated, but reported as
+/// debt.
 constexpr uint32_t kMaxGasSubSteps = 400;
 constexpr double kMaxGasSlices = 64.0; ///< exchanges with the air in a step
 constexpr double kGasCourant = 0.6;
@@ -64,8 +64,8 @@ private:
     /// State of a step that is computed over several calls of proceed().
     struct Open
     {
-        base::Ticks tick = -1; ///< at which it began; -1 while there is none
-        double seconds = 0;    ///< [s] of all of it
+        base::Ticks tick = -1; ///< begin of the open step; -1: none
+        double seconds = 0;    ///< [s] length of the step
         double left = 0;       ///< [s] of that, from the beginning of the slice in hand
         double slice = 0;      ///< [s] of gas dynamics between two exchanges; 0 between slices
     };

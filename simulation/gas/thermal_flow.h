@@ -47,7 +47,7 @@ struct ThermalFlow
     bool active() const { return speed != 0.0f; }
     /// [m/s] of the air at `position`.
     glm::vec3 velocity(const glm::vec3& position) const;
-    /// The same without what lifts the cloud as a whole.
+    /// The velocity without the mean lift of the cloud.
     glm::vec3 circulation(const glm::vec3& position) const { return velocity(position) - mean; }
 };
 

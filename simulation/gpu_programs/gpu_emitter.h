@@ -1,8 +1,7 @@
 /// @file gpu_emitter.h
-/// An emitter's births and conditions while the GPU computes its particles, or while it might.
-///
-/// It listens all the time. While it is on, the emitter has no rows: births are only counted, and what is
-/// published is what they are computed from. The rows come back bit for bit whenever they are needed.
+/// Log of an emitter's births and conditions, for computing its particles on the GPU. It is always recorded.
+/// While the GPU computes the emitter, it has no rows: births are only counted, and the log is published.
+/// Rows can be restored bit for bit at any time.
 #pragma once
 
 #include "simulation/emitters/births/birth_log.h"
@@ -26,7 +25,7 @@ public:
     BirthLog& log() { return log_; }
     const BirthLog& log() const { return log_; }
 
-    /// Nothing is known of what happened before `now`, unless that is 0. Ends.
+    /// Clears the log and ends GPU computation. History before `now` is unknown, unless `now` is 0.
     void clear(const BirthKey& key, base::Ticks now, uint64_t next, const glm::vec3& pull);
     /// A step that is about to be taken, wherever that happens. Only where motion has no closed form.
     void noteStep(const StepContext& context);
@@ -34,9 +33,9 @@ public:
     void setPull(base::Ticks now, const glm::vec3& pull);
     /// Births were dropped before `now`.
     void noteDrop(base::Ticks now) { dropped_ = now; }
-    /// Whether births since the last forget() surely found their rows free.
+    /// Whether all births since the last forget() had free rows, by a conservative bound.
     bool surelyFits() const { return log_.next() - log_.front() <= rows_; }
-    /// Forgets what can no longer be alive at `now`.
+    /// Removes entries of particles that are dead at `now`.
     void forget(base::Ticks now);
 
     /// Whether a step needs more than the GPU supports.
@@ -49,7 +48,7 @@ public:
     /// Whether particles may die before their time.
     bool kills() const { return kills_; }
     bool isOn() const { return on_; }
-    /// Whether all that lives at `now` is known, and small enough to be published.
+    /// Whether the log covers all particles that live at `now`, and is small enough for publication.
     bool mayBegin(base::Ticks now) const;
     bool mayGoOn(base::Ticks now) const;
     void begin() { on_ = true; }
@@ -82,7 +81,7 @@ private:
     bool meetsOthers_ = false;
     BirthLog log_;
     StepLog stepLog_;
-    std::pmr::vector<MotionCondition> conditions_; ///< the first holds for all that may be alive
+    std::pmr::vector<MotionCondition> conditions_; ///< the first one applies to the oldest living particle
     base::Ticks known_ = 0;                        ///< nothing is missing since then
     base::Ticks dropped_ = -1;                     ///< [tick] births were dropped before then; -1: never
     bool on_ = false;

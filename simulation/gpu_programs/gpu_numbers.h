@@ -1,5 +1,5 @@
 /// @file gpu_numbers.h
-/// What the GPU has to know of an emitter's births and appearance.
+/// Parameters of an emitter's births and appearance for the GPU.
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"

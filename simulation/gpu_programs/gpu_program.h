@@ -1,5 +1,5 @@
 /// @file gpu_program.h
-/// Which emitters the GPU can compute, and what it has to know of them.
+/// Selection of emitters for the GPU, and their parameters there.
 #pragma once
 
 #include "foundation/snapshot/gpu_particles.h"
@@ -10,7 +10,7 @@
 
 namespace fx::sim {
 
-/// Why an emitter is computed on the CPU, for people; empty when the GPU can do it and is asked to.
+/// Reason why an emitter is computed on the CPU, as text; empty for the GPU.
 std::string_view gpuObstacle(const EmitterSettings& def);
 
 /// @param def one without an obstacle; it is copied

@@ -1,6 +1,6 @@
 /// @file gpu_replay.h
-/// The rows of an emitter from nothing but its births: what the GPU computes, on the CPU and bit for bit as
-/// if it had been stepped there all along.
+/// Computes the rows of an emitter from the log of its births on the CPU, with the same bits as if it had
+/// been stepped there.
 #pragma once
 
 #include "simulation/gpu_programs/step_log.h"
@@ -15,7 +15,7 @@
 
 namespace fx::sim {
 
-/// What acts on ballistic particles from a moment on.
+/// Conditions of ballistic particles from a time on.
 struct MotionCondition
 {
     base::Ticks begin; ///< local time
@@ -37,7 +37,7 @@ base::Ticks longestKept(const ParticleProgram& program);
 /// The steps of a group that ended after `since`.
 std::vector<ReplayStep> stepsOf(const base::SnapshotGroup& group, base::Ticks since);
 
-/// What modules get for one of them; neither memory nor tasks.
+/// Context of modules for one step, without memory and tasks.
 StepContext contextOf(const ReplayStep& step, const BirthKey& key);
 
 struct ReplayInput
@@ -53,12 +53,12 @@ struct ReplayInput
     std::span<const ReplayStep> steps = {}; ///< all in which they lived; where motion has no closed form
 };
 
-/// Fills `store` with what lives of the births. @return what there is to be looked at
+/// Fills `store` with the living particles. @return the job for their appearance
 AppearanceJob replayBirths(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
 /// The same step by step.
 AppearanceJob replaySteps(const ParticleProgram& program, const ReplayInput& in, ParticleStore& store);
 
-/// From now on, motion begins where it has come to.
+/// Restarts closed-form motion at the present state.
 void restartMotion(const AppearanceJob& job, ParticleStore& store);
 
 /// As base::GpuParticleProgram::replay.

@@ -1,6 +1,6 @@
 /// @file step_log.h
-/// Which steps an emitter has taken under which conditions, remembered as runs of equal steps: with its
-/// births all that its particles depend on.
+/// Log of an emitter's steps and their conditions, as runs of equal steps. Particles depend only on it and on
+/// the births.
 #pragma once
 
 #include "foundation/snapshot/gpu_modules.h"
@@ -15,7 +15,7 @@
 
 namespace fx::sim {
 
-/// What a step does to particles.
+/// Conditions of a step.
 struct StepConditions
 {
     glm::vec3 gravity{0.0f}; ///< [m/s2] local
@@ -58,11 +58,11 @@ class StepLog
 public:
     explicit StepLog(std::pmr::memory_resource* memory) : runs_(memory) {}
 
-    /// Nothing is known of steps before now. @param seed of what follows
+    /// Clears the log. @param seed of the following steps
     void clear(uint64_t seed, uint32_t solver);
     /// A step is taken. @param next index of the next birth before it
     void add(base::Ticks begin, base::Ticks length, uint64_t next, const StepConditions& conditions);
-    /// Forgets steps that ended before `tick`.
+    /// Removes steps that ended before `tick`.
     void forget(base::Ticks tick);
 
     size_t runs() const { return runs_.size(); }

@@ -55,7 +55,7 @@ public:
     void addTo(const std::array<const float*, 3>& position, const std::array<float*, 3>& velocity,
                uint32_t count) const;
 
-    /// What a field is made of, for its kernels.
+    /// Parameters of a field, for its kernels.
     struct Parts
     {
         uint32_t seed;

@@ -1,5 +1,5 @@
 /// @file flight_bound.h
-/// A distance that nothing in flight passes, whatever the directions of what moves it.
+/// Upper bound of the distance of a flight, for any directions of the forces.
 ///
 /// @formula flight-bound
 /// The largest distance from its start of a body under bounded acceleration with drag towards moving air.

@@ -36,7 +36,7 @@ struct MotionState
     glm::vec3 velocity; ///< [m/s]
 };
 
-/// What the ground does to what falls on it.
+/// Collision with the ground.
 struct GroundContact
 {
     float height;      ///< [m] -infinity for none

@@ -38,7 +38,7 @@ namespace fx::sim::particles::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Whatever the processor has, but never more than 16 lanes: tiles are padded to that.
+// The processor's vector width, at most 16 lanes, the padding of tiles.
 using FloatTag = hn::CappedTag<float, 16>;
 using IntTag = hn::Rebind<int32_t, FloatTag>;
 using WordTag = hn::Rebind<uint32_t, FloatTag>;
@@ -56,7 +56,7 @@ HWY_INLINE Floats all(float x)
     return hn::Set(kFloats, x);
 }
 
-/// What drag and acceleration do over a time, see linear-drag-step.
+/// Effect of drag and acceleration over a time, see linear-drag-step.
 struct DragLanes
 {
     Floats decay; ///< [1] E
@@ -88,7 +88,7 @@ HWY_INLINE DragLanes dragLanes(Floats k, Floats perK, Floats t)
     const Floats z = k * t;
     const Floats z2 = z * z;
     const Floats z4 = z2 * z2;
-    // (1) in pairs: a short chain of operations, so that the processor finds some that do not wait.
+    // (1) in pairs, which shortens the dependency chain.
     const Floats p0 = all(0.5f) - all(0.166666597f) * z;
     const Floats p1 = all(0.0416659452f) - all(0.00833040196f) * z;
     const Floats p2 = all(0.00138298643f) - all(0.000191851024f) * z;

@@ -1,5 +1,5 @@
 /// @file appearance_kernel.h
-/// From the state of particles to what is seen of them: one pass over memory, written where it is published.
+/// Computes the published columns of particles from their state in one pass over memory.
 ///
 /// @formula ballistic-motion
 /// Position and velocity of a particle under gravity, linear drag and wind as a function of its age.
@@ -36,19 +36,19 @@ namespace fx::sim {
 constexpr float kLongestStep = 1.0f; ///< [s] between two snapshots
 constexpr float kFarAway = std::numeric_limits<float>::infinity();
 
-/// What all particles of an emitter have in common when they are looked at.
+/// Data shared by all particles of an emitter in a publication.
 struct AppearanceJob
 {
     const ParticleProgram* program;
     const ParticleStore* store;
     RowWindow rows;
     base::Ticks now;
-    base::Ticks motionBegin;          ///< motion of what is older begins there
+    base::Ticks motionBegin;          ///< begin of the motion of older particles
     glm::vec3 pull;                   ///< [m/s2] a + k u; only where motion is ballistic
     float secondsBack = kLongestStep; ///< [s] since the snapshot before, for bounds
 };
 
-/// Columns of a group of the kind "particle"; null where it has none.
+/// Columns of a group of the kind "particle"; null if absent.
 struct AppearanceColumns
 {
     float* x;
@@ -65,7 +65,7 @@ struct AppearanceColumns
     bool stream; ///< write past the caches
 };
 
-/// Box around the centers, and the largest half height of what is drawn there.
+/// Box of the centers, and the largest half height of a drawn particle.
 struct AppearanceBounds
 {
     glm::vec3 low{kFarAway};

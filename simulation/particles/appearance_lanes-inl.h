@@ -68,7 +68,7 @@ public:
           bright_(brightness_.rows || brightness_.constant != 1.0f)
     {}
 
-    /// Goes on with another job of the same program.
+    /// Continues with another job of the same program.
     HWY_INLINE void turnTo(const AppearanceJob& job)
     {
         job_ = &job;
@@ -87,7 +87,8 @@ public:
     }
 
     /// @tparam kPlain ParticleProgram::plain
-    /// @tparam kStream whether what is plain is written past the caches; otherwise AppearanceColumns says
+    /// @tparam kStream whether plain columns are written with non-temporal stores; otherwise as in
+    ///         AppearanceColumns
     template <bool kBallistic, bool kBrief, bool kPlain, bool kStream>
     void run(uint32_t begin, uint32_t end, AppearanceBounds& outBounds) const
     {
@@ -131,7 +132,7 @@ public:
         }
         bounds.store(outBounds);
     }
-    /// The compiler forgets it here; mixed code waits for 60 ns without.
+    /// vzeroupper, which the compiler omits here; otherwise the transition from AVX to SSE costs 60 ns.
     static HWY_INLINE void leaveVectors()
     {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
@@ -270,9 +271,8 @@ HWY_INLINE void AppearanceLanes::write(uint32_t row, Which alive, const MotionLa
         writeMore(row, alive, motion);
 }
 
-/// Sprites are longer by their way, along it unless they turn, and what was born since the snapshot before is
-/// drawn on its way since then. Ages do not identify those: they count time of the instance, which may run
-/// faster.
+/// Sprites are extended along their path unless they rotate. Particles born since the previous snapshot are
+/// drawn along their path since birth. Ages do not identify them, because the instance's time may run faster.
 HWY_INLINE void AppearanceLanes::addMoving(Which alive, const MotionLanes& motion, Floats radius,
                                            BoundsLanes& bounds) const
 {

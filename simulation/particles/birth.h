@@ -8,7 +8,7 @@
 
 namespace fx::sim {
 
-constexpr base::Ticks kForever = INT64_MAX / 4; ///< later than anything happens
+constexpr base::Ticks kForever = INT64_MAX / 4; ///< later than any event
 
 /// One particle that is to be born.
 struct Birth

@@ -28,12 +28,12 @@ struct ScatteredBirth
     ParticleStore* store;
     uint64_t seed;
     Birth birth;
-    uint32_t row;  ///< where it belongs, as ParticleStore::rowOf() says
+    uint32_t row;  ///< its row by ParticleStore::rowOf()
     bool isStored; ///< out: false when its row was taken
 };
 
-/// The same for births in different emitters: what one emitter alone would get, bit for bit. Births of one
-/// emitter stand in order and have different rows.
+/// The same for births in different emitters, with the same bits as for separate emitters. Births of one
+/// emitter are in order and have different rows.
 void storeScattered(const ParticleProgram& program, uint32_t solver, std::span<ScatteredBirth> births);
 
 /// A birth in one emitter of many that share the rows of one store.

@@ -17,7 +17,7 @@ enum class AppearanceKind : uint8_t
     None,   ///< nothing is published: particles that only give birth to others
 };
 
-/// What tells which frame of the texture is shown.
+/// How the frame of a flipbook texture is chosen.
 enum class FrameClock : uint8_t
 {
     None,      ///< the first, or the one that `firstFrame` draws
@@ -59,7 +59,8 @@ struct EmitterAppearance
     float framesPerSecond = 0.0f;
     base::Range firstFrame{0.0f, 0.0f}; ///< [1] frame at birth, a fraction of a frame is kept
 
-    // Over speed, t = speed / fastest in [0, 1]; multiply what life gives. fastest 0: not used.
+    // Curves over speed, t = speed / fastest in [0, 1]; they multiply the curves over life. fastest 0: not
+    // used.
     float fastest = 0.0f; ///< [m/s]
     base::ColorCurve colorOverSpeed{std::array{1.0f, 1.0f, 1.0f}};
     base::ScalarCurve sizeOverSpeed{std::array{1.0f}};

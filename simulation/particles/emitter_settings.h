@@ -1,6 +1,6 @@
 /// @file emitter_settings.h
-/// What a preset says about one emitter, as plain data: where particles are born, how they move and what is
-/// drawn of them. All lengths in the instance's local space.
+/// Definition of one emitter as plain data: births, motion and appearance of its particles. All lengths in
+/// the instance's local space.
 #pragma once
 
 #include "foundation/math/curve.h"
@@ -34,7 +34,7 @@ struct Burst
     float time = 0; ///< [s] after the start, >= 0
     uint32_t count = 0;
     uint32_t cycles = 1;   ///< how often it happens, 0: for ever
-    float interval = 0;    ///< [s] between two cycles, > 0 unless there is one
+    float interval = 0;    ///< [s] between two cycles, > 0 for several cycles
     float probability = 1; ///< [1] 0..1 that a cycle happens at all, drawn for each
 };
 
@@ -67,7 +67,7 @@ struct EmitterForces
     uint32_t curlOctaves = 1;  ///< each next one has half the strength and scale and twice the rate, 1..8
 };
 
-/// What computes the particles of an emitter that is drawn.
+/// Processor of the particles of a drawn emitter.
 enum class ComputeOn : uint8_t
 {
     Cpu,
@@ -88,7 +88,7 @@ struct EmitterSettings
     glm::vec3 size{0.0f};     ///< [m] see EmitterShape
     float angle = 0.0f;       ///< [rad] half angle of the cone, 0..pi
     Emission emission;
-    /// Particles stay where they are when the host moves the instance; else they move with it.
+    /// True: particles keep their world position when the host moves the instance; false: they move with it.
     bool inWorld = false;
     float inheritVelocity = 0.0f; ///< [1] 0..1 of the velocity with which the host moves it; with inWorld
 
@@ -104,7 +104,7 @@ struct EmitterSettings
     /// Run after the forces above, in order within their phase. None: with gravity, drag and wind alone
     /// motion has a closed form.
     std::vector<std::shared_ptr<const TileOp>> modules;
-    bool meetsDepth = false; ///< one of them is ObstacleKind::Depth: what a view shows, on the GPU alone
+    bool meetsDepth = false; ///< some obstacle is ObstacleKind::Depth, which works on the GPU only
 
     // Over life, t in [0, 1]; multiply the values drawn at birth.
     base::ScalarCurve sizeOverLife{std::array{1.0f}};
@@ -113,9 +113,9 @@ struct EmitterSettings
     base::ColorCurve albedoOverLife{std::array{0.0f, 0.0f, 0.0f}};   ///< [0, 1] single scattering albedo
     base::ColorCurve emissionOverLife{std::array{0.0f, 0.0f, 0.0f}}; ///< [cd/m2] besides the black body
 
-    std::vector<EventRule> events; ///< what happens to its particles gives birth in other emitters
+    std::vector<EventRule> events; ///< rules by which events of its particles cause births in other emitters
     bool fed = false;              ///< events of other emitters' particles give birth in this one
-    bool tinted = false;           ///< what gives birth to its particles may color them
+    bool tinted = false;           ///< its particles may inherit a color
 
     RibbonDef trail;
     LightDef light;

@@ -1,5 +1,5 @@
 /// @file event_list.h
-/// What happens to particles, from which particles of other emitters are born.
+/// Events of particles that cause births in other emitters.
 ///
 /// @formula event-ticks
 /// When an event happens, and in which order events are answered.
@@ -43,17 +43,17 @@
 
 namespace fx::sim {
 
-/// What can happen to a particle.
+/// Kinds of events.
 enum class EventKind : uint8_t
 {
     Birth,
     Age, ///< it reached the age that its rule names
     Collision,
     Death,
-    Host, ///< the host said so
+    Host, ///< triggered by the host
 };
 
-/// One event, with what a particle that is born from it inherits.
+/// One event, with the values that a particle born from it inherits.
 struct ParticleEvent
 {
     base::Ticks tick; ///< local time
@@ -63,7 +63,7 @@ struct ParticleEvent
     glm::vec3 position;     ///< [m]
     glm::vec3 velocity;     ///< [m/s]
     glm::vec3 color{1.0f};  ///< [1] linear Rec. 709, where a rule needs it
-    bool scheduled = false; ///< the clock or the host is its cause, not what a particle went through
+    bool scheduled = false; ///< caused by the schedule or the host, not by a particle
     uint32_t number = 0; ///< which of the emitter's ages, with EventKind::Age; as TileContact with Collision
     float speed = 0.0f;  ///< [m/s] with Collision: see TileContact
     bool isLast = false; ///< likewise

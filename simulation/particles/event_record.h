@@ -7,7 +7,7 @@
 
 namespace fx::sim {
 
-/// What happens to row `i` at a share of its part of the step; without its place and its velocity.
+/// Event of row `i` at a share of its part of the step, without position and velocity.
 inline ParticleEvent eventAt(const TileContext& context, const Tile& tile, uint32_t i, float share,
                              EventKind kind)
 {

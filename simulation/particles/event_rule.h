@@ -1,5 +1,5 @@
 /// @file event_rule.h
-/// What an emitter's preset says about what becomes of its events.
+/// Rules of an emitter's preset for its events.
 #pragma once
 
 #include "simulation/particles/event_list.h"
@@ -21,12 +21,12 @@ struct EventRule
     base::Ticks every = 0; ///< > 0: and again whenever it has become so much older
     /// With EventKind::Collision: [m/s] least speed against the surface, along its normal; see event-ticks.
     float minSpeed = kUsualContactSpeed;
-    float minLastSpeed = 0.0f; ///< [m/s] the same for a contact that kills or holds, of which there is one
+    float minLastSpeed = 0.0f; ///< [m/s] the same for a contact that kills or sticks, which happens once
     uint32_t hostEvent = 0;    ///< with EventKind::Host: number in EffectDef::hostEvents
     uint32_t target = 0;       ///< solver index of the emitter that gives birth
     uint32_t fewest = 1;       ///< births of one event, drawn from [fewest, most]
     uint32_t most = 1;
-    float probability = 1.0f;     ///< [1] 0..1 that anything is born
+    float probability = 1.0f;     ///< [1] 0..1, probability of births
     float inheritVelocity = 0.0f; ///< [1] 0..1 share of the particle's velocity that is added to births
     float inheritColor = 0.0f;    ///< [1] 0..1: from their own color to that times the particle's
 };
@@ -34,7 +34,7 @@ struct EventRule
 /// Births that one event causes in the target emitter.
 struct EventBirth
 {
-    ParticleEvent cause; ///< its velocity is what is inherited
+    ParticleEvent cause; ///< its velocity is inherited
     uint32_t rule;       ///< number among the rules of the emitter that it happened in
     uint32_t count;
 };

@@ -1,5 +1,5 @@
 /// @file gpu_module_source.h
-/// What a module of a tile is besides when the GPU can do the same.
+/// Additional interface of a tile module that the GPU can compute.
 #pragma once
 
 #include "foundation/snapshot/gpu_modules.h"
@@ -12,9 +12,9 @@ class GpuModuleSource
 {
 public:
     virtual ~GpuModuleSource() = default;
-    /// Tells `out` what it does. @return false where only the CPU can
+    /// Describes the module to `out`. @return false if only the CPU can compute it
     virtual bool describe(base::GpuModules& out) const = 0;
-    /// What prepare() has left in its scratch as the GPU reads it: the words that describe() has asked for.
+    /// Writes the scratch data of prepare() as words for the GPU, in the number requested by describe().
     virtual void writeWords(const void* /*scratch*/, uint32_t* /*out*/) const {}
 };
 

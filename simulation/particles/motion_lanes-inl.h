@@ -36,7 +36,7 @@ struct Source
 struct MotionLanes
 {
     Floats position[3];
-    Floats velocity[3]; ///< only when asked for
+    Floats velocity[3]; ///< only on request
     Floats age;
     Floats life; ///< [1] age / lifetime
 };
@@ -54,7 +54,7 @@ public:
     {
         turnTo(job);
     }
-    /// Goes on with another job of the same program.
+    /// Continues with another job of the same program.
     HWY_INLINE void turnTo(const AppearanceJob& job)
     {
         const ParticleStore& store = *job.store;
@@ -142,7 +142,7 @@ private:
 class CurveLanes
 {
 public:
-    /// @param ioPiece where the last particles were: mostly these are there too
+    /// @param ioPiece piece of the previous particles, usually also of these
     HWY_INLINE CurveLanes(const RampCurves& curves, Floats t, uint32_t& ioPiece) : curves_(curves), t_(t)
     {
         if (HWY_UNLIKELY(curves_.byTable)) {

@@ -1,6 +1,6 @@
 /// @file particle_program.h
-/// What an emitter's definition comes to: which attributes its particles have, how they move, what is
-/// published. Made once, shared by all steps.
+/// Compiled form of an emitter's definition: stored attributes, motion and published columns. Built once,
+/// shared by all steps.
 #pragma once
 
 #include "simulation/particles/emitter_settings.h"
@@ -16,7 +16,7 @@ class GpuParticleProgram;
 
 namespace fx::sim {
 
-/// Attributes that a particle may carry. What all particles of an emitter share is not stored.
+/// Attributes of a particle. Values that are equal for all particles of an emitter are not stored.
 namespace stored {
 enum : size_t
 {
@@ -44,7 +44,7 @@ enum : size_t
 };
 }
 
-constexpr float kNoLife = 1e30f; ///< [1/s] PerLife of what dies at once
+constexpr float kNoLife = 1e30f; ///< [1/s] PerLife of a lifetime of 0
 
 /// Channels of ParticleProgram::byLife.
 namespace appearance_channel {
@@ -59,7 +59,7 @@ enum : uint32_t
 };
 }
 
-constexpr float kRoundedUp = 1.001f; ///< more than the rounding of times and of what is drawn
+constexpr float kRoundedUp = 1.001f; ///< factor above the rounding of times and drawn values
 
 struct ParticleProgram
 {
@@ -71,7 +71,7 @@ struct ParticleProgram
     bool brief;      ///< no life exceeds 3 s: ages fit into 32 bits of ticks
     bool mortal;     ///< a module may end lives
     std::array<bool, stored::Count> stores{};
-    std::array<float, stored::Count> constant{}; ///< the value of what is not stored
+    std::array<float, stored::Count> constant{}; ///< values of attributes that are not stored
     base::Ticks longestLife;
 
     std::vector<std::shared_ptr<const TileOp>> ops; ///< in order of phase; empty when ballistic
@@ -83,15 +83,14 @@ struct ParticleProgram
     // [s] by so much times their speed sprites are longer to each side, for bounds:
     float along = 0;  ///< those that lie along their velocity
     float across = 0; ///< those that are turned; over `corner`, which multiplies radii
-    float
-        corner; ///< [1] how far the farthest corner of what is drawn is from its center, over the half height
+    float corner;     ///< [1] distance of the farthest drawn corner from the center, over the half height
     bool plain; ///< no optional columns, appearance over life alone, colors need no bounds to be binary16
 
     /// Null where only the CPU can compute it; SharedProgram makes it.
     std::shared_ptr<const base::GpuParticleProgram> gpu;
 };
 
-/// What emitters count in units of base::WorkBudget, see docs/howto/bounded-updates.md.
+/// Work of emitters in units of base::WorkBudget, see docs/howto/bounded-updates.md.
 namespace emitter_work {
 constexpr double kBirth = 3.0;  ///< of each particle that is born
 constexpr double kEvent = 3.0;  ///< of each event, for each rule that may answer it
@@ -119,7 +118,7 @@ size_t bytesMoved(const ParticleProgram& program);
 /// [1/s] one over a lifetime in seconds; NaN and negative ones are none, infinite ones are 1e9 s.
 float perLifeOf(float seconds);
 
-/// [1] How far the farthest corner of what is drawn is from its center, over the half height.
+/// [1] Distance of the farthest drawn corner from the center, over the half height.
 float cornerOf(const EmitterAppearance& appearance);
 
 } // namespace fx::sim

@@ -1,11 +1,10 @@
 /// @file particle_store.h
 /// The particles of one emitter of one instance: a ring of rows.
 ///
-/// The particle with birth index i lives in row i mod capacity and keeps it for life; where it lives depends
-/// on nothing else, so any way of cutting time into steps, and any jump in time, gives the same rows. A birth
-/// whose row is still taken is dropped. Columns are filled in order of birth and never moved; all lie in one
-/// piece of memory, those that every publication reads in front: a small emitter takes few lines of the
-/// cache.
+/// The particle with birth index i occupies row i mod capacity for its whole lifetime. The row depends on
+/// nothing else, so any division of time into steps, and any seek, gives the same rows. A birth whose row is
+/// still occupied is dropped. Columns are filled in order of birth and never moved. All are in one block of
+/// memory, beginning with those that every publication reads, so that a small emitter uses few cache lines.
 #pragma once
 
 #include "foundation/memory/column.h"
@@ -49,7 +48,7 @@ private:
 class ParticleStore
 {
 public:
-    /// @param capacity rows, 0: as many as the definition says
+    /// @param capacity rows; 0: the capacity of the definition
     ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory, uint32_t capacity = 0);
 
     /// [byte] that a store of so many rows takes.
@@ -93,7 +92,7 @@ public:
     /// The next indices [next(), next() + count) have been given out.
     void advance(uint64_t count) { next_ += count; }
     uint64_t next() const { return next_; }
-    uint64_t front() const { return front_; } ///< the oldest index that may live; next() when none does
+    uint64_t front() const { return front_; } ///< the oldest index that may be alive; next() when none does
     /// Drops empty rows at the old end of the window.
     void retire(base::Ticks now)
     {
@@ -119,12 +118,12 @@ public:
 
     void save(StateWriter& writer, base::Ticks now) const;
     void saveEmpty(StateWriter& writer) const; ///< the same, once all particles of now are dead
-    /// @param now [tick] local time of the state: what is alive was born before it and dies after it
+    /// @param now [tick] local time of the state: living particles are born before it and die after it
     void restore(StateReader& reader, base::Ticks now);
 
 private:
-    // What every step and publication reads stands together, before the columns that it reads most.
-    uint64_t front_ = 0; ///< the oldest index that may live
+    // Members that every step and publication reads, adjacent for the cache.
+    uint64_t front_ = 0; ///< the oldest index that may be alive
     uint64_t next_ = 0;
     base::Ticks frontUntil_ = 0; ///< until then it surely does, unless something ends its life
     uint32_t capacity_;

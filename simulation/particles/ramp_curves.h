@@ -36,7 +36,7 @@ namespace fx::sim {
 
 constexpr uint32_t kMaxRamps = 8;
 constexpr uint32_t kMaxChannels = 8;
-constexpr uint32_t kPieceRoom = 16; ///< more than there are pieces: the width of the widest vector
+constexpr uint32_t kPieceRoom = 16; ///< number of pieces, padded to the widest vector
 
 struct RampCurves
 {

@@ -1,5 +1,5 @@
 /// @file ribbon_def.h
-/// What a preset says about the trails and the light of an emitter's particles.
+/// Definitions of trails and lights of an emitter's particles.
 #pragma once
 
 #include "foundation/math/curve.h"
@@ -12,7 +12,7 @@ namespace fx::sim {
 /// A ribbon along the way of each particle.
 struct RibbonDef
 {
-    float lifetime = 0;           ///< [s] over which the way is seen; 0: there is no trail
+    float lifetime = 0;           ///< [s] length of the visible path in time; 0: no trail
     float width = 0.1f;           ///< [m] > 0
     float minDistance = 0;        ///< [m] between points
     uint32_t maxPoints = 32;      ///< 2..256

@@ -14,7 +14,7 @@ namespace fx::sim {
 void writeConstants(const EmitterSettings& def, const EmitterAppearance& appearance, float arcPerTile,
                     std::span<float> constants);
 
-/// The columns of a group of the kind "particle", null where it lacks one.
+/// The columns of a group of the kind "particle", null if absent.
 AppearanceColumns columnsOf(base::SnapshotGroup& group);
 
 /// Whose group is published, and of which kind.

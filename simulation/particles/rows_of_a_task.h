@@ -1,14 +1,14 @@
 /// @file rows_of_a_task.h
-/// How many rows of particles are worth another thread.
+/// Number of rows of particles from which another thread pays off.
 ///
 /// Offering a loop to threads that have fallen asleep takes the caller 10 to 40 us, whether they come or not
 /// (`fx bench parallel-loop`). When they come is the system's choice. Threads that are awake win from 50 to
 /// 70 us of work on. A virtual machine with two cores wakes a thread on the caller's core and moves it to the
 /// other one much later: there two threads won from 2 ms on after pauses of 1 ms, from 6 ms on after pauses
-/// of 4 ms. No size is right on both. A loop is cut where its parts move at least half of what takes 100 us:
-/// threads that come halve it, and threads that do not come make it dearer by a fifth (the same benchmark). A
-/// publication moves about 30 bytes a nanosecond and core (`fx bench particles --threads 1`: 44 bytes in 1.4
-/// ns for lean particles, 120 in 4.3 ns for typical ones).
+/// of 4 ms. No size suits both. A loop is divided if its parts take at least 50 us: threads that wake in time
+/// halve it, and threads that do not make it slower by a fifth (the same benchmark). A publication moves
+/// about 30 bytes a nanosecond and core (`fx bench particles --threads 1`: 44 bytes in 1.4 ns for lean
+/// particles, 120 in 4.3 ns for typical ones).
 #pragma once
 
 #include "simulation/particles/particle_program.h"

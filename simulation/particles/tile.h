@@ -1,11 +1,11 @@
 /// @file tile.h
-/// What the modules of an emitter work on: a tile of particles whose working columns lie in the first cache.
+/// Working set of an emitter's modules: a tile of particles whose columns fit into the L1 cache.
 ///
 /// An emitter whose motion has no closed form is stepped tile by tile: the tile is loaded from the store, all
 /// modules run on it in order of phase, and it is stored. Memory is read and written once, however many
-/// modules there are. Rows that hold no living particle are loaded too: they have seconds 0 and the flag
-/// Empty, and what is written to them is forgotten. Arithmetic is by multiplication and addition in a fixed
-/// order (no fused multiply-add, no sums across rows), so that every vector width gives the same bits.
+/// modules there are. Rows without a living particle are loaded too: they have seconds 0 and the flag Empty,
+/// and their results are discarded. Arithmetic is by multiplication and addition in a fixed order (no fused
+/// multiply-add, no sums across rows), so that every vector width gives the same bits.
 ///
 /// Threads: tiles of one step are run by several threads at once; a module keeps no state of its own.
 #pragma once
@@ -24,15 +24,15 @@ namespace fx::sim {
 constexpr uint32_t kTileRows = 256;
 constexpr uint32_t kTilePadding = 16; ///< modules may work on rows up to the next multiple of this
 
-/// Bits of Tile::flags. Stuck and Collided stay with the particle; the others tell what happens in this step.
+/// Bits of Tile::flags. Stuck and Collided stay with the particle; the others are set for one step.
 namespace tile_flag {
 enum : uint32_t
 {
-    Stuck = 1,    ///< does not move any more
+    Stuck = 1,    ///< at rest permanently
     Collided = 2, ///< has touched something in its life
     Empty = 4,    ///< no particle lives here
     Hit = 8,      ///< touches something in this step, at `contact` of its way
-    Killed = 16,  ///< dies in this step by what a module did, at `contact` of its way
+    Killed = 16,  ///< killed by a module in this step, at `contact` of its path
 };
 }
 
@@ -94,7 +94,7 @@ public:
                        const TileContact& contact) = 0;
 };
 
-/// What all tiles of a step have in common.
+/// Data shared by all tiles of a step.
 struct TileContext
 {
     const StepContext& step;

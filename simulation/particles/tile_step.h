@@ -9,7 +9,7 @@
 
 namespace fx::sim {
 
-/// The modules of an emitter and what they prepared for this step.
+/// The modules of an emitter and their prepared data for this step.
 struct PreparedOp
 {
     const TileOp* op;

@@ -1,8 +1,7 @@
 /// @file ribbon_store.h
 /// Where particles have been: rings of points, one a row of the particle store.
 ///
-/// @formula ribbon-points
-/// Points of a trail, their distance from the birth, and what is seen of them.
+/// @formula ribbon-points Points of a trail, their distance from the birth, and the visible part.
 ///
 /// symbol   unit   meaning
 ///   b        tick   birth of the particle
@@ -62,15 +61,15 @@ public:
         base::Ticks begin;
         base::Ticks end;
     };
-    /// Takes the points of a step, after which the particles are as `job` says, as far as the work goes.
-    /// @param ioRow of the particle that is next, 0 at first @return whether all have been followed
+    /// Adds the points of a step, at the end of which `job` describes the particles, within the work budget.
+    /// @param ioRow row of the next particle, 0 at first @return whether all particles have been processed
     bool follow(const AppearanceJob& job, const Span& step, uint32_t& ioRow, base::WorkBudget& work);
     bool empty() const { return count_ == 0; }
     /// Most rows that publish() writes.
     size_t mostPoints() const { return size_t(rows_) * (def_.maxPoints + 1); }
-    /// Writes all trails as they are at `now`, as BudgetedSolver::proceedPublication().
-    /// @param past [tick] before `now` for which the tails are to be known as well; about that much longer
-    /// they are
+    /// Writes all trails at `now`, as BudgetedSolver::proceedPublication().
+    /// @param past [tick] before `now` for which the tails must be known; trails are longer by about this
+    ///         time
     bool publish(base::Ticks now, base::Ticks past, base::SnapshotGroup& group, PublicationPlace& ioPlace,
                  base::WorkBudget& work) const;
     void clear();
@@ -89,7 +88,7 @@ private:
     struct Trail
     {
         uint64_t index = kNoParticle; ///< of the particle
-        Point head;                   ///< where it is, or died
+        Point head;                   ///< position now, or at death
         uint32_t first = 0;           ///< oldest point in the ring
         uint32_t count = 0;
         uint64_t next = 0; ///< k of the next point

@@ -33,7 +33,7 @@ public:
         info.kind = kind;
         info.count = count;
     }
-    /// Goes on with a group that another writer has begun.
+    /// Continues a group that another writer has begun.
     BlobWriter(base::SnapshotGroup& group, float secondsBack)
         : group_(group), count_(group.info().count), secondsBack_(secondsBack)
     {}

@@ -10,31 +10,31 @@
 
 namespace fx::sim {
 
-/// How far the publication of one solver has come. What its members mean is the solver's own.
+/// Progress of the publication of one solver, with a meaning that is private to the solver.
 struct PublicationPlace
 {
-    uint32_t group = 0;    ///< of those that it publishes
+    uint32_t group = 0;    ///< index among its groups
     uint32_t part = 0;     ///< of the way to that group
     uint32_t row = 0;      ///< of that part
     uint32_t count = 0;    ///< elements that are found or written
     bool isSorted = true;  ///< they are in their order
-    base::Bounds bounds{}; ///< of those that are written
-    float radius = 0;      ///< [m] likewise the largest
+    base::Bounds bounds{}; ///< of the rows written so far
+    float radius = 0;      ///< [m] largest one so far
 };
 
 /// A solver that counts its work itself. See Solver::budgeted().
 class BudgetedSolver
 {
 public:
-    /// Solver::step() within a budget: spends what the step counts, and where nothing is left before its end,
-    /// returns false. Then the same call has to be made again, with an equal context, before any other call
-    /// but the destructor; the bits are those of one step(). Scratch memory may be forgotten between the two.
+    /// Solver::step() within a budget: returns false if the budget is used up before the end of the step.
+    /// Then the call must be repeated with an equal context before any other call except the destructor; the
+    /// bits are those of one step(). Scratch memory may be freed between the calls.
     virtual bool proceed(const StepContext& context, base::WorkBudget& work) = 0;
 
-    /// Solver::publish() within a budget: spends what it counts, and where nothing is left before its end,
-    /// returns false. Then the same call has to be made again before any other call of the solver, and before
-    /// another group is added to `snapshot`; the bits are those of publish().
-    /// @param ioPlace as it is made for the first call; then as the call before has left it
+    /// Solver::publish() within a budget: returns false if the budget is used up before the end. Then the
+    /// call must be repeated before any other call of the solver, and before another group is added to
+    /// `snapshot`; the bits are those of publish().
+    /// @param ioPlace default for the first call; then unchanged from the previous call
     virtual bool proceedPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                                     PublicationPlace& ioPlace, base::WorkBudget& work) const = 0;
 

@@ -1,5 +1,5 @@
 /// @file effect_def.h
-/// What a preset says, ready to run: the immutable definition that all its instances share.
+/// The immutable definition of an effect, built from a preset and shared by all its instances.
 #pragma once
 
 #include "foundation/time/ticks.h"
@@ -15,7 +15,7 @@
 
 namespace fx::sim {
 
-/// What an instance is expected to need, at medium quality, with steps of 1/60 s.
+/// Estimated cost of an instance at medium quality, with steps of 1/60 s.
 struct EffectCost
 {
     double stepWork = 0;  ///< [unit] of base::WorkBudget, of the most expensive step
@@ -26,27 +26,28 @@ struct EffectCost
 struct EffectDef
 {
     std::string name;
-    uint64_t fingerprint = 0; ///< of all that the preset says: equal for equal presets; 0 when there was none
-    base::Ticks duration = 0; ///< end of the effect's life; 0 for "until its solvers have finished"
-    base::Ticks prewarm = 0;  ///< an instance starts as if it had run for so long
-    uint32_t subSteps = 1;    ///< steps of the effect per step of the scene, 1..16
-    glm::vec3 wind{0.0f};     ///< [m/s] local
-    bool hasGround = true;    ///< particles stay above the instance's y = 0
-    std::optional<CatchUp> offscreen; ///< what becomes of it out of sight; none: what its solvers ask for
-    float bound = 0; ///< [m] local distance from the origin that nothing passes; 0: as its solvers estimate
+    uint64_t fingerprint = 0;         ///< hash of the preset, equal for equal presets; 0 without a preset
+    base::Ticks duration = 0;         ///< end of the effect's life; 0 for "until its solvers have finished"
+    base::Ticks prewarm = 0;          ///< simulated time before the first visible step
+    uint32_t subSteps = 1;            ///< steps of the effect per step of the scene, 1..16
+    glm::vec3 wind{0.0f};             ///< [m/s] local
+    bool hasGround = true;            ///< particles stay above the instance's y = 0
+    std::optional<CatchUp> offscreen; ///< catch-up policy of hidden instances; empty: that of its solvers
+    /// [m] upper bound of the local distance of elements from the origin; 0: that of its solvers.
+    float bound = 0;
     std::vector<std::unique_ptr<const SolverDef>> solvers;
     /// Where events of one solver's particles give birth in another's: all solvers, causes before effects.
     std::vector<uint32_t> order;
-    std::vector<std::string> hostEvents; ///< names of what the host may say
+    std::vector<std::string> hostEvents; ///< names of the host's events
     EffectCost cost;                     ///< as the preset's loader has estimated it
 
-    /// True when the host's geometry changes what it does.
+    /// True when it depends on the host's geometry.
     bool collides() const
     {
         return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->collides(); });
     }
 
-    /// True when what happens depends on where the host has put the instance, even without geometry.
+    /// True when it depends on the placement of the instance, even without geometry.
     bool dependsOnPlacement() const
     {
         return std::any_of(solvers.begin(), solvers.end(),
@@ -101,7 +102,7 @@ struct EffectDef
         return most;
     }
 
-    /// [byte] that emitters take in each instance that is simulated by itself, snapshots left out.
+    /// [byte] memory of emitters in each instance with its own simulation, without snapshots.
     uint64_t bytes() const
     {
         uint64_t sum = 0;

@@ -11,12 +11,11 @@ namespace fx::sim {
 class FiniteMemorySolver
 {
 public:
-    /// [tick] of local time after which nothing is left of what lives now, as long as the host's parameters
-    /// stay as they are; the largest number where that is unknown.
+    /// [tick] local time after which no element alive now is left, if the host's parameters do not change;
+    /// the largest number if unknown.
     virtual base::Ticks influenceHorizon(const InstanceParameters& parameters) const = 0;
 
-    /// Solver::save() without what lives. The state that Solver::restore() makes of it is right once
-    /// influenceHorizon() has passed.
+    /// Solver::save() without living elements. A state restored from it is correct after influenceHorizon().
     virtual void saveBriefly(StateWriter& writer) const = 0;
 
     /// Goes forwards to local time `tick` without the births meanwhile: right once influenceHorizon()

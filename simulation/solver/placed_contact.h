@@ -1,6 +1,5 @@
 /// @file placed_contact.h
-/// The host's contact function as the particles of one instance ask it: in their own space, and with answers
-/// that are none left out and counted.
+/// The host's contact callback in the space of one instance. Invalid results are ignored and counted.
 #pragma once
 
 #include "foundation/math/geometry.h"
@@ -24,7 +23,7 @@ public:
     PlacedContact& operator=(const PlacedContact&) = delete;
 
     const ContactHook& hook() const { return hook_; }
-    /// The same for what lives in the space of another placement; for as long as this one.
+    /// The same for another placement; valid as long as this one.
     const base::Placement& placement() const { return placement_; }
     const HostContact& host() const { return host_; }
     std::atomic<uint64_t>& faults() const { return faults_; }

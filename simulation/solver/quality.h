@@ -13,12 +13,12 @@ namespace fx::sim {
 enum class QualityLevel : uint8_t
 {
     Low,
-    Medium, ///< what presets are written for
+    Medium, ///< the level for which presets are designed
     High,
     Reference, ///< for measuring the others
 };
 
-/// What a level means for solvers. The steps are choices, to be judged by measured errors: `fx accuracy`.
+/// Parameters of solvers at a level. Errors of the levels are measured by `fx accuracy`.
 struct Quality
 {
     QualityLevel level = QualityLevel::Medium;

@@ -10,27 +10,26 @@ namespace fx::sim {
 class SeekableSolver
 {
 public:
-    /// Whether seek() can take it from where it is to local time `tick`.
+    /// Whether seek() can move it from its state to local time `tick`.
     virtual bool canSeek(const StepContext& context, base::Ticks tick) const = 0;
 
-    /// Goes to local time `tick` at once, under the conditions of `context`: forwards as steps from where it
-    /// is would, bit for bit, backwards as steps from 0 would. Only where canSeek() holds; the context's own
-    /// tick and stepTicks are ignored.
+    /// Moves to local time `tick` under the conditions of `context`, with the same bits as steps from its
+    /// state (forwards) or from 0 (backwards). Requires canSeek(); the context's own tick and stepTicks are
+    /// ignored.
     virtual void seek(const StepContext& context, base::Ticks tick) = 0;
 
     /// Local time, at least `tick`, up to which steps from `tick` on change nothing that is seen. canSeek()
     /// holds for any tick up to it.
     virtual base::Ticks restsUntil(base::Ticks tick) const = 0;
 
-    /// Local time, at least `tick`, up to which steps from `tick` on, under the conditions of the last one,
-    /// do nothing but let time pass, however much of what is seen changes with it: passTo() may stand for
-    /// them.
+    /// Local time, at least `tick`, up to which steps under the conditions of the last one can be replaced by
+    /// passTo(), because the state does not change except for time.
     virtual base::Ticks quietUntil(base::Ticks tick) const { return tick; }
 
     /// Steps to local time `tick`, at most quietUntil(), that need not be taken.
     virtual void passTo(base::Ticks, StepCounters&) {}
 
-    /// The instance stands at `placement` now, and got there while its own time stood still.
+    /// Sets the placement after a motion during which the local time did not advance.
     virtual void standAt(const base::Placement&) {}
 
 protected:

@@ -1,6 +1,6 @@
 /// @file solver.h
-/// What a technique of simulation implements: an immutable definition, made from a preset, and a solver per
-/// instance. What only some solvers can do stands beside it: budgeted_solver.h, seekable_solver.h,
+/// Interface of a simulation technique: an immutable definition, built from a preset, and a solver per
+/// instance. Optional capabilities have interfaces of their own: budgeted_solver.h, seekable_solver.h,
 /// finite_memory_solver.h, and emitters/pools/pooled_emitter.h.
 ///
 /// Solvers work in the instance's local space. Time is the instance's own: tick 0 is its start.
@@ -30,12 +30,12 @@ class GpuParticleProgram;
 
 namespace fx::sim {
 
-/// What the host may change on a running instance.
+/// Parameters of a running instance.
 struct InstanceParameters
 {
-    float intensity = 1.0f; ///< [1] >= 0, scales birth rates and injected energy of what is still to come
+    float intensity = 1.0f; ///< [1] >= 0, scales future birth rates and injected energies
     glm::vec3 wind{0.0f};   ///< [m/s] world, added to the effect's own wind
-    bool emitting = true;   ///< false: nothing new is born, what exists lives on
+    bool emitting = true;   ///< false: no births, existing elements continue
 };
 
 /// Work done, summed over a step; exact counts, not times.
@@ -62,7 +62,7 @@ struct StepCounters
         debt += more.debt;
         return *this;
     }
-    /// What has been done since `before`.
+    /// Difference to the earlier counters `before`.
     StepCounters since(const StepCounters& before) const
     {
         return {born - before.born,
@@ -80,14 +80,14 @@ struct StepCounters
 struct ContactHook
 {
     void* user = nullptr;
-    /// Whether the straight way from `from` to `to` [m, local] meets something: 0 when it is free; otherwise
-    /// the free share of it, 0..1, and the normal there, of any length. Called by several threads at once;
-    /// the same question has to get the same answer through a whole step.
+    /// Intersects the segment from `from` to `to` [m, local]: returns 0 when it is free, otherwise the free
+    /// share, 0..1, and the normal, of any length. Called by several threads at once; equal arguments must
+    /// give equal results during a step.
     int (*meet)(void* user, const float from[3], const float to[3], float* outShare,
                 float outNormal[3]) = nullptr;
 };
 
-/// The same in the world, as the host gives it.
+/// The same in world space, as set by the host.
 struct HostContact
 {
     void* user = nullptr;
@@ -105,7 +105,7 @@ struct HostEvent
     uint32_t count; ///< how often
 };
 
-/// What a solver gets for one step.
+/// Input of a solver for one step.
 struct StepContext
 {
     base::Ticks tick;                     ///< local time at which the step begins
@@ -118,14 +118,15 @@ struct StepContext
     const Collider* collider;             ///< the host's geometry; null for none
     const InstanceParameters* parameters; ///< intensity and emission; its wind is part of `wind` already
     base::TaskRunner* tasks;
-    base::Arena* scratch; ///< forgotten after the step
+    base::Arena* scratch; ///< freed after the step
     StepCounters* counters;
     const ContactHook* contactHook = nullptr; ///< null for none
     EventBoard* board = nullptr;              ///< events between solvers in this step; null for none
     std::span<const HostEvent> hostEvents{};  ///< happen at `tick`
     SpawnBatch* spawnBatch = nullptr; ///< may defer births until the end of the step; null: make them at once
     base::Placement placement{}; ///< target of the instance's motion; default unless the effect depends on it
-    float moveShare = 1.0f;      ///< [1] of the rest of the way there that it goes in this step, 0..1
+    /// [1] 0..1, share of the remaining motion to `placement` that takes place in this step.
+    float moveShare = 1.0f;
     glm::vec3 worldGravity{0.0f}; ///< [m/s2] world
     glm::vec3 worldWind{0.0f};    ///< [m/s] world, the host's share of `wind`; 0 unless placement matters
     glm::vec3 effectWind{0.0f};   ///< [m/s] local, the preset's share of `wind`
@@ -149,9 +150,9 @@ public:
     /// but scratch.
     virtual void step(const StepContext& context) = 0;
 
-    /// Adds what is to be seen to `snapshot`. `base` carries instance, solver and placement to copy into each
-    /// group. A solver that holds nothing still adds its group: the memory is then there before the first
-    /// element is.
+    /// Adds the visible groups to `snapshot`. `base` has instance, solver and placement to copy into each
+    /// group. A solver without elements also adds its group, so that its memory is allocated before the first
+    /// element is born.
     virtual void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const = 0;
 
     /// True when nothing is alive and nothing will ever be born again from local time `tick` on.
@@ -159,18 +160,18 @@ public:
 
     virtual uint32_t elementCount() const = 0;
 
-    /// Whether there are any; often without counting them.
+    /// Whether elementCount() is above 0; may be cheaper than counting.
     virtual bool hasElements() const { return elementCount() > 0; }
 
-    /// Writes everything that later steps and publications depend on, and nothing else: equal states write
-    /// equal bytes.
+    /// Writes exactly the data that later steps and publications depend on, so equal states write equal
+    /// bytes.
     virtual void save(StateWriter& writer) const = 0;
 
-    /// Takes the state of a solver of the same definition and quality; from there on it gives the same bits.
-    /// Checks whatever could harm it. After a failure, kept by the reader, the solver may only be destroyed.
+    /// Restores the state of a solver of the same definition and quality; later results have the same bits.
+    /// Validates all data. After a failure, which the reader records, the solver may only be destroyed.
     virtual void restore(StateReader& reader) = 0;
 
-    // What only some solvers can do: the interface for it, null where the solver lacks it.
+    // Optional interfaces; null if the solver lacks one.
 
     virtual BudgetedSolver* budgeted() { return nullptr; }
     virtual SeekableSolver* seekable() { return nullptr; }
@@ -178,7 +179,7 @@ public:
     virtual PooledEmitter* pooledEmitter() { return nullptr; }
 };
 
-/// What decides how far things get.
+/// Conditions for the bound of distances.
 struct ReachConditions
 {
     float gravity = 0; ///< [m/s2] magnitude
@@ -186,7 +187,7 @@ struct ReachConditions
     float seconds = 0; ///< after the start
 };
 
-/// Where events of other solvers may give birth.
+/// Bounds of births caused by events of other solvers.
 struct BirthReach
 {
     float distance = 0; ///< [m] from the origin, at most
@@ -199,13 +200,13 @@ struct BirthReach
     }
 };
 
-/// For how long, and how, the past of an instance acts on what is alive.
+/// Influence of an instance's past on its living elements.
 struct Influence
 {
-    float seconds = 0;  ///< [s] of the instance's time; infinite where it is unknown
-    float inherits = 0; ///< [1] share of the instance's velocity that particles keep from their birth
-    float extent = 0;   ///< [m] local, of the births of those
-    float drawnOut = 0; ///< [s] by which they are drawn longer for their speed
+    float seconds = 0;  ///< [s] of the instance's time; infinite if unknown
+    float inherits = 0; ///< [1] share of the instance's velocity that particles inherit
+    float extent = 0;   ///< [m] local extent of the births of these particles
+    float drawnOut = 0; ///< [s] by which sprites are stretched along their velocity
 
     void add(const Influence& more)
     {
@@ -216,7 +217,7 @@ struct Influence
     }
 };
 
-/// What is to be expected of a step of a solver.
+/// Expected load of a step of a solver.
 struct StepLoad
 {
     double seconds;    ///< [s] length
@@ -225,23 +226,23 @@ struct StepLoad
     double events = 0; ///< of emitters: of particles, once for each rule that may answer
 };
 
-/// Immutable recipe of a solver; shared by all instances of a preset.
+/// Immutable definition of a solver; shared by all instances of a preset.
 class SolverDef
 {
 public:
     virtual ~SolverDef() = default;
-    /// Allocates all that the solver will ever need at this quality.
+    /// Creates a solver with all memory that it needs at this quality.
     virtual std::unique_ptr<Solver> create(const base::SnapshotSchema& schema, const Quality& quality,
                                            std::pmr::memory_resource* memory) const = 0;
     /// Upper bound on elements alive at once, at medium quality.
     virtual uint32_t capacity() const = 0;
     /// Whether its solvers publish groups of `kind`.
     virtual bool publishes(const base::KindDesc& kind) const = 0;
-    /// Whether what it publishes is hot enough to bend light.
+    /// Whether its published media refract light (heat shimmer).
     virtual bool bendsLight() const { return false; }
-    /// What the GPU computes instead of its solvers; null where it cannot or shall not. Any thread.
+    /// Program with which the GPU replaces its solvers; null if this is impossible or disabled. Any thread.
     virtual std::shared_ptr<const base::GpuParticleProgram> gpuProgram() const { return nullptr; }
-    /// Of the instance's past, unless the host's parameters say more.
+    /// Influence of the instance's past, without that of the host's parameters.
     virtual Influence influence() const { return {.seconds = std::numeric_limits<float>::infinity()}; }
     /// [byte] of memory that a solver takes at the most, at medium quality.
     virtual uint64_t bytes() const { return 0; }
@@ -249,17 +250,18 @@ public:
     virtual bool collides() const { return false; }
     /// True when its solvers depend on StepContext::placement.
     virtual bool dependsOnPlacement() const { return false; }
-    /// What becomes of it out of sight, unless the preset says.
+    /// Catch-up policy of hidden instances, unless the preset has one.
     virtual CatchUp catchUp() const { return CatchUp::Replay; }
     /// [m] distance from the instance's origin that no element passes within `seconds` after the start, with
-    /// its radius; infinite when it is unknown.
+    /// its radius; infinite when unknown.
     /// @param gravity [m/s2] magnitude @param wind [m/s] magnitude
     virtual float reach(float /*gravity*/, float /*wind*/, float /*seconds*/) const
     {
         return std::numeric_limits<float>::infinity();
     }
-    /// The same where events give birth.
-    /// @param births in it  @param ioOthers by solver index: gains where it gives birth in others
+    /// The same for solvers with births by events.
+    /// @param bounds of bounds of births in it @param ioOthers by solver index: extended by births that it
+    ///         causes in others
     virtual float reachFrom(const ReachConditions& conditions, const BirthReach& /*births*/,
                             std::span<BirthReach> /*ioOthers*/) const
     {

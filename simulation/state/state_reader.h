@@ -1,8 +1,6 @@
 /// @file state_reader.h
-/// Reads back what a StateWriter wrote, and believes nothing of it.
-///
-/// The first failure is kept: everything read after it is zero, so that code may read on and ask once at the
-/// end. Nothing is read beyond the bytes given.
+/// Reads the output of a StateWriter with full validation. The first failure is recorded, and all later
+/// values are zero, so that code can check once at the end. Never reads beyond the given bytes.
 #pragma once
 
 #include "foundation/math/bits.h"
@@ -22,7 +20,7 @@ public:
     const base::Status& status() const { return status_; }
     size_t left() const { return left_.size(); } ///< [byte]
 
-    /// Fails with `what` unless `condition` holds; a failure before it stays.
+    /// Fails with `what` unless `condition` holds; an earlier failure is kept.
     void require(bool condition, const char* what)
     {
         if (!condition && status_.ok())

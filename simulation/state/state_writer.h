@@ -1,8 +1,7 @@
 /// @file state_writer.h
-/// Where solvers and scenes put their state: into memory, to be restored, or into a hash, to be compared.
-///
-/// Values go one by one, in the byte order of the machine: no pointers, no padding, no addresses, so equal
-/// states give equal bytes. What is read back, by a StateReader, is read in the same order.
+/// Serializes the state of solvers and scenes to memory, to be restored, or to a hash, to be compared. Values
+/// are written one by one in the byte order of the machine, without pointers and padding, so equal states
+/// give equal bytes. A StateReader reads them in the same order.
 #pragma once
 
 #include "foundation/math/hash.h"
@@ -52,7 +51,7 @@ public:
         const float xyzw[4] = {q.x, q.y, q.z, q.w};
         put(xyzw, sizeof xyzw);
     }
-    /// The elements alone; the reader must know how many there are.
+    /// Writes the elements without their number, which the reader must know.
     template <StateValue T>
     void values(std::span<const T> values)
     {
@@ -76,7 +75,7 @@ public:
     explicit StateBuffer(std::pmr::memory_resource* memory) : bytes_(memory) {}
     std::span<const std::byte> bytes() const { return bytes_; }
     void shrink() { bytes_.shrink_to_fit(); }
-    /// Puts the bytes into another writer as if they had been written there.
+    /// Copies the bytes to another writer.
     void copyTo(StateWriter& other) const { other.values(std::span<const std::byte>(bytes_)); }
 
 private:
@@ -88,7 +87,7 @@ private:
     std::pmr::vector<std::byte> bytes_;
 };
 
-/// Keeps nothing but a hash of what is written. Allocates nothing.
+/// Computes only a hash of the written values. Allocates nothing.
 class StateHasher final : public StateWriter
 {
 public:

@@ -1,6 +1,5 @@
 /// @file air_blast.h
-/// @formula air-blast
-/// What is measured of the blast of TNT far from any wall: peak overpressure, duration, history.
+/// @formula air-blast Measured free-air blast of TNT: peak overpressure, duration, history.
 ///
 /// symbol    unit        meaning
 ///   Z        m/kg^(1/3)  scaled distance: distance over the cube root of the charge's mass
@@ -52,9 +51,9 @@ struct PressureSample
     double overpressure; ///< [Pa]
 };
 
-/// Fits a wave to samples in the order of time. A shock that is smeared over some time still tells its
-/// arrival, where the rise is half done, and its peak: the decay behind it, continued back to the arrival.
-/// Peak 0 when the samples have no positive phase that ends.
+/// Fits a wave to samples in the order of time. For a smeared shock, the arrival is the time of half the
+/// rise, and the peak is the decay extrapolated back to the arrival. Peak 0 when the samples have no positive
+/// phase that ends.
 FriedlanderWave fitFriedlander(std::span<const PressureSample> samples);
 
 } // namespace fx::sim

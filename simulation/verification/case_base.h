@@ -1,5 +1,5 @@
 /// @file case_base.h
-/// What most cases have in common: their particles, and a center or an axis to be seen along.
+/// Common base of most cases: particles, and a center or axis of evaluation.
 #pragma once
 
 #include "simulation/verification/gas_case.h"
@@ -21,7 +21,7 @@ protected:
     /// @param gamma, time of the case, used where the settings leave them open
     CaseBase(const CaseSettings& settings, double gamma, double time);
 
-    /// Fills def_ with what the particles and settings say; the last thing a constructor does.
+    /// Fills def_ from the particles and settings; called last by constructors.
     /// @param sampleCount equal parts of the time
     void finish(uint32_t sampleCount);
 

@@ -27,9 +27,9 @@ struct CaseReport
 
 struct CaseWatch
 {
-    /// Before each look: its number and how many there are.
+    /// Called before each sample with its number and the total.
     std::function<void(uint32_t sample, uint32_t samples)> progress;
-    /// Asked often; true ends the run as soon as possible, with Code::Interrupted.
+    /// Called often; true ends the run as soon as possible, with Code::Interrupted.
     std::function<bool()> stop;
 };
 

@@ -1,5 +1,5 @@
 /// @file flow_errors.h
-/// How far particles are from a known flow.
+/// Errors of particles against a known flow.
 ///
 /// @formula flow-error
 /// Mean distance between particles and the exact flow, each counted by the volume it stands for; the place of
@@ -49,7 +49,7 @@ private:
 struct Shell
 {
     double place = 0;   ///< [m] its middle
-    uint32_t count = 0; ///< particles; the state is 0 where there are none
+    uint32_t count = 0; ///< particles; the state is 0 without particles
     FlowState state;    ///< means over particles
 };
 

@@ -1,5 +1,5 @@
 /// @file flow_state.h
-/// What a gas is doing at a point.
+/// State of a gas at a point.
 #pragma once
 
 namespace fx::sim {

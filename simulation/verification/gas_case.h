@@ -1,5 +1,5 @@
 /// @file gas_case.h
-/// A flow with a known course, as particles: where they start, when to look, how far they are from the truth.
+/// A flow with a known solution: initial particles, sampling times, and errors.
 #pragma once
 
 #include "simulation/sph/dynamics/gas_dynamics.h"
@@ -17,10 +17,10 @@ namespace fx::sim {
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-/// What the user may choose of a case.
+/// Settings of a case.
 struct CaseSettings
 {
-    uint32_t particles = 0; ///< wanted; the lattice decides how many there are; 0: the case's own number
+    uint32_t particles = 0; ///< requested; the lattice determines the actual number; 0: the case's own number
     double gamma = 0;       ///< [1] 0: the case's own
     double time = 0;        ///< [s] end, 0: the case's own
     GasDynamicsDef
@@ -68,7 +68,7 @@ struct CaseLimit
 /// The error of the density of one particle.
 struct DensityError
 {
-    double volume; ///< [m3] that the particle stands for
+    double volume; ///< [m3] volume that the particle represents
     double error;  ///< signed, in the case's unit of density
 };
 

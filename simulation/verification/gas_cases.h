@@ -27,7 +27,7 @@ struct GasCaseEntry
 
 std::span<const GasCaseEntry> gasCases();
 
-/// Null when there is none of that name.
+/// Null for an unknown name.
 const GasCaseEntry* findGasCase(std::string_view name);
 
 /// The case, with its own number of particles where the settings name none.

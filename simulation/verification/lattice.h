@@ -28,8 +28,8 @@ struct Lattice
     }
 };
 
-/// The whole even number, at least `least`, whose cube is nearest to `particles`. Even, so that the middle of
-/// a cube is between particles: what happens there happens to all alike.
+/// The whole even number, at least `least`, whose cube is nearest to `particles`. Even, so that the center of
+/// a cube is between particles and events there affect the nearest ones equally.
 uint32_t evenSide(uint32_t particles, uint32_t least);
 
 /// Rounds up to an even number.

@@ -21,9 +21,9 @@
 
 namespace fx::sim {
 
-/// Everything that decides what a shared simulation computes, as its solvers see it. Position and scale are
-/// not in it, nor is a rotation that leaves gravity and wind as they are, unless the simulation collides with
-/// the host's geometry or its effect depends on its placement.
+/// Key of a shared simulation: all conditions that its results depend on. It does not contain position and
+/// scale, nor a rotation that does not change local gravity and wind, unless the simulation collides with the
+/// host's geometry or depends on its placement.
 struct SimulationConditions
 {
     uint64_t seed = 0;
@@ -34,8 +34,8 @@ struct SimulationConditions
     float groundHeight = 0;               ///< [m] local y; -infinity for none
     InstanceParameters parameters;        ///< intensity and emission; its wind is 0, being part of `wind`
     const DistanceField* field = nullptr; ///< the host's geometry; null for none
-    bool hasContact = false;              ///< the host's contact function is asked
-    base::Placement placement;            ///< where it matters; default elsewhere
+    bool hasContact = false;              ///< the host's contact callback is used
+    base::Placement placement;            ///< if results depend on it; otherwise the default
     glm::vec3 worldWind{0.0f}; ///< [m/s] world, the host's, where the effect depends on its placement
 
     /// Bit for bit.
@@ -43,8 +43,8 @@ struct SimulationConditions
     uint64_t hash() const;
 };
 
-/// A sub-step of solvers that exchange events, of a shared simulation that is not stepped with the others:
-/// the events stay while the sub-step waits for another call.
+/// An incomplete sub-step of solvers that exchange events, in a shared simulation that is stepped separately.
+/// Keeps the events until the next call.
 struct LinkedPart
 {
     explicit LinkedPart(std::pmr::memory_resource* memory) : scratch(memory) {}
@@ -72,20 +72,20 @@ struct SharedSimulation
         HostEvent event;
     };
 
-    // What every step and publication reads stands together.
+    // Members that every step and publication reads, adjacent for the cache.
     std::vector<std::unique_ptr<Solver>> solvers; ///< none while released
-    Solver* only = nullptr;    ///< the solver, when there is one; else they are asked one after another
-    base::Ticks simulated = 0; ///< scene time that the state has reached
-    base::Ticks restUntil = 0; ///< scene time up to which steps would change nothing
+    Solver* only = nullptr;                       ///< the solver, if there is only one; otherwise null
+    base::Ticks simulated = 0;                    ///< scene time that the state has reached
+    base::Ticks restUntil = 0;                    ///< scene time up to which steps would change nothing
     base::Ticks quietUntil =
         0; ///< scene time up to which steps need not be taken, see SeekableSolver::passTo()
     base::Ticks quietOffset = 0; ///< local minus scene time meanwhile
     uint64_t steppedIn = 0;      ///< number of the last step that stepped it
-    uint32_t users = 0;          ///< instances that it stands for; 0: unused
+    uint32_t users = 0;          ///< number of its instances; 0: unused
     uint32_t hidden = 0;         ///< users that are out of sight; when all are, the simulation is paused
     bool pooled = false;         ///< its only solver is in a pool; `simulated` is of the time before
     bool released =
-        false; ///< its solvers are gone; `kept`, or nothing when it has not begun, says how it was
+        false; ///< its solvers were released; `kept` has their state, and is empty before the start
     std::shared_ptr<const EffectDef> effect;
     SimulationConditions conditions;
     std::vector<Change> changes;                 ///< of a paused simulation, by tick
@@ -93,7 +93,7 @@ struct SharedSimulation
     std::shared_ptr<const DistanceField> field;  ///< keeps that of the conditions of a paused simulation
     std::shared_ptr<const StateBuffer> pristine; ///< of the solvers before their first step
     std::optional<StateBuffer> kept;
-    bool brief = false; ///< what is kept lacks what lived, none of which is alive by now
+    bool brief = false; ///< the kept state lacks elements, all of which are dead by now
     base::Ticks forgottenAt =
         kNever; ///< scene time after which no particle of the state is alive; of a released simulation
     bool fresh = false;     ///< no step has touched it: another instance may still join
@@ -102,25 +102,25 @@ struct SharedSimulation
     // A step in hand, see World::proceed(), and a past that is still to be simulated, see World::arrive().
     bool inStep = false;                  ///< some of its sub-steps are complete, or one is in hand
     bool inPart = false;                  ///< a sub-step is in hand
-    bool arriving = false;                ///< local time `reached` is simulated, `target` is where it begins
+    bool arriving = false;                ///< it is simulated from `reached` to `target`, its prewarm or seek
     uint32_t stepped = 0;                 ///< solvers that are through with the sub-step in hand
     base::Ticks part = 0;                 ///< sub-steps of the step that are complete
     base::Ticks stepTick = 0;             ///< [tick] of the scene at which the step begins
     base::Ticks stepLength = 0;           ///< [tick] of the scene
     base::Ticks reached = 0;              ///< [tick] local
     base::Ticks target = 0;               ///< [tick] local
-    std::unique_ptr<LinkedPart> linked{}; ///< while it is on its way to the present by itself
+    std::unique_ptr<LinkedPart> linked{}; ///< while it catches up separately
 
     // of one step of the world
     uint64_t visitedIn = 0; ///< number of the last step that had it in its list
     uint64_t dividedIn = 0; ///< number of the last step that had only some of its users
     uint32_t visits = 0;    ///< users in the list of that step
-    uint32_t division = 0;  ///< simulation of those users
+    uint32_t division = 0;  ///< simulation of these users
 
     static constexpr base::Ticks kNever = std::numeric_limits<base::Ticks>::max();
     bool isPaused() const { return hidden == users; }
-    /// [tick] of local time after which nothing is left of what lives now, see influenceHorizon(); kNever
-    /// also while the host has more to tell.
+    /// [tick] local time after which no element alive now is left, see influenceHorizon(); kNever also while
+    /// host events are pending.
     base::Ticks influenceHorizon() const;
     /// The solvers have been made or given away.
     void updateOnly() { only = solvers.size() == 1 ? solvers.front().get() : nullptr; }
@@ -135,7 +135,7 @@ constexpr SimulationIndex kNoSimulation = ~0u;
 class SimulationPool
 {
 public:
-    /// @param share false: every instance has a simulation of its own
+    /// @param share false: every instance has its own simulation
     SimulationPool(const base::SnapshotSchema* schema, std::pmr::memory_resource* memory, bool share);
 
     SharedSimulation& at(SimulationIndex index) { return simulations_[index]; }
@@ -143,7 +143,7 @@ public:
     uint32_t count() const { return count_; }           ///< simulations in use
     size_t size() const { return simulations_.size(); } ///< one more than the largest index
 
-    // What makes solvers may throw std::bad_alloc; then nothing has changed.
+    // Functions that create solvers may throw std::bad_alloc; then nothing has changed.
 
     /// One more instance: joins a fresh simulation that is equal, or starts one.
     /// @param released start it without solvers
@@ -155,7 +155,7 @@ public:
     /// Gives a released simulation its solvers back.
     void materialize(SimulationIndex index);
     /// Moves the solvers of a shared simulation to the free list and keeps its state as bytes.
-    /// @param mayForget what lives need not be kept once all of it is dead
+    /// @param mayForget the state may omit elements that die before it is restored
     void release(SimulationIndex index, base::Ticks now, bool mayForget);
     /// Frees solvers that have been in the free list since before `tick`.
     void trimFreeList(base::Ticks tick);
@@ -167,7 +167,7 @@ public:
     /// One user of a shared simulation is to have other conditions from now on. @return the simulation it
     /// then belongs to
     SimulationIndex change(SimulationIndex index, const SimulationConditions& conditions);
-    /// One user fewer; the last one takes the solvers with it.
+    /// Removes a user; without users the solvers are destroyed.
     void leave(SimulationIndex index);
     /// The same, but the solvers go to the free list.
     void recycle(SimulationIndex index, base::Ticks now);

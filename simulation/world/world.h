@@ -1,10 +1,10 @@
 /// @file world.h
 /// Holds the instances that exist and steps the given ones.
 ///
-/// Instances that must come out alike are simulated once: same effect, seed, start and quality, same
-/// intensity and emission, same gravity and wind in local space; and the same placement, when they meet the
-/// geometry of the host. Each is published at its own placement. Sharing never changes results: when one of
-/// them is changed, its state is copied first.
+/// Instances with equal results are simulated once: those with equal effect, seed, start and quality, equal
+/// intensity and emission, equal gravity and wind in local space, and, if they collide with the host's
+/// geometry, equal placements. Each is published at its own placement. Sharing never changes results: when
+/// one of them is changed, its state is copied first.
 ///
 /// A simulation all of whose instances are hidden is paused: it costs nothing until catchUp() takes it to the
 /// present, and changes meanwhile are applied at the time at which they were made.
@@ -41,14 +41,15 @@ struct InstanceStart
     InstanceParameters parameters;
     QualityLevel quality = QualityLevel::Medium; ///< for life
     uint32_t rate = kNormalRate;                 ///< see InstanceClock, from the start on
-    std::optional<InstanceClock> clock{};        ///< when the host has changed its time; else from the above
+    /// Set when the host has changed its time; otherwise derived from the members above.
+    std::optional<InstanceClock> clock{};
 };
 
-/// What all instances of a world share.
+/// Conditions shared by all instances of a world.
 struct Environment
 {
     glm::vec3 gravity{0.0f, -9.80665f, 0.0f};     ///< [m/s2] world
-    bool hasGround = true;                        ///< false: no effect has a ground, whatever its preset says
+    bool hasGround = true;                        ///< false: no effect has a ground
     std::shared_ptr<const DistanceField> field{}; ///< geometry of the host; null for none
 };
 
@@ -58,7 +59,7 @@ using Slot = uint32_t;
 class World
 {
 public:
-    /// @param share false: every instance is simulated by itself
+    /// @param share false: every instance has its own simulation
     World(const base::SnapshotSchema* schema, base::TaskRunner* tasks, std::pmr::memory_resource* memory,
           const Environment& environment = {}, bool share = true);
 
@@ -71,7 +72,7 @@ public:
 
     // ---- out of sight; hidden slots are not given to step() and publish() ----
     void hide(Slot slot);
-    void show(Slot slot); ///< after catchUp() has said true
+    void show(Slot slot); ///< call after catchUp() has returned true
     bool isHidden(Slot slot) const { return instances_[slot].hidden; }
     /// True when the state has not reached the present.
     bool lags(Slot slot) const;
@@ -82,11 +83,11 @@ public:
     }
     /// True when it has so many pending changes that it should be caught up.
     bool hasManyChanges(Slot slot) const;
-    /// Takes a hidden instance towards the present, as if it had never been out of sight unless `policy` says
-    /// otherwise; the past that it begins with, prewarm, first. Strong guarantee for each step.
+    /// Advances a hidden instance towards the present by `policy`, its prewarm first. Strong guarantee for
+    /// each step.
     /// @param ioBudget [1] particle steps that may be taken; each step costs one more than its particles. The
-    ///                 last one may exceed it.
-    /// @param work     ends it as well, also in the middle of a step, with which the next call goes on
+    ///         last step may exceed it.
+    /// @param work also limits the call, possibly in the middle of a step, which the next call continues
     /// @return true when it is at the present, or finished
     bool catchUp(Slot slot, CatchUp policy, base::Ticks stepTicks, uint64_t& ioBudget, StepCounters& counters,
                  base::WorkBudget& work);
@@ -95,11 +96,11 @@ public:
         base::WorkBudget unlimited;
         return catchUp(slot, policy, stepTicks, ioBudget, counters, unlimited);
     }
-    /// One step of any length from where the state is to the present, of a hidden instance; or what is left
-    /// of one that found too little work.
+    /// Takes one step of any length from the state of a hidden instance to the present, or continues one that
+    /// exceeded the work budget.
     void stepCoarsely(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work);
-    /// Takes an instance through the past that it begins with, prewarm, before its first step.
-    /// @return whether it is through; otherwise it has to be hidden, and catchUp() goes on
+    /// Simulates the prewarm of an instance before its first step.
+    /// @return whether it is complete; otherwise the instance must be hidden, and catchUp() continues
     bool arrive(Slot slot, base::Ticks stepTicks, StepCounters& counters, base::WorkBudget& work)
     {
         return arrive(instances_[slot].simulation, now_, stepTicks, work, counters);
@@ -108,7 +109,7 @@ public:
     void closeStep(Slot slot) { closeSimulation(instances_[slot].simulation); }
     /// True while the past that an instance begins with, or is taken to by seekTo(), is not simulated yet.
     bool isArriving(Slot slot) const { return simulations_.at(instances_[slot].simulation).arriving; }
-    /// [tick] of local time that is missing of it.
+    /// [tick] local time that is not simulated yet.
     base::Ticks missing(Slot slot) const
     {
         const SharedSimulation& simulation = simulations_.at(instances_[slot].simulation);
@@ -119,8 +120,8 @@ public:
     ///             kept
     /// @return scene time at which another call would free more; the largest number for never
     base::Ticks release(Slot slot, bool mayForget);
-    /// Where nothing is left of what lived long ago, a lagging simulation goes to a step shortly before the
-    /// present from which catchUp() gives the same bits as from where it was.
+    /// Skips time of a lagging simulation whose past has no influence: moves it to a step shortly before the
+    /// present, from which catchUp() gives the same bits.
     void passOver(Slot slot, base::Ticks stepTicks);
     /// Gives a hidden instance its solvers back.
     void materialize(Slot slot) { simulations_.materialize(instances_[slot].simulation); }
@@ -137,14 +138,14 @@ public:
     uint32_t resting() const { return resting_; } ///< slots that the last step() let rest
     /// false: every step is taken.
     void allowRest(bool allow) { mayRest_ = allow; }
-    /// false: every emitter is computed by itself, from the next step on. Results are the same.
+    /// false: emitters do not use pools, from the next step on. Results are the same.
     void allowPools(bool allow) { mayPool_ = allow; }
-    /// Whether emitters that may be computed on the GPU are published as what is needed for that, from the
-    /// next step on; see StepContext::gpuParticles.
+    /// Whether emitters are published as input of the GPU where possible, from the next step on; see
+    /// StepContext::gpuParticles.
     void setGpuParticles(bool onGpu) { gpuParticles_ = onGpu; }
-    /// Takes what rests to the present, so that it can be saved and hashed.
+    /// Advances resting instances to the present, for saving and hashing.
     void endRests();
-    /// The present, after restore(): all that there is has reached it.
+    /// Sets the present time after restore(), which all instances have reached.
     void setNow(base::Ticks now);
 
     const Environment& environment() const { return environment_; }
@@ -152,8 +153,8 @@ public:
     /// memory when instances at different places were simulated as one.
     void setField(std::shared_ptr<const DistanceField> field);
 
-    /// What stands in the way of particles that ask the host, from the next step on; without `meet` nothing.
-    /// As setField().
+    /// Sets the contact callback of the host from the next step on; without `meet` there are no contacts. As
+    /// setField().
     void setContact(const HostContact& contact);
     const HostContact& contact() const { return contact_; }
     /// Answers of the host since the last call that were none.
@@ -164,10 +165,9 @@ public:
     void setParameters(Slot slot, const InstanceParameters& parameters);
     /// Plays an instance at another rate from now on. As setParameters().
     void setRate(Slot slot, uint32_t rate);
-    /// Takes an instance to local time `to`, as if it had been played to there from its first step on, in
-    /// steps of `stepTicks`, under the conditions that hold now; events of the host are not replayed. Strong
-    /// guarantee.
-    /// @return whether it is there; otherwise as arrive()
+    /// Moves an instance to local time `to`, with the result of playing it from its first step in steps of
+    /// `stepTicks` under the present conditions; host events are not replayed. Strong guarantee.
+    /// @return whether it has arrived; otherwise as arrive()
     bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters,
                 base::WorkBudget& work);
     bool seekTo(Slot slot, base::Ticks to, base::Ticks stepTicks, StepCounters& counters)
@@ -178,8 +178,8 @@ public:
     base::Ticks localTime(Slot slot) const { return clockOf(slot).toLocal(now_); }
     /// See InstanceClock; the present one, also while it is pending.
     InstanceClock clockOf(Slot slot) const;
-    /// Tells an instance that something happened; it hears of it when its state reaches the present, with the
-    /// next step. Strong guarantee; may need memory.
+    /// Posts a host event to an instance. It takes effect in the next step after its state has reached the
+    /// present. Strong guarantee; may allocate.
     void postEvent(Slot slot, const HostEvent& event);
     /// True at the end of the effect's duration, when all solvers have finished, and when an instance that no
     /// longer emits is empty.
@@ -193,18 +193,18 @@ public:
     /// slot whose start lies inside the step begins at its own start tick; one that starts later is left
     /// alone.
     StepCounters step(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
-    /// The same in parts: beginStep() once, then proceed() until it says true. The bits are the same. While
-    /// a step is in hand, changes of instances wait for its end, see endStep(), and only those functions may
-    /// be called that change an instance or ask what it is.
+    /// The same in parts: beginStep() once, then proceed() until it returns true, with the same bits. While a
+    /// step is open, changes of instances are deferred to its end, see endStep(), and only functions that
+    /// change or query an instance may be called.
     void beginStep(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
-    /// @param work     one piece at least is done: a sub-step of a solver, or of a gas one of its own
-    /// @param counters gains what was done in the step, when it is complete
-    /// After an exception no step is open.
+    /// @param work at least one piece is executed: a sub-step of a solver, or a sub-step of a gas
+    /// @param counters receives the counts of the step when it is complete After an exception no step is
+    ///         open.
     bool proceed(base::WorkBudget& work, StepCounters& counters);
-    /// Whether there is a step in hand: one that is not complete, or that is being published.
+    /// Whether a step or its publication is open.
     bool isStepping() const { return hand_.isOpen || publication_.isOpen; }
     bool isPublishing() const { return publication_.isOpen; }
-    /// Makes the changes that have waited. After an exception, those that are left wait for the next call.
+    /// Applies deferred changes. If an exception is thrown, the remaining ones stay deferred.
     void makeChanges();
     bool hasChanges() const { return !waiting_.empty() || !leaving_.empty(); }
 
@@ -219,27 +219,27 @@ public:
 
     /// Writes the groups of each slot of `active`, in the order of the list.
     void publish(std::span<const Slot> active, base::FrameSnapshot& snapshot);
-    /// The same in parts: beginPublication() once, then proceedPublication() until it says true. The bits are
-    /// the same. Meanwhile as with a step in hand; no other code may write to `snapshot`.
+    /// The same in parts: beginPublication() once, then proceedPublication() until it returns true, with the
+    /// same bits. Meanwhile the rules of an open step apply, and no other code may write to `snapshot`.
     void beginPublication(std::span<const Slot> active, base::FrameSnapshot& snapshot);
-    /// After an exception there is no publication in hand.
+    /// An exception closes the publication.
     bool proceedPublication(base::WorkBudget& work);
-    void dropPublication() { publication_.isOpen = false; } ///< what is written of the snapshot is useless
+    void dropPublication() { publication_.isOpen = false; } ///< discards the written part of the snapshot
 
     /// Hash of the states behind `slots`; the same for shared and unshared ones.
     uint64_t hash(std::span<const Slot> slots) const;
     /// Writes the states behind `slots`, each once.
     void save(std::span<const Slot> slots, StateWriter& writer) const;
 
-    /// An instance to be restored: what add() would be given.
+    /// An instance to restore: the arguments of add().
     struct Entry
     {
         std::shared_ptr<const EffectDef> effect;
         InstanceStart start;
     };
     /// Fills an empty world with instances in the order in which save() was given them.
-    /// @param outSlots as many as `entries`
-    /// After a failure, kept by the reader, the world may only be destroyed.
+    /// @param outSlots as many as `entries` After a failure, kept by the reader, the world may only be
+    ///         destroyed.
     void restore(std::span<const Entry> entries, StateReader& reader, std::span<Slot> outSlots);
     /// Exchanges all instances with a world of the same schema, memory and environment.
     void swap(World& other) noexcept;
@@ -249,7 +249,7 @@ private:
     {
         SimulationIndex simulation = kNoSimulation;
         bool hidden = false;
-        uint32_t wanted = 0; ///< place in wanted_, from 1 on, of what `start` becomes; 0: unchanged
+        uint32_t wanted = 0; ///< index in wanted_ plus 1 of the deferred `start`; 0: unchanged
         InstanceStart start;
     };
 
@@ -257,7 +257,7 @@ private:
     struct Waiting
     {
         Slot slot;
-        std::optional<HostEvent> event; ///< none: its start is to be what is wanted
+        std::optional<HostEvent> event; ///< empty: its start changes to the wanted one
     };
 
     /// A step of which some is still to be done.
@@ -301,11 +301,11 @@ private:
         base::Ticks end;
     };
 
-    /// What is found anew only when the list or the pools have changed.
+    /// Data that is rebuilt only when the list or the pools have changed.
     struct Plan
     {
         std::vector<Slot> active; ///< the list
-        std::vector<Slot> others; ///< those of it that are in no pool
+        std::vector<Slot> others; ///< instances that are in no pool
         uint64_t revision = 0;    ///< of the pools
 
         bool holds(std::span<const Slot> list, uint64_t now) const
@@ -326,7 +326,7 @@ private:
     void keepStep();
     void dropStep();
     void changeAfterStep(Slot slot, const InstanceStart& start);
-    /// What the host has made of it, also where that waits for the end of the step in hand.
+    /// Its start including changes that are deferred to the end of the open step.
     const InstanceStart& wantedOf(Slot slot) const
     {
         const Instance& instance = instances_[slot];
@@ -400,8 +400,8 @@ private:
     StepCounters closed_;                  ///< work of steps that had to be ended, not counted yet
     std::vector<Waiting> waiting_;         ///< in the order of the calls
     std::vector<InstanceStart> wanted_;    ///< from the end of the step in hand on
-    std::vector<Slot> leaving_;            ///< likewise, removed
-    std::vector<SimulationIndex> joining_; ///< simulations that a step has taken to where a pool could go on
+    std::vector<Slot> leaving_;            ///< removed instances
+    std::vector<SimulationIndex> joining_; ///< simulations that may join a pool after the step
     std::vector<SimulationIndex> left_;    ///< simulations that left their pool in a step
     Plan publishPlan_;
     uint64_t placed_ = 0; ///< of publishPlan_: see moves_

@@ -1,5 +1,5 @@
 /// @file world_context.h
-/// What solvers of a world are stepped with. For the parts of World that step.
+/// Step contexts of the solvers of a world. For the parts of World that step.
 #pragma once
 
 #include "simulation/solver/placed_contact.h"
@@ -22,7 +22,7 @@ void World::withContext(SimulationIndex index, StepCounters& counters, F&& body)
     std::optional<Collider> collider;
     PlacedContact contact(contact_, simulation.conditions.placement, contactFaults_);
     if (simulation.conditions.hasContact &&
-        contact_.meet) // a paused simulation may be at a time when there was none
+        contact_.meet) // a paused simulation may be at a time before the callback was set
         context.contactHook = &contact.hook();
     if (simulation.conditions.field)
         collider.emplace(*simulation.conditions.field, simulation.conditions.placement);

@@ -29,10 +29,10 @@ public:
     void addBurst(uint64_t first, uint64_t count, base::Ticks tick);
     /// Nothing is known of births before `next`.
     void clear(uint64_t next);
-    /// Forgets runs that ended before `tick`, and moves front().
+    /// Removes runs that ended before `tick`, and moves front().
     void forget(base::Ticks tick);
 
-    uint64_t front() const { return front_; } ///< the oldest birth that is not before the last forget()
+    uint64_t front() const { return front_; } ///< the oldest birth kept by the last forget()
     uint64_t next() const { return next_; }
     bool empty() const { return front_ == next_; }
     size_t runs() const { return runs_.size(); }
@@ -40,7 +40,7 @@ public:
     base::Ticks tickOf(uint64_t index) const;
     /// The tick of each of the births [first, first + out.size()).
     void ticksOf(uint64_t first, std::span<base::Ticks> out) const;
-    /// The runs as they are published at `now`. @param out at least runs() of them
+    /// Writes the runs for publication at `now`. @param out space for runs() elements
     void publish(base::Ticks now, std::span<base::GpuBirthRun> out) const;
 
 private:
@@ -54,7 +54,7 @@ private:
         WideWord fraction;
         WideWord rest;
 
-        // What it was made of, to see whether births go on as they did. rate 0: a burst.
+        // Its parameters, to detect whether births continue unchanged. rate 0: a burst.
         base::Ticks begin;
         WideInt sought, one, rate;
 

@@ -50,7 +50,7 @@
 
 namespace fx::sim {
 
-/// Births of a step: how many there were, of which the first `stored` were written.
+/// Births of a step: their number, and the number of stored ones, which are the first.
 struct BirthCount
 {
     uint64_t total = 0;
@@ -63,7 +63,7 @@ struct BirthWindow
     base::Ticks begin;
     base::Ticks end;      ///< the next window begins here
     double intensity = 1; ///< multiplies rate and burst counts
-    bool emitting = true; ///< false: what would be born in the window never is
+    bool emitting = true; ///< false: births of the window are discarded
 };
 
 /// Births at a constant rate, one after another, found without dividing: (4) of birth-ticks.
@@ -71,7 +71,7 @@ struct EvenBirths
 {
     base::Ticks tick = kForever; ///< of the next
     base::Ticks stride = 0;      ///< whole ticks from one to the next
-    uint64_t rest = 0;           ///< what the quotient of `tick` leaves
+    uint64_t rest = 0;           ///< remainder of the division for `tick`
     uint64_t more = 0;           ///< by which it grows from one to the next
     uint64_t rate = 1;           ///< q, the divisor
 
@@ -96,7 +96,7 @@ public:
 
     /// Draws the phase. Before the first advance.
     void setPhase(float phase);
-    /// What decides about bursts of a probability below 1. Before the first advance.
+    /// Sets the random key of bursts with a probability below 1. Called before the first advance.
     void setSeed(uint64_t seed, uint32_t solverIndex);
     /// Receives all births of constant rates from now on; null for none. It must outlive its use.
     void setLog(BirthLog* log) { log_ = log; }
@@ -113,9 +113,9 @@ public:
         base::Ticks end;
         return advanceTo(window, {room, most, call, &take}, end);
     }
-    /// The same as far as `wanted` of them go or a little farther, at least one.
-    /// @param outReached where the next window has to begin: its end, or before it, also in the middle of
-    ///                   what is born at one tick
+    /// The same for about `wanted` births, at least one.
+    /// @param outReached begin of the next window: the end of this one or earlier, possibly between births of
+    ///         the same tick
     template <class Take>
     BirthCount advance(const BirthWindow& window, std::span<Birth> room, uint64_t most, uint64_t wanted,
                        base::Ticks& outReached, Take&& take)
@@ -144,8 +144,8 @@ public:
     /// change. A lower bound.
     base::Ticks quietUntil(base::Ticks tick, double intensity, bool emitting) const;
 
-    /// What has been born so far; rate and bursts are the definition's.
-    /// @param now windows up to there have been left out, as passTo()
+    /// Saves the progress of births; rate and bursts belong to the definition.
+    /// @param now windows up to this tick were skipped, as by passTo()
     void save(StateWriter& writer, base::Ticks now = 0) const;
     void restore(StateReader& reader);
 
@@ -208,7 +208,7 @@ private:
     ScheduledBurst* nextBurst(base::Ticks end);
     bool happens(const ScheduledBurst& burst) const;
 
-    Quiet quiet_; ///< first: most steps look at nothing else
+    Quiet quiet_; ///< first member, because most steps read nothing else
     float rate_;
     base::Ticks start_;
     base::Ticks end_;

@@ -1,5 +1,5 @@
 /// @file birth_shape.h
-/// Where a particle is born and where it heads, as a function of random numbers.
+/// Position and direction of a birth, as a function of random numbers.
 ///
 /// @formula birth-shapes
 /// Uniform samples of ball, box, disc and cone of directions.

@@ -33,7 +33,7 @@
 
 namespace fx::sim {
 
-/// The straight way in `share` of it; bits that depend on nothing but the arguments.
+/// Linear interpolation by `share`; the bits depend on the arguments only.
 base::Placement between(const base::Placement& from, const base::Placement& to, float share);
 
 class MovedSpace
@@ -43,9 +43,9 @@ public:
     void begin(const base::Placement& placement);
     /// A step begins, at whose end the instance has gone `share` of the way to `placement`.
     void moveTo(const base::Placement& placement, float share = 1.0f);
-    /// The instance is there, without a way that leads there.
+    /// Sets the placement without a path to it.
     void jumpTo(const base::Placement& placement);
-    /// True when the instance stands where it stood at the end of the last step.
+    /// True when the placement equals that at the end of the last step.
     bool stands(const base::Placement& placement) const;
 
     const base::Placement& home() const { return home_; }

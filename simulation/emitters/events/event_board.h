@@ -1,5 +1,5 @@
 /// @file event_board.h
-/// Where the emitters of one effect leave for each other, within one step, what their events ask for.
+/// Requests for births that events of one emitter make in other emitters of the effect, within one step.
 #pragma once
 
 #include "foundation/memory/arena.h"
@@ -14,16 +14,16 @@ namespace fx::sim {
 constexpr uint32_t kMinEventBirths =
     4096; ///< births by events that an emitter of any capacity tries in a step
 
-/// What was left for one emitter.
+/// Requests for births in one emitter.
 struct EventRequests
 {
     std::span<const EventBirth> births; ///< in the order in which they are answered, those that find room
     uint64_t asked = 0;                 ///< births, those included that do not
 };
 
-/// Keeps no more of the events that give birth in an emitter than fill its room, the first ones in the order
-/// in which they are answered, however many there are and in whatever order they come: memory and time are
-/// those of the room. Lives as long as the scratch memory of the step. Threads: one at a time.
+/// Keeps only as many requests for an emitter as its capacity allows: the first ones in processing order,
+/// independent of the order of posting. Memory and time are proportional to the capacity. Its lifetime is
+/// that of the step's scratch memory. Threads: one at a time.
 class EventBoard
 {
 public:
@@ -60,8 +60,8 @@ public:
         }
     }
 
-    /// Puts what was left for `target` in order, when all have been posted, as far as the work goes.
-    /// @return whether it is
+    /// Sorts the requests for `target` after all have been posted, within the work budget.
+    /// @return whether they are sorted
     bool order(uint32_t target, base::WorkBudget& work)
     {
         Note& note = notes_[target];
@@ -85,9 +85,9 @@ private:
     {
         std::span<EventBirth> kept; ///< the first `size`: a heap whose front is answered last
         size_t size;
-        size_t ordered;  ///< of those, at the end, that are in the place in which they are answered
-        uint64_t wanted; ///< births of those
-        uint64_t asked;  ///< births of all that were posted
+        size_t ordered;  ///< number of requests at the end that are already sorted
+        uint64_t wanted; ///< births of the kept requests
+        uint64_t asked;  ///< births of all posted requests
         uint64_t room;   ///< births that are tried
 
         std::span<EventBirth>::iterator end() const { return kept.begin() + ptrdiff_t(size); }

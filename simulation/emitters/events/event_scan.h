@@ -1,5 +1,5 @@
 /// @file event_scan.h
-/// Finds what happened to the particles of an emitter in a step, as its rules ask for it.
+/// Finds the events of an emitter's particles in a step for which it has rules.
 ///
 /// @formula particle-event-ticks
 /// At which tick a particle is born, reaches an age and dies.
@@ -41,12 +41,12 @@
 namespace fx::sim {
 
 /// [1] linear Rec. 709: the color over life of the particle in `row`, or its albedo where it is a medium, at
-/// `tick`, with what it has inherited; without its brightness.
+/// `tick`, including inherited color, without brightness.
 glm::vec3 colorAt(const EmitterSettings& def, const ParticleStore& store, uint32_t row, base::Ticks tick);
 
 constexpr uint32_t kMaxParticleContacts = 10; ///< in one step: obstacles', the host's, the ground's
 
-/// What an emitter's rules want to know of its particles.
+/// Properties of particles that the rules of an emitter need.
 class EventInterest
 {
 public:
@@ -69,7 +69,7 @@ public:
     {
         return 3 + uint32_t(ages_.size()) + (in(EventKind::Collision) ? kMaxParticleContacts : 0);
     }
-    /// True when an event is what `rule` is about.
+    /// True when `rule` applies to an event.
     bool answers(const EventRule& rule, const ParticleEvent& event) const;
     /// True when some rule may be about a contact.
     bool counts(const TileContact& contact) const
@@ -108,10 +108,10 @@ struct EventScan
     base::Ticks begin; ///< of the step
     base::Ticks end;
 
-    /// Ages and deaths of those that live at the begin, in the tile that begins at `row`.
+    /// Finds ages and deaths of particles that live at the begin of the step, in the tile at `row`.
     void scanTile(uint32_t row, EventList& out) const;
-    /// All that happens to one that is born in this step, if it lives in its row.
-    /// @param fed its birth is itself the consequence of an event
+    /// Finds all events of a particle that is born in this step, if it has a row.
+    /// @param fed its birth was caused by an event
     void scanBirth(uint64_t index, bool fed, bool birthOnly, EventList& out) const;
 
 private:

@@ -1,12 +1,11 @@
 /// @file emitter_pool.h
 /// Small emitters of one definition that share the rows of one store.
 ///
-/// Rows stand in the order of birth over all members, so the pass over them meets full vectors of particles
-/// of nearly one age and no empty rows, however few particles a member has. A member costs nothing in a step
-/// in which none of its particles is born or dies. Each gets the same bits as by itself: random numbers are
-/// those of its seed, ages are differences of ticks, and a birth whose row in the member's own store would be
-/// taken is dropped. Only where memory runs out as the rows grow, a birth is dropped that the emitter by
-/// itself would have had room for; it is counted like the others.
+/// Rows are in the order of birth over all members, so a pass has full vectors of particles of similar age
+/// without empty rows, also for members with few particles. A member costs nothing in a step without births
+/// or deaths. Results are the same bits as without a pool: random numbers are those of the member's seed,
+/// ages are differences of ticks, and a birth is dropped if its row in the member's own store would be
+/// occupied. Only if memory for more rows is exhausted, additional births are dropped and counted.
 #pragma once
 
 #include "simulation/emitters/births/birth_schedule.h"
@@ -23,7 +22,7 @@
 
 namespace fx::sim {
 
-/// What a pool needs to know of an emitter that joins it.
+/// Data of an emitter that is added to a pool.
 struct PoolEntry
 {
     PooledEmitter* emitter;
@@ -34,7 +33,7 @@ struct PoolEntry
     base::Ticks end;    ///< no births from then on, local time
 };
 
-/// Threads: one at a time (the scene thread); a publication is spread over the task runner where it pays.
+/// Threads: one at a time (the scene thread); large publications run in parallel on the task runner.
 class EmitterPool
 {
 public:
@@ -56,18 +55,18 @@ public:
     }
     uint64_t offered() const { return offered_; } ///< number of the step of the last offer
 
-    /// Takes the particles of an emitter, whose state is that of the pool's time `now`.
-    /// @return the member; kNoMember, and nothing has changed, when there is no memory
+    /// Adds an emitter with its particles, at the pool's time `now`.
+    /// @return the member; kNoMember, without changes, when memory is exhausted
     uint32_t admit(const PoolEntry& entry, base::Ticks now);
     static constexpr uint32_t kNoMember = ~0u;
-    /// A member is none any more; what it holds is lost.
+    /// Removes a member and its particles.
     void forget(uint32_t member);
     /// Writes the present state of a member into its emitter; it stays a member.
     void write(uint32_t member) const;
 
-    /// All births and deaths up to `to`. Members that have no particles any more, or no births to come,
-    /// leave.
-    /// @param outLeft gains their users
+    /// Executes all births and deaths up to `to`. Members without particles or without further births are
+    /// removed.
+    /// @param outLeft receives their users
     void step(base::Ticks to, StepCounters& counters, std::vector<uint32_t>& outLeft);
     /// Members keep their numbers as long as they stay.
     void publish(base::KindId kind, base::TaskRunner& tasks, base::FrameSnapshot& snapshot) const;
@@ -93,13 +92,13 @@ private:
         PooledEmitter* emitter = nullptr; ///< null: free
         uint64_t seed = 0;
         EvenBirths births;   ///< the pool's time
-        base::Ticks end = 0; ///< no births from then on, likewise
+        base::Ticks end = 0; ///< tick from which there are no births
         uint64_t next = 0;   ///< birth index
         uint64_t front = 0;  ///< the oldest index that lives
         base::Ticks frontUntil = 0;
-        uint32_t nextRow = 0; ///< of its own store
+        uint32_t nextRow = 0; ///< in its own store
         uint32_t frontRow = 0;
-        uint32_t rows = 0; ///< of its own store that are in use
+        uint32_t rows = 0; ///< occupied rows in its own store
         uint32_t highWater = 0;
         uint32_t user = 0;
         uint64_t dropped = 0;
@@ -129,13 +128,13 @@ private:
     ParticleStore store_;           ///< a ring of all births; its indices are serial numbers
     std::vector<uint32_t> owner_;   ///< by row: member and row of its own store, see base::PooledRows
     std::vector<uint64_t> index_;   ///< by row: birth index in the member
-    std::vector<uint64_t> serial_;  ///< by place: the particle last born there, kNoParticle
-    std::vector<base::Ticks> wake_; ///< by member: a step that ends there or later is not like standing still
+    std::vector<uint64_t> serial_;  ///< by row of its own store: the particle last born there, or kNoParticle
+    std::vector<base::Ticks> wake_; ///< by member: first tick at which a step has births or deaths
     std::vector<uint32_t> counts_;  ///< by member: count of its group
     std::vector<Member> members_;
     std::vector<uint32_t> free_;
     std::vector<uint32_t> due_;
-    std::vector<PooledBirth> births_; ///< wait to be made, from store_.next() on
+    std::vector<PooledBirth> births_; ///< pending births, from store_.next() on
     uint64_t number_ = 0;             ///< of this order of rows, see base::PooledRows::writer
     uint64_t rowsInUse_ = 0;
     uint32_t taken_ = 0; ///< members

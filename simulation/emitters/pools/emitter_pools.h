@@ -11,16 +11,16 @@
 
 namespace fx::sim {
 
-/// An emitter that has been stepped to `now` and could go on in a pool.
+/// An emitter that has been stepped to `now` and may join a pool.
 struct PoolRequest
 {
     uint32_t user;      ///< see PoolEntry
-    uint64_t step;      ///< number of the step that took it there
+    uint64_t step;      ///< number of that step
     base::Ticks now;    ///< pool's time
     base::Ticks offset; ///< local time minus the pool's
 };
 
-/// Longer steps are taken by each emitter by itself: ages of brief lives must stay within 32 bits.
+/// For longer steps, emitters are stepped separately, because ages must fit into 32 bits.
 constexpr base::Ticks kLongestPoolStep = base::kTicksPerSecond / 16;
 
 /// Threads: one at a time.
@@ -38,8 +38,8 @@ public:
     void publish(base::KindId kind, base::TaskRunner& tasks, base::FrameSnapshot& snapshot) const;
     size_t indexOf(const EmitterPool& pool) const; ///< among those
 
-    /// The pool that an emitter may join now: one that has members, or that so many want to join in this step
-    /// that it is worth it. Null where there is none, or no memory.
+    /// The pool that an emitter may join now: one with members, or one that enough emitters request in this
+    /// step. Null without such a pool or without memory.
     EmitterPool* offer(const std::shared_ptr<const ParticleProgram>& program, const glm::vec3& pull,
                        uint64_t step);
     /// @param outLeft see EmitterPool::step()

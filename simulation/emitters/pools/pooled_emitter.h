@@ -1,5 +1,5 @@
 /// @file pooled_emitter.h
-/// What pools and spawn batches of small emitters use of each emitter.
+/// Interface of small emitters for pools and spawn batches.
 #pragma once
 
 #include "foundation/snapshot/frame_snapshot.h"
@@ -25,8 +25,8 @@ public:
     /// Joins a pool of emitters, which computes it from then on until it leaves: meanwhile it is neither
     /// stepped nor published, and all other questions are answered as ever. @return whether it has joined
     virtual bool joinPool(EmitterPools& pools, const PoolRequest& request) = 0;
-    /// Its state becomes that of the pool's time; it is stepped by itself from then on. Without a pool:
-    /// nothing.
+    /// Copies its state from the pool and leaves the pool; it is then stepped separately. Does nothing
+    /// without a pool.
     virtual void leavePool() = 0;
     virtual const EmitterPool* pool() const = 0; ///< that computes it now, null for none
     virtual uint32_t member() const = 0;         ///< its number in that pool

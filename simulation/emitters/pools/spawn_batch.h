@@ -1,7 +1,7 @@
 /// @file spawn_batch.h
-/// What many small emitters do together: births of one step, and what is published of one moment. Each gets
-/// the same bits as by itself; together they share the random numbers of a vector, and what a pass over
-/// particles costs before its first row.
+/// Births and publications of many small emitters in one batch. Results are the same bits as for separate
+/// emitters; a batch fills the lanes of random-number vectors and shares the fixed cost of a pass over
+/// particles.
 #pragma once
 
 #include "simulation/emitters/pools/pooled_emitter.h"
@@ -14,7 +14,7 @@
 
 namespace fx::sim {
 
-/// Threads: one at a time (the scene thread); a publication is spread over the task runner where it pays.
+/// Threads: one at a time (the scene thread); large publications run in parallel on the task runner.
 class SpawnBatch
 {
 public:
@@ -22,7 +22,7 @@ public:
 
     // ---- a step ----
     static constexpr size_t kMaxDeferredBirths =
-        256; ///< births that wait together; more fill vectors by themselves
+        256; ///< largest number of deferred births of one emitter; more fill vectors without a batch
     /// `births` of `emitter`, up to kMaxDeferredBirths and up to its rows, are made by close() at the latest,
     /// and its step is ended then.
     void wait(PooledEmitter& emitter, const StepContext& context, std::span<const Birth> births);
@@ -30,14 +30,15 @@ public:
     bool waitsFor(const PooledEmitter& emitter) const { return !open_.empty() && open_.back() == &emitter; }
     /// After an exception: discards pending births.
     void forget();
-    /// Makes the births that wait.
+    /// Makes the deferred births.
     void makeBirths();
     /// Makes all pending births and ends the steps of their emitters. Must precede any read of them.
     void close();
 
     // ---- a publication ----
     void beginPublication(base::FrameSnapshot& snapshot, base::TaskRunner* tasks);
-    /// The columns of the last group of the snapshot are to be filled, and its bounds. @return what from
+    /// Adds the last group of the snapshot, whose columns and bounds are to be filled. @return its job, to be
+    /// filled in
     AppearanceJob& add(base::SnapshotGroup& group)
     {
         if (partCount_ == kMaxParts)
@@ -69,7 +70,7 @@ private:
     std::pmr::vector<PooledEmitter*> open_; ///< steps to be ended
     StepCounters* counters_ = nullptr;
 
-    static constexpr size_t kMaxParts = 64; ///< with what they read they stay in the caches near the core
+    static constexpr size_t kMaxParts = 64; ///< so that they and their inputs fit into the L1 and L2 caches
     std::array<AppearancePart, kMaxParts> parts_;
     size_t partCount_ = 0;
     uint64_t rows_ = 0; ///< of the publication

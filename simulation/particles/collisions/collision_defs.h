@@ -1,6 +1,6 @@
 /// @file collision_defs.h
-/// What stands in the way of particles, and what happens to those that meet it. Particles are points. All
-/// lengths in the instance's local space.
+/// Obstacles of particles, and the response to contacts. Particles are points. All lengths in the instance's
+/// local space.
 #pragma once
 
 #include "simulation/collision/distance_field.h"
@@ -20,17 +20,17 @@ enum class ObstacleKind : uint8_t
     Box,         ///< of half extents size, its +Y along `axis`
     Mesh,        ///< `field`
     HeightField, ///< `heights` above the plane through `position`, which is not turned
-    Ground,      ///< the instance's ground plane, where it has one
-    Scene,       ///< the host's geometry, where it gave one
+    Ground,      ///< the instance's ground plane, if enabled
+    Scene,       ///< the host's geometry, if set
     Hook,        ///< StepContext::contactHook, where the host set one
-    Depth,       ///< what the depth texture of a view shows: on the GPU alone, elsewhere nothing is met
+    Depth,       ///< surfaces in the depth texture of a view; on the GPU only, without contacts elsewhere
 };
 
 enum class ContactResponse : uint8_t
 {
     Bounce, ///< reflected
-    Kill,   ///< dies where it touches
-    Stick,  ///< stays where it touches
+    Kill,   ///< dies at the contact
+    Stick,  ///< stays at the contact
 };
 
 struct CollisionDef
@@ -40,8 +40,8 @@ struct CollisionDef
     glm::vec3 axis{0.0f, 1.0f, 0.0f}; ///< of any length > 0
     glm::vec3 size{1.0f};             ///< [m]
     bool isHollow = false;            ///< sphere and box: particles are kept inside
-    float margin = 0.0f;              ///< [m] kept from planes, spheres, boxes, heights and what is seen
-    float thickness = 0.5f;           ///< [m] Depth: that what is seen is taken to have, along the ray
+    float margin = 0.0f;              ///< [m] distance kept from planes, spheres, boxes, heights and depth
+    float thickness = 0.5f;           ///< [m] Depth: assumed thickness of surfaces along the ray
     std::shared_ptr<const DistanceField> field; ///< of the mesh
     std::shared_ptr<const FieldGrid> heights;   ///< [m] one channel, one node along y
 

@@ -1,8 +1,8 @@
 /// @file collision_op.h
 /// All obstacles of an emitter as one module of a tile.
 ///
-/// One module, not one an obstacle: what a particle does after a contact depends on which obstacle comes
-/// first, and a particle that leaves one must not be put into another.
+/// It is one module for all obstacles, because the order of contacts determines the motion, and resolving one
+/// contact must not push a particle into another obstacle.
 #pragma once
 
 #include "simulation/particles/collisions/collision_defs.h"

@@ -26,7 +26,7 @@ struct LegContact
     glm::vec3 normal{0.0f}; ///< unit, towards where particles may be
 };
 
-/// How far a place is from matter.
+/// Distance of a point to the nearest obstacle.
 struct Clearance
 {
     float distance;   ///< [m] negative inside of matter

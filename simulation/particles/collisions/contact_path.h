@@ -1,8 +1,7 @@
 /// @file contact_path.h
 /// A particle's way through a step, around all obstacles.
 ///
-/// @formula contact-path
-/// What is left of a step after each contact.
+/// @formula contact-path Motion in the rest of a step after each contact.
 ///
 /// symbol   unit   meaning
 ///   x0, x1   m      where the step began, and where it would end freely
@@ -38,7 +37,7 @@
 
 namespace fx::sim {
 
-/// An obstacle and what it does to those that meet it.
+/// An obstacle and its response.
 struct ObstacleEntry
 {
     std::unique_ptr<Obstacle> obstacle;
@@ -61,7 +60,7 @@ struct ContactState
 constexpr int kMaxContacts = 8;      ///< of one particle in one step
 constexpr size_t kMaxObstacles = 16; ///< of one emitter
 
-/// Contacts of a step that begin; (2) of event-ticks says which do.
+/// Contacts that begin in a step, selected by (2) of event-ticks.
 struct ContactList
 {
     std::array<TileContact, kMaxContacts + 1> contacts;

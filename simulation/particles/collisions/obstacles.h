@@ -45,7 +45,7 @@ class Obstacle
 {
 public:
     virtual ~Obstacle() = default;
-    /// False when it is not there in this step.
+    /// False when the obstacle does not exist in this step.
     virtual bool isThere(const StepContext&) const { return true; }
     virtual Clearance clearance(const StepContext& step, const glm::vec3& p) const = 0;
     virtual LegContact meet(const StepContext& step, const ContactLeg& leg) const = 0;
@@ -54,13 +54,13 @@ public:
     {
         enum Form : uint8_t
         {
-            Everywhere, ///< there is no bound
+            Everywhere, ///< unbounded
             Plane,
             Ball
         } form = Everywhere;
         glm::vec3 center{0.0f}; ///< of the ball, or of the plane's normal
         float size = 0.0f;      ///< [m] radius, or distance of the plane from the origin along its normal
-        bool isHollow = false;  ///< what is inside of the ball may be near
+        bool isHollow = false;  ///< points inside of the ball may be close to the surface
     };
     virtual Outline outline(const StepContext&) const { return {}; }
     /// As GpuModuleSource::describe(): a module whose numbers go on with the response, restitution and

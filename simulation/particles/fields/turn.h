@@ -1,5 +1,5 @@
 /// @file turn.h
-/// Turns what stands upright onto an axis.
+/// Rotation from +Y onto an axis.
 ///
 /// @formula shortest-turn
 /// The rotation by the smallest angle that takes +Y onto a unit vector.

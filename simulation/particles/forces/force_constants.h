@@ -1,6 +1,5 @@
 /// @file force_constants.h
-/// What follows from the definition of a force alone. The kernel on the CPU and the module on the GPU take
-/// the same numbers.
+/// Numbers derived from the definition of a force, shared by the kernel on the CPU and the module on the GPU.
 #pragma once
 
 #include "simulation/particles/forces/force_defs.h"

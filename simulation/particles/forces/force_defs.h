@@ -1,6 +1,6 @@
 /// @file force_defs.h
-/// What moves particles besides gravity, drag, wind and turbulence. All lengths in the instance's local
-/// space.
+/// Definitions of forces on particles, other than gravity, drag, wind and turbulence. All lengths in the
+/// instance's local space.
 #pragma once
 
 #include "simulation/collision/distance_field.h"
@@ -61,7 +61,7 @@ struct VectorFieldDef
     bool isAcceleration = false;           ///< vectors are [m/s2]; otherwise velocities of the air [m/s]
 };
 
-/// What a distance is measured to.
+/// Surface that a distance refers to.
 enum class SurfaceKind : uint8_t
 {
     Sphere,

@@ -1,5 +1,6 @@
 /// @file force_ops.h
-/// The forces of force_defs.h as modules of a tile. Each file of this folder has the formula of its own.
+/// The forces of force_defs.h as modules of a tile. Each file of this folder contains the formula of one
+/// force.
 #pragma once
 
 #include "simulation/particles/forces/force_defs.h"

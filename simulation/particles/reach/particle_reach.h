@@ -1,5 +1,5 @@
 /// @file particle_reach.h
-/// How far the particles of an emitter can get, without a look at any of them.
+/// Bounds of the particles of an emitter from its definition and conditions.
 #pragma once
 
 #include "foundation/math/geometry.h"
@@ -17,13 +17,13 @@ namespace fx::sim {
 float reachOf(const EmitterSettings& def, const ReachConditions& conditions, const BirthReach& births,
               std::span<BirthReach> ioOthers);
 
-/// What is drawn within lives of at most `seconds` stays in this box, whatever is drawn at random.
-/// @param low, high   [m/s2] between these are the pulls, component by component
+/// Box that contains all drawn geometry of particles with lifetimes up to `seconds`, for all random numbers.
+/// @param low, high [m/s2] range of accelerations, component by component
 /// @param secondsBack [s] to the snapshot before, particles born since are drawn on their path from it
 base::Bounds boundsOfAll(const EmitterSettings& def, const glm::vec3& low, const glm::vec3& high,
                          float seconds, float secondsBack);
 
-/// Ranges of what has acted on particles since the oldest of them was born, besides modules.
+/// Ranges of conditions, besides modules, since the birth of the oldest particle.
 struct ConditionsRange
 {
     ReachConditions strongest; ///< and how long that is
@@ -33,7 +33,7 @@ struct ConditionsRange
     float highGround = 0.0f;
     float secondsBack = kLongestStep; ///< [s] see boundsOfAll()
     bool meetsGround = false;         ///< particles do not fall below it
-    bool meetsOthers = false;         ///< they may go anywhere from there
+    bool meetsOthers = false;         ///< contacts may deflect them in any direction
 };
 
 /// As boundsOfAll() where modules move particles; infinite when unknown.

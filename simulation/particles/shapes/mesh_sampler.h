@@ -53,7 +53,7 @@ struct VolumeSampler
     AliasTable table;
 };
 
-/// @return what checkMesh() fails with, InvalidArgument (no triangle with an area)
+/// @return the error of checkMesh(), InvalidArgument (no triangle with an area)
 base::Result<std::shared_ptr<const MeshSampler>> makeMeshSampler(const TriangleMesh& mesh);
 /// @return InvalidArgument (not one channel, no density above 0)
 base::Result<std::shared_ptr<const VolumeSampler>> makeVolumeSampler(const FieldGrid& density);

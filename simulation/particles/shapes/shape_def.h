@@ -1,5 +1,5 @@
 /// @file shape_def.h
-/// Where an emitter's particles are born, as a preset says it.
+/// Definition of the shape in which an emitter's particles are born.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -13,7 +13,7 @@ class SplinePath;
 struct MeshSampler;
 struct VolumeSampler;
 
-/// Where particles are born, and along what they head. All of them uniform in length, area or volume.
+/// Shapes of births, and the initial directions. Births are uniform in length, area or volume.
 enum class ShapeKind : uint8_t
 {
     Point,  ///< heads everywhere

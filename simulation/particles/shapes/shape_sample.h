@@ -1,5 +1,5 @@
 /// @file shape_sample.h
-/// Where a particle is born and where it heads, as a function of random numbers.
+/// Position and direction of a birth, as a function of random numbers.
 ///
 /// @formula even-shapes
 /// Even samples of lines, discs, balls, boxes, cones and tori, with and without their inside.
@@ -54,7 +54,7 @@ double slopeOf(const ShapeDef& def);
 /// The same for many births.
 std::unique_ptr<ShapeOp> makeShapeOp(const ShapeDef& def);
 
-/// What a shape of makeShapeOp() was made of; null for others.
+/// Definition of a shape of makeShapeOp(); null for others.
 const ShapeDef* shapeOf(const ShapeOp& shape);
 
 } // namespace fx::sim

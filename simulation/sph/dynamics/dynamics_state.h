@@ -1,5 +1,5 @@
 /// @file dynamics_state.h
-/// What the parts of the gas dynamics share. Internal to this folder.
+/// State shared by the parts of the gas dynamics. Internal to this folder.
 #pragma once
 
 #include "simulation/sph/dynamics/gas_columns.h"
@@ -17,8 +17,8 @@ namespace fx::sim {
 
 constexpr double kEndless = 1e30; ///< [s] step of a particle that nothing moves
 
-/// After heat or new particles the flow is rougher than steps can know that have not yet seen it: the first
-/// ones are this part of the usual, and grow by two each time. Fitted by the energy error of a point blast in
+/// After heat input or new particles, step criteria underestimate the roughness of the flow. So the first
+/// steps are shortened by this factor, and doubled each time. Fitted by the energy error of a point blast in
 /// 24^3 particles with block steps: 1.9e-2 for 1, 5e-3 for 1/2, 3.2e-3 for 1/4, 3.0e-3 for 1/8.
 constexpr float kFirstSteps = 0.25f;
 
@@ -31,7 +31,7 @@ struct DelayedHeat
     uint32_t isGiven; ///< 1 between that moment and the end of the frame
 };
 
-/// Lists of neighbors of all particles and what they are still good for. They last from frame to frame.
+/// Neighbor lists of all particles and their validity. They are kept from frame to frame.
 struct ListState
 {
     bool valid = false;
@@ -41,11 +41,11 @@ struct ListState
     double perStep = 0; ///< [1] `moved` of the last sub-step
 };
 
-/// A call of advance() that goes on in further calls.
+/// A call of advance() that continues in further calls.
 struct Advance
 {
     bool isOpen = false;
-    double left = 0;  ///< [s] of what was asked for
+    double left = 0;  ///< [s] remaining of the requested time
     double frame = 0; ///< [s] of the frame that is open; 0 between frames
     AdvanceReport report;
 };
@@ -105,7 +105,7 @@ struct DynamicsState
     double fastest = 0;                 ///< [1/s] largest |v| / H
 
     base::Column<uint8_t> wantsReach;
-    base::Column<uint32_t> wanting; ///< active slots that want more reach, ascending
+    base::Column<uint32_t> wanting; ///< active slots that need larger lists, ascending
     base::Column<uint32_t> neighbors;
     base::Column<uint32_t> pairs;
     base::Column<T> heating;

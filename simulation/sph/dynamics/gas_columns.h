@@ -12,15 +12,15 @@
 
 namespace fx::sim {
 
-/// All arrays are indexed by slot. While a frame runs, every particle is in the middle of a step of its own:
-/// velocity and entropy hold for the middle of the step, position for the tick `drifted`, all else for
-/// `begin`. Between frames everything holds for the same moment and the ticks are 0.
+/// All arrays are indexed by slot. During a frame every particle has its own step: velocity and entropy are
+/// those at the middle of the step, the position that at the tick `drifted`, all other columns those at
+/// `begin`. Between frames all columns are synchronous and the ticks are 0.
 template <class T>
 struct GasColumns
 {
     GasColumns(std::pmr::memory_resource* memory, uint32_t capacity);
 
-    /// Moves what belongs to index order[slot] to `slot`, for every column.
+    /// Moves the data of index order[slot] to `slot`, for every column.
     void permute(std::span<const uint32_t> order, base::TaskRunner& tasks);
 
     /// Calls f(column) for every column that lasts from frame to frame.

@@ -71,7 +71,7 @@ struct GasDynamicsDef
     /// grows faster than lists foresee takes the rest in the next steps: fewer steps and searches, less exact
     /// energy.
     bool exact = true;
-    uint32_t maxSubSteps = 1u << 30; ///< >= 1, of one advance(); what is left is debt
+    uint32_t maxSubSteps = 1u << 30; ///< >= 1, in one advance(); the remaining time is debt
     double smallestSupport = 0;      ///< [m] 0: a ten-thousandth of the first median
     double largestSupport = 1e30;    ///< [m] 1e30: two hundred times the first median
     Domain domain;
@@ -81,10 +81,10 @@ struct GasDynamicsDef
                          ///< cloud in air that is not simulated, whose surface the density sum sees too thin
 };
 
-/// What sub-steps count, in units of base::WorkBudget.
+/// Work of sub-steps in units of base::WorkBudget.
 namespace gas_work {
 constexpr uint64_t kParts = 16;
-constexpr uint64_t kParticle = 36;   ///< of kParts, for each particle there is: prediction, search
+constexpr uint64_t kParticle = 36;   ///< of kParts, for each existing particle: prediction, search
 constexpr uint64_t kEvaluation = 40; ///< for each whose rates are evaluated, pairs apart
 constexpr uint64_t kPair = 15;       ///< of kParts, for each ordered pair
 } // namespace gas_work
@@ -104,7 +104,7 @@ struct GasTotals
 struct AdvanceReport
 {
     double seconds = 0; ///< simulated
-    double debt = 0;    ///< [s] asked for and not simulated
+    double debt = 0;    ///< [s] requested but not simulated
     uint64_t subSteps = 0;
     uint64_t particleSteps = 0; ///< sum of active particles over sub-steps = force evaluations
     uint64_t pairs = 0;         ///< ordered neighbor pairs in force evaluations
@@ -112,8 +112,8 @@ struct AdvanceReport
     uint64_t clamped = 0;       ///< values limited to keep the state finite
 };
 
-/// What outer physics (drag, buoyancy, combustion) sees and may change between two calls of advance. Arrays
-/// are indexed by slot, an order that changes with every advance; id[slot] is the index with which the
+/// Columns that outer physics (drag, buoyancy, combustion) may read and change between two calls of advance.
+/// Arrays are indexed by slot, an order that changes with every advance; id[slot] is the index with which the
 /// particle was added. After writing, call edited().
 template <class T>
 struct GasView
@@ -145,20 +145,20 @@ public:
     GasDynamics(const GasDynamicsDef& def, std::pmr::memory_resource* memory);
     ~GasDynamics();
 
-    /// Adds particles between two calls of advance. Refuses, with the state unchanged, what is not finite,
-    /// negative, beyond capacity or outside the domain, masses and energies outside [1e-20, 1e20] kg and
-    /// [0, 1e18] J/kg, positions and speeds beyond 1e9. Ids are given in order from 0.
+    /// Adds particles between two calls of advance. Refuses, with the state unchanged, values that are not
+    /// finite, negative, beyond capacity or outside the domain, masses and energies outside [1e-20, 1e20] kg
+    /// and [0, 1e18] J/kg, positions and speeds beyond 1e9. Ids are given in order from 0.
     base::Status add(std::span<const GasParticle> particles);
-    /// Solves supports and densities and converts energies to entropies; evaluates what edited(), inject()
-    /// and setEnergy() have made stale. Called by advance if not before. Does nothing otherwise.
+    /// Solves supports and densities and converts energies to entropies; re-evaluates data that edited(),
+    /// inject() and setEnergy() have invalidated. advance() calls it if needed. Does nothing otherwise.
     void initialize(base::TaskRunner& tasks);
 
     /// Steps by `seconds`: 0 changes nothing; NaN, infinite and negative values are refused (the state
-    /// unchanged). All particles are synchronous afterwards. Results that are not numbers never enter the
-    /// state: the particle keeps what it had, and the report counts it.
-    /// @param work what each sub-step counts is spent of it; where it is spent before the time is over,
-    ///             isAdvancing() is true, and the same call has to be made again, before any other, until it
-    ///             is not. The sub-steps are the same, and the last report is that of all of them.
+    /// unchanged). All particles are synchronous afterwards. Results that are NaN never enter the state: the
+    /// particle keeps its values, and the report counts it.
+    /// @param work is charged for each sub-step. If it is used up before the end, isAdvancing() is true, and
+    ///         the call must be repeated, before any other, until it is false. The sub-steps are the same,
+    ///         and the last report is that of all of them.
     base::Result<AdvanceReport> advance(double seconds, base::TaskRunner& tasks, base::WorkBudget& work);
     base::Result<AdvanceReport> advance(double seconds, base::TaskRunner& tasks)
     {
@@ -169,10 +169,10 @@ public:
     /// Leaves the rest of an advance that was begun.
     void abandonAdvance();
 
-    /// Gives particle `id` < count() `joules` of heat: exact at constant density, negative takes heat away
-    /// (refused where there is not so much). Its neighborhood wakes up.
+    /// Gives particle `id` < count() `joules` of heat: exact at constant density; negative heat is refused
+    /// beyond the available energy. Its neighborhood is activated.
     void inject(uint32_t id, double joules);
-    /// The same `delay` seconds >= 0 from now, in the middle of whatever step the particle is in then, to a
+    /// The same after `delay` >= 0 seconds, also in the middle of the particle's step, with a precision of a
     /// thousandth of the frame.
     void injectLater(uint32_t id, double joules, double delay);
     /// Sets the internal energy of particle `id` [J/kg] at its density.

@@ -1,5 +1,5 @@
 /// @file gas_operations.h
-/// What GasDynamics does with a state. Each group of functions has a source of its own.
+/// Operations of GasDynamics on its state. Each group of functions has its own source file.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -18,8 +18,8 @@ namespace fx::sim {
 template <class T>
 void prepare(DynamicsState<T>& state, base::TaskRunner& tasks);
 
-/// Steps by `seconds` > 0 within the budget of sub-steps. Where `work` is spent before, state.advance stays
-/// open, and the next call goes on; the report is that of all calls.
+/// Steps by `seconds` > 0 within the budget of sub-steps. If `work` is used up before, state.advance stays
+/// open, and the next call continues; the report is that of all calls.
 template <class T>
 AdvanceReport runFrames(DynamicsState<T>& state, double seconds, base::TaskRunner& tasks,
                         base::WorkBudget& work);
@@ -31,7 +31,7 @@ AdvanceReport runFrames(DynamicsState<T>& state, double seconds, base::TaskRunne
 template <class T>
 void acceptNudge(DynamicsState<T>& state, double pressureScale, base::TaskRunner& tasks);
 
-// What may enter the gas: particle_check.cpp.
+// Validation of particles: particle_check.cpp.
 
 /// Refuses particles outside the ranges that GasDynamics::add states.
 base::Status checkParticle(const GasParticle& particle, const Domain& domain);
@@ -46,8 +46,8 @@ void appendParticle(DynamicsState<T>& state, const GasParticle& particle);
 template <class T>
 void saveState(const DynamicsState<T>& state, std::vector<std::byte>& out);
 
-/// Reads what saveState has written for the same definition. The tree is not in the bytes: it follows from
-/// the positions by which particles were sorted last.
+/// Reads what saveState has written for the same definition. The tree is not saved: it is rebuilt from the
+/// positions of the last sort.
 template <class T>
 base::Status restoreState(DynamicsState<T>& state, std::span<const std::byte> bytes);
 
@@ -57,7 +57,7 @@ base::Status restoreState(DynamicsState<T>& state, std::span<const std::byte> by
 template <class T>
 GasTotals sumTotals(const DynamicsState<T>& state);
 
-/// Hash of everything that decides what comes next, by id.
+/// Hash of all data that later results depend on, by id.
 template <class T>
 uint64_t hashState(const DynamicsState<T>& state);
 

@@ -1,12 +1,12 @@
 /// @file neighborhood.h
-/// Keeps the tree and the lists of neighbors fit for the particles as they are now.
+/// Updates the tree and the neighbor lists for the present particles.
 #pragma once
 
 #include "simulation/sph/dynamics/dynamics_state.h"
 
 namespace fx::sim {
 
-/// Whether the order of the particles still serves; if not, they are sorted at the next evaluation.
+/// Whether the order of the particles is still usable; if not, they are sorted at the next evaluation.
 template <class T>
 bool treeIsGood(const DynamicsState<T>& s)
 {
@@ -20,7 +20,7 @@ template <class T>
 void sortParticles(DynamicsState<T>& state, base::TaskRunner& tasks);
 
 /// Restores the tree of a state whose columns are in the order of a sort by sortedX..sortedSupport, and the
-/// lists that were built at listX..listSupport where listState says that there are any.
+/// lists that were built at listX..listSupport, if listState has any.
 template <class T>
 void recoverTree(DynamicsState<T>& state, base::TaskRunner& tasks);
 
@@ -29,7 +29,7 @@ template <class T>
 void searchNeighbors(DynamicsState<T>& state, std::span<const uint32_t> owners, double margin,
                      base::TaskRunner& tasks);
 
-/// Measures how far particles have moved, and supports grown, since the lists of all were built.
+/// Measures the motion of particles, and the growth of supports, since all lists were built.
 template <class T>
 void measureWays(DynamicsState<T>& state, base::TaskRunner& tasks);
 
@@ -37,7 +37,7 @@ void measureWays(DynamicsState<T>& state, base::TaskRunner& tasks);
 template <class T>
 double roomOfLists(const DynamicsState<T>& state);
 
-/// [1] The margin that new lists should have: large where they will serve several steps.
+/// [1] Margin of new lists: large if they will be used for several steps.
 template <class T>
 double marginOfLists(const DynamicsState<T>& state);
 

@@ -1,5 +1,5 @@
 /// @file prediction.h
-/// Particles in the middle of their steps, as they are now.
+/// Prediction of particles in the middle of their steps to the present time.
 #pragma once
 
 #include "simulation/sph/dynamics/dynamics_state.h"

@@ -1,5 +1,5 @@
 /// @file shifting.h
-/// Particles that have come too close are moved apart, so that they go on to sample the gas evenly.
+/// Particle shifting: particles that are too close are moved apart, so that they sample the gas evenly.
 ///
 /// @formula particle-shifting
 /// A small displacement to where there is room.
@@ -31,7 +31,7 @@
 
 namespace fx::sim {
 
-/// Displaces all particles between two frames. What has been evaluated stays as it is.
+/// Displaces all particles between two frames. Evaluated quantities do not change.
 /// @param strength C > 0 @param longest L > 0
 template <class T>
 void shiftParticles(DynamicsState<T>& state, double strength, double longest, base::TaskRunner& tasks);

@@ -1,5 +1,5 @@
 /// @file state_equation.h
-/// What a gas or a fluid answers to compression and heat.
+/// Equations of state of gases and fluids.
 ///
 /// @formula state-equation
 /// Pressure and internal energy in entropy form: a cold curve, and a part that only heat changes.
@@ -48,7 +48,7 @@ struct StatePoint
 {
     double pressure;      ///< [Pa]
     double energy;        ///< [J/kg] internal, cold curve included
-    double thermal;       ///< [J/kg] the part of it that heat can take away
+    double thermal;       ///< [J/kg] thermal part of it
     double sound;         ///< [m/s]
     double heatToEntropy; ///< dK = heatToEntropy times heat per mass
 };

@@ -1,5 +1,5 @@
 /// @file step_clock.h
-/// Integer time inside a frame: what makes steps of different lengths meet exactly.
+/// Integer time inside a frame, so that steps of different lengths end at exactly the same time.
 #pragma once
 
 #include <algorithm>

@@ -62,8 +62,8 @@ double shortestStep(DynamicsState<T>& state, base::TaskRunner& tasks);
 
 // (4), in step_limiter.cpp: keeps the steps of neighbors within a factor of each other.
 
-/// Levels of the next steps of the active slots: what they want, what their neighbors allow, what the clock
-/// allows.
+/// Levels of the next steps of the active slots: the largest that their criteria, their neighbors and the
+/// clock allow.
 template <class T>
 void chooseLevels(DynamicsState<T>& state, base::TaskRunner& tasks);
 

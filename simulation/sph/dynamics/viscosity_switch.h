@@ -37,7 +37,7 @@
 
 namespace fx::sim {
 
-/// What the switch looks at.
+/// Inputs of the switch.
 template <class T>
 struct FlowGradient
 {

@@ -13,7 +13,7 @@ namespace fx::sim {
 enum class AxisKind : uint8_t
 {
     Open,      ///< endless
-    Periodic,  ///< what leaves at `high` enters at `low`
+    Periodic,  ///< particles that leave at `high` enter at `low`
     Reflecting ///< rigid, frictionless walls at `low` and `high`; an infinite bound is no wall
 };
 
@@ -24,7 +24,7 @@ struct Domain
     glm::dvec3 high{std::numeric_limits<double>::infinity()}; ///< [m] > low
 };
 
-/// What pair loops need of a domain. On every axis at most one of `period` and `wall` is at work.
+/// Domain data of pair loops. On every axis at most one of `period` and `wall` is active.
 template <class T>
 struct PairImages
 {
@@ -32,9 +32,9 @@ struct PairImages
     /// coordinates is d - period * round(d * perPeriod): one expression for all axes.
     std::array<T, 3> period{};
     std::array<T, 3> perPeriod{};
-    /// [m] walls of a reflecting axis, infinite where there is none. The difference of x_i and the image of
-    /// x_j in the wall w is (x_i - w) + (x_j - w): the same bits for i and the image of j as for j and the
-    /// image of i.
+    /// [m] walls of a reflecting axis, infinite without a wall. The difference of x_i and the image of x_j in
+    /// the wall w is (x_i - w) + (x_j - w): the same bits for i and the image of j as for j and the image of
+    /// i.
     std::array<T, 3> low{-kNone, -kNone, -kNone};
     std::array<T, 3> high{kNone, kNone, kNone};
 

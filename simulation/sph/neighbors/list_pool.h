@@ -1,5 +1,5 @@
 /// @file list_pool.h
-/// What a list of neighbors is made of, and the memory of lists, given out in blocks to many threads at once.
+/// Layout of neighbor lists, and a thread-safe block allocator for them.
 #pragma once
 
 #include "foundation/memory/column.h"

@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace fx::sim::HWY_NAMESPACE {
 
-/// An owner as one image is compared with it.
+/// An owner in the coordinates of one image.
 template <class T>
 struct Owner
 {

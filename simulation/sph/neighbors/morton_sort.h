@@ -13,10 +13,10 @@
 
 namespace fx::sim {
 
-/// Radix sort of keys and of what they belong to. The order is the same for any number of workers: by key, by
-/// position within a crowded cell, and by index where positions are equal. Sorts by the highest bits that
-/// tell the particles apart, then only those runs further in which these bits are equal, so that a cluster in
-/// a wide cloud costs as little as an even cloud; a cell with many particles gets a curve of its own.
+/// Radix sort of keys and indices. The order is the same for any number of workers: by key, by position
+/// within a crowded cell, and by index where positions are equal. Sorts by the highest bits that differ, then
+/// only the runs in which these bits are equal, so that a cluster in a wide cloud costs no more than an even
+/// cloud; a cell with many particles gets its own curve.
 template <class T>
 class MortonSort
 {

@@ -16,8 +16,8 @@ class NeighborLists
 {
 public:
     /// @param capacity particles, below 2^29
-    /// @param entriesPerParticle memory for lists; particles that find none left are searched anew whenever
-    ///        their list is asked for: slower, never wrong
+    /// @param entriesPerParticle memory for lists; particles without memory are searched on each request for
+    ///         their list: slower, with equal results
     NeighborLists(std::pmr::memory_resource* memory, uint32_t capacity, uint32_t entriesPerParticle);
 
     /// Lists, for every slot of `owners` (ascending), all others j, mirror images included, with
@@ -49,8 +49,8 @@ public:
             const_cast<std::remove_const_t<Function>*>(&f));
     }
 
-    /// Owners of the last build for whose lists there was no room, or who have more than some two thousand
-    /// neighbors: each read of their lists costs about as much as ten searches.
+    /// Owners of the last build without a list, because memory was exhausted or they have more than about two
+    /// thousand neighbors: each read costs about ten searches.
     uint32_t unlisted() const { return pool_.unlisted(); }
     /// Entries of all lists of the last build, without padding; those of unlisted owners not counted.
     uint64_t entries() const { return pool_.total(); }

@@ -1,11 +1,9 @@
 /// @file neighbor_search.h
-/// The search itself, for the instruction set of this machine.
-///
-/// Owners of eight leaves together ask the tree for candidates, in all images; every leaf keeps those near
-/// its own box; every owner tests these, many at once. All bounds are exact in floating point: differences,
-/// squares and their sums are taken in the same order for boxes as for pairs, rounding is monotonic, and so
-/// no pair is lost. Only boxes on periodic axes need a slack. Results are the same bits for every instruction
-/// set.
+/// The search, compiled for each instruction set. Owners of eight leaves together query the tree for
+/// candidates, in all images; every leaf filters those near its own box; every owner tests these with
+/// vectors. All bounds are exact in floating point: differences, squares and their sums are taken in the same
+/// order for boxes as for pairs, rounding is monotonic, and so no pair is lost. Only boxes on periodic axes
+/// need a tolerance. Results are the same bits for every instruction set.
 #pragma once
 
 #include "simulation/sph/neighbors/list_pool.h"
@@ -17,8 +15,8 @@
 
 namespace fx::sim {
 
-/// One way in which particles are seen: as they are, or mirrored in one wall of some axes. An owner at x sees
-/// a particle at x_j at the difference (x - wall) - (sign x_j + shift) on every axis.
+/// An image of the particles: unchanged, or mirrored in one wall of some axes. The difference of an owner at
+/// x and a particle at x_j is (x - wall) - (sign x_j + shift) on every axis.
 template <class T>
 struct SeenImage
 {
@@ -30,7 +28,7 @@ struct SeenImage
 
 constexpr uint32_t kMaxImages = 27; ///< nothing, the low or the high wall on each of three axes
 
-/// All that a search needs to know.
+/// Inputs of a search.
 template <class T>
 struct SearchSetup
 {

@@ -14,7 +14,7 @@
 
 namespace fx::sim {
 
-/// Where particles are and how far they reach. Arrays of `count` elements.
+/// Positions and supports of particles. Arrays of `count` elements.
 template <class T>
 struct PointColumns
 {

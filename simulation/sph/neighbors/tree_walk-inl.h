@@ -20,7 +20,7 @@ namespace fx::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A box that looks for all that it touches within its own or the other's reach.
+/// A query box, which finds all elements within its own or their support.
 template <class T>
 struct Query
 {

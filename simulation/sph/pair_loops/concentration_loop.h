@@ -1,5 +1,5 @@
 /// @file concentration_loop.h
-/// How unevenly neighbors stand around a particle.
+/// Unevenness of the neighbors around a particle.
 ///
 /// @formula particle-concentration
 /// The gradient of a concentration of particles that is steepest where they meet, and the way out of the gas.

@@ -1,5 +1,5 @@
 /// @file density_loop.h
-/// How much gas there is around a particle, how far it has to look for it, and how the gas flows there.
+/// Density, support and velocity gradient at a particle.
 ///
 /// @formula gas-density
 /// Density by summation, the radius of the kernel that holds a fixed mass, and gradients of the velocity.
@@ -72,7 +72,7 @@ struct DensityResults
     T* correction;          ///< [1] f, in [0.2, 5]; 1 where H is the smallest or largest support
     T* divergence;          ///< [1/s] of the velocity
     T* curl;                ///< [1/s] magnitude of the curl of the velocity
-    uint8_t* wantsReach;    ///< 1 where H would have grown beyond what its list covers
+    uint8_t* wantsReach;    ///< 1 if H would exceed the range of its list
     uint32_t* neighbors;    ///< particles within H, mirror images included, itself not counted
     T* exposure = nullptr;  ///< [1] 0 inside of even gas, 1 on a free surface; null: not wanted
     T* expansion = nullptr; ///< [1/s] X, rate at which the sum becomes thinner; null: not wanted
@@ -87,11 +87,11 @@ struct DensityCall
     const DensityResults<T>& results;
 };
 
-/// Density, support and velocity gradients of all slots. Reads x, y, z, velocity and mass of the records.
-/// H grows at most to (1 + reach) times its guess, as far as the lists are complete; it may shrink as far as
-/// it has to, and stays within the bounds of the rules. A lone particle takes the largest support (within
-/// reach), coincident ones the smallest. At most 20 evaluations of (1).
-/// Bit-equal for every instruction set; runs on the calling thread (the caller splits the work).
+/// Density, support and velocity gradients of all slots. Reads x, y, z, velocity and mass of the records. H
+/// grows at most to (1 + reach) times its guess, as far as the lists are complete; it may shrink as far as it
+/// has to, and stays within the bounds of the rules. A lone particle takes the largest support (within
+/// reach), coincident ones the smallest. At most 20 evaluations of (1). Bit-equal for every instruction set;
+/// runs on the calling thread (the caller splits the work).
 template <class T>
 void sumDensity(const DensityCall<T>& call);
 

@@ -1,5 +1,5 @@
 /// @file force_loop.h
-/// What neighbors do to a particle: push, brake, heat.
+/// Pressure force, viscosity and heating by neighbors.
 ///
 /// @formula gas-pair-forces
 /// Acceleration by pressure and viscosity, heating by viscosity and conduction, in pairs that conserve

@@ -26,7 +26,7 @@ enum : uint32_t
 
 constexpr double kNoLevel = 1e30;
 
-/// What one particle brings into its pairs, in all lanes.
+/// Values of one particle in its pairs, in all lanes.
 template <class T, class Shape>
 struct PairOwner
 {

@@ -82,8 +82,8 @@ struct alignas(64) LaneSums
     }
 };
 
-/// Adds to sums what f(entries, sum) adds to those of one vector, for a list that is padded to a multiple of
-/// kLanes. Without always_inline f would have the sums in memory.
+/// Accumulates f(entries, sum) over all vectors of a list that is padded to a multiple of kLanes.
+/// always_inline keeps the sums in registers.
 template <class T, uint32_t Q, class F>
 HWY_INLINE void addVectors(const uint32_t* entries, uint32_t count, LaneSums<T, Q>& sums, F f)
 {
@@ -134,7 +134,7 @@ HWY_INLINE void halve(const T* lane, T* out, F f)
 }
 
 /// Combines the 16 lanes of rows [first, first + Rows): ((0+8)+(4+12))+((2+10)+(6+14)), plus the same of the
-/// odd ones. Level by level for all rows, so that none waits for the one before.
+/// odd ones. Level by level for all rows, to shorten dependency chains.
 template <uint32_t Rows, class F, class T, uint32_t Q>
 HWY_INLINE void combineRows(const LaneSums<T, Q>& sums, uint32_t first, T* out, F f)
 {

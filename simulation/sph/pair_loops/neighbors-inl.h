@@ -70,7 +70,7 @@ HWY_INLINE Quad<float> loadTransposed(Tag tag, const float* table, const uint32_
             Pack<float>(hn::BitCast(tag, hn::InterleaveUpper(pairs, cd01, cd23)))};
 }
 
-/// The same of doubles: two numbers fill a block.
+/// The same for doubles: two numbers fill a block.
 template <class Tag>
 HWY_INLINE Quad<double> loadTransposed(Tag tag, const double* table, const uint32_t* entries)
 {

@@ -1,5 +1,5 @@
 /// @file pair_slots.h
-/// What a loop over pairs reads: the particles that it makes sums for, their neighbors, and a record of each.
+/// Inputs of a loop over pairs: the particles with sums, their neighbors, and a record of each.
 #pragma once
 
 #include "simulation/sph/neighbors/neighbor_lists.h"
@@ -8,7 +8,7 @@
 
 namespace fx::sim {
 
-/// All that the loops need of a gas particle, in one cache line (float) or two (double).
+/// Record of a gas particle for the loops, in one cache line (float) or two (double).
 ///
 /// Sixteen numbers in four groups of four: loops over neighbors load groups and transpose them, which is
 /// faster than gathering numbers one by one. The density needs the first two groups, the forces all.

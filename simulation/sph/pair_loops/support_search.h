@@ -9,7 +9,8 @@
 
 namespace fx::sim {
 
-/// The search for one particle. Evaluate the mass within support() and tell it, until isDone().
+/// The search for one particle. The caller evaluates the mass within support() and passes it on, until
+/// isDone().
 template <class T>
 class SupportSearch
 {
@@ -93,7 +94,7 @@ private:
 
     T want_;
     T bottom_, top_;
-    T low_, high_; ///< [m] bracket: S(low) < want <= S(high), where they have been tried
+    T low_, high_; ///< [m] bracket: S(low) < want <= S(high), if evaluated
     T tolerance_;
     T support_;
     uint32_t evaluations_ = 0;
