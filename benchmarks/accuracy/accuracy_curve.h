@@ -2,7 +2,7 @@
 /// The outcome of fx accuracy: error against time, as text, CSV, JSON and SVG.
 ///
 /// Repetitions of all settings are interleaved, A B C A B C, and each is compared with the baseline of its
-/// own round, so that what else the machine does falls on all of them.
+/// own round, so that other load of the machine affects all of them.
 #pragma once
 
 #include "benchmarks/accuracy/accuracy_technique.h"
@@ -28,7 +28,7 @@ struct AccuracyCurve
 {
     std::string technique;
     std::string scene;
-    std::string item; ///< what ns_per_item is about
+    std::string item; ///< the item of ns_per_item
     ShownError shown = ShownError::P99;
     std::vector<AccuracyPoint> points; ///< the first is the baseline
     std::string instructionsBy;        ///< "perf", "callgrind" or empty
@@ -52,7 +52,7 @@ TimeRatio timeRatio(const AccuracyCurve& curve, size_t point);
 /// [ns] of the fastest round.
 double nanosecondsPerItem(const AccuracyPoint& point);
 
-/// 1 / (variance x time) of a point in units of the baseline's; 0 where there is no variance.
+/// 1 / (variance x time) of a point in units of the baseline's; 0 without variance.
 double efficiencyRatio(const AccuracyCurve& curve, size_t point);
 
 /// Fewest instructions of a point in units of the baseline's; 0 where they are not known.

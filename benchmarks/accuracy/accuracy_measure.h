@@ -1,5 +1,5 @@
 /// @file accuracy_measure.h
-/// Runs the settings of a technique in turn, again and again, and collects what they cost.
+/// Runs the settings of a technique in turn, repeatedly, and collects their cost.
 #pragma once
 
 #include "benchmarks/accuracy/accuracy_curve.h"
@@ -18,7 +18,7 @@ struct AccuracyTask
     std::string scene;
 };
 
-/// What `technique`, or "all", and `scene`, or nothing, name.
+/// The tasks of `technique`, or of "all", restricted to `scene` unless it is empty.
 /// @return InvalidArgument with the nearest known name
 base::Result<std::vector<AccuracyTask>> accuracyTasks(const std::string& technique, const std::string& scene);
 
@@ -33,7 +33,7 @@ struct MeasureRules
 
 base::Result<AccuracyCurve> measureAccuracy(const AccuracyTask& task, const MeasureRules& rules);
 
-/// For callgrind, which looks on: the timed part of each setting once. @return false when there is none
+/// Runs the timed part of each setting once, for callgrind. @return false without such a part
 bool countWork(const AccuracyTask& task);
 
 } // namespace fx::cli

@@ -1,8 +1,8 @@
 /// @file accuracy_technique.h
-/// What fx accuracy needs of a technique: settings to try, and how wrong and how fast each is.
+/// Interface of a technique for fx accuracy: settings with their errors and times.
 ///
 /// A new technique is a file in benchmarks/accuracy/techniques/ with a class derived from AccuracyTechnique
-/// and a function that describes it, and a word in the CMakeLists.txt there.
+/// and a function that describes it, and an entry in the CMakeLists.txt there.
 #pragma once
 
 #include "benchmarks/measure/counted_work.h"
@@ -37,7 +37,7 @@ struct AccuracySample
     double errorMax = 0;
     double bias = 0;                                ///< mean of the signed error
     double seconds = 0;                             ///< of the timed part
-    double items = 0;                               ///< what the time is spent on, such as particle steps
+    double items = 0;                               ///< number of processed items, such as particle steps
     double instructions = 0;                        ///< of the timed part, 0 when the system does not count
     nlohmann::json work = nlohmann::json::object(); ///< counters
     double variance = 0; ///< of one item, for techniques that draw random numbers; 0 for all others
@@ -71,7 +71,7 @@ public:
     virtual std::optional<MeasuredWork> work(size_t /*setting*/) { return std::nullopt; }
 };
 
-/// A technique all of whose work is short enough to be counted: work() is what is timed.
+/// A technique whose work is short enough to count instructions: work() is timed and counted.
 class CountedAccuracy : public AccuracyTechnique
 {
 public:
@@ -101,7 +101,7 @@ struct AccuracyTechniqueEntry
     size_t usualScenes; ///< so many of them, from the first, are run when none is named
     bool isScalable;    ///< takes particles and threads of AccuracyScale into account
     std::unique_ptr<AccuracyTechnique> (*make)(const std::string& scene, const AccuracyScale& scale);
-    bool hasFrames = false; ///< takes the rest of it into account; not among those of "all", since it is long
+    bool hasFrames = false; ///< uses --frames; excluded from "all", because it is long
 };
 
 /// All techniques, in the order of techniques/CMakeLists.txt.

@@ -1,5 +1,5 @@
 /// @file bench_program.h
-/// What the measurements of fx bench share that have options of their own and print one JSON object a case.
+/// Common code of measurements of fx bench with their own options, which print one JSON object a case.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -16,7 +16,7 @@ class App;
 
 namespace fx::cli {
 
-/// Ends a measurement that cannot go on, or whose result is not the one that it claims to time.
+/// Ends a measurement that cannot continue or whose result is wrong.
 class BenchFailure : public std::runtime_error
 {
 public:
@@ -40,7 +40,7 @@ void setMeasurement(CLI::App& command, int& outExitCode, std::function<void()> m
 /// --size WxH, each 1 to 16384 [pixel].
 void addSizeOption(CLI::App& command, int& width, int& height);
 
-/// --small: sizes at which a measurement ends in about a second, whatever the other options say.
+/// --small: sizes at which a measurement takes about a second, overriding other options.
 void addSmallOption(CLI::App& command, bool& isSmall);
 
 /// --validate-hash, hexadecimal with or without 0x.

@@ -15,14 +15,14 @@
 
 namespace fx::cli {
 
-/// What the command line asked for.
+/// Options of the command line.
 struct BenchSettings
 {
     uint64_t count = 0;   ///< elements, 0: BenchEntry::usualCount
     uint32_t threads = 1; ///< 0: as many as the machine has
     uint32_t steps = 0;   ///< that are timed, 0: as many as take about a second
     std::string variant;  ///< empty: all of the entry
-    bool gpu = false;     ///< particles are computed on the GPU where it can
+    bool gpu = false;     ///< particles are computed on the GPU if supported
     bool gl = false;      ///< a view draws each frame as well
 };
 
@@ -36,7 +36,8 @@ struct BenchRow
     double p95Nanoseconds = 0;    ///< [ns] 19 of 20 steps are not slower
     double bytesPerParticle = 0;  ///< [byte] that have to be moved; of the entry frame, uploaded
     double bandwidthFraction =
-        0;               ///< [1] of what a copy of as many bytes reaches with as many threads; 0: none
+        /// [1] share of the bandwidth of a copy of as many bytes with as many threads; 0: none.
+        0;
     uint64_t hash = 0;   ///< of everything that was published or ordered; of frame, of the simulation
     nlohmann::json more; ///< other members of the line
 };
@@ -51,7 +52,7 @@ struct BenchEntry
     bool hasGl;      ///< uses BenchSettings::gl
     uint64_t usualCount;
     uint64_t mostCount;
-    std::string_view elements; ///< what is counted, as errors say it
+    std::string_view elements; ///< name of the counted elements in error messages
     /// One variant.
     /// @param settings with a count of 1 to mostCount
     /// @return Interrupted after a signal
@@ -61,7 +62,7 @@ struct BenchEntry
 /// The subcommand that measures `entry`, which must have static storage.
 BenchMeasurement measurementOf(const BenchEntry& entry);
 
-/// @return one row a variant asked for; InvalidArgument for more than entry.mostCount elements; the first
+/// @return one row per requested variant; InvalidArgument for more than entry.mostCount elements; the first
 ///         error of a variant, Interrupted among them
 base::Result<std::vector<BenchRow>> measureVariants(const BenchEntry& entry, const BenchSettings& settings);
 

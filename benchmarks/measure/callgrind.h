@@ -13,14 +13,14 @@ namespace fx::cli {
 bool hasCallgrind();
 
 /// Runs this program again under callgrind with other arguments.
-/// @param function extern "C", called `calls` times: what happens inside is counted
-/// @return instructions, one for each call; Internal when callgrind's output is not understood
+/// @param function extern "C", called `calls` times; instructions inside are counted
+/// @return instructions, one for each call; Internal when callgrind's output has an unknown form
 base::Result<std::vector<double>> countUnderCallgrind(const std::vector<std::string>& arguments,
                                                       const std::string& function, size_t calls);
 
 /// Runs this program again under callgrind, `fx accuracy TECHNIQUE --scene SCENE --count-work`, which calls
 /// fxAccuracyWork() once for each setting. The simulated processor has AVX2 at most.
-/// @return instructions, one for each setting; Internal when callgrind's output is not understood
+/// @return instructions, one for each setting; Internal when callgrind's output has an unknown form
 base::Result<std::vector<double>> countUnderCallgrind(const std::string& technique, const std::string& scene,
                                                       size_t settings);
 

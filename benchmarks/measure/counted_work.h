@@ -8,7 +8,7 @@ namespace fx::cli {
 
 struct MeasuredWork
 {
-    double seconds = 0;      ///< processor time of this thread: what other programs do counts little
+    double seconds = 0;      ///< processor time of this thread, which other programs hardly affect
     double instructions = 0; ///< executed in user space, 0 when the system does not count
 };
 

@@ -7,7 +7,7 @@
 
 namespace fx::cli {
 
-/// Puts labels beside their points, one after the other, where they cover the least of what is there already.
+/// Places labels beside their points, one after the other, where they cover the least of earlier drawings.
 class LabelPlaces
 {
 public:

@@ -1,5 +1,5 @@
 /// @file provenance.h
-/// What a report was made by.
+/// Version, machine and time of a report.
 #pragma once
 
 #include <string>

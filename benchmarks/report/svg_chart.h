@@ -1,5 +1,5 @@
 /// @file svg_chart.h
-/// What charts on logarithmic axes are drawn with, as text of SVG.
+/// Drawing functions of charts with logarithmic axes, as SVG text.
 #pragma once
 
 #include <cstdio>
@@ -9,7 +9,7 @@
 
 namespace fx::cli {
 
-/// A logarithmic axis, marked at every decade or second one, and at 2 and 5 when there are few.
+/// A logarithmic axis, with marks at every decade or second one, and at 2 and 5 for few decades.
 struct LogAxis
 {
     double low = std::numeric_limits<double>::infinity();
@@ -23,7 +23,7 @@ struct LogAxis
     std::vector<double> marks() const;
 };
 
-/// `<`, `>` and `&` as XML and HTML want them.
+/// `<`, `>` and `&` escaped for XML and HTML.
 std::string escapedMarkup(const std::string& text);
 
 template <class... Numbers>

@@ -1,7 +1,7 @@
 /// @file bench_scene.h
-/// Scenes behind the C API for benchmarks of what instances cost, with or without a view that shows them.
+/// Scenes of the C API for benchmarks of the cost of instances, with or without a view.
 ///
-/// Threads: the thread that made it.
+/// Threads: the creating thread.
 #pragma once
 
 #include "foundation/result/status.h"
@@ -35,7 +35,7 @@ public:
     base::Status add(FxPresetId preset, double x, double z, uint64_t seed, int64_t startTick);
     /// A camera 2 m above the origin that looks horizontally, with a view of 40 degrees; 0 is along -Z.
     base::Status look(double radians);
-    /// Where the camera of draw() is, as far as it is not turned; what is simulated does not change by it.
+    /// Sets the position of the camera of draw(); the simulation does not depend on it.
     void moveTo(double x, double y, double z);
     base::Status setView(const FxViewSettings& settings);
     /// @param isHeld true: the next frames use the levels of detail of the last one; setView() ends this too

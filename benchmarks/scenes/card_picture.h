@@ -33,14 +33,15 @@ public:
     const std::string& renderer() const { return device_->limits().renderer; }
     const base::SnapshotSchema& schema() const { return schema_; }
 
-    /// Cards stand in front of the eye, their z along the view. No two snapshots have the same number: a view
-    /// takes what it made from one for another of the same number.
+    /// Cards are in front of the eye, their z along the view. Each snapshot has its own number, because a
+    /// view reuses data of a snapshot with the same number.
     base::FrameSnapshot snapshotOf(std::span<const Card> cards) const;
 
     /// Opaque surface behind each pixel [m], rows from the bottom; +inf, or more than kFarthest: none.
     void setSurface(std::span<const float> distances);
     void clear();
-    /// Over what is there. @param outMilliseconds until the GPU has finished; null: it is not waited for
+    /// Draws over the present picture. @param outMilliseconds time until the GPU has finished; null: does not
+    /// wait
     base::Status draw(const base::FrameSnapshot& snapshot, double* outMilliseconds = nullptr);
     /// RGB of luminance, rows from the bottom.
     std::vector<float> read();

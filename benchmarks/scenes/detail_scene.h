@@ -1,9 +1,8 @@
 /// @file detail_scene.h
-/// Effects of the library whose fields have detail, at a moment, seen by a camera that they fill; their
-/// pictures by OpenGL and by the ray integral. Nothing stands behind them, and there is no glare and no
-/// shimmer.
+/// Effects of the library whose fields have detail, at one time, filling the view; their pictures by OpenGL
+/// and by the ray integral. Without background, glare and shimmer.
 ///
-/// Threads: the thread that made it, which is the GL thread of its pictures.
+/// Threads: the creating thread, which is the GL thread of its pictures.
 #pragma once
 
 #include "fxsdk/cli/render/snapshot_renderer.h"
@@ -18,7 +17,7 @@
 
 namespace fx::cli {
 
-/// What is looked at.
+/// Subject of the pictures.
 struct DetailSubject
 {
     std::string_view name;
@@ -56,7 +55,7 @@ private:
     SceneMoment moment_;
 };
 
-/// Settings of a view in daylight without what is done to pictures.
+/// Settings of a view in daylight without post-processing.
 render::ViewSettings detailViewSettings();
 
 /// [1] of each pixel, rows from the top: optical depth by the ray integral, see DetailedRay.

@@ -8,9 +8,9 @@
 namespace fx::cli {
 
 /// 800 particles of gas at `seconds` after the start, 12 m before the eye, their middle 4 m above the ground
-/// in the middle of the field. Each glows by its temperature, and sends a random gray share of its albedo:
-/// bright and dark balls stand side by side, at a mean optical depth of about 18.
-/// @return NotFound when the library has no explosion of gas
+/// in the middle of the field. Each glows by its temperature, and scatters a random gray share of its albedo,
+/// so that bright and dark balls are adjacent, at a mean optical depth of about 18.
+/// @return NotFound when the library was built without gases
 base::Result<std::vector<Card>> explosionCards(double seconds);
 
 constexpr float kExplosionField = 10.0f; ///< [m] that the width of a picture of them shows

@@ -41,7 +41,7 @@ public:
 
     void step(); ///< one frame
     ExplosionState look();
-    /// Its gas as it is now. @return valid until the next call of any function
+    /// Publishes its present gas. @return valid until the next call of any function
     const base::FrameSnapshot& publish();
     /// [1] Median over particles of the distance to the nearest other, in units of the particle's own spacing
     /// (m / rho)^(1/3): 1 in a lattice, 0.55 in points strewn by chance, 0.85 to 0.9 in glass. 0 without gas.

@@ -20,7 +20,7 @@ struct FlightFrame
     LitView view;
 };
 
-/// What is compared on a flight.
+/// Subject of the comparison in a flight.
 enum class FlightSubject
 {
     Composition, ///< how overlapping media are put together: media send light of their own only

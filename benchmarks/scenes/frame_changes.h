@@ -20,8 +20,8 @@ struct FrameLight
 double meanChange(std::span<const float> before, std::span<const float> after,
                   const std::vector<bool>& coveredBefore, const std::vector<bool>& coveredAfter);
 
-/// A renderer may change a picture by `factor` times what the reference changes it by, and by `share` of the
-/// reference's median change, since a frame in which nothing moves must not count as infinitely wrong.
+/// Bound of the change of a picture between frames: `factor` times the change of the reference plus `share`
+/// of the reference's median change, so that frames without motion have a finite bound.
 struct ChangeBound
 {
     double factor = 1.5; ///< [1] > 1
@@ -30,8 +30,9 @@ struct ChangeBound
 
 struct ChangeJudgment
 {
-    std::vector<double> excess;   ///< [1] of each pair of frames: change beyond the reference's, in units of
-                                  ///< what the bound leaves; at most 1 where the bound is kept, at least 0
+    /// [1] of each pair of frames: change beyond the reference's, in units of the margin of the bound; at
+    /// most 1 where the bound is kept, at least 0.
+    std::vector<double> excess;
     size_t beyond = 0;            ///< pairs that break the bound
     size_t worst = 0;             ///< pair with the largest excess
     double medianReference = 0.0; ///< [1] change

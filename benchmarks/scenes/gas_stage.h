@@ -49,7 +49,7 @@ inline Gas latticeGas(uint32_t n, double jitter, double neighbors, uint64_t seed
     return gas;
 }
 
-/// Gives every particle a state of its own.
+/// Sets a different state for every particle.
 inline void stir(Gas& gas, uint64_t seed = 2)
 {
     for (uint32_t i = 0; i < gas.size(); ++i) {

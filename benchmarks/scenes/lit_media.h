@@ -1,9 +1,9 @@
 /// @file lit_media.h
 /// Media in the light of sun and sky, and their pictures by OpenGL, by the ray integral with exact single
-/// scattering, and by paths. For measurements of how media are lit: nothing stands behind the media, they
-/// have no procedural detail, and nothing is done to the picture.
+/// scattering, and by paths. For measurements of the lighting of media: without background, procedural detail
+/// and post-processing.
 ///
-/// Threads: the thread that made it, which is its GL thread.
+/// Threads: the creating thread, which is its GL thread.
 #pragma once
 
 #include "fxsdk/cli/render/blob_list_renderer.h"
@@ -18,7 +18,7 @@
 
 namespace fx::cli {
 
-/// Where an eye stands, and the light.
+/// Eye position and light.
 struct LitView
 {
     glm::dvec3 eye{0.0, 0.0, 6.0}; ///< [m]
@@ -75,7 +75,7 @@ public:
     /// @param slices of the view's settings
     base::Result<LitPicture> paint(std::span<const render::MediumBlob> blobs, const LitView& view,
                                    const render::SliceSettings& slices);
-    /// Of the next picture. What a LitView says, slices, shimmer and glare are set by paint().
+    /// Settings of the next picture. paint() sets the members of LitView, slices, shimmer and glare.
     render::ViewSettings& settings() { return renderer_->pictures().settings(); }
     const std::string& rendererName() const { return renderer_->pictures().rendererName(); }
 
@@ -96,7 +96,7 @@ base::Result<LitPicture> traced(std::span<const render::MediumBlob> blobs, const
                                 const LitSize& size, const std::function<bool()>& stop);
 
 /// [1] root mean square difference to a true picture over the pixels that media cover, relative to the root
-/// mean square of the light there. What the noise of the true picture adds is taken away.
+/// mean square of the light there. The noise of the true picture is subtracted.
 /// @param outRelative receives the difference of each such pixel and channel, relative to the latter; may be
 /// null
 double relativeError(const LitPicture& picture, const LitPicture& truth,

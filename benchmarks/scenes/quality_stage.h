@@ -20,7 +20,7 @@
 
 namespace fx::cli {
 
-/// By what frames are timed.
+/// Clock of frame times.
 enum class StageClock
 {
     Gpu,      ///< timestamps of the GPU
@@ -48,7 +48,7 @@ public:
     base::Status simulate(base::Ticks tick) { return effects_->showMoment(tick); }
     /// Draws the stage as the camera sees it; frames are drawn over it until the next call.
     base::Status look(const scene_file::CameraPath& camera);
-    /// Draws one frame and waits for it.
+    /// Draws one frame and waits for the GPU.
     base::Status draw();
 
     /// Of the frame that draw() has finished.

@@ -42,7 +42,7 @@ struct SliceForm
     int values = 32; ///< stored a texel: planes; coefficients, odd
 };
 
-/// What a texel stores.
+/// Content of a texel.
 struct SliceColumn
 {
     float first = 0.0f; ///< [m] distance along the ray of the first plane

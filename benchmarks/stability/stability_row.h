@@ -1,9 +1,9 @@
 /// @file stability_row.h
-/// What fx stability needs of a hard case: sweeps over one or two parameters, the error at each place, the
+/// Interface of a hard case of fx stability: sweeps over one or two parameters, the error at each point, the
 /// limit.
 ///
 /// A new row is a function that makes its sweeps, and a line in the list at the end of its file in
-/// benchmarks/stability/rows/; a new file is a word in the CMakeLists.txt there.
+/// benchmarks/stability/rows/; a new file is an entry in the CMakeLists.txt there.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ struct StabilityRow
 {
     std::string_view id; ///< as in docs/stability.md
     std::string_view says;
-    std::string_view reference; ///< what errors are measured against
+    std::string_view reference; ///< reference of the errors
     std::vector<StabilitySweep> (*sweeps)(bool isQuick);
 };
 

@@ -1,5 +1,5 @@
 /// @file stability_run.h
-/// Runs the sweeps of fx stability, and tells what came out.
+/// Runs the sweeps of fx stability and reports the results.
 #pragma once
 
 #include "benchmarks/stability/stability_row.h"
@@ -16,7 +16,7 @@ struct StabilityMap
 {
     StabilitySweep sweep;
     std::vector<double> errors;
-    double largest = 0; ///< infinity for what is not a number
+    double largest = 0; ///< infinity for NaN
     double atX = 0;
     double atY = 0;
 
@@ -50,7 +50,7 @@ std::string toText(const StabilityResult& result);
 /// "  gauss-8, float: 2.1e-05 of 0.0001 at tau = 3, blobs = 1", a line a sweep.
 std::string sweepsText(const StabilityResult& result);
 
-/// One line a place: x, y, error. Comment lines say what it is.
+/// One line per point: x, y, error. Comment lines describe the file.
 std::string mapCsv(const StabilityResult& result, const StabilityMap& map, const std::string& origin);
 
 /// "R-01-float"

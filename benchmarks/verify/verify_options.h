@@ -48,7 +48,7 @@ struct VerifyPlan
 
 void addVerifyOptions(CLI::App& command, VerifyArguments& arguments);
 
-/// @return InvalidArgument naming the option and what it takes
+/// @return InvalidArgument naming the option and its values
 base::Result<VerifyPlan> planVerify(const VerifyArguments& arguments);
 
 const char* kernelName(sim::SphKernel kernel);

@@ -11,7 +11,7 @@
 
 namespace fx::cli {
 
-/// The fields of a --json line but machine and version. What was not measured is null.
+/// The fields of a --json line but machine and version. Values that were not measured are null.
 nlohmann::json toJson(const VerifyPlan& plan, const sim::CaseReport& report);
 
 /// A table for the terminal.

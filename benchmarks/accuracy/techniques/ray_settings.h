@@ -1,5 +1,5 @@
 /// @file ray_settings.h
-/// What the techniques that integrate along rays share.
+/// Common settings of techniques that integrate along rays.
 #pragma once
 
 #include "benchmarks/accuracy/accuracy_technique.h"

@@ -1,5 +1,5 @@
 /// @file machine_peak.h
-/// What this machine can do at most, measured: the yardstick for kernels.
+/// Measured peak performance of the machine, to which kernels are compared.
 #pragma once
 
 #include <cstddef>

@@ -29,7 +29,7 @@ struct CityPlace
 /// A square grid about the camera, which is alone within 30 m.
 std::vector<CityPlace> cityPlaces(uint32_t count);
 
-/// One of twelve fountains that differ in what costs time.
+/// One of twelve fountains with different costs.
 /// @param offscreen their policy @param ballistic false: one in three has turbulence
 std::string cityPreset(int index, const std::string& offscreen, bool ballistic);
 

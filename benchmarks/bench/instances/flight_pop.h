@@ -1,10 +1,8 @@
 /// @file flight_pop.h
-/// Whether a level of detail is seen to change in a flight.
-///
-/// A picture that is flown through changes anyway. So each frame is drawn twice from the same place, with the
-/// levels of the frame before and with its own, and what differs is a pop, beyond all that the flight itself
-/// changes. Both are measured by blocks of 8 x 8 pixels, in values as a display shows them, x / (1 + x), so
-/// that smoke counts beside a flame.
+/// Visibility of changes of the level of detail in a flight. Because the picture changes with the camera
+/// anyway, each frame is drawn twice from the same camera, with the levels of the previous frame and with its
+/// own; the difference is the pop. Both are measured by blocks of 8 x 8 pixels, in display values, x / (1 +
+/// x), so that smoke counts beside a flame.
 #pragma once
 
 #include <cstdint>

@@ -15,13 +15,13 @@ constexpr double kLodNearest = 150.0;  ///< [m] of the field, from where the fli
 constexpr double kLodWidest = 0.3;     ///< [1] half the width of the field over its distance
 constexpr double kLodEyeHeight = 40.0; ///< [m]
 
-/// In the flight nothing may pop: of the blocks that change at most one in a hundred by more than kLodPopP99,
-/// none by more than kMaxLodPop of the largest change of the flight itself. Single pixels at the edge of a
-/// thick flame change as soon as anything moves by a hundredth of a pixel.
-constexpr double kLodPopP99 = 0.04; ///< [1] of what a display shows
+/// Limits of pops: of the changed blocks at most one in a hundred changes by more than kLodPopP99, and none
+/// by more than kMaxLodPop of the largest change of the flight itself. Blocks are used because single pixels
+/// at the edge of a thick flame change with motion of a hundredth of a pixel.
+constexpr double kLodPopP99 = 0.04; ///< [1] of display values
 constexpr double kMaxLodPop = 0.6;  ///< [1]
 
-/// What is measured.
+/// Case of the measurement.
 struct LodCase
 {
     float bias;           ///< FxViewSettings::lodBias
@@ -29,7 +29,7 @@ struct LodCase
     bool isHard = false;  ///< the same, but switched off and on every few frames of the flight: a control
 };
 
-/// What a flight has shown.
+/// Results of a flight.
 struct LodFlight
 {
     FlightPop pop;
@@ -39,9 +39,9 @@ bool isSmall(const LodFlight& flight); ///< nothing pops
 
 FxViewSettings lodSettings(const LodCase& what);
 
-/// Frames until pictures of effects have been taken and have replaced what they show.
+/// Frames until impostors have been rendered and have replaced their effects.
 uint32_t warmFrames(const LodCase& what);
-/// The same moment until nothing changes by itself.
+/// Draws the same moment until the picture is constant.
 base::Status drawStill(BenchScene& scene, const LodCase& what, std::vector<float>& outPicture);
 
 struct LodFlightRules
@@ -50,8 +50,8 @@ struct LodFlightRules
     uint32_t frames; ///< 0: no flight
 };
 
-/// Each frame is drawn twice from where the camera is: with the levels and pictures of the frame before, and
-/// as a view does. What differs is what changing them does to the picture, and nothing else.
+/// Each frame is drawn twice from where the camera is: with the levels and impostors of the previous frame,
+/// and with its own. The difference is the effect of changing them.
 /// @param ioWithout changes from frame to frame of the flight without a level of detail; empty: this is that
 /// flight
 base::Status fly(BenchScene& scene, const LodFlightRules& rules, const LodCase& what,

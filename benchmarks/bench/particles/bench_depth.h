@@ -1,5 +1,5 @@
 /// @file bench_depth.h
-/// What the particles of fx bench particles --gpu collide with in its second measurement.
+/// Depth texture for the collisions of fx bench particles --gpu in its second measurement.
 #pragma once
 
 #include "rendering/gl/gl_texture.h"

@@ -10,12 +10,11 @@
 
 namespace fx::cli {
 
-/// An effect of one emitter that holds `count` particles after a few seconds and replaces each that dies.
-/// lean: gravity, drag, color, opacity and size over life. typical: born in a cone from a disc, lives and
-/// sizes drawn from ranges, wind, rotation, flip-book frames. heavy: turbulence, ground, appearance over
-/// speed.
-/// @param gpu    they ask for the GPU
-/// @param depth  and collide with what a depth texture shows
+/// An effect of one emitter that has `count` particles after a few seconds and replaces dead ones. lean:
+/// gravity, drag, color, opacity and size over life. typical: born in a cone from a disc, lives and sizes
+/// drawn from ranges, wind, rotation, flip-book frames. heavy: turbulence, ground, appearance over speed.
+/// @param gpu they prefer the GPU
+/// @param depth and collide with a depth texture
 std::shared_ptr<const sim::EffectDef> benchEffect(std::string_view variant, uint32_t count, bool gpu = false,
                                                   bool depth = false);
 

@@ -20,14 +20,14 @@ public:
     explicit BenchStage(uint32_t threads);
 
     void add(std::shared_ptr<const sim::EffectDef> effect, uint64_t seed);
-    /// Emitters that ask for the GPU are published for it. Before the first step.
+    /// Publishes emitters that prefer the GPU as its input. Called before the first step.
     void computeOnGpu() { world_.setGpuParticles(true); }
     /// The newest snapshot, to be released.
     base::SnapshotPair last() { return ring_.acquire(); }
     void release(const base::SnapshotPair& pair) { ring_.release(pair); }
     /// Steps and publishes without a look at the clock.
     void play(uint32_t steps);
-    /// The same, one frame: what it took is added to times(), and what was published to hash().
+    /// The same for one timed frame: its time is added to times(), its published data to hash().
     void playTimed();
 
     const std::vector<double>& times() const { return times_; }         ///< [s] of the timed frames
@@ -55,7 +55,7 @@ private:
 };
 
 /// [GB/s] read and written by copies of one half of so many bytes to the other, with the threads of `tasks`,
-/// again and again: a set that fits into a cache is copied there. 256 MiB stand for all that is larger.
+/// repeatedly, so that small sets stay in a cache. Larger sets are represented by 256 MiB.
 double copyGigabytes(base::TaskRunner& tasks, double bytes);
 
 /// The value below which the share `part` of `times` lies.

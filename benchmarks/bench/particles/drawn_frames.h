@@ -21,7 +21,7 @@ struct FramePlan
 };
 
 /// One element a timed frame. A snapshot goes to the GPU once, so each step is drawn twice: the first drawing
-/// is what a host sees, and what it takes longer than the second is upload.
+/// is that of a host, and its additional time over the second is the upload.
 struct FrameTimes
 {
     std::vector<double> update;        ///< [s] of the scene
@@ -34,7 +34,7 @@ struct FrameTimes
     FxViewStatistics view{};           ///< of the last first drawing
 };
 
-/// @param outTimes replaced; what was timed so far on failure
+/// @param outTimes replaced; on failure the times so far
 /// @return the first error of the scene; Interrupted after a signal
 base::Status playFrames(BenchScene& scene, const FramePlan& plan, FrameTimes& outTimes);
 

@@ -1,5 +1,5 @@
 /// @file particle_rows.h
-/// What the measurements of particles share.
+/// Common code of the measurements of particles.
 #pragma once
 
 #include "benchmarks/bench/bench_row.h"
@@ -16,7 +16,7 @@ base::Status timeStage(BenchStage& stage, uint32_t steps, const sim::EffectDef& 
 base::Result<BenchRow> benchParticles(const BenchSettings& settings, std::string_view variant);
 std::span<const std::string_view> particleVariants();
 
-/// The same, computed on the GPU where it can; else as without.
+/// The same, computed on the GPU if supported.
 base::Result<BenchRow> measureOnGpu(const BenchSettings& settings, std::string_view variant);
 
 /// Particles of one effect of a variant of fx bench many-small.

@@ -9,13 +9,13 @@ namespace fx::cli {
 constexpr double kBudgetOver = 0.05;     ///< [1] share of frames over budget that the controller may have
 constexpr double kBudgetSwitches = 0.03; ///< [1] share of frames that may change a setting
 
-/// What one way to choose quality came to.
+/// Result of one method of choosing quality.
 struct BudgetShares
 {
     double over = 0;     ///< [1] of the frames
     double switches = 0; ///< [1]
 };
-/// What is wrong with a run; empty: the controller keeps both bounds, and neither fixed quality nor the naive
+/// Fault of a run; empty if the controller keeps both bounds and neither fixed quality nor the naive
 /// controller does.
 std::string findBudgetFault(const BudgetShares& controller, const BudgetShares& fixed,
                             const BudgetShares& naive);

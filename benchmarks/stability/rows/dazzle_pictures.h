@@ -1,5 +1,5 @@
 /// @file dazzle_pictures.h
-/// What the rows about the dazzle share: pictures of one channel, the dazzle, and plain code for it.
+/// Common code of the rows about glare: pictures of one channel, the glare, and a naive implementation.
 #pragma once
 
 #include "benchmarks/stability/rows/ray_sweeps.h"
@@ -39,7 +39,7 @@ inline std::vector<float> dazzled(const std::vector<float>& values, int width,
     return red;
 }
 
-/// Sums in T, one share for all, no guards: what one would write.
+/// Naive implementation: sums in T, one share for all, no guards.
 template <class T>
 std::vector<T> plain(const std::vector<float>& values)
 {

@@ -119,8 +119,8 @@ double differingNumbers(const render::RayLight<T>& a, const render::RayLight<T>&
     return count;
 }
 
-/// What one would write: coefficients about the ray's origin in float, added where blobs begin and subtracted
-/// where they end. Red alone. @param origin [m] is added to all places
+/// Naive implementation: coefficients about the ray's origin in float, added where blobs begin and subtracted
+/// where they end. Red only. @param origin [m] is added to all places
 double incrementalLight(const SweepBlobs& blobs, double origin);
 
 } // namespace fx::cli
