@@ -97,7 +97,7 @@ enum class SpriteAlignment : uint32_t
 {
     Camera,   ///< faces the camera
     Velocity, ///< faces the camera as far as it can with its vertical along the velocity
-    Axis,     ///< the same with a fixed axis
+    Axis,     ///< faces the camera as far as it can with its vertical along a fixed axis
     Plane,    ///< lies in the plane that the axis is normal to
 };
 
