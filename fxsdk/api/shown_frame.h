@@ -11,8 +11,8 @@
 
 namespace fx::api {
 
-/// Holds the snapshots of a moment of a scene, and the settings of one frame by the budget; the host's are
-/// back afterwards. Threads: [GL thread].
+/// Holds the snapshots of one frame, and replaces the host's settings by those of the budget during its
+/// lifetime. Threads: [GL thread].
 class ShownFrame
 {
 public:

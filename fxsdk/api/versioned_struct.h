@@ -1,5 +1,5 @@
 /// @file versioned_struct.h
-/// Structs whose size travels with them: older and newer callers than this library.
+/// Compatibility with older and newer callers by the member structSize of structs.
 #pragma once
 
 #include "foundation/result/status.h"

@@ -40,8 +40,8 @@ struct ObjHandler
     /// Files of materials, separated by blanks: mtllib.
     std::function<void(std::string_view names)> materialFiles;
 
-    bool wantsTextures = true; ///< false: texture coordinates are passed over, in corners as well
-    bool wantsNormals = true;  ///< false: so are normals
+    bool wantsTextures = true; ///< false: texture coordinates are ignored, also in corners
+    bool wantsNormals = true;  ///< false: normals are ignored, also in corners
 };
 
 /// Reads all lines of `text`.

@@ -36,9 +36,10 @@ public:
 
     struct Frame
     {
-        double budget = 0;               ///< [ms] > 0
-        double deltaTime = 0;            ///< [s] since the last call, >= 0
-        bool hold = false;               ///< something is caught up with: nothing changes
+        double budget = 0;    ///< [ms] > 0
+        double deltaTime = 0; ///< [s] since the last call, >= 0
+        /// The frame is not typical, because the host loads or catches up: quality does not change.
+        bool hold = false;
         std::span<const double> weights; ///< [1] >= 0, one per technique
     };
     /// Chooses for the next frame.

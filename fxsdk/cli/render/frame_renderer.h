@@ -58,7 +58,7 @@ public:
     FrameRenderer(const FrameRenderer&) = delete;
     FrameRenderer& operator=(const FrameRenderer&) = delete;
 
-    /// Simulates up to `tick` and draws that moment. Ticks must not fall from call to call.
+    /// Simulates up to `tick` and draws that moment. Ticks must not decrease from call to call.
     base::Status render(base::Ticks tick);
     /// Copies the frame's pictures from the GPU.
     base::Result<FrameLayers> read();
@@ -78,7 +78,7 @@ private:
     base::Status readShadows(std::span<render::StageLight> ioLights, size_t effects,
                              render::StageLighting& io);
     FxFrameDef frameOf(const render::CameraView& camera, double passed) const;
-    /// @param passed [s] since the picture before, which eyes have adapted in
+    /// @param passed [s] since the previous picture, for the adaptation of glare
     base::Status drawEffects(const render::CameraView& camera, double passed);
     base::Status count();
     Picture readPicture(uint32_t texture, int channels, float whenAbsent = 0.0f);

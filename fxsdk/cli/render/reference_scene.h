@@ -25,7 +25,7 @@ public:
     static base::Result<std::unique_ptr<ReferenceSceneSource>> create(const scene_file::SceneFile& file,
                                                                       const EffectSceneOptions& options);
 
-    /// The effects at `tick`, which must not fall from call to call, seen by the camera of the file.
+    /// The effects at `tick`, which must not decrease from call to call, seen by the camera of the file.
     base::Result<ReferenceFrame> frameAt(base::Ticks tick);
 
 private:

@@ -23,7 +23,7 @@ public:
     /// Of the next picture.
     render::ViewSettings& settings();
 
-    /// @param time [s] of the picture, which histories depend on
+    /// @param time [s] of the picture, for effects with a history
     base::Status render(const SceneMoment& moment, const render::ReferenceCamera& camera, double time);
     /// Copies the pictures from the GPU; those besides `color` only with settings.layerOutputs.
     FrameLayers read();
