@@ -45,8 +45,8 @@ private:
 
     std::pmr::vector<uint32_t> keys_; ///< to be put in ascending order; ~0 for absent elements
     std::pmr::vector<uint32_t> order_;
-    std::pmr::vector<uint64_t> changed_;   ///< whose keys are others than in the call before, a bit each
-    std::pmr::vector<uint64_t> arrived_;   ///< elements that were absent then
+    std::pmr::vector<uint64_t> changed_;   ///< bit set of elements whose keys differ from the previous call
+    std::pmr::vector<uint64_t> arrived_;   ///< bit set of elements that were absent in the previous call
     std::pmr::vector<uint32_t> blockEnds_; ///< of the sorted part: the key of each block's last
     std::pmr::vector<uint64_t> pairs_;     ///< key * 2^32 + index
     std::pmr::vector<uint64_t> moved_;

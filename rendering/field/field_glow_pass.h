@@ -1,5 +1,5 @@
 /// @file field_glow_pass.h
-/// The passes that spread the light that media emit over the media around: fire lights smoke from inside.
+/// The passes that propagate emitted light through media: fire lights smoke from inside.
 #pragma once
 
 #include "rendering/field/field_textures.h"

@@ -8,7 +8,7 @@
 namespace fx::render {
 
 constexpr size_t kFieldMarchPrograms = 2 * 2 * 2;
-/// With light sorted by layer, with detail of fields, with loose media; or without.
+/// The program with or without layers, detail of fields, and balls and cards outside of fields.
 const ProgramDesc& fieldMarchProgram(bool layers, bool detail, bool loose);
 const ProgramDesc& fieldMarchProgramAt(size_t index);
 

@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-/// How depth-buffer values relate to distance. Read from the host, never changed.
+/// Mapping of distance to depth-buffer values. Read from the host, never changed.
 enum class DepthConvention : uint8_t
 {
     Standard, ///< near maps to the smaller value
@@ -133,11 +133,13 @@ struct DazzleSettings
 /// Level of detail of distant effects. The simulation does not depend on it.
 struct LodSettings
 {
-    float bias = 0.0f; ///< [1] 0: everything is drawn. Otherwise an effect keeps one blob for so many pixels
-                       ///< of its disc on the picture, but at least twelve; those take over the others' light
+    /// [1] pixels of an effect's disc on the picture for which it keeps one blob, at least twelve blobs in
+    /// all, which take over the light of the others; 0: all are drawn.
+    float bias = 0.0f;
 
-    float impostorPixels = 0.0f; ///< [pixel] 0: none. Effects whose ball has a smaller radius on the picture
-                                 ///< are drawn as pictures of themselves, at most kMaxImpostorPixels
+    /// [pixel] effects with a smaller radius on the picture are drawn as impostors, at most
+    /// kMaxImpostorPixels; 0: none.
+    float impostorPixels = 0.0f;
     static constexpr float kMaxImpostorPixels = 13.0f; ///< a picture has 32 texels, some of them a margin
 
     /// Levels and impostors do not change, for any camera motion: to measure the effect of their changes on
@@ -147,7 +149,7 @@ struct LodSettings
     bool operator==(const LodSettings&) const = default;
 };
 
-/// Everything that stays the same from frame to frame until the host changes it.
+/// Settings of all frames until the host changes them.
 struct ViewSettings
 {
     float exposureEv100 = 13.0f; ///< [EV100]
@@ -163,7 +165,8 @@ struct ViewSettings
     bool saveState = true; ///< restore every GL state that is touched; false: the host does
     bool detail = true;    ///< procedural detail of blobs
     float particleShare =
-        1.0f; ///< [1] (0, 1] of the particles that is drawn; those take over the others' cross section
+        /// [1] (0, 1], share of the particles that are drawn; they take over the cross section of the others.
+        1.0f;
     bool toneMap = false;      ///< write display-referred values
     bool layerOutputs = false; ///< keep fire, smoke, dust, depth and optical depth as textures of their own
     bool countOverdraw =

@@ -63,7 +63,7 @@ public:
     uint32_t textureName(ResourceId texture) const;
     uint32_t bufferName(ResourceId buffer) const;
 
-    /// Whether frames may draw to the texture of that name on the way.
+    /// Whether the texture of that name belongs to the pool of transient textures.
     bool owns(uint32_t texture) const { return pool_.owns(texture); }
 
     uint32_t drawCalls() const { return drawCalls_; } ///< draws and dispatches of the last frame

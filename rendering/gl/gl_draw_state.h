@@ -28,7 +28,7 @@ public:
     void bindFramebuffer(uint32_t framebuffer, int width, int height); ///< and its whole area as viewport
     void drawToFirst(bool only); ///< draw buffers other than the first do not change
     void setBlend(Blend blend);
-    void setDepth(bool tested, bool reversed); ///< tested and written, or neither
+    void setDepth(bool tested, bool reversed); ///< `tested` enables both depth test and depth writes
     void bindTexture(uint32_t unit, uint32_t texture, Sampling sampling);
 
 private:

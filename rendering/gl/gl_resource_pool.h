@@ -19,7 +19,7 @@ class GlResourcePool
 public:
     GlResourcePool(GlDevice& device, std::pmr::memory_resource* memory);
 
-    /// Gives every physical resource of the graph an object: the one it had last frame when nothing has
+    /// Assigns an object to every physical resource of the graph: that of the last frame if nothing has
     /// changed. Textures and buffers that several frames have not used are deleted, and `framebuffers` is
     /// notified.
     base::Status realise(const FrameGraph& graph, GlFramebufferCache& framebuffers);

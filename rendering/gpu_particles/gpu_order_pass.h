@@ -38,7 +38,7 @@ class GpuOrderPass
 {
 public:
     /// @param batches imported already
-    /// @param radixFrom so many rows are ordered by a radix sort; the order is the same
+    /// @param radixFrom number of rows from which a radix sort is used; the order is the same
     static void addTo(FrameGraph& graph, std::span<const GpuOrderJob> jobs, std::span<ParticleBatch> batches,
                       uint32_t radixFrom = kRadixOrderRows);
 };

@@ -52,7 +52,7 @@ struct BlobRun
     size_t instance;                 ///< number in the list of instances
     int detail;                      ///< number of the group's detail; -1: none
     size_t visibleBegin, visibleEnd; ///< range among the visible blobs
-    size_t mediumBegin, mediumEnd;   ///< of all, seen or not
+    size_t mediumBegin, mediumEnd;   ///< number of all blobs, visible or not
 };
 
 /// Further data for fields of blobs.

@@ -48,7 +48,7 @@ public:
     /// Effects that are drawn as pictures of themselves, farthest first, and their stream.
     std::span<const ImpostorInstance> impostors() const { return sortedImpostors_; }
     DrawStream impostorStream() const;
-    /// Blobs of the effects whose pictures are taken in this frame, placed for takingCamera().
+    /// Blobs of the effects whose impostors are rendered in this frame, relative to takingCamera().
     std::span<const BlobInstance> takenBlobs() const { return sortedTaken_; }
     std::span<const uint32_t> takenTiles() const { return takenTiles_; } ///< where each picture is kept
     /// An equal frame after this one would be the same, but for its camera and snapshots.

@@ -1,6 +1,6 @@
 /// @file group_merger.h
-/// Small groups that are drawn alike become one, so that many instances of a preset are one draw and are
-/// sorted among each other.
+/// Merges small groups with equal drawing state, so that many instances of a preset are sorted together and
+/// drawn by one call.
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"

@@ -54,8 +54,8 @@ struct RowMoment
 };
 
 /// Lays out the packed rows of a group of the kind "particle".
-/// @param room rows to leave place for
-/// @return words that they take
+/// @param room capacity in rows
+/// @return size in words
 uint64_t layOutPacked(const base::SnapshotGroup& group, uint64_t room, RowPlaces& out);
 /// [byte] a row takes.
 uint32_t packedRowBytes(const RowPlaces& places);

@@ -9,8 +9,8 @@
 
 namespace fx::render {
 
-/// Draws media, transparent sprites and ribbons in the order of `batches`, so that layers and techniques are
-/// composed by depth.
+/// Draws media, and transparent sprites and ribbons in the order of `batches`, so that layers and techniques
+/// are composed by depth.
 ///
 /// reads the buffers of the sources
 ///         distance  [m] along the ray to opaque geometry

@@ -43,7 +43,7 @@ constexpr uint32_t kIdleFrames = 300; ///< without use, until buffers and textur
 /// Inputs of gathering a frame.
 struct GatherInputs
 {
-    const base::SnapshotPair* snapshots; ///< without the older one where nothing moves between the two
+    const base::SnapshotPair* snapshots; ///< without the older one if the two are equal
     RevisionPair revisions;
     SnapshotRowRevisions newerRows, olderRows;
     const FrameRequest* request;

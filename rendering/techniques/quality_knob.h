@@ -35,7 +35,7 @@ struct QualityKnob
 /// Adjustable settings of a technique. Calibrations measure cost and error of their levels.
 struct ScalabilitySettings
 {
-    std::string_view name;    ///< in calibrations, and of the group of passes whose time it is; empty: none
+    std::string_view name;    ///< in calibrations, and of its timer group; empty: none
     std::string_view meaning; ///< in the schema of calibrations
 
     /// [1] weight of an error of this technique in a picture.

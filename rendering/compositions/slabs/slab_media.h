@@ -54,7 +54,7 @@ private:
     uint64_t cardFragments_ = 0; ///< estimated, of the whole picture
     int width_ = 0;              ///< [pixel] of the picture
     bool counts_ = false;        ///< counts listed and spilled entries
-    ResourceId tiles_, heads_;   ///< of the last frame, to be read back; invalid: not
+    ResourceId tiles_, heads_;   ///< counters of the last frame, for reading back; may be invalid
     uint64_t capacity_ = 0;      ///< of the last frame's cards
 };
 

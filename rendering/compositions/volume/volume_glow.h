@@ -23,7 +23,7 @@ public:
     base::Status makeRoom(std::span<const FieldGlowBlock> grids);
     /// Imports the resources of a frame; without grids they are invalid.
     void importAll(FrameGraph& graph, std::span<const FieldGlowBlock> grids);
-    /// Uploads the grids and adds the passes. @param in without grids and textures of the glow
+    /// Uploads the grids and adds the passes. @param in inputs; grids and textures of the glow are added
     void addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, std::span<const FieldGlowBlock> grids);
 
     ResourceId light() const { return textures_.light; } ///< of the frame; invalid: no field emits

@@ -26,7 +26,7 @@ struct SliceStackBlock
 static_assert(sizeof(SliceStackBlock) == 5 * 16);
 
 constexpr uint64_t kSliceTexelBytes = 8; ///< depth and its slope towards the next plane, 32 bits each
-constexpr int kSliceTileColumns = 8;     ///< planes of a stack lie in rows of so many tiles
+constexpr int kSliceTileColumns = 8;     ///< tiles in a row of the planes of a stack
 constexpr size_t kFinerPlanes =
     kMaxLightEntries - 2;      ///< first entry with finer planes of the sun near the eye
 constexpr size_t kSkyAxes = 6; ///< of an icosahedron: both ends of each are sampled, with equal weights
@@ -78,7 +78,7 @@ class LightList
 public:
     explicit LightList(std::pmr::memory_resource* memory);
 
-    /// The next frame: planes that change their sides fade.
+    /// Begins a frame: planes whose sides change fade.
     void build(const LightListInputs& in);
     /// Builds the list of the same frame again from other inputs, reverting the last build().
     void rebuild(const LightListInputs& in);

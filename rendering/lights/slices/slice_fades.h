@@ -22,7 +22,7 @@ struct SliceFade
 {
     SliceFit now;
     SliceFit before;     ///< only with weight > 0
-    float weight = 0.0f; ///< [1] below 1, with which the planes before count
+    float weight = 0.0f; ///< [1] < 1, weight of the previous planes
 };
 
 /// Threads: one at a time.

@@ -40,7 +40,7 @@ struct IntegralScheme
                         ///< degree 3 and 4 use a quarter and a tenth of it
     double step = 0.01; ///< [m] March
     double tolerance = 0.001; ///< [1] Adaptive: error as a share of the most light the ray can have
-    double stopDepth = 30.0;  ///< [1] the ray ends behind this optical depth; infinity never
+    double stopDepth = 30.0;  ///< [1] optical depth at which the ray ends; infinity: never
 };
 
 /// 5 nodes, cap 1.

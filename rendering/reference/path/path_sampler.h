@@ -33,7 +33,7 @@ public:
     {}
 
     std::array<double, 2> pair(); ///< each in [0, 1)
-    /// In [0, 1), not stratified: for decisions of which a path takes many, as those of null collisions.
+    /// In [0, 1), not stratified: for frequent decisions, such as those of null collisions.
     double number();
 
 private:

@@ -124,7 +124,7 @@ public:
     /// @return light over the sum of both densities
     glm::dvec3 emissionFrom(const TraceRay& ray, double end, double density, PathSampler& sampler);
 
-    uint64_t collisions() const { return collisions_; } ///< tentative ones so far, as a measure of work
+    uint64_t collisions() const { return collisions_; } ///< tentative collisions so far, as a measure of work
 
 private:
     Flight flyByDepth(const FlightStart& start, PathSampler& sampler, glm::dvec3& io,

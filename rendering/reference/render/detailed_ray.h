@@ -58,7 +58,8 @@ public:
     const glm::dvec3& coverage() const { return sent_.coverage; } ///< [1] of fire, smoke, dust
     /// [cd/m2] scattered in the centers of blobs, by layer.
     const glm::dvec3& scattered(base::MediaLayer layer) const { return sent_.scattered[size_t(layer)]; }
-    double distance() const; ///< [m] mean of what is seen, +infinity for none: formula seen-depth (1)
+    /// [m] mean distance of the visible medium, +infinity without medium: formula seen-depth (1).
+    double distance() const;
 
     /// Makes share() what is left of each blob at a parameter of the ray.
     void look(double parameter);

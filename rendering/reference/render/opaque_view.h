@@ -33,7 +33,8 @@ struct OpaqueScene
     Lighting lighting;
     std::vector<SceneLight> lamps;
     std::vector<EffectLight> lights; ///< of the effects
-    /// Those of `lights` that no medium emits. The path tracer takes these only: its media emit the others.
+    /// Those of `lights` that no medium emits. The path tracer uses only these, because its media emit the
+    /// others.
     std::vector<EffectLight> particleLights;
     bool isEmpty = false; ///< nothing at all stands behind the medium: the picture is transparent there
 };

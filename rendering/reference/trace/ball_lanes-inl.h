@@ -49,7 +49,7 @@ HWY_INLINE uint32_t bitsOf(Tag tag, hn::Mask<Tag> mask)
     return bits[0];
 }
 
-/// The lanes that a mask of doubles selects, for places.
+/// The selected lanes of a mask of doubles, for indices.
 HWY_INLINE hn::Mask<PlaceTag> placeMask(DoubleMask mask)
 {
     uint8_t bits[8] = {};
