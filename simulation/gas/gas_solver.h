@@ -101,7 +101,7 @@ private:
     std::optional<GasDetail> detail_;   ///< where the preset gives detail of the field
     base::Column<GasParticle> scratch_; ///< of the release
     std::pmr::memory_resource* memory_;
-    base::Column<glm::vec3> ways_; ///< [m] where the way of each parcel began; made when geometry is met
+    base::Column<glm::vec3> ways_; ///< [m] begin of the path of each parcel; allocated for collisions only
     Open open_;
     float hottest_ = 0;    ///< [K] of all parcels at the end of the last step
     base::Ticks released_; ///< local time of the release

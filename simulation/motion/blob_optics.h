@@ -1,5 +1,5 @@
 /// @file blob_optics.h
-/// How much medium a blob holds, from how opaque it is to look.
+/// Amount of medium of a blob with a given opacity.
 ///
 /// @formula blob-cross-section
 /// The extinction cross section that gives a blob a wanted optical depth along its diameter.

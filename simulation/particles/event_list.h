@@ -103,8 +103,8 @@ public:
             add(event);
         dropped_ += other.dropped_;
     }
-    /// Brings them into the order in which they are answered. Heap sort on unique keys: no allocation, and no
-    /// two events are equal unless they are the same.
+    /// Sorts the events into processing order. Heap sort on unique keys: no allocation, and no two events are
+    /// equal unless they are the same.
     void sort()
     {
         std::make_heap(room_.begin(), room_.begin() + ptrdiff_t(count_), happensBefore);

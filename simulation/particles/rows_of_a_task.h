@@ -17,7 +17,7 @@
 
 namespace fx::sim {
 
-constexpr size_t kBytesOfATask = size_t(3) << 20; ///< [byte] that one thread had better move alone
+constexpr size_t kBytesOfATask = size_t(3) << 20; ///< [byte] amount of data below which one thread is faster
 
 /// Rows up to which one thread alone steps or publishes particles of `program`, a multiple of `chunk`.
 inline uint32_t rowsOfATask(const ParticleProgram& program, uint32_t chunk)

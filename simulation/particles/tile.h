@@ -119,7 +119,8 @@ struct TileBound
 {
     float acceleration = std::numeric_limits<float>::infinity(); ///< [m/s2]
     float air = 0.0f;                                            ///< [m/s] that it adds to the air
-    bool followsAir = false; ///< it takes particles to the speed of the air, other than by linear drag
+    /// It accelerates particles towards the air's velocity, other than by linear drag.
+    bool followsAir = false;
 };
 
 /// One module, compiled. Immutable: shared by all instances and threads.

@@ -26,7 +26,7 @@ public:
     /// passTo(), because the state does not change except for time.
     virtual base::Ticks quietUntil(base::Ticks tick) const { return tick; }
 
-    /// Steps to local time `tick`, at most quietUntil(), that need not be taken.
+    /// Advances the time to `tick`, at most quietUntil(), without taking steps.
     virtual void passTo(base::Ticks, StepCounters&) {}
 
     /// Sets the placement after a motion during which the local time did not advance.

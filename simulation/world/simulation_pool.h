@@ -57,7 +57,7 @@ struct LinkedPart
 /// The solvers of one effect and their inputs.
 struct SharedSimulation
 {
-    /// A change of the conditions of a paused simulation, from a time on that it has not reached.
+    /// A pending change of the conditions of a paused simulation, at a time that it has not reached yet.
     struct Change
     {
         base::Ticks tick; ///< scene time

@@ -128,8 +128,8 @@ public:
     /// Frees solvers that have been in the free list since before `tick`.
     void trimFreeList(base::Ticks tick) { simulations_.trimFreeList(tick); }
     size_t freeSolvers() const { return simulations_.freeSolvers(); } ///< sets of solvers in the free list
-    /// Scene time, at least the present, up to which steps change nothing that is seen of the instance: they
-    /// are not taken.
+    /// Scene time, at least the present, up to which steps do not change the visible state of the instance,
+    /// and are not taken.
     base::Ticks restsUntil(Slot slot) const;
     uint32_t pooled() const
     {

@@ -88,7 +88,7 @@ private:
         size_t ordered;  ///< number of requests at the end that are already sorted
         uint64_t wanted; ///< births of the kept requests
         uint64_t asked;  ///< births of all posted requests
-        uint64_t room;   ///< births that are tried
+        uint64_t room;   ///< largest number of attempted births
 
         std::span<EventBirth>::iterator end() const { return kept.begin() + ptrdiff_t(size); }
     };

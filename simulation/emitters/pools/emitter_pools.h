@@ -29,7 +29,7 @@ class EmitterPools
 public:
     explicit EmitterPools(std::pmr::memory_resource* memory) : memory_(memory) {}
 
-    /// Changes with every member that comes or goes.
+    /// Revision, incremented when a member is added or removed.
     uint64_t revision() const { return revision_; }
     bool empty() const { return pools_.empty() || members() == 0; }
     uint32_t members() const;

@@ -74,7 +74,7 @@ struct DynamicsState
     base::Column<uint32_t> slot; ///< of each id
     bool fresh = false;          ///< particles without a density are among them
     bool stale = false;          ///< accelerations do not belong to the state: something came from outside
-    bool shaken = false;         ///< by heat or new particles: the first steps are to be short
+    bool shaken = false;         ///< changed by heat or new particles: the first steps must be short
     bool heatedNow = false;      ///< heat has arrived at this tick
     std::pmr::vector<DelayedHeat> delayed; ///< by time
 

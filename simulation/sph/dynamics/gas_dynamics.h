@@ -85,7 +85,7 @@ struct GasDynamicsDef
 namespace gas_work {
 constexpr uint64_t kParts = 16;
 constexpr uint64_t kParticle = 36;   ///< of kParts, for each existing particle: prediction, search
-constexpr uint64_t kEvaluation = 40; ///< for each whose rates are evaluated, pairs apart
+constexpr uint64_t kEvaluation = 40; ///< for each particle whose rates are evaluated, without its pairs
 constexpr uint64_t kPair = 15;       ///< of kParts, for each ordered pair
 } // namespace gas_work
 

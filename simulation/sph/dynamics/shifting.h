@@ -31,7 +31,7 @@
 
 namespace fx::sim {
 
-/// Displaces all particles between two frames. Evaluated quantities do not change.
+/// Displaces all particles between two frames. Evaluated quantities are not updated.
 /// @param strength C > 0 @param longest L > 0
 template <class T>
 void shiftParticles(DynamicsState<T>& state, double strength, double longest, base::TaskRunner& tasks);

@@ -20,8 +20,8 @@ inline uint32_t stepLevel(double ticks, uint32_t most = kFrameLevel)
     return std::min(exponent, most);
 }
 
-/// The longest level, up to `level`, whose steps begin at `now`: a step may only grow where the clock shows a
-/// multiple of the longer step.
+/// The longest level, up to `level`, whose steps begin at `now`: a step may only become longer at a multiple
+/// of the longer step.
 inline uint32_t alignedLevel(uint32_t level, uint64_t now)
 {
     return std::min(level, uint32_t(std::countr_zero(now | kFrameTicks)));

@@ -118,7 +118,7 @@ public:
         : setup_(setup), image_(image), query_(query), out_(out)
     {}
 
-    /// Runs that follow on each other are taken together.
+    /// Adjacent runs are merged.
     bool operator()(uint32_t begin, uint32_t end)
     {
         if (begin == end_) {

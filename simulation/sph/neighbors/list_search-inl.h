@@ -1,5 +1,5 @@
 /// @file list_search-inl.h
-/// From owners to their lists. Compiled once for each instruction set.
+/// Computes the lists of owners. Compiled once for each instruction set.
 #if defined(FX_LIST_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_LIST_SEARCH_INL_H
 #undef FX_LIST_SEARCH_INL_H

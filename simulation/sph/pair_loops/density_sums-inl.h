@@ -66,7 +66,7 @@ struct FlowSums
         ez.store(row[19] + p);
     }
     static HWY_INLINE Pack<T> from(Rows row, uint32_t s, uint32_t p) { return Pack<T>::load(row[s] + p); }
-    /// @param steep m w'(q) / q of neighbors at d that move by u
+    /// @param m w'(q) / q of neighbors at d with relative velocity u
     HWY_INLINE void addFlow(Pack<T> steep, const Pack<T>* d, const Pack<T>* u)
     {
         const Pack<T> weight = Pack<T>(0.0) - steep;
