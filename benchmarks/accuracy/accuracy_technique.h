@@ -41,7 +41,7 @@ struct AccuracySample
     double instructions = 0;                        ///< of the timed part, 0 when the system does not count
     nlohmann::json work = nlohmann::json::object(); ///< counters
     double variance = 0; ///< of one item, for techniques that draw random numbers; 0 for all others
-    std::string note;    ///< at the end of the row of the table
+    std::string note;    ///< remark, shown at the end of the row of the table
 
     /// Of techniques with a bound: whether the setting keeps it or, if it is a control, breaks it.
     bool isAsPromised = true;

@@ -20,7 +20,7 @@ struct BenchSettings
 {
     uint64_t count = 0;   ///< elements, 0: BenchEntry::usualCount
     uint32_t threads = 1; ///< 0: as many as the machine has
-    uint32_t steps = 0;   ///< that are timed, 0: as many as take about a second
+    uint32_t steps = 0;   ///< timed steps; 0: as many as take about a second
     std::string variant;  ///< empty: all of the entry
     bool gpu = false;     ///< particles are computed on the GPU if supported
     bool gl = false;      ///< a view draws each frame as well

@@ -33,8 +33,8 @@ std::vector<CityPlace> cityPlaces(uint32_t count);
 /// @param offscreen their policy @param ballistic false: one in three has turbulence
 std::string cityPreset(int index, const std::string& offscreen, bool ballistic);
 
-/// Hashes, memory and pictures of the city against one that hides nothing.
-/// @return exit code: 0, or 1 when one differs that must not
+/// Compares hashes, memory and pictures of the city with those of a city without culling.
+/// @return exit code: 0, or 1 if any of them differs
 int checkCity(const BenchCityOptions& options);
 
 /// Times, replays and memory while the camera turns by `options.turn` a frame. @return exit code

@@ -22,9 +22,9 @@ std::vector<float> blockChanges(std::span<const float> now, std::span<const floa
 class FlightPop
 {
 public:
-    /// One frame; blocks in which nothing changes do not count.
-    /// @param pops    blockChanges() from the levels of the frame before to its own
-    /// @param motion  blockChanges() from the frame before to this in the flight without a level of detail
+    /// Adds one frame; blocks without change are ignored.
+    /// @param pops blockChanges() between the pictures with the previous and with its own levels
+    /// @param motion blockChanges() from the previous frame in the flight without a level of detail
     void add(std::span<const float> pops, std::span<const float> motion);
 
     double largest() const;       ///< [1] pop of all blocks and frames
