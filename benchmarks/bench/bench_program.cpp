@@ -44,6 +44,12 @@ void addSizeOption(CLI::App& command, int& width, int& height)
             ", the default");
 }
 
+void addRepeatOption(CLI::App& command, int& repeat)
+{
+    command.add_option("--repeat", repeat, "Frames of which the least time is taken")
+        ->check(CLI::Range(1, 1'000'000));
+}
+
 void addSmallOption(CLI::App& command, bool& isSmall)
 {
     command.add_flag("--small", isSmall, "Small sizes, to see that it works; times say nothing then");

@@ -40,6 +40,9 @@ void setMeasurement(CLI::App& command, int& outExitCode, std::function<void()> m
 /// --size WxH, each 1 to 16384 [pixel].
 void addSizeOption(CLI::App& command, int& width, int& height);
 
+/// --repeat: frames of which the shortest time is reported, 1 to 1,000,000.
+void addRepeatOption(CLI::App& command, int& repeat);
+
 /// --small: sizes at which a measurement takes about a second, overriding other options.
 void addSmallOption(CLI::App& command, bool& isSmall);
 

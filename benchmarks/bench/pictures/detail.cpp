@@ -152,8 +152,7 @@ void measure(Options options)
 void addOptions(CLI::App& command, int& outExitCode)
 {
     auto options = std::make_shared<Options>();
-    command.add_option("--repeat", options->repeat, "Frames of which the least time is taken")
-        ->check(CLI::Range(1, 1'000'000));
+    addRepeatOption(command, options->repeat);
     addSmallOption(command, options->isSmall);
     setMeasurement(command, outExitCode, [options] { measure(*options); });
 }
