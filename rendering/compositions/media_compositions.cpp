@@ -1,8 +1,5 @@
 #include "rendering/compositions/media_compositions.h"
 
-#include "rendering/compositions/slabs/slab_composition.h"
-#include "rendering/compositions/volume/volume_composition.h"
-
 #include <algorithm>
 
 namespace fx::render {

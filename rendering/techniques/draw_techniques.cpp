@@ -1,14 +1,5 @@
 #include "rendering/techniques/draw_techniques.h"
 
-#include "rendering/techniques/blobs/blob_technique.h"
-#include "rendering/techniques/dazzle/dazzle_technique.h"
-#include "rendering/techniques/gpu_particles/gpu_particle_technique.h"
-#include "rendering/techniques/light_slices/light_slice_technique.h"
-#include "rendering/techniques/particle_lights/particle_light_technique.h"
-#include "rendering/techniques/ribbons/ribbon_technique.h"
-#include "rendering/techniques/shimmer/shimmer_technique.h"
-#include "rendering/techniques/sprites/sprite_technique.h"
-
 #include <algorithm>
 #include <array>
 

@@ -1,11 +1,40 @@
 /// @file draw_techniques.h
 /// The explicit list of drawing techniques. Its order is the order of gathering and, within a stage, of
-/// passes. A new technique is one line in this list.
+/// passes. A new technique is declared here and
+/// has one line in the list.
 #pragma once
 
 #include "rendering/techniques/draw_technique.h"
 
 namespace fx::render {
+
+/// Spherical billboards: fire, smoke and dust as balls of medium, with impostors for distant effects.
+extern const DrawTechnique kBlobTechnique;
+
+/// Noise coordinates of balls, by which their detail moves with them. Drawn by the view of kBlobTechnique.
+extern const DrawTechnique kFieldDetailTechnique;
+
+/// Shadows of media: timer group and scalability levels of light slices. The passes are in
+/// rendering/lights/slices; every view has them.
+extern const DrawTechnique kLightSliceTechnique;
+
+/// Particles that are drawn as sprites or meshes.
+extern const DrawTechnique kSpriteTechnique;
+
+/// Trails of particles.
+extern const DrawTechnique kRibbonTechnique;
+
+/// Particles that are simulated on the GPU.
+extern const DrawTechnique kGpuParticleTechnique;
+
+/// Lights of particles, from snapshot data of the kind "light". They are not drawn themselves.
+extern const DrawTechnique kParticleLightTechnique;
+
+/// Heat shimmer: refraction in hot gas.
+extern const DrawTechnique kShimmerTechnique;
+
+/// Dazzle: glare of light above the saturation of a sensor.
+extern const DrawTechnique kDazzleTechnique;
 
 using DrawTechniques = std::span<const DrawTechnique* const>;
 

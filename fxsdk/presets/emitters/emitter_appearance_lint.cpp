@@ -1,5 +1,5 @@
 // Warnings about members of an emitter's shape and appearance that have no effect.
-#include "fxsdk/presets/emitters/emitter_lint.h"
+#include "fxsdk/presets/emitters/emitter_parts_preset.h"
 
 #include <algorithm>
 #include <array>

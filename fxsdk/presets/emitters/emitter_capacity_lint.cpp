@@ -1,5 +1,5 @@
 // What an emitter's capacity has to hold.
-#include "fxsdk/presets/emitters/emitter_lint.h"
+#include "fxsdk/presets/emitters/emitter_parts_preset.h"
 
 #include "fxsdk/presets/emitters/birth_count.h"
 

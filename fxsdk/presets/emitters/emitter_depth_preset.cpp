@@ -1,4 +1,4 @@
-#include "fxsdk/presets/emitters/emitter_depth_preset.h"
+#include "fxsdk/presets/emitters/emitter_parts_preset.h"
 
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/gpu_programs/gpu_program.h"

@@ -1,4 +1,4 @@
-#include "fxsdk/presets/emitters/emitter_events_preset.h"
+#include "fxsdk/presets/emitters/emitter_parts_preset.h"
 
 #include "foundation/result/nearest_name.h"
 #include "simulation/emitters/emitter_def.h"

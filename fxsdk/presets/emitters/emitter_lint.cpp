@@ -1,4 +1,4 @@
-#include "fxsdk/presets/emitters/emitter_lint.h"
+#include "fxsdk/presets/emitters/emitter_parts_preset.h"
 
 #include "fxsdk/presets/emitters/emitter_technique.h"
 #include "simulation/gpu_programs/gpu_program.h"

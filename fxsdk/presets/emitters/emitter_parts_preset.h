@@ -1,12 +1,13 @@
 /// @file emitter_parts_preset.h
-/// Reads the parts of one element of a preset's "emitters". Each adds findings for faults that the schema
-/// cannot exclude, and omits the faulty part from the emitter.
+/// Parts of the reader of a preset's "emitters", and their lint warnings. Each reader adds findings for
+/// faults that the schema cannot exclude, and omits the faulty part from the emitter.
 #pragma once
 
 #include "fxsdk/presets/preset_value.h"
 #include "simulation/collision/distance_field.h"
 #include "simulation/emitters/emitter_def.h"
 #include "simulation/particles/fields/field_grid.h"
+#include "simulation/solver/effect_def.h"
 
 #include <memory>
 
@@ -25,6 +26,25 @@ void readEmitterAppearance(const PresetValue& appearance, sim::EmitterAppearance
 void readEmitterTrail(const PresetValue& trail, sim::RibbonDef& out);
 /// light
 void readEmitterLight(const PresetValue& element, sim::LightDef& out);
+
+/// Reads the events of all emitters of the preset `root`, which `effect` holds as its first solvers, and puts
+/// the solvers in order. Adds findings for names that no emitter has, for circles, and for emitters in which
+/// nothing would ever be born.
+void linkEmitterEvents(const PresetValue& root, sim::EffectDef& effect);
+
+// Lint warnings: members that are valid and have no effect, or cost more than expected.
+void lintForces(const PresetValue& element, bool hasGround);
+void lintShape(const PresetValue& element);
+void lintAppearance(const PresetValue& element, const sim::EmitterDef& emitter);
+
+/// Warns of emitters whose particles, including births by events, exceed the capacity, and of memory above 1
+/// GiB.
+void lintCapacity(const PresetValue& root, const sim::EffectDef& effect);
+
+/// Warns that collisions with the depth texture of a view (shape "depth") have no effect when the CPU
+/// computes the emitter, with the reason for the CPU.
+/// @param root the preset; the first solvers of `effect` are its emitters, linked by their events
+void warnOfDepthOnCpu(const PresetValue& root, const sim::EffectDef& effect);
 
 // Assets that members name; null after a finding.
 std::shared_ptr<const sim::FieldGrid> readGrid(const PresetValue& value, const char* member,

@@ -1,6 +1,4 @@
 #include "embedded/emitters_schema.h"
-#include "fxsdk/presets/emitters/emitter_depth_preset.h"
-#include "fxsdk/presets/emitters/emitter_events_preset.h"
 #include "fxsdk/presets/emitters/emitter_parts_preset.h"
 #include "fxsdk/presets/emitters/emitter_technique.h"
 #include "fxsdk/presets/field_detail_preset.h"

@@ -1,4 +1,4 @@
-#include "rendering/compositions/slabs/slab_composition.h"
+#include "rendering/compositions/media_compositions.h"
 
 #include "rendering/compositions/slabs/slab_passes.h"
 #include "rendering/compositions/slabs/slab_view.h"

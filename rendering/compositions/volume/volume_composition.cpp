@@ -1,6 +1,5 @@
-#include "rendering/compositions/volume/volume_composition.h"
+#include "rendering/compositions/media_compositions.h"
 
-#include "rendering/compositions/slabs/slab_composition.h"
 #include "rendering/compositions/volume/volume_view.h"
 
 #include <vector>

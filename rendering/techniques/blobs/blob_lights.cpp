@@ -1,4 +1,4 @@
-#include "rendering/techniques/blobs/blob_lights.h"
+#include "rendering/techniques/blobs/blob_parts.h"
 
 #include "foundation/snapshot/blob_kind.h"
 #include "rendering/optics/black_body.h"

@@ -1,4 +1,4 @@
-#include "rendering/techniques/blobs/blob_quality.h"
+#include "rendering/techniques/blobs/blob_parts.h"
 
 #include <algorithm>
 

@@ -1,11 +1,10 @@
-#include "rendering/techniques/blobs/blob_technique.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/material_kind.h"
 #include "rendering/passes/blob_light_pass.h"
 #include "rendering/passes/overdraw_pass.h"
-#include "rendering/techniques/blobs/blob_lights.h"
-#include "rendering/techniques/blobs/blob_quality.h"
+#include "rendering/techniques/blobs/blob_parts.h"
 #include "rendering/techniques/blobs/blob_view.h"
 
 #include <array>

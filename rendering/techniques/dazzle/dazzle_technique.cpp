@@ -1,4 +1,4 @@
-#include "rendering/techniques/dazzle/dazzle_technique.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include "rendering/gl/gl_buffer.h"
 #include "rendering/passes/dazzle_pass.h"

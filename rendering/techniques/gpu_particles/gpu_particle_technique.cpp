@@ -1,4 +1,4 @@
-#include "rendering/techniques/gpu_particles/gpu_particle_technique.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include "rendering/particle_rows/row_technique.h"
 #include "rendering/techniques/rows/row_view.h"

@@ -1,4 +1,4 @@
-#include "rendering/techniques/light_slices/light_slice_technique.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include "rendering/lights/slices/view_lights.h"
 

@@ -1,4 +1,4 @@
-#include "rendering/techniques/particle_lights/particle_light_technique.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/particle_kind.h"

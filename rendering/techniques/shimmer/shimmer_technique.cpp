@@ -1,4 +1,4 @@
-#include "rendering/techniques/shimmer/shimmer_technique.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include "rendering/media/hot_areas.h"
 #include "rendering/passes/heat_offset_pass.h"

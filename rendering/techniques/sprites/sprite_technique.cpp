@@ -1,4 +1,4 @@
-#include "rendering/techniques/sprites/sprite_technique.h"
+#include "rendering/techniques/draw_techniques.h"
 
 #include "foundation/snapshot/particle_bounds.h"
 #include "rendering/particle_rows/row_casters.h"

@@ -5,8 +5,7 @@
 #include "rendering/frame/exposure.h"
 #include "rendering/lights/slices/slice_depths.h"
 #include "rendering/particle_rows/row_casters.h"
-#include "rendering/techniques/ribbons/ribbon_technique.h"
-#include "rendering/techniques/sprites/sprite_technique.h"
+#include "rendering/techniques/draw_techniques.h"
 #include "tests/rendering/gl/heap_counter.h"
 
 #include <glm/geometric.hpp>

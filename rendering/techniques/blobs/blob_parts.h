@@ -1,8 +1,9 @@
-/// @file blob_lights.h
-/// The light of glowing media.
+/// @file blob_parts.h
+/// Parts of the description of spherical billboards: their light and their scalability levels.
 #pragma once
 
 #include "rendering/lights/effect_lights.h"
+#include "rendering/techniques/quality_knob.h"
 
 namespace fx::render {
 
@@ -10,5 +11,7 @@ namespace fx::render {
 /// (pi R^2) being its optical depth: thin gas shows all of its medium, thick gas only its face. Attenuation
 /// by the rest of the group is estimated by the same factor with the group's mean optical depth.
 extern const LightSource kBlobLights;
+
+extern const ScalabilitySettings kBlobScalability;
 
 } // namespace fx::render
