@@ -52,7 +52,7 @@ uint32_t gpuStepsBefore(const GpuStepRun& run, int64_t now, int64_t tick)
     return gone < 0 ? 0 : uint32_t(std::min<int64_t>(gone / run.length, run.count));
 }
 
-bool goesOnFrom(const SnapshotGroup& group, const GpuStepMark& mark)
+bool continuesFrom(const SnapshotGroup& group, const GpuStepMark& mark)
 {
     const GpuParticleMoment moment = gpuMomentOf(group);
     if (mark.history == 0 || mark.now > moment.now)

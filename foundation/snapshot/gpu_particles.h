@@ -203,7 +203,7 @@ GpuStepRun gpuStepRunOf(const SnapshotGroup& group, const GpuParticleMoment& mom
 /// How many steps of a run ended at or before `tick`, when it is `now`.
 uint32_t gpuStepsBefore(const GpuStepRun& run, int64_t now, int64_t tick);
 /// True when the steps of `group` continue at `mark`.
-bool goesOnFrom(const SnapshotGroup& group, const GpuStepMark& mark);
+bool continuesFrom(const SnapshotGroup& group, const GpuStepMark& mark);
 /// The mark after the steps of `group`.
 GpuStepMark gpuMarkOf(const SnapshotGroup& group);
 

@@ -46,7 +46,7 @@ base::Status GpuStates::prepare(const base::SnapshotGroup& group, GpuRowsJob& io
     State& state = **found;
     state.usedFrame = frame_;
     const base::GpuParticleMoment moment = base::gpuMomentOf(group);
-    const bool goesOn = base::goesOnFrom(group, state.mark);
+    const bool goesOn = base::continuesFrom(group, state.mark);
     const int64_t since = goesOn ? moment.now - state.mark.now : 0; // [tick] ago
     words_.assign(kHeadWords, 0);
     std::memcpy(words_.data(), &since, sizeof since);
