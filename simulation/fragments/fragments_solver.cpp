@@ -214,7 +214,7 @@ void FragmentsSolver::leaveRows(const TrailStep& step, base::Ticks begin, uint32
                                         [](uint32_t row, const FragmentWay& way) { return row < way.first; });
     for (uint32_t i = uint32_t(after - ways.begin()) - 1; i < fragments_.count && first < last; ++i) {
         const uint32_t end = std::min(ways[i].first + ways[i].stored, last);
-        leaveSmoke(step, fragments_, i, ways[i], begin, {first, end}, trail_);
+        emitSmoke(step, fragments_, i, ways[i], begin, {first, end}, trail_);
         first = std::max(first, end);
     }
 }

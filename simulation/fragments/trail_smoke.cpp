@@ -70,8 +70,8 @@ uint32_t blobsAlong(float length, float due, float spacing)
     return uint32_t(std::min((length - due) / spacing, kMaxBlobs)) + 1; // (1)
 }
 
-void leaveSmoke(const TrailStep& s, const FragmentStore& fragments, uint32_t row, const FragmentWay& way,
-                base::Ticks begin, const SmokeRows& rows, TrailStore& trail)
+void emitSmoke(const TrailStep& s, const FragmentStore& fragments, uint32_t row, const FragmentWay& way,
+               base::Ticks begin, const SmokeRows& rows, TrailStore& trail)
 {
     const TrailDef& def = s.def.trail;
     const float thickness = std::sqrt(fragments.at(fragment_column::Size)[row] / s.def.size.max);

@@ -76,8 +76,8 @@ struct SmokeRows
 
 /// Writes `rows` of the smoke of fragment `row` along `way`, in their state at the end of the step.
 /// @param begin local time at which the way begins
-void leaveSmoke(const TrailStep& step, const FragmentStore& fragments, uint32_t row, const FragmentWay& way,
-                base::Ticks begin, const SmokeRows& rows, TrailStore& trail);
+void emitSmoke(const TrailStep& step, const FragmentStore& fragments, uint32_t row, const FragmentWay& way,
+               base::Ticks begin, const SmokeRows& rows, TrailStore& trail);
 
 /// Moves the rows [begin, end) through the whole step.
 void moveSmoke(const TrailStep& step, TrailStore& trail, uint32_t begin, uint32_t end);
