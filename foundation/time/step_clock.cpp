@@ -29,7 +29,7 @@ StepPlan StepClock::advance(double dt)
     return plan;
 }
 
-Ticks StepClock::forgive(Ticks most)
+Ticks StepClock::dropDebt(Ticks most)
 {
     const Ticks excess = std::max<Ticks>(debt() - most, 0) / stepTicks_ * stepTicks_;
     now_ -= excess;

@@ -47,7 +47,7 @@ public:
     Ticks debt() const { return (now_ / stepTicks_ - steps_) * stepTicks_; }
     bool isBehind() const { return now_ - simulated() >= stepTicks_; } ///< debt() is not 0
     /// Drops the part of the debt above `most`. @return the dropped part
-    Ticks forgive(Ticks most);
+    Ticks dropDebt(Ticks most);
 
     Ticks now() const { return now_; }                      ///< continuous time
     Ticks simulated() const { return steps_ * stepTicks_; } ///< end of the last step taken

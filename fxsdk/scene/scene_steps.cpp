@@ -120,7 +120,7 @@ void Scene::prepareSteps(const base::StepPlan& plan)
 void Scene::postpone(uint32_t steps)
 {
     clock_.postpone(steps);
-    countDropped(clock_.forgive(options_.maxCatchUp));
+    countDropped(clock_.dropDebt(options_.maxCatchUp));
     std::lock_guard lock(presentation_);
     show(published_, clock_.interpolation());
 }
