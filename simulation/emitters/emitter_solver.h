@@ -108,7 +108,7 @@ public:
     void restore(StateReader& reader) override;
     /// Finite if particles do not depend on each other or on earlier ones, and no birth is dropped.
     base::Ticks influenceHorizon(const InstanceParameters& parameters) const override;
-    void saveBriefly(StateWriter& writer) const override { saveState(writer, false); }
+    void saveWithoutElements(StateWriter& writer) const override { saveState(writer, false); }
     void passOver(const StepContext& context, base::Ticks tick) override;
 
     BudgetedSolver* budgeted() override { return this; }

@@ -16,7 +16,7 @@ public:
     virtual base::Ticks influenceHorizon(const InstanceParameters& parameters) const = 0;
 
     /// Solver::save() without living elements. A state restored from it is correct after influenceHorizon().
-    virtual void saveBriefly(StateWriter& writer) const = 0;
+    virtual void saveWithoutElements(StateWriter& writer) const = 0;
 
     /// Goes forwards to local time `tick` without the births meanwhile: right once influenceHorizon()
     /// has passed after it. Only where that is known; the context's own tick and stepTicks are ignored.

@@ -80,7 +80,7 @@ void SimulationPool::release(SimulationIndex index, base::Ticks now, bool mayFor
     const bool brief = mayForget && simulation.forgottenAt <= now;
     if (!simulation.fresh) {
         StateBuffer state(memory_);
-        brief ? simulation.saveBriefly(state) : simulation.save(state);
+        brief ? simulation.saveWithoutElements(state) : simulation.save(state);
         state.shrink();
         simulation.kept.emplace(std::move(state));
     }

@@ -67,10 +67,10 @@ void SharedSimulation::save(StateWriter& writer) const
         solver->save(writer);
 }
 
-void SharedSimulation::saveBriefly(StateWriter& writer) const
+void SharedSimulation::saveWithoutElements(StateWriter& writer) const
 {
     for (const std::unique_ptr<Solver>& solver : solvers)
-        solver->finiteMemory()->saveBriefly(writer);
+        solver->finiteMemory()->saveWithoutElements(writer);
 }
 
 base::Ticks SharedSimulation::influenceHorizon() const

@@ -125,7 +125,7 @@ struct SharedSimulation
     /// The solvers have been made or given away.
     void updateOnly() { only = solvers.size() == 1 ? solvers.front().get() : nullptr; }
     void save(StateWriter& writer) const;
-    void saveBriefly(StateWriter& writer) const;
+    void saveWithoutElements(StateWriter& writer) const;
     void restore(StateReader& reader);
 };
 
