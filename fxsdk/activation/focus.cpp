@@ -53,7 +53,7 @@ Sight Frustum::judge(const Ball& ball, double sight) const
     return pixels(ball) < limits_.minPixels ? Sight::TooSmall : Sight::Seen;
 }
 
-Sight Frustum::judgeSeen(const Ball& ball, double sight) const
+Sight Frustum::judgeWithHysteresis(const Ball& ball, double sight) const
 {
     return judge({ball.center, ball.radius * kGrace}, sight * kGrace);
 }
@@ -64,7 +64,7 @@ Sight FocusSet::judge(const Ball& ball, double sight, bool isSeen) const
         return Sight::Seen;
     Sight best = Sight::Outside;
     for (const Frustum& frustum : frusta_) {
-        const Sight here = isSeen ? frustum.judgeSeen(ball, sight) : frustum.judge(ball, sight);
+        const Sight here = isSeen ? frustum.judgeWithHysteresis(ball, sight) : frustum.judge(ball, sight);
         if (here == Sight::Seen)
             return here;
         best = std::max(best, here);

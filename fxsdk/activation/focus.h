@@ -49,7 +49,7 @@ public:
     Sight judge(const Ball& ball, double sight) const;
     /// As judge(), with a hysteresis of a tenth of the radius for balls that are in sight, against flickering
     /// at the frustum's boundary.
-    Sight judgeSeen(const Ball& ball, double sight) const;
+    Sight judgeWithHysteresis(const Ball& ball, double sight) const;
     /// [pixel] radius of the ball on the picture, at most its height.
     double pixels(const Ball& ball) const;
 

@@ -109,7 +109,7 @@ TEST(Sight, aCameraThatTurnsFindsExactlyWhatAVisitToAllWouldFind)
         stage.play(1);
         for (const auto& [id, at] : all) {
             const bool isSeen = camera.judge({at, 1}, 1e9) == activation::Sight::Seen;
-            const bool isNearly = camera.judgeSeen({at, 1}, 1e9) == activation::Sight::Seen;
+            const bool isNearly = camera.judgeWithHysteresis({at, 1}, 1e9) == activation::Sight::Seen;
             const bool isActive = stage.state(id) == InstanceState::Active;
             ASSERT_TRUE(isActive ? isNearly : !isSeen) << "turn " << turn;
         }
