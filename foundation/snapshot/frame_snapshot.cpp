@@ -53,7 +53,7 @@ PooledRows& FrameSnapshot::addPool(KindId kind, size_t capacity, ColumnSet prese
 void FrameSnapshot::setRoster(std::shared_ptr<const GroupRoster> roster, std::span<const uint32_t> ends)
 {
     if (!spread_)
-        spread_ = std::make_unique<SpreadGroups>(memory_);
+        spread_ = std::make_unique<UnpackedGroups>(memory_);
     const size_t count = groupCount_ + roster->entries.size();
     const bool isListed =
         listed_ == roster->shape && places_.size() == count && std::ranges::equal(ends_, ends);

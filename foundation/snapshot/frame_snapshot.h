@@ -113,7 +113,7 @@ public:
     size_t addedCount() const { return groupCount_; } ///< groups that were added, without those of pools
 
 private:
-    friend class SpreadGroups;
+    friend class UnpackedGroups;
     static constexpr uint32_t kPooled = 1u << 31;
     /// Among the groups that were added, or with kPooled in the roster.
     uint32_t placeOf(size_t index) const { return roster_ ? places_[index] : uint32_t(index); }
@@ -134,7 +134,7 @@ private:
     std::pmr::vector<uint32_t> ends_;                ///< see setRoster()
     std::pmr::vector<uint32_t> places_;              ///< by group, see placeOf(); where pools are
     uint64_t listed_ = 0;                            ///< shape of the roster that they and ends_ are of
-    std::unique_ptr<SpreadGroups> spread_;           ///< where pools are
+    std::unique_ptr<UnpackedGroups> spread_;         ///< where pools are
 };
 
 } // namespace fx::base

@@ -46,7 +46,7 @@ float PooledRows::measureMoving(uint32_t row, const glm::vec3& at, float radius,
     return radius + across * std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
 }
 
-void SpreadGroups::prepare(const FrameSnapshot& snapshot)
+void UnpackedGroups::prepare(const FrameSnapshot& snapshot)
 {
     done_.store(false, std::memory_order_relaxed); // publication orders it
     const GroupRoster& roster = *snapshot.roster_;
@@ -72,7 +72,7 @@ void SpreadGroups::prepare(const FrameSnapshot& snapshot)
     shape_ = roster.shape;
 }
 
-const SnapshotGroup& SpreadGroups::group(const FrameSnapshot& snapshot, size_t entry)
+const SnapshotGroup& UnpackedGroups::group(const FrameSnapshot& snapshot, size_t entry)
 {
     if (!done_.load(std::memory_order_acquire)) {
         const std::lock_guard lock(mutex_);
@@ -83,7 +83,7 @@ const SnapshotGroup& SpreadGroups::group(const FrameSnapshot& snapshot, size_t e
     return groups_[entry];
 }
 
-void SpreadGroups::spread(const FrameSnapshot& snapshot)
+void UnpackedGroups::spread(const FrameSnapshot& snapshot)
 {
     sortRows(snapshot);
     const GroupRoster& roster = *snapshot.roster_;
@@ -91,7 +91,7 @@ void SpreadGroups::spread(const FrameSnapshot& snapshot)
         fill(snapshot, roster.entries[i], groups_[i]);
 }
 
-void SpreadGroups::visit(const FrameSnapshot& snapshot, Visitor visitor, void* user)
+void UnpackedGroups::visit(const FrameSnapshot& snapshot, Visitor visitor, void* user)
 {
     const std::lock_guard lock(mutex_);
     const bool isSpread = done_.load(std::memory_order_relaxed);
@@ -106,7 +106,7 @@ void SpreadGroups::visit(const FrameSnapshot& snapshot, Visitor visitor, void* u
 }
 
 /// The rows of each member one after another.
-void SpreadGroups::sortRows(const FrameSnapshot& snapshot)
+void UnpackedGroups::sortRows(const FrameSnapshot& snapshot)
 {
     std::fill(ends_.begin(), ends_.end(), 0u);
     for (size_t p = 0; p < snapshot.poolCount(); ++p) {
@@ -123,8 +123,8 @@ void SpreadGroups::sortRows(const FrameSnapshot& snapshot)
 }
 
 /// The group of an entry, whose rows are empty yet.
-void SpreadGroups::open(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry,
-                        SnapshotGroup& group) const
+void UnpackedGroups::open(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry,
+                          SnapshotGroup& group) const
 {
     const PooledRows& pool = snapshot.pool(entry.pool);
     const KindId kind = pool.rows.info().kind;
@@ -142,8 +142,8 @@ void SpreadGroups::open(const FrameSnapshot& snapshot, const GroupRoster::Entry&
     std::memset(group.editStorage(), 0, pool.copier.floats() * sizeof(float));
 }
 
-void SpreadGroups::fill(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry,
-                        SnapshotGroup& group) const
+void UnpackedGroups::fill(const FrameSnapshot& snapshot, const GroupRoster::Entry& entry,
+                          SnapshotGroup& group) const
 {
     open(snapshot, entry, group);
     const PooledRows& pool = snapshot.pool(entry.pool);

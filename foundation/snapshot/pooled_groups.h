@@ -160,10 +160,10 @@ struct GroupRoster
 };
 
 /// The groups of the rows of pools, created on first access.
-class SpreadGroups
+class UnpackedGroups
 {
 public:
-    explicit SpreadGroups(std::pmr::memory_resource* memory)
+    explicit UnpackedGroups(std::pmr::memory_resource* memory)
         : memory_(memory), groups_(memory), scratch_(memory), first_(memory), ends_(memory), rows_(memory)
     {}
 
