@@ -47,7 +47,7 @@ float extinctionAt(std::span<const MediumCaster> balls, const glm::vec3& p)
 
 } // namespace
 
-float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls)
+float conservationFactor(const GroupDetail& detail, std::span<const MediumCaster> balls)
 {
     constexpr glm::vec3 kCorners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     const size_t stride = std::max<size_t>((balls.size() + kMaxSampledBalls - 1) / kMaxSampledBalls, 1);

@@ -31,7 +31,7 @@ struct GroupDetail
 /// GroupDetail::factor for balls of medium: the integral of the summed extinction over the mean integral
 /// after erosion, at most 4. It is evaluated at eight quadrature points of up to 128 balls each.
 /// @param balls all of the group, visible or not
-float wholeFactor(const GroupDetail& detail, std::span<const MediumCaster> balls);
+float conservationFactor(const GroupDetail& detail, std::span<const MediumCaster> balls);
 
 /// Reads the group of the kind "material" that follows a group of blobs.
 class BlobDetail

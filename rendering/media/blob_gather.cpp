@@ -347,7 +347,7 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         if (detail.isGiven()) {
             outFields->details.push_back(detail.groupDetail(placementAt(group, older, t, camera.eye)));
             outFields->details.back().factor =
-                wholeFactor(outFields->details.back(), std::span(outMedium).subspan(mediumBegin));
+                conservationFactor(outFields->details.back(), std::span(outMedium).subspan(mediumBegin));
         }
         addRun({outInstances.size() - 1, detail.isGiven() ? int(outFields->details.size()) - 1 : -1,
                 visibleBegin, outVisible.size(), mediumBegin, outMedium.size()},

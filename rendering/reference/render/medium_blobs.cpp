@@ -82,7 +82,7 @@ private:
         base::Placement here = place_;
         here.position = glm::dvec3(0.0);
         GroupDetail detail = detail_.groupDetail(here);
-        detail.factor = wholeFactor(detail, casters_);
+        detail.factor = conservationFactor(detail, casters_);
         out.details.groups.push_back({detail, place_.position});
     }
 

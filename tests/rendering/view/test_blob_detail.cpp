@@ -129,11 +129,11 @@ TEST(WholeFactor, isThatOfTheFieldItself)
                 before += double(k);
                 after += double(k * keptShare(detail.numbers, k));
             }
-    const float factor = wholeFactor(detail, balls);
+    const float factor = conservationFactor(detail, balls);
     EXPECT_NEAR(factor, before / after, 0.02 * before / after);
     EXPECT_GT(factor, 1.02f);
     for (MediumCaster& ball : balls)
         ball.crossSection *= 1e-4f;
-    EXPECT_EQ(wholeFactor(detail, balls), 4.0f); // nothing is left
-    EXPECT_EQ(wholeFactor(detail, {}), 4.0f);
+    EXPECT_EQ(conservationFactor(detail, balls), 4.0f); // nothing is left
+    EXPECT_EQ(conservationFactor(detail, {}), 4.0f);
 }
