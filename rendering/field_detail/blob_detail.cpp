@@ -57,7 +57,7 @@ float conservationFactor(const GroupDetail& detail, std::span<const MediumCaster
         for (const Shell& shell : kShells)
             for (const glm::vec3& corner : kCorners) {
                 const glm::vec3 p = balls[i].center + balls[i].radius * shell.corner * corner;
-                const float kept = keptShare(detail.numbers, extinctionAt(balls, p) * detail.scale);
+                const float kept = meanErodedShare(detail.numbers, extinctionAt(balls, p) * detail.scale);
                 after += double(balls[i].crossSection * 0.25f * shell.weight * kept);
             }
     }

@@ -54,7 +54,7 @@ float DetailedField::extinctionAt(const glm::vec3& point, float pixel, int octav
     return factor_ * smooth.extinction * detailAt(numbers_, tile_, smooth, pixel, octaves).share;
 }
 
-void DetailedField::keepWhole(float spacing)
+void DetailedField::conserveIntegral(float spacing)
 {
     base::Bounds box;
     for (const DetailedBall& ball : balls_)

@@ -34,7 +34,7 @@ public:
     /// Computes the factor that restores the integral of the smooth field after erosion: the sum of smooth
     /// extinctions over the sum of eroded ones, at the points of a lattice.
     /// @param spacing [m] of the lattice, at most half of the lumps
-    void keepWhole(float spacing);
+    void conserveIntegral(float spacing);
     float factor() const { return factor_; } ///< [1] > 0
 
 private:

@@ -114,7 +114,7 @@ MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, c
 
 /// k n grows up to the place where m = 1/6; from there its logarithm is convex in s, so that the largest
 /// value is at an end.
-float mostLeft(const FieldDetailNumbers& numbers, float most)
+float maxErodedExtinction(const FieldDetailNumbers& numbers, float most)
 {
     constexpr float kMargin = 1.0f + 1e-5f;
     const float w = numbers.ramp, s = placeOf(numbers, most);
@@ -129,7 +129,7 @@ float mostLeft(const FieldDetailNumbers& numbers, float most)
     return kMargin * std::max(atEnd, extinction * formula::fxDetailGain(capped, w));
 }
 
-float keptShare(const FieldDetailNumbers& numbers, float extinction)
+float meanErodedShare(const FieldDetailNumbers& numbers, float extinction)
 {
     const float s = placeOf(numbers, extinction);
     return formula::fxDetailMean(s, numbers.ramp) * formula::fxDetailGain(s, numbers.ramp);

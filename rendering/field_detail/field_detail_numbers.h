@@ -61,9 +61,9 @@ MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, c
 
 /// [1/m] upper bound of the eroded extinction for a smooth extinction of at most `most`, for any noise,
 /// before the multiplication by GroupDetail::factor.
-float mostLeft(const FieldDetailNumbers& numbers, float most);
+float maxErodedExtinction(const FieldDetailNumbers& numbers, float most);
 
 /// n m of field-detail: mean eroded extinction over the smooth one.
-float keptShare(const FieldDetailNumbers& numbers, float extinction);
+float meanErodedShare(const FieldDetailNumbers& numbers, float extinction);
 
 } // namespace fx::render

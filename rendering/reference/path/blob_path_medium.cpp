@@ -162,7 +162,7 @@ private:
             if (isDetailed_)
                 bounds_.add(ball.place, most);
         }
-        return kMargin * (isDetailed_ ? bounds_.mostLeft() : sum); // (4)
+        return kMargin * (isDetailed_ ? bounds_.maxErodedExtinction() : sum); // (4)
     }
     void choose(double parameter, double chosen, double scattered, MediumPoint& io) const
     {

@@ -73,14 +73,14 @@ MediumDetail DetailedMedium::at(size_t group, double extinction, const std::arra
     return made;
 }
 
-double DetailedMedium::mostLeft(size_t group, double most) const
+double DetailedMedium::maxErodedExtinction(size_t group, double most) const
 {
     const GroupDetail& detail = groups_[group].detail;
     const double scale = double(detail.scale);
     // more than a float holds is whole
     const float smooth = float(std::min(most * scale, 1e30));
-    const double left =
-        std::max(double(render::mostLeft(detail.numbers, smooth)) / scale, most * scale > 1e30 ? most : 0.0);
+    const double left = std::max(double(render::maxErodedExtinction(detail.numbers, smooth)) / scale,
+                                 most * scale > 1e30 ? most : 0.0);
     return double(detail.factor) * left;
 }
 
@@ -136,11 +136,11 @@ glm::dvec3 DetailMix::source(uint32_t place, const glm::dvec3& source, const glm
     return glm::max(source + (1.0 - albedo) * more, glm::dvec3(0.0));
 }
 
-double DetailMix::mostLeft() const
+double DetailMix::maxErodedExtinction() const
 {
     double sum = smooth_;
     for (size_t group = 0; group < sums_.size(); ++group)
-        sum += medium_.mostLeft(group, sums_[group].extinction);
+        sum += medium_.maxErodedExtinction(group, sums_[group].extinction);
     return sum;
 }
 

@@ -72,7 +72,7 @@ public:
     /// [cd/m2] black body of a ball's temperature.
     const glm::vec3& thermal(uint32_t place) const { return thermal_[place]; }
     /// [1/m] what is left of a smooth extinction of at most `most` is no more.
-    double mostLeft(size_t group, double most) const;
+    double maxErodedExtinction(size_t group, double most) const;
     double mostGain(size_t group) const; ///< [1] by which detail multiplies an extinction at most
 
 private:
@@ -116,7 +116,7 @@ public:
     glm::dvec3 source(uint32_t place, const glm::dvec3& source, const glm::dvec3& albedo) const;
 
     /// [1/m] of all balls that were added is no more than this left, if add() got upper bounds.
-    double mostLeft() const;
+    double maxErodedExtinction() const;
 
 private:
     struct Sum

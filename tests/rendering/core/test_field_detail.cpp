@@ -137,7 +137,7 @@ TEST(FieldDetail, keepsTheMeanWhereAThinnerPartIsLeft)
                 detailAt(numbers, tile(), mediumAt(extinction, anywhere(uint64_t(i), 300.0f)), 1e-3f, 5)
                     .share);
         EXPECT_NEAR(sum / count, 1.0, 0.04) << extinction;
-        EXPECT_NEAR(keptShare(numbers, extinction), 1.0f, 1e-5f);
+        EXPECT_NEAR(meanErodedShare(numbers, extinction), 1.0f, 1e-5f);
     }
 }
 
@@ -187,7 +187,7 @@ TEST(FieldDetail, whatIsLeftStaysBelowItsBound)
             const float s =
                 formula::fxDetailPlace(extinction, numbers.length(), numbers.thinnest, numbers.densest);
             most = std::max(most, s > 0.0f ? extinction * formula::fxDetailGain(s, ramp) : 0.0f);
-            const float bound = mostLeft(numbers, extinction);
+            const float bound = maxErodedExtinction(numbers, extinction);
             EXPECT_GE(bound, most) << ramp << ' ' << extinction;
             EXPECT_LE(bound, 1.03f * most) << ramp << ' ' << extinction;
         }
@@ -196,7 +196,7 @@ TEST(FieldDetail, whatIsLeftStaysBelowItsBound)
         const float extinction = 0.5f + 30.0f * anywhere(i, 1.0f, 4).x;
         const MediumDetail detail =
             detailAt(fireball(), tile(), mediumAt(extinction, anywhere(i, 300.0f)), 1e-3f, 5);
-        EXPECT_LE(extinction * detail.share, mostLeft(fireball(), extinction));
+        EXPECT_LE(extinction * detail.share, maxErodedExtinction(fireball(), extinction));
     }
 }
 
@@ -272,7 +272,7 @@ TEST(FieldDetail, keepsTheWholeExtinctionOfACloud)
 {
     for (const float crossSection : {3.0f, 20.0f}) {
         DetailedField field(cloud(crossSection), fireball(), tile());
-        field.keepWhole(0.25f);
+        field.conserveIntegral(0.25f);
         double smooth = 0, detailed = 0;
         const float spacing = 0.1f;
         for (float z = -4.0f; z < 4.0f; z += spacing)

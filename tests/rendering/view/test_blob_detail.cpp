@@ -127,7 +127,7 @@ TEST(WholeFactor, isThatOfTheFieldItself)
                     k += 1.04445431f * ball.crossSection / 0.729f * q * q;
                 }
                 before += double(k);
-                after += double(k * keptShare(detail.numbers, k));
+                after += double(k * meanErodedShare(detail.numbers, k));
             }
     const float factor = conservationFactor(detail, balls);
     EXPECT_NEAR(factor, before / after, 0.02 * before / after);
