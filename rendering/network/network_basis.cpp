@@ -24,7 +24,7 @@ std::vector<NeighborDirection> neighborDirections(int count)
     return all;
 }
 
-std::array<double, kMostNetworkMoments> harmonics(const glm::dvec3& d)
+std::array<double, kMaxNetworkMoments> harmonics(const glm::dvec3& d)
 {
     constexpr double kFirst = 0.48860251190291992, kSecond = 1.0925484305920792;
     return {0.28209479177387814,

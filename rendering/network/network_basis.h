@@ -10,8 +10,8 @@
 
 namespace fx::render {
 
-constexpr int kMostNetworkDirections = 26;
-constexpr int kMostNetworkMoments = 9;
+constexpr int kMaxNetworkDirections = 26;
+constexpr int kMaxNetworkMoments = 9;
 
 /// @formula neighbor-quadrature
 /// Mean over the sphere by the directions from a cube to its neighbors.
@@ -44,7 +44,7 @@ struct NeighborDirection
 std::vector<NeighborDirection> neighborDirections(int count);
 
 /// Values of the harmonics. @param direction unit
-std::array<double, kMostNetworkMoments> harmonics(const glm::dvec3& direction);
+std::array<double, kMaxNetworkMoments> harmonics(const glm::dvec3& direction);
 /// 0, 1 or 2 of harmonic k.
 constexpr int harmonicBand(int k)
 {

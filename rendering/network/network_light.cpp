@@ -15,7 +15,7 @@ namespace {
 constexpr double kNearLamp = 1.5; // [cells]
 constexpr double kFar = 1e30;     // [m]
 
-using CellLight = std::array<double, kMostNetworkMoments>; // [lx] moments
+using CellLight = std::array<double, kMaxNetworkMoments>; // [lx] moments
 
 /// Calls add(place) for samples^3 places of a cell.
 template <class Add>

@@ -8,7 +8,7 @@ namespace fx::render {
 
 namespace {
 
-constexpr size_t kMost = 4;
+constexpr size_t kMax = 4;
 
 std::vector<float> difference(std::span<const float> a, std::span<const float> b)
 {
@@ -33,7 +33,7 @@ void NetworkMixing::remember(std::span<const float> input, std::span<const float
     std::vector<float> change = difference(output, input);
     if (!change_.empty() && depth > 0) {
         earlier_.push_back({difference(change, change_), difference(output, output_)});
-        while (earlier_.size() > std::min(size_t(depth), kMost))
+        while (earlier_.size() > std::min(size_t(depth), kMax))
             earlier_.pop_front();
     }
     change_ = std::move(change);
@@ -58,11 +58,11 @@ double NetworkMixing::product(const std::vector<float>& a, const std::vector<flo
 void NetworkMixing::mix(std::span<float> io) const
 {
     const size_t n = earlier_.size();
-    std::array<std::array<double, kMost + 1>, kMost> rows{}; // (1): equations for c
+    std::array<std::array<double, kMax + 1>, kMax> rows{}; // (1): equations for c
     for (size_t r = 0; r < n; ++r) {
         for (size_t c = 0; c <= r; ++c)
             rows[r][c] = rows[c][r] = product(earlier_[r].change, earlier_[c].change);
-        rows[r][kMost] = product(earlier_[r].change, change_);
+        rows[r][kMax] = product(earlier_[r].change, change_);
     }
     for (size_t r = 0; r < n; ++r)
         rows[r][r] = rows[r][r] * (1.0 + 1e-8) + 1e-300; // (2)
@@ -71,11 +71,11 @@ void NetworkMixing::mix(std::span<float> io) const
             if (r == p || rows[p][p] == 0.0)
                 continue;
             const double share = rows[r][p] / rows[p][p];
-            for (size_t c = p; c <= kMost; ++c)
+            for (size_t c = p; c <= kMax; ++c)
                 rows[r][c] -= share * rows[p][c];
         }
     for (size_t r = 0; r < n; ++r) {
-        const float share = rows[r][r] > 0.0 ? float(rows[r][kMost] / rows[r][r]) : 0.0f;
+        const float share = rows[r][r] > 0.0 ? float(rows[r][kMax] / rows[r][r]) : 0.0f;
         for (size_t i = 0; i < io.size(); ++i)
             io[i] -= share * earlier_[r].output[i];
     }

@@ -15,9 +15,9 @@ namespace fx::render {
 
 namespace {
 
-constexpr int kMostCells = 256;                  // along an axis
-constexpr double kMostScattered = 1.0 - 0x1p-20; // (5)
-constexpr double kDeepest = 700.0;               // [1] beyond it exp(-tau) is 0 in any precision
+constexpr int kMaxCells = 256;                  // along an axis
+constexpr double kMaxScattered = 1.0 - 0x1p-20; // (5)
+constexpr double kDeepest = 700.0;              // [1] beyond it exp(-tau) is 0 in any precision
 const double kRootSphere = std::sqrt(4.0 * std::numbers::pi);
 
 base::Status refused(const std::string& what)
@@ -38,7 +38,7 @@ base::Status check(const NetworkMedium& medium, const NetworkSettings& settings)
     if (!(settings.anisotropy >= -1.0 && settings.anisotropy <= 1.0))
         return refused("the mean cosine must be -1..1");
     for (int a = 0; a < 3; ++a)
-        if (medium.grid.cells[a] < 1 || medium.grid.cells[a] > kMostCells)
+        if (medium.grid.cells[a] < 1 || medium.grid.cells[a] > kMaxCells)
             return refused("a network has 1..256 cells along each axis");
     if (!base::isFinite(medium.grid.side) || !(medium.grid.side > 0.0))
         return refused("the side of a cell must be finite and above 0");
@@ -94,7 +94,7 @@ base::Status ScatteringNetwork::setMedium(const NetworkMedium& medium, const Net
                 float(tau < 1e-3 ? tau * (0.5 - tau * (1.0 / 6.0 - tau / 24.0)) : 1.0 - taken / tau);
         }
     }
-    contraction_ = std::min(contraction_, kMostScattered); // (5)
+    contraction_ = std::min(contraction_, kMaxScattered); // (5)
     direct_.assign(count() * size_t(moments_), 0.0f);
     environment_.assign(directions_.size(), 0.0f);
     isNew_ = true;
@@ -110,7 +110,7 @@ base::Status ScatteringNetwork::setEnvironment(std::span<const float> radiance)
     return {};
 }
 
-void ScatteringNetwork::addDirect(size_t cell, const std::array<double, kMostNetworkMoments>& moments)
+void ScatteringNetwork::addDirect(size_t cell, const std::array<double, kMaxNetworkMoments>& moments)
 {
     for (size_t k = 0; k < size_t(moments_); ++k)
         direct_[k * count() + cell] += float(moments[k]);

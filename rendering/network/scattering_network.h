@@ -117,7 +117,7 @@ public:
 
     /// Unscattered light in a cell. @param moments [lx] sums of irradiance across the way of the light, mean
     /// in the cell, times harmonics() of its direction of travel
-    void addDirect(size_t cell, const std::array<double, kMostNetworkMoments>& moments);
+    void addDirect(size_t cell, const std::array<double, kMaxNetworkMoments>& moments);
 
     /// Sweeps, beginning with the light of `io`, which may be of another grid or empty.
     SweepReport sweep(const SweepRules& rules, NetworkState& io, base::TaskRunner& tasks);
@@ -166,12 +166,12 @@ private:
     double contraction_ = 0.0;
     bool isNew_ = true; ///< medium or light changed since the last sweep
     std::vector<NeighborDirection> directions_;
-    std::vector<std::array<float, kMostNetworkMoments>> harmonics_; ///< of each direction
-    std::vector<float> extinction_;                                 ///< [1/m] k'
-    std::vector<float> scattering_;                                 ///< [1] albedo'
-    std::vector<float> emission_;                                   ///< [cd/m2] E / (1 - albedo f)
-    std::vector<float> direct_;                                     ///< [lx] Q_k
-    std::vector<float> environment_;                                ///< [cd/m2] of each direction
+    std::vector<std::array<float, kMaxNetworkMoments>> harmonics_; ///< of each direction
+    std::vector<float> extinction_;                                ///< [1/m] k'
+    std::vector<float> scattering_;                                ///< [1] albedo'
+    std::vector<float> emission_;                                  ///< [cd/m2] E / (1 - albedo f)
+    std::vector<float> direct_;                                    ///< [lx] Q_k
+    std::vector<float> environment_;                               ///< [cd/m2] of each direction
     std::array<std::vector<float>, 3> taken_, mean_; ///< [1] a and u for squared lengths 1, 2, 3
     std::vector<float> source_;                      ///< [cd/m2] moments of S
     std::vector<float> radiance_;                    ///< [cd/m2] M of each direction
