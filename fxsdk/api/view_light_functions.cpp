@@ -214,7 +214,13 @@ FxResult fxView_GetLightCost(FxView* view, uint32_t index, FxLightCost* ioCost)
         const fx::render::LightList& lights = view->renderer.lights();
         if (index >= lights.costCount())
             return fx::api::invalid("the last frame has fewer lights than index");
-        return fx::api::writeStruct(toApi(lights.costOf(index)), ioCost, "ioCost");
+        FxLightCost cost = toApi(lights.costOf(index));
+        uint64_t rays = 0;
+        for (uint32_t i = 0; i < lights.costCount(); ++i)
+            rays += lights.costOf(i).rays;
+        if (rays > 0)
+            cost.milliseconds = float(view->renderer.fillMilliseconds() * double(cost.rays) / double(rays));
+        return fx::api::writeStruct(cost, ioCost, "ioCost");
     });
 }
 

@@ -57,9 +57,13 @@ base::Status ViewRenderer::Impl::fillLights(const ViewSettings& settings)
     if (lightGraph.executedPasses().empty())
         return {};
     GlStateGuard guard(*device, settings.saveState);
+    lightTimer.beginFrame(clock, 0);
+    lightBackend.setTimer(clock == TimingClock::Off ? nullptr : &lightTimer);
+    lightTimer.beginPasses();
     if (lightBackend.beginFrame(lightGraph))
         lightGraph.execute(lightBackend);
     base::Status status = lightBackend.endFrame();
+    lightTimer.endFrame(status.ok());
     if (!status)
         forget();
     lights.keep(); // the frame's own passes need not do it again

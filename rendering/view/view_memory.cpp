@@ -25,7 +25,7 @@ ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* kinds, std::pm
       lightBackend(*d, memory), techniques(list), parts(memory),
       composing(findComposition(Composition::Sorted)), lod(memory), lights(d, memory), casters(memory),
       batcher(memory), streams(memory), solids(memory), revisions(memory), passNames(memory), targetCheck(*d),
-      timer(*d, passGroupsOf(list))
+      timer(*d, passGroupsOf(list)), lightTimer(*d, timer.groups())
 {
     const TechniqueSetup setup{d, schema, memory, list};
     for (size_t i = 0; i < list.size(); ++i) {

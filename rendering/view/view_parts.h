@@ -51,6 +51,7 @@ struct ViewRenderer::Impl
     bool takePrepared(const base::SnapshotPair& snapshots, const FrameRequest& request,
                       const ViewSettings& settings);
     void namePasses(bool wasPrepared);
+    void noteFilling(const GroupTimes& times);
     SnapshotRowRevisions rowsOf(const base::FrameSnapshot* snapshot) const;
     base::Status draw(const FrameRequest& request, const ViewSettings& settings, int divisor);
     void forget(); ///< invalidates data of this frame
@@ -92,6 +93,8 @@ struct ViewRenderer::Impl
     LayerScaleControl layerScale;
     HostTargetCheck targetCheck;
     GlPassTimer timer;
+    GlPassTimer lightTimer;        ///< of prepared lights
+    double fillMilliseconds = 0.0; ///< of the last timed frame that filled planes of lights
     TimingClock clock = TimingClock::Off;
     uint64_t tag = 0;
     bool computesParticles = true; ///< result of the last check, after drawing and compiling

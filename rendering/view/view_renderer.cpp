@@ -341,12 +341,29 @@ bool ViewRenderer::hasGpuClock()
 
 void ViewRenderer::setHostClock(HostClock clock)
 {
-    impl_->timer.hostClock = clock;
+    impl_->timer.hostClock = impl_->lightTimer.hostClock = clock;
 }
 
 bool ViewRenderer::takeTimes(GroupTimes& out)
 {
-    return impl_->timer.take(out);
+    for (GroupTimes prepared; impl_->lightTimer.take(prepared);)
+        impl_->noteFilling(prepared);
+    if (!impl_->timer.take(out))
+        return false;
+    impl_->noteFilling(out);
+    return true;
+}
+
+void ViewRenderer::Impl::noteFilling(const GroupTimes& times)
+{
+    const size_t group = timer.groups().find(kLightSliceGroup);
+    if (group != 0 && times.milliseconds[group] > 0.0)
+        fillMilliseconds = times.milliseconds[group];
+}
+
+double ViewRenderer::fillMilliseconds() const
+{
+    return impl_->fillMilliseconds;
 }
 
 DrawTechniques ViewRenderer::techniques() const

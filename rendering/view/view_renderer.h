@@ -83,6 +83,8 @@ public:
     void setHostClock(HostClock clock);   ///< of TimingClock::Host
     bool takeTimes(GroupTimes& out);      ///< see GlPassTimer::take
     const PassGroups& passGroups() const; ///< groups of these times
+    /// [ms] in which the last measured frame that filled planes of lights did so; 0: none has.
+    double fillMilliseconds() const;
     /// Of the last frame; only while frames are measured.
     const ScreenShare& covered() const { return covered_; }
     /// Images and meshes that particles name; must outlive the view or the next call. Null: plain particles.

@@ -229,6 +229,7 @@ TEST_F(ViewLights, eachLightSaysWhatItsPlanesTake)
         EXPECT_EQ(cost.kind == FX_LIGHT_SKY, i + 1 == count);
         EXPECT_EQ(cost.planes == 0, cost.bytes == 0);
         EXPECT_EQ(cost.planes == 0, cost.rays == 0);
+        EXPECT_EQ(cost.milliseconds, 0.0f) << "no frame was timed";
         if (i == 0) {
             EXPECT_EQ(cost.planes, settings.lightSlicePlanes);
             EXPECT_EQ(cost.rays, uint64_t(settings.lightSliceTexels) * settings.lightSliceTexels);
@@ -245,6 +246,41 @@ TEST_F(ViewLights, eachLightSaysWhatItsPlanesTake)
     EXPECT_EQ(fxView_GetLightCost(view_, count, &cost), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(fxView_GetLightCost(nullptr, 0, &cost), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(fxView_GetLightCostCount(view_, nullptr), FX_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(ViewLights, timedFramesSayHowLongPlanesTakeWhetherTheyWerePreparedOrNot)
+{
+    FxViewSettings settings = fxDefaultViewSettings();
+    settings.sunIlluminance[1] = 1e4f;
+    settings.skyLuminance[1] = 100.0f;
+    settings.budgetMilliseconds = 1e4f;
+    settings.budgetClock = FX_BUDGET_CLOCK_CPU;
+    ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK);
+    double before = 0.0;
+    for (const bool prepares : {false, true}) {
+        update(60);
+        const FxFrameDef def = frame();
+        if (prepares)
+            ASSERT_EQ(fxView_PrepareLights(view_, &def), FX_OK);
+        ASSERT_EQ(fxView_Render(view_, &def), FX_OK);
+        uint32_t count = 0;
+        ASSERT_EQ(fxView_GetLightCostCount(view_, &count), FX_OK);
+        double perRay = 0.0;
+        for (uint32_t i = 0; i < count; ++i) {
+            FxLightCost cost{};
+            cost.structSize = sizeof cost;
+            ASSERT_EQ(fxView_GetLightCost(view_, i, &cost), FX_OK);
+            EXPECT_EQ(cost.milliseconds > 0.0f, cost.rays > 0);
+            if (cost.rays == 0)
+                continue;
+            if (perRay == 0.0)
+                perRay = cost.milliseconds / double(cost.rays);
+            EXPECT_NEAR(cost.milliseconds / double(cost.rays), perRay, 1e-3 * perRay);
+        }
+        EXPECT_GT(perRay, 0.0) << prepares;
+        EXPECT_NE(perRay, before) << "the time of another frame";
+        before = perRay;
+    }
 }
 
 TEST_F(ViewLights, withoutEffectsThereIsNoCallOfGl)

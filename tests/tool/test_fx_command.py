@@ -131,6 +131,9 @@ class FxCommand(FxTest):
         for entry in lights:
             self.assertEqual(entry["casts_shadows"], entry["bytes"] > 0, entry)
             self.assertEqual(entry["casts_shadows"], entry["rays"] > 0, entry)
+            self.assertEqual(entry["casts_shadows"], entry["ms"] > 0, entry)
+        sun, sky = lights[0], lights[-1]
+        self.assertAlmostEqual(sun["ms"] / sky["ms"], sun["rays"] / sky["rays"], delta=1e-3 * sun["rays"] / sky["rays"])
         outcome = fx("explain", "library:campfire", "--time", 2, "--size", 64)
         self.assertIn("sun 0: media cast shadows", outcome.out)
 

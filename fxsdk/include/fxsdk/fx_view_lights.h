@@ -114,6 +114,11 @@ typedef struct FxLightCost
     /// Number of rays along which media are integrated to fill the planes. The time grows with it; `fx bench
     /// slices` measures it.
     uint64_t rays;
+
+    /// [ms] The time in which the last timed frame filled its planes, divided among the lights by their rays.
+    /// Frames are timed while FxViewSettings::budgetMilliseconds is set; 0: none of them has filled planes.
+    float milliseconds;
+    uint32_t reserved; ///< 0
 } FxLightCost;
 
 /// Replaces the host's lights that light media, from the next frame on. Those that light the media most cast

@@ -15,9 +15,13 @@
 
 #include <memory_resource>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace fx::render {
+
+/// Timer group of the passes that fill planes.
+constexpr std::string_view kLightSliceGroup = "light slices";
 
 /// All programs that lights need.
 std::span<const ProgramDesc* const> lightPrograms();

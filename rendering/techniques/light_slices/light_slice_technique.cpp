@@ -8,9 +8,9 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kPasses[] = {{"light list", "light slices"},
-                                 {"light slice casters", "light slices"},
-                                 {"light slices", "light slices"}};
+constexpr TimedPass kPasses[] = {{"light list", {}},
+                                 {"light slice casters", kLightSliceGroup},
+                                 {"light slices", kLightSliceGroup}};
 
 constexpr int kTexelsOfAPlane = 4; ///< texels along a side for each plane
 
