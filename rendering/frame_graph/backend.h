@@ -21,6 +21,7 @@ enum class Format : uint8_t
     RG32F,
     R32F,
     R32UI,
+    RG32UI,
     Depth32F, ///< a depth target
 };
 
@@ -34,6 +35,7 @@ constexpr size_t formatBytes(Format format)
     case Format::RGBA8:
         return 4;
     case Format::RG32F:
+    case Format::RG32UI:
         return 8;
     case Format::R32F:
         return 4;
@@ -106,7 +108,9 @@ struct BufferBinding
 struct DrawCall
 {
     const ProgramDesc* program = nullptr;
-    std::span<const ResourceId> targets = {}; ///< color targets, all of one size, which is the viewport
+    /// Color targets, all of one size, which is the viewport; what the program writes to an invalid one is
+    /// lost.
+    std::span<const ResourceId> targets = {};
     std::span<const TextureBinding> textures = {};
     std::span<const BufferBinding> buffers = {};
     std::span<const std::byte> uniforms = {}; ///< std140 block at uniform binding 0

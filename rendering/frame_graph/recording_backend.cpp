@@ -91,10 +91,15 @@ void RecordingBackend::draw(const DrawCall& call)
 
     if (!call.program)
         violation("draws without a program into", call.targets.empty() ? ResourceId{} : call.targets[0]);
+    ResourceId first;
     for (const ResourceId target : call.targets) {
+        if (!target.valid() && call.targets.size() > 1)
+            continue;
         needWrite(target);
-        if (graph_.contains(target) && graph_.contains(call.targets[0]) &&
-            (width(target) != width(call.targets[0]) || height(target) != height(call.targets[0])))
+        if (!first.valid())
+            first = target;
+        if (graph_.contains(target) && graph_.contains(first) &&
+            (width(target) != width(first) || height(target) != height(first)))
             violation("draws to targets of unequal size:", target);
     }
     if (call.depthTarget.valid())

@@ -144,7 +144,12 @@ bool GlBackend::findFramebuffer(std::span<const ResourceId> targets, ResourceId 
     }
     GlAttachments attachments;
     bool foreign = false;
+    const bool mayBeAbsent = targets.size() > 1;
     for (const ResourceId target : targets) {
+        if (mayBeAbsent && !target.valid()) {
+            attachments.colors[attachments.colorCount++] = 0;
+            continue;
+        }
         const uint32_t name = nameOrFail(target, true, "drawn to");
         if (!name)
             return false;
@@ -239,7 +244,8 @@ void GlBackend::draw(const DrawCall& call)
     if (!useProgram(call.program) || !findFramebuffer(call.targets, call.depthTarget, framebuffer) ||
         !bindInputs(call.textures, call.buffers, call.uniforms))
         return;
-    const ResourceId sized = call.targets.empty() ? call.depthTarget : call.targets[0];
+    const auto first = std::ranges::find_if(call.targets, [](ResourceId target) { return target.valid(); });
+    const ResourceId sized = first == call.targets.end() ? call.depthTarget : *first;
     state_.bindFramebuffer(framebuffer, width(sized), height(sized));
     state_.setBlend(call.blend);
     state_.setDepth(call.depthTarget.valid(), call.reversedDepth);
@@ -298,7 +304,8 @@ void GlBackend::clear(ResourceId texture, const float (&rgba)[4])
         device_.gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, rgba);
         return;
     }
-    if (graph_->resource(texture).format == Format::R32UI) {
+    const Format format = graph_->resource(texture).format;
+    if (format == Format::R32UI || format == Format::RG32UI) {
         const GLuint value[4] = {static_cast<GLuint>(rgba[0]), 0, 0, 0};
         device_.gl.ClearNamedFramebufferuiv(framebuffer, GL_COLOR, 0, value);
     } else {

@@ -60,7 +60,9 @@ base::Status GlFramebufferCache::attach(const Entry& entry)
     const GlAttachments& attachments = entry.attachments;
     std::array<GLenum, 8> drawBuffers{};
     for (uint32_t i = 0; i < attachments.colorCount; ++i) {
-        drawBuffers[i] = GL_COLOR_ATTACHMENT0 + i;
+        drawBuffers[i] = attachments.colors[i] ? GL_COLOR_ATTACHMENT0 + i : GLenum(GL_NONE);
+        if (!attachments.colors[i])
+            continue;
         gl.NamedFramebufferTexture(framebuffer, drawBuffers[i], attachments.colors[i], 0);
     }
     if (attachments.depth)

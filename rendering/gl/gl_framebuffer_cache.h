@@ -12,7 +12,7 @@
 
 namespace fx::render {
 
-/// Names of the attached textures; 0 for none.
+/// Names of the attached textures; 0 for none, also among the colors.
 struct GlAttachments
 {
     std::array<uint32_t, 8> colors{};

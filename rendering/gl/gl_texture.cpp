@@ -18,6 +18,7 @@ uint64_t texelBytes(GLenum internalFormat)
         return 12;
     case GL_RGBA16F:
     case GL_RG32F:
+    case GL_RG32UI:
     case GL_DEPTH32F_STENCIL8:
         return 8;
     case GL_R16F:
@@ -46,6 +47,8 @@ GLenum glInternalFormat(Format format)
         return GL_R32F;
     case Format::R32UI:
         return GL_R32UI;
+    case Format::RG32UI:
+        return GL_RG32UI;
     case Format::Depth32F:
         return GL_DEPTH_COMPONENT32F;
     }
