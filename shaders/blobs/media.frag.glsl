@@ -1,5 +1,6 @@
 #include "formulas/sphere_path.fx.h"
 #include "formulas/kernel_optical_depth.fx.h"
+#include "formulas/kernel_quantile.fx.h"
 #include "formulas/detail_noise.fx.h"
 #include "formulas/henyey_greenstein.fx.h"
 #include "shared/view_block.glsl"
@@ -80,6 +81,29 @@ vec3 scatteredAlong(BlobRay ray, float opticalDepth)
     return smoothPart + lights[0].color.rgb * blobScatter.rgb * (phase * sunTransmittance(seenDepth, ray, seen));
 }
 
+#if FX_LAYERS
+// [m] mean distance of what is seen of the blob: Gauss quadrature in the opacity that has been passed.
+float seenDistance(BlobRay ray, float opticalDepth)
+{
+    const vec4 nodes = vec4(0.0694318, 0.3300095, 0.6699905, 0.9305682);
+    const vec4 weights = vec4(0.1739274, 0.3260726, 0.3260726, 0.1739274);
+    float opacity = 1.0 - exp(-opticalDepth);
+    float perHalf = 1.0 / max(ray.halfChord, 1e-20);
+    float before = fxKernelPassed(clamp(ray.front * perHalf, -1.0, 1.0));
+    float behind = fxKernelPassed(clamp(ray.back * perHalf, -1.0, 1.0));
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        float passed = opacity < 1e-3 ? nodes[i] : -log(1.0 - nodes[i] * opacity) / opticalDepth;
+#if FX_FORM == 2
+        sum += weights[i] * ray.halfChord * fxKernelQuantile(mix(before, behind, passed));
+#else
+        sum += weights[i] * mix(ray.front, ray.back, passed);
+#endif
+    }
+    return ray.distance - dot(ray.toPoint, ray.direction) + (FX_FORM == 0 ? 0.0 : sum);
+}
+#endif
+
 void main()
 {
     BlobRay ray = traceBlob();
@@ -113,7 +137,7 @@ void main()
     smokeLight = vec4(ofLayer.y * scatteredPart, alpha);
     dustLight = vec4(ofLayer.z * scatteredPart, alpha);
     coverage = vec4(alpha * part, alpha);
-    depthMoment = vec4(alpha * ray.distance, 0.0, 0.0, alpha);
+    depthMoment = vec4(alpha * seenDistance(ray, opticalDepth), 0.0, 0.0, alpha);
     opticalDepthSum = vec4(opticalDepth, 0.0, 0.0, 0.0);
 #else
     light = vec4(alpha * (emitted + scattered), alpha);
