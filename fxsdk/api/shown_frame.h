@@ -11,6 +11,16 @@
 
 namespace fx::api {
 
+static_assert(int(render::Composition::Volume) + 1 == int(sim::PreferredComposition::Volume));
+static_assert(int(render::Composition::Slabs) + 1 == int(sim::PreferredComposition::Slabs));
+
+/// What FX_COMPOSITION_AUTOMATIC is where effects prefer `preferred`.
+inline render::Composition automaticComposition(sim::PreferredComposition preferred)
+{
+    return preferred == sim::PreferredComposition::None ? render::Composition::Sorted
+                                                        : render::Composition(int(preferred) - 1);
+}
+
 /// Holds the snapshots of one frame, and replaces the host's settings by those of the budget during its
 /// lifetime. Threads: [GL thread].
 class ShownFrame
@@ -18,13 +28,16 @@ class ShownFrame
 public:
     ShownFrame(scene::Scene& scene, quality::ViewQuality& quality, render::ViewRenderer& renderer,
                const FxFrameDef& frame, bool holdsQuality)
-        : def(frame), scene_(scene), quality_(quality), renderer_(renderer), shown_(scene.acquire())
+        : def(frame), scene_(scene), quality_(quality), renderer_(renderer), shown_(scene.acquire()),
+          asked_(renderer.settings().composition)
     {
+        renderer_.settings().composition = render::resolved(asked_, automaticComposition(shown_.composition));
         quality_.begin(renderer_, frame.deltaTime, holdsQuality);
     }
     ~ShownFrame()
     {
         quality_.end(renderer_);
+        renderer_.settings().composition = asked_;
         scene_.release(shown_.snapshots);
     }
     ShownFrame(const ShownFrame&) = delete;
@@ -42,6 +55,7 @@ private:
     quality::ViewQuality& quality_;
     render::ViewRenderer& renderer_;
     scene::Presentation shown_;
+    const render::Composition asked_; ///< by the host
 };
 
 } // namespace fx::api

@@ -17,6 +17,7 @@ static_assert(int(FX_BILLBOARD_KERNEL) == int(fx::render::BillboardForm::Kernel)
 static_assert(int(FX_COMPOSITION_SORTED) == int(fx::render::Composition::Sorted));
 static_assert(int(FX_COMPOSITION_SLABS) == int(fx::render::Composition::Slabs));
 static_assert(int(FX_COMPOSITION_VOLUME) == int(fx::render::Composition::Volume));
+static_assert(int(FX_COMPOSITION_AUTOMATIC) == int(fx::render::Composition::Automatic));
 
 constexpr float kBrightest = 1e6f;  // [cd/m2] and [lx]
 constexpr double kFarthest = 1e9;   // [m]
@@ -80,8 +81,9 @@ void checkSlices(fx::api::Checks& check, const FxViewSettings& given)
 
 void checkComposition(fx::api::Checks& check, const FxViewSettings& given)
 {
-    const bool isThere =
-        given.composition <= 0xFFu && fx::render::findComposition(fx::render::Composition(given.composition));
+    const bool isThere = given.composition == FX_COMPOSITION_AUTOMATIC ||
+                         (given.composition <= 0xFFu &&
+                          fx::render::findComposition(fx::render::Composition(given.composition)));
     check.that(isThere, "settings.composition is none of FX_COMPOSITION_...");
     check.that(given.slabs == 6 || given.slabs == 16, "settings.slabs is not 6 or 16");
     check.that(given.voxels >= 16 && given.voxels <= 256, "settings.voxels is not from 16 to 256");

@@ -93,6 +93,8 @@ FxViewStatistics gatherStatistics(const FxView& view)
     statistics.listedBlobs = frame.listedBalls;
     statistics.spilledBlobs = frame.spilledBalls;
     statistics.spilledFragments = frame.spilledCards;
+    statistics.composition = uint32_t(frame.composition);
+    statistics.compositionSize = frame.compositionSize;
     return statistics;
 }
 

@@ -6,6 +6,7 @@
 #include "fxsdk/presets/effect_cost.h"
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
+#include "fxsdk/presets/order_members.h"
 #include "fxsdk/presets/schema_assembly.h"
 #include "fxsdk/presets/schema_validator.h"
 
@@ -19,11 +20,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The same for documents that say the same in another order or with other blanks. How tools show it is no
-/// part of an effect.
+/// The same for documents that say the same in another order or with other blanks. How it is shown is no part
+/// of an effect.
 uint64_t fingerprintOf(Json document)
 {
     document.erase("preview");
+    document.erase("composition");
     const std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
     return base::hashBytes(0, text.data(), text.size());
 }
@@ -45,6 +47,21 @@ void readOffscreen(const PresetValue& root, sim::EffectDef& effect)
     effect.offscreen = policy;
 }
 
+constexpr std::array<std::pair<std::string_view, sim::PreferredComposition>, 3> kCompositions{{
+    {"sorted", sim::PreferredComposition::Sorted},
+    {"slabs", sim::PreferredComposition::Slabs},
+    {"volume", sim::PreferredComposition::Volume},
+}};
+
+/// Warns of members that order particles, where the preset is made to be summed up.
+void lintOrder(const Json& document, const sim::EffectDef& effect, Findings& findings)
+{
+    if (!sumsUp(effect.composition))
+        return;
+    for (const OrderMember& member : orderMembers(document))
+        findings.warning(member.pointer, orderWarning(member) + "; remove it, or \"composition\"");
+}
+
 std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const std::string& displayName,
                                                   Techniques techniques, Findings& findings)
 {
@@ -64,6 +81,9 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     root.read("ground", effect->hasGround);
     root.read("bound", effect->bound);
     readOffscreen(root, *effect);
+    root.read("composition",
+              std::span<const std::pair<std::string_view, sim::PreferredComposition>>(kCompositions),
+              effect->composition);
     for (const Technique& technique : techniques) {
         const std::string member(technique.presetMember);
         for (size_t i = 0; i < root.size(member.c_str()); ++i)
@@ -76,6 +96,8 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     for (const Technique& technique : techniques)
         if (isValid && technique.lint)
             technique.lint(root, *effect);
+    if (isValid)
+        lintOrder(document, *effect, findings);
     if (isValid)
         estimateCost(root, *effect, techniques);
     if (findings.assets()->contentHash() != 0)

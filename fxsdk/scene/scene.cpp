@@ -48,7 +48,17 @@ LocalId Scene::add(InstanceSetup setup)
         throw;
     }
     ++nextSerial_;
+    countComposition(*instances_.find(id), 1);
     return id;
+}
+
+void Scene::countComposition(const Instance& instance, int more)
+{
+    preferring_[size_t(instance.setup.effect->composition)] += uint32_t(more);
+    size_t most = preferring_.size() - 1;
+    while (most > 0 && preferring_[most] == 0)
+        --most;
+    composition_.store(sim::PreferredComposition(most), std::memory_order_relaxed);
 }
 
 void Scene::remove(LocalId id)
@@ -65,6 +75,8 @@ void Scene::remove(LocalId id)
     }
     if (instance.state == InstanceState::Finished)
         --counters_.finished;
+    else
+        countComposition(instance, -1);
     instances_.remove(id);
 }
 
@@ -157,6 +169,7 @@ void Scene::retireFinished(base::Ticks now)
 
 void Scene::finish(uint32_t index)
 {
+    countComposition(instances_.at(index), -1);
     if (instances_.at(index).setup.destroyWhenFinished) {
         instances_.remove(instances_.idAt(index));
         return;
@@ -267,7 +280,7 @@ Presentation Scene::acquire()
 {
     std::lock_guard lock(presentation_);
     return {ring_.acquire(), interpolation_.load(std::memory_order_relaxed),
-            shownTime_.load(std::memory_order_relaxed)};
+            shownTime_.load(std::memory_order_relaxed), composition_.load(std::memory_order_relaxed)};
 }
 
 } // namespace fx::scene

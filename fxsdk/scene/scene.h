@@ -16,6 +16,7 @@
 #include "fxsdk/scene/motion_history.h"
 #include "simulation/world/world.h"
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -141,6 +142,8 @@ struct Presentation
     base::SnapshotPair snapshots;
     double interpolation = 0; ///< [0, 1), 0 shows the older
     double time = 0;          ///< [s] scene time of the moment shown
+    /// By the instances that have not ended, seen or not, so that it does not change with the camera.
+    sim::PreferredComposition composition = sim::PreferredComposition::None;
 };
 
 class Scene
@@ -310,6 +313,7 @@ private:
     void endMoves(bool isComplete);
     void retireFinished(base::Ticks now);
     void finish(uint32_t index);
+    void countComposition(const Instance& instance, int more);
 
     // in and out of sight
     bool mayHide(const Instance& instance) const;
@@ -405,6 +409,9 @@ private:
     std::atomic<double> interpolation_{0}; ///< changed without the mutex while nothing is visible
     std::atomic<double> shownTime_{0};     ///< likewise
     std::atomic<bool> showsNothing_{false};
+    std::array<uint32_t, size_t(sim::PreferredComposition::Volume) + 1>
+        preferring_{}; ///< instances that have not ended, by what they prefer
+    std::atomic<sim::PreferredComposition> composition_{sim::PreferredComposition::None};
     std::pmr::vector<Mark> marks_;
     std::pmr::vector<Mark> newMarks_; ///< of the scene thread
     std::atomic<int> marksWanted_{0};

@@ -3,14 +3,17 @@
 #include "fxsdk/assets/read_file.h"
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
+#include "fxsdk/presets/order_members.h"
 #include "fxsdk/presets/schema_assembly.h"
 #include "fxsdk/presets/schema_validator.h"
 #include "fxsdk/scene_file/key_interpolation.h"
 #include "fxsdk/scene_file/scene_members.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
+#include <set>
 
 namespace fx::scene_file {
 
@@ -47,35 +50,6 @@ void lintGeometry(Reader& reader, const PresetValue& instance, const std::string
                                      "\"NAME.obj\", \"collide\": true} to the scene");
 }
 
-/// The first member below `value` that says in which order particles are drawn; empty: there is none.
-std::string orderMember(const Json& value)
-{
-    if (!value.is_structured())
-        return {};
-    for (const auto& [key, member] : value.items()) {
-        const bool isByAge = key == "order" && (member == "oldest" || member == "youngest");
-        if (isByAge)
-            return "\"order\": " + member.dump();
-        if (key == "orderBias" && member.is_number() && member != 0)
-            return "\"orderBias\": " + member.dump();
-        if (std::string found = orderMember(member); !found.empty())
-            return found;
-    }
-    return {};
-}
-
-/// Warns when a preset orders its particles and the scene sums them up. The preset is valid.
-void lintOrder(Reader& reader, const PresetValue& instance, const std::string& name, const std::string& text)
-{
-    if (reader.scene.view.composition == render::Composition::Sorted)
-        return;
-    if (const std::string member = orderMember(Json::parse(text, nullptr, false)); !member.empty())
-        instance.warning("preset",
-                         name + ": found " + member +
-                             ", which needs the composition \"sorted\": the composition of this scene "
-                             "sums particles up without an order; remove it, or \"composition\"");
-}
-
 /// Index of the preset called `name`, loaded when it is met for the first time; nothing after a failure.
 std::optional<size_t> findPreset(Reader& reader, const std::string& name, const PresetValue& instance)
 {
@@ -100,7 +74,6 @@ std::optional<size_t> findPreset(Reader& reader, const std::string& name, const 
     for (const preset::Diagnostic& warning : loaded->warnings)
         instance.warning("preset", preset::toString(warning));
     lintGeometry(reader, instance, name, *text);
-    lintOrder(reader, instance, name, *text);
     const size_t index = reader.scene.presets.size();
     const bool isFile = !isInLibrary && !reader.resolver.folder().empty();
     reader.scene.presets.push_back({name, std::move(*text),
@@ -122,6 +95,38 @@ void readInstances(Reader& reader, const PresetValue& root)
             checkTriggers(value, instance.play, reader.scene.presets[*index].effect->hostEvents);
             reader.scene.instances.push_back(instance);
         }
+    }
+}
+
+/// Whether the scene sums particles up without an order.
+bool sumsUp(const SceneFile& scene)
+{
+    if (scene.view.composition != render::Composition::Automatic)
+        return scene.view.composition != render::Composition::Sorted;
+    return preset::sumsUp(preferredComposition(scene));
+}
+
+/// Warns where a preset orders its particles and the scene sums them up. Presets that ask for a sum
+/// themselves have been warned of already.
+void lintOrder(Reader& reader, const PresetValue& root)
+{
+    if (!sumsUp(reader.scene))
+        return;
+    std::set<std::string> seen;
+    for (size_t i = 0; i < root.size("instances"); ++i) {
+        const PresetValue instance = root.element("instances", i);
+        std::string name;
+        instance.read("preset", name);
+        const auto index = reader.presetIndices.find(name);
+        if (index == reader.presetIndices.end() || !seen.insert(name).second)
+            continue;
+        const ScenePreset& preset = reader.scene.presets[index->second];
+        if (preset::sumsUp(preset.effect->composition))
+            continue;
+        for (const preset::OrderMember& member :
+             preset::orderMembers(Json::parse(preset.text, nullptr, false)))
+            instance.warning("preset", name + ": " + member.pointer + ": " + preset::orderWarning(member) +
+                                           "; remove it, or give the scene \"composition\": \"sorted\"");
     }
 }
 
@@ -148,10 +153,19 @@ bool readScene(std::string_view text, const asset::AssetResolver& resolver, Find
     readBackground(root.child("background"), resolver, findings, scene);
     readSceneMesh(root.child("mesh"), resolver, findings, scene);
     readInstances(reader, root);
+    lintOrder(reader, root);
     return !findings.hasErrors();
 }
 
 } // namespace
+
+sim::PreferredComposition preferredComposition(const SceneFile& scene)
+{
+    sim::PreferredComposition most = sim::PreferredComposition::None;
+    for (const SceneInstance& instance : scene.instances)
+        most = std::max(most, scene.presets[instance.preset].effect->composition);
+    return most;
+}
 
 base::Placement SceneInstance::placementAt(double time) const
 {

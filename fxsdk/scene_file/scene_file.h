@@ -64,6 +64,9 @@ struct SceneFile
     std::vector<preset::Diagnostic> warnings;
 };
 
+/// What the presets of the instances prefer; the greatest value counts.
+sim::PreferredComposition preferredComposition(const SceneFile& scene);
+
 /// Largest scene, mesh and image that are read [byte].
 constexpr uint64_t kSceneBytes = uint64_t(64) << 20;
 constexpr uint64_t kMeshBytes = uint64_t(64) << 20;

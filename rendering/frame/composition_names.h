@@ -13,6 +13,16 @@ inline constexpr std::pair<std::string_view, Composition> kCompositionNames[] = 
     {"sorted", Composition::Sorted},
     {"slabs", Composition::Slabs},
     {"volume", Composition::Volume},
+    {"automatic", Composition::Automatic},
 };
+
+/// Empty: there is none of this value.
+constexpr std::string_view nameOf(Composition composition)
+{
+    for (const auto& [name, value] : kCompositionNames)
+        if (value == composition)
+            return name;
+    return {};
+}
 
 } // namespace fx::render

@@ -42,13 +42,21 @@ enum class BillboardForm : uint8_t
     Kernel,   ///< the gas's own quartic kernel, exact clipped integral
 };
 
-/// How media that overlap are put together; rendering/compositions has an entry for each.
+/// How media that overlap are put together; rendering/compositions has an entry for each but Automatic.
 enum class Composition : uint8_t
 {
-    Sorted, ///< one ball or card after the other, farthest first
-    Slabs,  ///< in slabs across each ray, in which all are summed up: no order is seen
-    Volume, ///< balls of an effect are summed up in voxels, through which rays march: no order is seen
+    Sorted,    ///< one ball or card after the other, farthest first
+    Slabs,     ///< in slabs across each ray, in which all are summed up: no order is seen
+    Volume,    ///< balls of an effect are summed up in voxels, through which rays march: no order is seen
+    Automatic, ///< as the effects shown prefer; whoever renders says which it is
 };
+constexpr size_t kCompositionCount = size_t(Composition::Automatic);
+
+/// `asked`, or `preferred` where it is Automatic.
+inline Composition resolved(Composition asked, Composition preferred)
+{
+    return asked == Composition::Automatic ? preferred : asked;
+}
 
 /// One directional light, and light from everywhere.
 struct Lighting
@@ -260,6 +268,8 @@ struct FrameStatistics
     uint64_t spilledBalls = 0; ///< left out of them because they were full
     /// Fragments of sprites, ribbons and impostors that were left out because lists were full.
     uint64_t spilledCards = 0;
+    Composition composition = Composition::Sorted;
+    uint32_t compositionSize = 0; ///< slabs or voxels; 0: sorted
     double overflow[3] = {0, 0,
                           0}; ///< with countOverdraw and dazzle: mean overflow per pixel, units of white
 };

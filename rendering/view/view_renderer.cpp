@@ -267,6 +267,14 @@ base::Status ViewRenderer::checkAll(const FrameRequest& request) const
     return {};
 }
 
+void ViewRenderer::tellComposition()
+{
+    const bool isSlabs = settings_.composition == Composition::Slabs;
+    const bool isVolume = settings_.composition == Composition::Volume;
+    statistics_.composition = settings_.composition;
+    statistics_.compositionSize = uint32_t(isSlabs ? settings_.slabs : isVolume ? settings_.voxels : 0);
+}
+
 base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const FrameRequest& asked)
 {
     Impl& s = *impl_;
@@ -275,6 +283,7 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     asleep_ = false;
     if (s.leavesPictureAlone(snapshots, asked, settings_)) {
         statistics_ = s.rest();
+        tellComposition();
         asleep_ = statistics_.glCalls == 0 && s.holdsNothing();
         return {};
     }
@@ -318,6 +327,7 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     }
     s.namePasses(wasPrepared);
     statistics_ = s.count(divisor);
+    tellComposition();
     statistics_.glCalls = s.device->callCount() - callsBefore + callsThen;
     statistics_.programsCompiled = s.device->programsCompiled() - compiledBefore + compiledThen;
     if (wasPrepared && !s.lightGraph.executedPasses().empty())

@@ -109,6 +109,7 @@ public:
 private:
     struct Impl;
     base::Status checkAll(const FrameRequest& request) const;
+    void tellComposition();
 
     ViewSettings settings_;
     FrameStatistics statistics_;

@@ -23,6 +23,16 @@ struct EffectCost
     uint64_t memory = 0;  ///< [byte] of solvers and snapshots
 };
 
+/// How the media of an effect are meant to be put together where they overlap. Of several effects in one
+/// picture the one with the greatest value decides.
+enum class PreferredComposition : uint8_t
+{
+    None,
+    Sorted,
+    Slabs,
+    Volume,
+};
+
 struct EffectDef
 {
     std::string name;
@@ -40,6 +50,7 @@ struct EffectDef
     std::vector<uint32_t> order;
     std::vector<std::string> hostEvents; ///< names of the host's events
     EffectCost cost;                     ///< as the preset's loader has estimated it
+    PreferredComposition composition = PreferredComposition::None; ///< for renderers; nothing depends on it
 
     /// True when it depends on the host's geometry.
     bool collides() const

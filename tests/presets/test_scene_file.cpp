@@ -87,7 +87,10 @@ TEST(SceneFile, warnsWhereAnOrderOfParticlesIsNotSeen)
     EXPECT_EQ(warnings(slabs, R"("order":"oldest")"), 1u);
     EXPECT_EQ(warnings(slabs, R"("orderBias":0.5)"), 1u);
     EXPECT_EQ(warnings(slabs, R"("order":"depth","orderBias":0)"), 0u);
+    EXPECT_EQ(warnings(slabs, R"("order":"oldest","orderBias":-1)"), 2u) << "each member is named";
     EXPECT_EQ(warnings("", R"("order":"youngest")"), 0u) << "sorted is the default";
+    EXPECT_EQ(warnings(R"("composition":"automatic",)", R"("order":"youngest")"), 0u)
+        << "nothing asks for more";
 }
 
 TEST(SceneFile, readsTheComposition)
@@ -95,6 +98,8 @@ TEST(SceneFile, readsTheComposition)
     const SceneFile scene = load(R"({"version": 1, "camera": {}, "composition": "slabs", "slabs": 6})");
     EXPECT_EQ(scene.view.composition, fx::render::Composition::Slabs);
     EXPECT_EQ(scene.view.slabs, 6);
+    EXPECT_EQ(load(R"({"version": 1, "camera": {}, "composition": "automatic"})").view.composition,
+              fx::render::Composition::Automatic);
     EXPECT_EQ(load(R"({"version": 1, "camera": {}})").view.composition, fx::render::Composition::Sorted);
 }
 

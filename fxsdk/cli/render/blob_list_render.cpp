@@ -32,6 +32,7 @@ render::ViewSettings settingsOf(const RenderArguments& arguments, OutputKind kin
             host.lights[host.count] = toHostLight(lights->lights[host.count]);
     }
     applyArguments(arguments, kind, settings);
+    settings.composition = render::resolved(settings.composition, render::Composition::Sorted);
     return settings;
 }
 

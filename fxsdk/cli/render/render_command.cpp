@@ -43,6 +43,7 @@ base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, 
     auto scene = sceneOfPreset(arguments.input, &preview);
     if (!scene.ok())
         return scene;
+    scene->view.composition = render::Composition::Automatic;
     if (io.hasDefaultTime && preview.time)
         io.frames[0].tick = base::toTicks(*preview.time);
     if (preview.hasCamera)

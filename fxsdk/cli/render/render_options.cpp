@@ -154,7 +154,8 @@ void addLookOptions(CLI::App& command, RenderArguments& arguments)
         .add_option(
             "--composition", arguments.composition,
             "How media that overlap are put together instead of what the scene says: sorted, one over "
-            "the other; slabs, summed up in slabs across each ray; volume, in voxels")
+            "the other; slabs, summed up in slabs across each ray; volume, in voxels; automatic, as the "
+            "presets say. Of a preset the default is automatic")
         ->check(oneOf(compositionNames()));
     command.add_option("--slabs", arguments.slabs, "Slabs along each ray of --composition slabs")
         ->check(oneOf({"6", "16"}));

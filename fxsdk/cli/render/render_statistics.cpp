@@ -1,5 +1,7 @@
 #include "fxsdk/cli/render/render_statistics.h"
 
+#include "rendering/frame/composition_names.h"
+
 namespace fx::cli {
 
 nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool withOverdraw)
@@ -45,6 +47,8 @@ nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool 
         {"impostors", view.impostors},
         {"impostors_taken", view.impostorsTaken},
         {"lod_groups", {view.lodGroups[0], view.lodGroups[1], view.lodGroups[2], view.lodGroups[3]}},
+        {"composition", render::nameOf(render::Composition(view.composition))},
+        {"composition_size", view.compositionSize},
         {"overflow", {view.overflow[0], view.overflow[1], view.overflow[2]}},
     };
     if (withOverdraw) {

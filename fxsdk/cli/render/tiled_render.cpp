@@ -9,6 +9,7 @@
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/cli/support/json_line.h"
 #include "fxsdk/cli/support/progress.h"
+#include "fxsdk/presets/order_members.h"
 #include "rendering/exr/exr_encoder.h"
 
 #include <chrono>
@@ -95,6 +96,8 @@ private:
             return detail == "on";
         render::ViewSettings settings = scene.view;
         applyArguments(arguments_, OutputKind::Exr, settings);
+        if (settings.composition == render::Composition::Automatic)
+            return preset::sumsUp(scene_file::preferredComposition(scene));
         return settings.composition != render::Composition::Sorted;
     }
     void setExposure(float ev100) { white_ = 1.2f * std::exp2(ev100); }

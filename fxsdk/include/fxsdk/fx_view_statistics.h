@@ -124,6 +124,14 @@ typedef struct FxViewStatistics
 
     /// Fragments of sprites, meshes, ribbons and impostors that were left out because the lists were full.
     uint64_t spilledFragments;
+
+    /// FX_COMPOSITION_... by which the frame was drawn: what FX_COMPOSITION_AUTOMATIC and the budget make of
+    /// the setting.
+    uint32_t composition;
+
+    /// Slabs along a ray or voxels along 16 radii of balls by which it was drawn; 0 with
+    /// FX_COMPOSITION_SORTED.
+    uint32_t compositionSize;
 } FxViewStatistics;
 
 #ifdef __cplusplus
