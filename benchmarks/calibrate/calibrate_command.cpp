@@ -30,6 +30,7 @@ struct CalibrateArguments
     std::string size = "320x180";
     std::string clock = "auto";
     uint32_t repetitions = 7;
+    std::string technique; ///< empty: all
     bool json = false;
 };
 
@@ -98,6 +99,7 @@ int runCalibrate(const CalibrateArguments& arguments)
             return failed(status, kFailed);
     Progress bar("calibrate", 100, !arguments.json);
     rules.repetitions = arguments.repetitions;
+    rules.technique = arguments.technique;
     rules.stop = interruptRequested;
     rules.progress = [&](uint64_t done, uint64_t all) { bar.update(done * 100 / all); };
     const auto measured = measureLevels(rules);
@@ -133,6 +135,9 @@ void addCalibrateCommand(CLI::App& app, int& outExitCode)
     command->add_option("--size", arguments->size, "Of the frames")->capture_default_str();
     command->add_option("--clock", arguments->clock, "auto, gpu, wall or processor")->capture_default_str();
     command->add_option("--repeat", arguments->repetitions, "Interleaved repetitions")->capture_default_str();
+    command->add_option(
+        "--technique", arguments->technique,
+        "Only this: media, \"media slabs\", \"media volume\", \"light slices\", shimmer or dazzle");
     command->add_flag("--json", arguments->json, "One object a setting");
     command->callback([arguments, &outExitCode] { outExitCode = runCalibrate(*arguments); });
 }

@@ -3,6 +3,7 @@
 #include "fxsdk/cli/scene/default_stage.h"
 #include "fxsdk/cli/support/interrupt.h"
 #include "fxsdk/quality/calibration_file.h"
+#include "rendering/frame/composition_names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,15 @@ struct Subject
     std::vector<Moment> moments;
     bool countsOff;          ///< the last setting leaves the technique out: it costs nothing
     bool withDazzle = false; ///< otherwise there is no glare: it would hide differences
+    std::optional<render::Composition> composition = {}; ///< nothing: levels of all, measured in sorted media
 };
+
+/// "media volume".
+std::string nameOf(const Subject& subject)
+{
+    const std::string own(subject.composition ? render::nameOf(*subject.composition) : "");
+    return own.empty() ? subject.technique : subject.technique + (" " + own);
+}
 
 Knobs mediaKnobs(render::BillboardForm form, bool detail, float particles)
 {
@@ -65,6 +74,33 @@ Subject media()
             Knobs knobs = mediaKnobs(render::BillboardForm::Kernel, true, particles);
             knobs.set("lightSamples", 1.0f);
             knobs.set("multiple", multiple ? 1.0f : 0.0f);
+            subject.settings.push_back(knobs);
+        }
+    return subject;
+}
+
+/// Media of views that ask for a composition in which no order is seen: less of it, and the sorted one.
+Subject summedMedia(render::Composition composition)
+{
+    Subject subject{"media",
+                    {},
+                    {{"library:explosion", 0.5}, {"library:smoke-column", 4.0}, {"library:dust-burst", 1.0}},
+                    false,
+                    false,
+                    composition};
+    const bool isVolume = composition == render::Composition::Volume;
+    subject.settings.push_back({{"composition", float(composition)}});
+    for (const float voxels : {72.0f, 64.0f, 48.0f, 32.0f})
+        if (isVolume)
+            subject.settings.push_back({{"composition", float(composition)}, {"voxels", voxels}});
+    for (const float slabs : {16.0f, 6.0f})
+        if (slabs < 16.0f || isVolume)
+            subject.settings.push_back(
+                {{"composition", float(render::Composition::Slabs)}, {"slabs", slabs}});
+    for (const float particles : {1.0f, 0.5f, 0.25f, 0.125f})
+        for (const bool detail : {true, false}) {
+            Knobs knobs = mediaKnobs(render::BillboardForm::Kernel, detail, particles);
+            knobs.set("composition", float(render::Composition::Sorted));
             subject.settings.push_back(knobs);
         }
     return subject;
@@ -113,6 +149,7 @@ public:
             return scene.status();
         file_ = std::move(*scene);
         file_.view.dazzle.enabled = subject_.withDazzle;
+        file_.view.composition = subject_.composition.value_or(render::Composition::Sorted);
         const base::Ticks tick = base::toTicks(moment_.seconds);
         if (base::Status status = frameEffect(file_, tick, {}); !status)
             return status;
@@ -137,8 +174,7 @@ public:
             stage_->view().quality.force(subject_.settings[k]);
             if (base::Status status = stage_->draw(); !status)
                 return status;
-            const size_t group = stage_->view().renderer.passGroups().find(subject_.technique);
-            ioSeconds[k] += 1e-3 * stage_->times().milliseconds[group];
+            ioSeconds[k] += 1e-3 * milliseconds();
             if (!first)
                 continue;
             const std::vector<float> picture = stage_->picture();
@@ -155,6 +191,15 @@ public:
     StageClock clock = StageClock::Wall;
 
 private:
+    /// Of the technique's passes in the last frame.
+    double milliseconds() const
+    {
+        const render::PassGroups& groups = stage_->view().renderer.passGroups();
+        double sum = stage_->times().milliseconds[groups.find(subject_.technique)];
+        const size_t own = subject_.composition ? groups.find(render::nameOf(*subject_.composition)) : 0;
+        return own > 0 ? sum + stage_->times().milliseconds[own] : sum;
+    }
+
     const Subject& subject_;
     const Moment& moment_;
     const CalibrateRules& rules_;
@@ -166,7 +211,7 @@ private:
 AccuracyCurve emptyCurve(const Subject& subject)
 {
     AccuracyCurve curve;
-    curve.technique = subject.technique;
+    curve.technique = nameOf(subject);
     curve.scene = "library";
     curve.item = "frame";
     curve.shown = ShownError::Mean;
@@ -234,13 +279,27 @@ quality::ScalabilityLevels scalabilityLevelsOf(const AccuracyCurve& curve, const
             step.error > falling.back().error)
             falling.push_back(step);
     }
-    return {curve.technique, {falling.rbegin(), falling.rend()}};
+    return {curve.technique, {falling.rbegin(), falling.rend()}, {}};
 }
 
 base::Result<MeasuredCalibration> measureLevels(const CalibrateRules& rules)
 {
     MeasuredCalibration calibration;
-    const Subject subjects[] = {media(), lightSlices(), shimmer(), dazzle()};
+    std::vector<Subject> subjects = {media(),
+                                     summedMedia(render::Composition::Slabs),
+                                     summedMedia(render::Composition::Volume),
+                                     lightSlices(),
+                                     shimmer(),
+                                     dazzle()};
+    std::erase_if(subjects, [&](const Subject& subject) {
+        return !rules.technique.empty() && rules.technique != nameOf(subject);
+    });
+    if (subjects.empty())
+        return base::Status(
+            base::Code::InvalidArgument,
+            "--technique: found '" + rules.technique +
+                "'; allowed are media, 'media slabs', 'media volume', 'light slices', shimmer and "
+                "dazzle");
     uint64_t all = 0;
     for (const Subject& subject : subjects)
         all += subject.moments.size() * rules.repetitions;
@@ -261,6 +320,8 @@ base::Result<MeasuredCalibration> measureLevels(const CalibrateRules& rules)
         if (subject.countsOff)
             measured.curve.points.back().seconds.assign(rules.repetitions, 0.0);
         measured.levels = scalabilityLevelsOf(measured.curve, subject.settings);
+        measured.levels.technique = subject.technique;
+        measured.levels.composition = subject.composition;
         calibration.techniqueLevels.push_back(std::move(measured));
     }
     return calibration;

@@ -17,6 +17,7 @@ struct CalibrateRules
 {
     int width = 320, height = 180; ///< [pixel]
     uint32_t repetitions = 7;
+    std::string technique;           ///< empty: all
     std::optional<StageClock> clock; ///< nothing: the best of the machine
     std::function<bool()> stop;
     std::function<void(uint64_t done, uint64_t all)> progress;

@@ -5,6 +5,7 @@
 #include "fxsdk/presets/json_parser.h"
 #include "fxsdk/presets/migration.h"
 #include "fxsdk/presets/schema_validator.h"
+#include "rendering/frame/composition_names.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -68,7 +69,7 @@ Json calibrationSchema()
         meanings +=
             (meanings.empty() ? "" : " ") + name + ": " + std::string(technique->levels->meaning) + ".";
     }
-    techniques["maxItems"] = names.size();
+    techniques["maxItems"] = names.size() * (1 + render::kCompositionCount);
     levels["name"]["enum"] = std::move(names);
     levels["name"]["description"] = meanings;
     forEachKnob(
@@ -95,7 +96,10 @@ void checkStep(const ScalabilityLevels& levels, size_t k, const std::string& poi
 
 ScalabilityLevels readLevels(const Json& json, const std::string& pointer, Findings& findings)
 {
-    ScalabilityLevels levels{json["name"].get<std::string>(), {}};
+    ScalabilityLevels levels{json["name"].get<std::string>(), {}, {}};
+    for (const auto& [name, composition] : render::kCompositionNames)
+        if (json.value("composition", "") == name)
+            levels.composition = composition;
     for (const Json& step : json["steps"]) {
         levels.steps.push_back(
             {step["cost"].get<double>(), step["error"].get<double>(), readKnobs(step["setting"])});
@@ -121,8 +125,9 @@ Calibration readDocument(std::string_view text, Findings& findings)
         const std::string pointer = "/techniques/" + std::to_string(i);
         calibration.techniqueLevels.push_back(readLevels(techniques[i], pointer, findings));
         for (size_t j = 0; j < i; ++j)
-            if (calibration.techniqueLevels[j].technique == calibration.techniqueLevels[i].technique)
-                findings.error(pointer + "/name", "occurs twice; give each technique once");
+            if (calibration.techniqueLevels[j].technique == calibration.techniqueLevels[i].technique &&
+                calibration.techniqueLevels[j].composition == calibration.techniqueLevels[i].composition)
+                findings.error(pointer + "/name", "occurs twice; give each technique once for a composition");
     }
     return calibration;
 }
@@ -190,7 +195,11 @@ nlohmann::ordered_json toJson(const Calibration& calibration)
         nlohmann::ordered_json steps = nlohmann::ordered_json::array();
         for (const ScalabilityLevel& step : levels.steps)
             steps.push_back({{"cost", step.cost}, {"error", step.error}, {"setting", toJson(step.knobs)}});
-        techniques.push_back({{"name", levels.technique}, {"steps", steps}});
+        nlohmann::ordered_json technique = {{"name", levels.technique}};
+        if (levels.composition)
+            technique["composition"] = std::string(render::nameOf(*levels.composition));
+        technique["steps"] = steps;
+        techniques.push_back(technique);
     }
     return {{"version", 1}, {"origin", calibration.origin}, {"techniques", techniques}};
 }
@@ -218,7 +227,10 @@ std::string calibrationText(const Calibration& calibration)
         "{\n  \"version\": 1,\n  \"origin\": " + json["origin"].dump() + ",\n  \"techniques\": [";
     const char* nextTechnique = "\n";
     for (const auto& technique : json["techniques"]) {
-        text += nextTechnique + ("    {\"name\": " + technique["name"].dump()) + ", \"steps\": [";
+        text += nextTechnique + ("    {\"name\": " + technique["name"].dump());
+        if (technique.contains("composition"))
+            text += ", \"composition\": " + technique["composition"].dump();
+        text += ", \"steps\": [";
         const char* nextStep = "\n";
         for (const auto& step : technique["steps"]) {
             text += nextStep + ("      " + step.dump());

@@ -30,6 +30,21 @@ void apply(const Knobs& knobs, render::ViewSettings& ioSettings)
     });
 }
 
+std::vector<ScalabilityLevels> levelsFor(const Calibration& calibration, render::Composition composition)
+{
+    std::vector<ScalabilityLevels> chosen;
+    for (const ScalabilityLevels& levels : calibration.techniqueLevels) {
+        if (levels.composition && levels.composition != composition)
+            continue;
+        const auto same = std::ranges::find(chosen, levels.technique, &ScalabilityLevels::technique);
+        if (same == chosen.end())
+            chosen.push_back(levels);
+        else if (levels.composition)
+            *same = levels;
+    }
+    return chosen;
+}
+
 Knobs merged(const Knobs& first, const Knobs& second)
 {
     Knobs both = second;

@@ -56,6 +56,9 @@ struct ScalabilityLevels
 {
     std::string technique;
     std::vector<ScalabilityLevel> steps; ///< 1 to kMaxSteps
+
+    /// Of views that ask for this one; nothing: of all views for whose composition there are no others.
+    std::optional<render::Composition> composition = {};
 };
 
 struct Calibration
@@ -63,6 +66,9 @@ struct Calibration
     std::string origin; ///< machine and version that measured it
     std::vector<ScalabilityLevels> techniqueLevels;
 };
+
+/// The levels of each technique for views that ask for `composition`, in the order of the calibration.
+std::vector<ScalabilityLevels> levelsFor(const Calibration& calibration, render::Composition composition);
 
 /// Calls f(knob) for every render::QualityKnob of the techniques, in their order.
 template <class F>

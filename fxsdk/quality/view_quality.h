@@ -42,10 +42,14 @@ public:
     /// Whether the controller chose the settings of the last frame.
     bool isControlled() const
     {
-        return controller_ && !forced_ && clock_ && *clock_ != render::TimingClock::Off;
+        return hasCalibration() && !forced_ && clock_ && *clock_ != render::TimingClock::Off;
     }
-    /// Null before a calibration. Its last element represents passes that no technique can lower.
-    const BudgetController* controller() const { return controller_ ? &*controller_ : nullptr; }
+    /// For the composition of the last frame. Null before a calibration. Its last element represents passes
+    /// that no technique can lower.
+    const BudgetController* controller() const
+    {
+        return hasCalibration() ? &*controllers_[active_] : nullptr;
+    }
     const Choice& choice() const { return chosen_; } ///< of the last frame
     bool wasHeld() const { return held_; }
     std::span<const double> weights() const { return weights_; } ///< of the last frame
@@ -57,7 +61,12 @@ private:
     void weigh(const render::ViewRenderer& renderer);
 
     BudgetOptions options_;
-    std::optional<BudgetController> controller_;
+    bool hasCalibration() const { return controllers_[0].has_value(); }
+    std::optional<BudgetController>& active() { return controllers_[active_]; }
+
+    std::array<std::optional<BudgetController>, render::kCompositionCount>
+        controllers_; ///< by the composition that is asked for; all or none
+    size_t active_ = 0;
     std::optional<Knobs> forced_;
     std::optional<render::TimingClock> clock_ = render::TimingClock::Off;
     std::array<double, kMaxTechniques> weights_{};

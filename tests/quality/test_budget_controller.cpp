@@ -137,7 +137,7 @@ TEST(BudgetController, keepsABudgetWithTheShippedLevelsAndUsesLevelsOfDetailAndG
 {
     const auto calibration = builtInCalibration();
     ASSERT_TRUE(calibration.ok());
-    BudgetController controller(calibration->techniqueLevels);
+    BudgetController controller(levelsFor(*calibration, render::Composition::Sorted));
     const size_t count = controller.techniqueLevels().size();
     const std::vector<double> weights(count, 1.0);
     constexpr double kTopTime = 0.7 * kBudget; // of everything, at load 1

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace fx::quality {
 
 namespace {
@@ -101,6 +103,54 @@ TEST(CalibrationFile, lowersLightSlicesButNeverRaisesThem)
     apply(calibration->techniqueLevels[1].steps[0].knobs, settings);
     EXPECT_EQ(settings.slices.samples, 1);
     EXPECT_FALSE(settings.slices.multiple);
+}
+
+TEST(CalibrationFile, lowersCompositionsButNeverRaisesThem)
+{
+    const auto calibration = readCalibration(
+        fileWith(
+            R"({"cost": 0.2, "error": 0.1, "setting": {"composition": "slabs", "slabs": 6, "voxels": 48}},
+                    {"cost": 1, "error": 0, "setting": {"composition": "volume", "voxels": 256}})"),
+        "my.json");
+    ASSERT_TRUE(calibration.ok()) << calibration.status().message();
+    const auto& steps = calibration->techniqueLevels[0].steps;
+    EXPECT_EQ(toText(steps[0].knobs), "slabs 6, voxels 48, slabs");
+    render::ViewSettings settings;
+    apply(steps[1].knobs, settings);
+    EXPECT_EQ(settings.composition, render::Composition::Sorted);
+    EXPECT_EQ(settings.voxels, 96);
+    settings.composition = render::Composition::Volume;
+    apply(steps[0].knobs, settings);
+    EXPECT_EQ(settings.composition, render::Composition::Slabs);
+    EXPECT_EQ(settings.slabs, 6);
+    EXPECT_EQ(settings.voxels, 48);
+}
+
+TEST(CalibrationFile, levelsOfACompositionTakeThePlaceOfTheOthers)
+{
+    const std::string steps = ", \"steps\": [" + kTop + "]}";
+    const std::string text = R"({"version": 1, "techniques": [{"name": "media", "composition": "volume")" +
+                             steps + R"(, {"name": "dazzle")" + steps + R"(, {"name": "media")" + steps +
+                             "]}";
+    const auto calibration = readCalibration(text, "my.json");
+    ASSERT_TRUE(calibration.ok()) << calibration.status().message();
+    EXPECT_EQ(toJson(*readCalibration(calibrationText(*calibration), "again")), toJson(*calibration));
+    for (const auto composition :
+         {render::Composition::Sorted, render::Composition::Slabs, render::Composition::Volume})
+    {
+        const auto levels = levelsFor(*calibration, composition);
+        ASSERT_EQ(levels.size(), 2u);
+        const bool isOwn = composition == render::Composition::Volume;
+        const auto media = std::ranges::find(levels, "media", &ScalabilityLevels::technique);
+        ASSERT_NE(media, levels.end());
+        EXPECT_EQ(media->composition.has_value(), isOwn);
+    }
+    expectRefused(R"({"version": 1, "techniques": [{"name": "media", "composition": "volume")" + steps +
+                      R"(, {"name": "media", "composition": "volume")" + steps + "]}",
+                  Code::Schema, {"/techniques/1/name", "twice"});
+    expectRefused(R"({"version": 1, "techniques": [{"name": "media", "composition": "automatic")" + steps +
+                      "]}",
+                  Code::Schema, {"/techniques/0/composition", "volume"});
 }
 
 TEST(CalibrationFile, everyTruncationIsRefused)

@@ -56,7 +56,7 @@ class BudgetBench
 {
 public:
     BudgetBench(const BenchBudgetArguments& arguments, quality::Calibration calibration)
-        : arguments_(arguments), techniqueLevels_(calibration.techniqueLevels),
+        : arguments_(arguments), techniqueLevels_(levelsFor(calibration, render::Composition::Sorted)),
           calibration_(std::move(calibration))
     {}
 

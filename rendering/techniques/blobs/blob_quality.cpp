@@ -7,6 +7,7 @@ namespace fx::render {
 namespace {
 
 constexpr std::string_view kForms[] = {"planar", "constant", "kernel"};
+constexpr std::string_view kSums[] = {"sorted", "slabs", "volume"};
 
 void lowerForm(float form, ViewSettings& settings)
 {
@@ -37,6 +38,21 @@ void lowerSamples(float samples, ViewSettings& settings)
 void lowerMultiple(float isOn, ViewSettings& settings)
 {
     settings.slices.multiple = settings.slices.multiple && isOn != 0.0f;
+}
+
+void lowerComposition(float composition, ViewSettings& settings)
+{
+    settings.composition = std::min(settings.composition, Composition(uint8_t(composition)));
+}
+
+void lowerSlabs(float slabs, ViewSettings& settings)
+{
+    settings.slabs = std::min(settings.slabs, slabs < 16.0f ? 6 : 16);
+}
+
+void lowerVoxels(float voxels, ViewSettings& settings)
+{
+    settings.voxels = std::min(settings.voxels, std::max(int(voxels), 16));
 }
 
 constexpr QualityKnob kKnobs[] = {
@@ -77,6 +93,23 @@ constexpr QualityKnob kKnobs[] = {
      {},
      R"({"title": "Multiple scattering", "description": "Light that is scattered more than once.", "type": "boolean"})",
      lowerMultiple},
+    {"composition", "", QualityKnob::Type::Choice, kSums,
+     R"({"title": "Composition", "description": "How media that overlap are put together: volume is lowered to slabs, both to sorted.",
+         "type": "string", "enum": ["sorted", "slabs", "volume"]})",
+     lowerComposition},
+    {"slabs",
+     "slabs",
+     QualityKnob::Type::Number,
+     {},
+     R"({"title": "Slabs", "description": "Slabs along each ray, of the composition slabs.", "type": "number", "minimum": 6, "maximum": 16})",
+     lowerSlabs},
+    {"voxels",
+     "voxels",
+     QualityKnob::Type::Number,
+     {},
+     R"({"title": "Voxels", "description": "Voxels along 16 radii of balls, of the composition volume.",
+         "type": "number", "minimum": 16, "maximum": 256})",
+     lowerVoxels},
 };
 
 double weight(const ScreenShare& covered)

@@ -1,0 +1,160 @@
+// FX_COMPOSITION_AUTOMATIC, and what a budget makes of compositions, as a host sees it.
+#include "tests/api/view_fixture.h"
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace {
+
+/// Large gray balls that stay where they are born.
+std::string ballsWith(const std::string& members)
+{
+    return R"({"version": 1, )" + members + R"("ground": false, "emitters": [
+        {"layer": "smoke", "shape": "sphere", "size": 0.5, "emission": {"bursts": [{"time": 0, "count": 40}]},
+         "lifetime": 2, "radius": 0.5, "crossSection": 0.3, "albedoOverLife": [0.5, 0.5, 0.5],
+         "forces": {"gravity": 0}}]})";
+}
+
+class ViewComposition : public fx::test::ViewApiTest
+{
+protected:
+    FxInstanceId add(const std::string& preset)
+    {
+        FxInstanceDef def = fxDefaultInstanceDef();
+        def.preset = fx::test::loadText(context_, preset);
+        FxInstanceId id{};
+        EXPECT_EQ(fxScene_CreateInstance(scene_, &def, &id), FX_OK) << fxGetLastErrorMessage();
+        return id;
+    }
+
+    void choose(uint32_t composition, float budget = 0.0f)
+    {
+        FxViewSettings settings = fxDefaultViewSettings();
+        settings.dazzle = 0; // it adapts from frame to frame
+        settings.composition = composition;
+        settings.voxels = 32;
+        settings.budgetMilliseconds = budget;
+        settings.budgetClock = FX_BUDGET_CLOCK_CPU;
+        ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK) << fxGetLastErrorMessage();
+    }
+
+    std::vector<float> drawn()
+    {
+        fillPicture();
+        const FxFrameDef def = frame();
+        EXPECT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();
+        return picture();
+    }
+
+    uint32_t drawnAs()
+    {
+        (void)drawn();
+        return statistics().composition;
+    }
+};
+
+} // namespace
+
+TEST_F(ViewComposition, automaticIsWhatTheInstancesAskFor)
+{
+    update(1);
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_SORTED)) << "the default";
+    choose(FX_COMPOSITION_AUTOMATIC);
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_SORTED)) << "nothing asks for anything";
+    const FxInstanceId slabs = add(ballsWith(R"("composition": "slabs", )"));
+    update(1);
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_SLABS));
+    EXPECT_EQ(statistics().compositionSize, 16u);
+    const FxInstanceId volume = add(ballsWith(R"("composition": "volume", )"));
+    const FxInstanceId sorted = add(ballsWith(R"("composition": "sorted", )"));
+    update(1);
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_VOLUME));
+    EXPECT_EQ(statistics().compositionSize, 32u);
+    choose(FX_COMPOSITION_SLABS);
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_SLABS)) << "the view has the last word";
+    choose(FX_COMPOSITION_AUTOMATIC);
+    ASSERT_EQ(fxScene_DestroyInstance(scene_, volume), FX_OK);
+    update(1);
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_SLABS));
+    ASSERT_EQ(fxScene_DestroyInstance(scene_, slabs), FX_OK);
+    ASSERT_EQ(fxScene_DestroyInstance(scene_, sorted), FX_OK);
+    update(1);
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_SORTED));
+}
+
+TEST_F(ViewComposition, automaticHasTheBitsOfWhatItStandsFor)
+{
+    add(ballsWith(R"("composition": "volume", )"));
+    update(3);
+    choose(FX_COMPOSITION_VOLUME);
+    const std::vector<float> volume = drawn();
+    choose(FX_COMPOSITION_AUTOMATIC);
+    EXPECT_EQ(drawn(), volume);
+    choose(FX_COMPOSITION_SORTED);
+    EXPECT_NE(drawn(), volume);
+}
+
+TEST_F(ViewComposition, effectsThatHaveEndedAskForNothing)
+{
+    choose(FX_COMPOSITION_AUTOMATIC);
+    add(ballsWith(R"("composition": "volume", "duration": 0.5, )"));
+    update(2);
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_VOLUME));
+    update(60);
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_SORTED));
+}
+
+TEST_F(ViewComposition, ofARestoredSceneIsThatOfItsInstances)
+{
+    choose(FX_COMPOSITION_AUTOMATIC);
+    const auto saved = [&] {
+        size_t size = 0;
+        EXPECT_EQ(fxScene_SaveState(scene_, nullptr, 0, &size), FX_OK) << fxGetLastErrorMessage();
+        std::vector<std::byte> bytes(size);
+        EXPECT_EQ(fxScene_SaveState(scene_, bytes.data(), bytes.size(), &size), FX_OK);
+        return bytes;
+    };
+    update(1);
+    const std::vector<std::byte> before = saved();
+    add(ballsWith(R"("composition": "volume", )"));
+    update(1);
+    const std::vector<std::byte> with = saved();
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_VOLUME));
+    ASSERT_EQ(fxScene_RestoreState(scene_, before.data(), before.size()), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_SORTED));
+    ASSERT_EQ(fxScene_RestoreState(scene_, with.data(), with.size()), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_VOLUME));
+}
+
+TEST_F(ViewComposition, aBudgetLowersVoxelsThenTheCompositionAndGivesItBack)
+{
+    const std::string calibration = R"({"version": 1, "techniques": [
+        {"name": "media", "steps": [{"cost": 1, "error": 0, "setting": {"particles": 1}}]},
+        {"name": "media", "composition": "volume", "steps": [
+            {"cost": 0.0001, "error": 0.5, "setting": {"composition": "sorted"}},
+            {"cost": 0.5, "error": 0.1, "setting": {"voxels": 16}},
+            {"cost": 1, "error": 0, "setting": {}}]}]})";
+    add(ballsWith(R"("composition": "volume", )"));
+    update(3);
+    choose(FX_COMPOSITION_AUTOMATIC);
+    const std::vector<float> free = drawn();
+    choose(FX_COMPOSITION_AUTOMATIC, 10'000.0f);
+    ASSERT_EQ(fxView_SetQualityCalibration(view_, calibration.data(), calibration.size(), "mine.json"), FX_OK)
+        << fxGetLastErrorMessage();
+    for (int k = 0; k < 3; ++k)
+        EXPECT_EQ(drawn(), free) << "a wide budget lowers nothing";
+    choose(FX_COMPOSITION_AUTOMATIC, 1e-3f);
+    EXPECT_EQ(drawnAs(), uint32_t(FX_COMPOSITION_SORTED)) << "the time of the frames before is known";
+    FxQualityChoice choice{};
+    choice.structSize = sizeof choice;
+    ASSERT_EQ(fxView_GetQualityChoice(view_, 0, &choice), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_STREQ(choice.setting, "sorted");
+    EXPECT_EQ(choice.steps, 3u);
+    choose(FX_COMPOSITION_SORTED, 10'000.0f);
+    (void)drawn();
+    ASSERT_EQ(fxView_GetQualityChoice(view_, 0, &choice), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(choice.steps, 1u) << "views that ask for sorted have levels of their own";
+    choose(FX_COMPOSITION_AUTOMATIC);
+    EXPECT_EQ(drawn(), free) << "the settings were the host's all the time";
+}
