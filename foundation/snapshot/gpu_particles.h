@@ -138,7 +138,7 @@ public:
     std::vector<float> moduleNumbers; ///< see GpuModules
     uint32_t rows = 0;                ///< computed particles
     bool kills = false;               ///< see GpuModules
-    bool dependsOnHost = false;       ///< likewise
+    bool dependsOnHost = false;       ///< see GpuModules
     float meanRadius = 0.0f;          ///< [m] about so much, to estimate costs
 
     /// Computes the rows of `group` on the calling thread, as the emitter would have published them: adds a

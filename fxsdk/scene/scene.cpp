@@ -200,7 +200,7 @@ void Scene::beginPublication(base::Ticks tick, double interpolation)
     world_.beginPublication(active_.slots(), ring_.beginWrite(tick, clock_.stepTicks()));
 }
 
-/// Writes the publication in hand as far as the work goes. Readers see it once it is complete.
+/// Writes the open publication as far as the work goes. Readers see it once it is complete.
 /// @return whether it is
 bool Scene::proceedPublication(base::Ticks tick, double interpolation)
 {

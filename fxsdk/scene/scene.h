@@ -387,8 +387,8 @@ private:
     std::pmr::vector<LocalId> arrived_; ///< entered the world with a past that is not simulated yet
     std::pmr::vector<Seek> seeks_;      ///< requested during an incomplete step
     base::WorkBudget work_;             ///< of the update
-    uint64_t stepWork_ = 0;             ///< [unit] spent on the step in hand
-    uint64_t shownWork_ = 0;            ///< [unit] spent on the publication in hand, or the last one
+    uint64_t stepWork_ = 0;             ///< [unit] spent on the open step
+    uint64_t shownWork_ = 0;            ///< [unit] spent on the open publication, or the last one
     base::Ticks published_ = 0;         ///< scene time of the last publication
     std::pmr::vector<LocalId> moved_;   ///< instances with InstanceSetup::cameFrom, and perhaps others
     bool visibilityStale_ = false;      ///< an instance or a camera has moved

@@ -160,7 +160,7 @@ bool Scene::isShort() const
         world_.passTime(to);
 }
 
-/// @return whether the step in hand is complete
+/// @return whether the open step is complete
 [[gnu::always_inline]] inline bool Scene::proceed()
 {
     if (!world_.isStepping())
@@ -240,7 +240,7 @@ void Scene::wait(uint32_t index)
     waking_.insert(instance.serial, index, instance.slot);
 }
 
-/// Ends the step in hand, however much work it takes.
+/// Ends the open step, however much work it takes.
 void Scene::completeStep()
 {
     if (!world_.isStepping())

@@ -16,7 +16,7 @@ struct SceneLight
     glm::dvec3 position{0.0};  ///< [m] world
     glm::vec3 intensity{0.0f}; ///< [cd] in every direction; of a spot inside the inner angle
     float radius = 0.0f;       ///< [m] of a ball whose surface has the same luminance everywhere; 0: a point
-    glm::vec3 direction{0.0f, -1.0f, 0.0f};       ///< unit, the way the light of a spot goes
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};       ///< unit, direction of a spot's light
     float innerAngle = std::numbers::pi_v<float>; ///< [rad] half angle up to which a spot has its intensity
     float outerAngle = std::numbers::pi_v<float>; ///< [rad] >= inner; pi: light in all directions
 

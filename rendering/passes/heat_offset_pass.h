@@ -31,7 +31,7 @@ public:
     {
         ResourceId blobs;
         ResourceId distance;
-        uint32_t count; ///< of blobs, hot and cold
+        uint32_t count; ///< number of blobs, hot and cold
         bool anyHeat;   ///< some blob has heat > 0
         int width, height;
         ViewBlock view;

@@ -310,7 +310,7 @@ private:
     bool varied_ = false; ///< they were others before
     bool started_ = false;
     bool bornWithMany_;      ///< see SpawnBatch
-    bool publishesWithMany_; ///< likewise
+    bool publishesWithMany_; ///< see SpawnBatch
     bool poolable_;
     uint32_t member_ = 0;         ///< of the pool
     EmitterPool* pool_ = nullptr; ///< pool that computes it; the members below may then be outdated

@@ -62,7 +62,7 @@ private:
     base::Ticks start_;
     FragmentStore fragments_;
     TrailStore trail_;
-    base::Column<FragmentWay> ways_; ///< of the fragments, in the step in hand
+    base::Column<FragmentWay> ways_; ///< of the fragments, in the open step
     OpenStep open_;
     base::Ticks now_ = 0; ///< end of the last step
     bool released_ = false;

@@ -66,7 +66,7 @@ private:
     {
         base::Ticks tick = -1; ///< begin of the open step; -1: none
         double seconds = 0;    ///< [s] length of the step
-        double left = 0;       ///< [s] of that, from the beginning of the slice in hand
+        double left = 0;       ///< [s] of that, from the beginning of the current slice
         double slice = 0;      ///< [s] of gas dynamics between two exchanges; 0 between slices
     };
     bool waitsForRelease(const StepContext& context, const base::WorkBudget& work) const;

@@ -141,7 +141,8 @@ public:
     }
 
 private:
-    static constexpr uint32_t kAhead = 256; ///< rows: more than memory keeps waiting, less than fills a cache
+    /// Prefetch distance in rows: covers the latency of memory without filling a cache.
+    static constexpr uint32_t kAhead = 256;
 
     /// Pieces of the curves that the last particles were in.
     struct Pieces

@@ -66,7 +66,7 @@ struct ParticleEvent
     bool scheduled = false; ///< caused by the schedule or the host, not by a particle
     uint32_t number = 0; ///< which of the emitter's ages, with EventKind::Age; as TileContact with Collision
     float speed = 0.0f;  ///< [m/s] with Collision: see TileContact
-    bool isLast = false; ///< likewise
+    bool isLast = false; ///< with Collision: see TileContact
 };
 
 /// (3)

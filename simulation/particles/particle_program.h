@@ -23,7 +23,7 @@ enum : size_t
     X, ///< [m] local; ballistic: where motion began
     Y,
     Z,
-    VelocityX, ///< [m/s] likewise
+    VelocityX, ///< [m/s] velocity
     VelocityY,
     VelocityZ,
     PerLife,    ///< [1/s] one over the lifetime
@@ -109,7 +109,7 @@ constexpr double kLight = 3.0;  ///< of each particle that sheds light, once a s
 
 /// [unit] of base::WorkBudget that one particle counts in a sub-step.
 double stepWork(const ParticleProgram& program);
-/// The same once a step, for showing it.
+/// Work of publishing a particle, once a step.
 double shownWork(AppearanceKind kind);
 
 /// [byte] that a step and a publication read and write of each row, births left out.

@@ -42,7 +42,7 @@ struct alignas(64) Tile
     float x[kTileRows]; ///< [m] local; before Integrate at the step's begin, after it at its end
     float y[kTileRows];
     float z[kTileRows];
-    float vx[kTileRows]; ///< [m/s] likewise
+    float vx[kTileRows]; ///< [m/s] velocity
     float vy[kTileRows];
     float vz[kTileRows];
     float fromX[kTileRows]; ///< [m] where the row was when its part of the step began

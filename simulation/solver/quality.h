@@ -15,7 +15,7 @@ enum class QualityLevel : uint8_t
     Low,
     Medium, ///< the level for which presets are designed
     High,
-    Reference, ///< for measuring the others
+    Reference, ///< reference for measuring the other levels
 };
 
 /// Parameters of solvers at a level. Errors of the levels are measured by `fx accuracy`.

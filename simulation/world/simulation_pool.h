@@ -99,11 +99,11 @@ struct SharedSimulation
     bool fresh = false;     ///< no step has touched it: another instance may still join
     uint32_t nextFresh = 0; ///< see SimulationPool
 
-    // A step in hand, see World::proceed(), and a past that is still to be simulated, see World::arrive().
-    bool inStep = false;                  ///< some of its sub-steps are complete, or one is in hand
-    bool inPart = false;                  ///< a sub-step is in hand
+    // An open step, see World::proceed(), and a past that is still to be simulated, see World::arrive().
+    bool inStep = false;                  ///< some of its sub-steps are complete, or one is open
+    bool inPart = false;                  ///< a sub-step is open
     bool arriving = false;                ///< it is simulated from `reached` to `target`, its prewarm or seek
-    uint32_t stepped = 0;                 ///< solvers that are through with the sub-step in hand
+    uint32_t stepped = 0;                 ///< solvers that are through with the open sub-step
     base::Ticks part = 0;                 ///< sub-steps of the step that are complete
     base::Ticks stepTick = 0;             ///< [tick] of the scene at which the step begins
     base::Ticks stepLength = 0;           ///< [tick] of the scene

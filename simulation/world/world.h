@@ -253,7 +253,7 @@ private:
         InstanceStart start;
     };
 
-    /// A change of an instance while a step is in hand.
+    /// A change of an instance while a step is open.
     struct Waiting
     {
         Slot slot;
@@ -267,20 +267,20 @@ private:
         bool isPlanned = false;
         base::Ticks tick = 0;
         base::Ticks stepTicks = 0;
-        size_t place = 0; ///< in the list, of the simulation in hand
+        size_t place = 0; ///< in the list, of the current simulation
         std::span<const Slot> active;
         std::span<const Slot> list;           ///< those of them that are in no pool
         std::vector<Slot> ownActive, ownList; ///< their memory, between two calls
         StepCounters counters;
-        std::optional<EventBoard> board;         ///< of the sub-step in hand
-        std::span<const HostEvent> hostEvents{}; ///< likewise
+        std::optional<EventBoard> board;         ///< of the open sub-step
+        std::span<const HostEvent> hostEvents{}; ///< host events of the step
     };
     /// A publication of which some is still to be written.
     struct PublicationInHand
     {
         bool isOpen = false;
         bool hasPools = false;
-        size_t place = 0; ///< in the list, of the slot in hand
+        size_t place = 0; ///< in the list, of the current slot
         std::span<const Slot> list;
         std::vector<Slot> own; ///< its memory, between two calls
         uint32_t solver = 0;   ///< of that slot
@@ -389,7 +389,7 @@ private:
     std::pmr::memory_resource* memory_;
     bool share_;
     base::Arena scratch_;
-    SpawnBatch spawnBatch_; ///< of the step or the publication in hand; empty otherwise
+    SpawnBatch spawnBatch_; ///< of the open step or publication; empty otherwise
     EmitterPools pools_;    ///< before the simulations, whose solvers are in them
     SimulationPool simulations_;
     std::vector<Instance> instances_;
@@ -399,7 +399,7 @@ private:
     PublicationInHand publication_;
     StepCounters closed_;                  ///< work of steps that had to be ended, not counted yet
     std::vector<Waiting> waiting_;         ///< in the order of the calls
-    std::vector<InstanceStart> wanted_;    ///< from the end of the step in hand on
+    std::vector<InstanceStart> wanted_;    ///< from the end of the open step on
     std::vector<Slot> leaving_;            ///< removed instances
     std::vector<SimulationIndex> joining_; ///< simulations that may join a pool after the step
     std::vector<SimulationIndex> left_;    ///< simulations that left their pool in a step

@@ -36,7 +36,7 @@ private:
     std::array<GlTexture, 5> volumes_; ///< in the order of GlowTextures
     GlBuffer buffer_;
     GlowTextures textures_; ///< of the frame
-    ResourceId grids_;      ///< likewise
+    ResourceId grids_;      ///< grids of this frame
 };
 
 } // namespace fx::render

@@ -81,7 +81,7 @@ private:
     uint64_t corrected_ = 0;                  ///< filling of the light slices that has the detail
     std::span<const BlobMaterial> materials_; ///< of the frame
     VolumeGlow glow_;
-    std::span<const BlobInstance> blobs_;   ///< likewise, if any has detail
+    std::span<const BlobInstance> blobs_;   ///< balls of this frame, if any has detail
     bool layers_ = false;                   ///< the frame has layer outputs
     const FrameGraph* filledFor_ = nullptr; ///< textures hold fields before light, by passes of this graph
     GlTexture texelTexture_, table_;        ///< of FieldTexels, and of bricks
@@ -95,7 +95,7 @@ private:
     /// Imported as last resources, so that their content is preserved for the next frame.
     std::array<GlBuffer, Lists> buffers_;
     std::array<ResourceId, Lists> ids_;                        ///< of the frame
-    std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< likewise
+    std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< persistent as well
     bool isKept_ = false; ///< lists and textures are those of the last frame
     uint32_t unused_ = 0; ///< frames, one after the other
 };

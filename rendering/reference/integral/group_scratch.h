@@ -51,7 +51,7 @@ struct GroupScratch
     LineArray<T> weights; ///< 4 numbers a blob: extinction, then three sources, divided by radius^(2 degree)
     T largest = T(0), unit = T(1);        ///< the last group's largest radius, and the power of two below it
     T brightest = T(0), lightUnit = T(1); ///< its brightest source, and the power of two below it
-    std::vector<T> first, last;           ///< of each blob over the lanes
+    std::vector<T> first, last;           ///< extremes of each blob over the lanes
     std::vector<T> low, high;             ///< of each event over the lanes
     std::vector<uint32_t> byFirst, byLast;
     std::vector<uint64_t> candidates; ///< bit i: blob i may matter in the present interval

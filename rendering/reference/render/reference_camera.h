@@ -19,7 +19,8 @@ struct ReferenceCamera
         0.5; ///< half the picture's height: tangent of half the angle, or [m] when orthographic
     double nearDistance = 0.1; ///< [m] along the axis, >= 0
 
-    /// Looks from `position` to `target`. Both differ, and `up` is not parallel to their difference.
+    /// Looks from `position` to `target`. Eye and target differ, and `up` is not parallel to their
+    /// difference.
     static ReferenceCamera lookAt(const glm::dvec3& position, const glm::dvec3& target,
                                   const glm::dvec3& upwards);
 

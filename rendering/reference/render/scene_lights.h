@@ -73,8 +73,8 @@ public:
     };
     void course(size_t lamp, const TraceRay& ray, Course& out) const;
 
-    /// @formula sky-quadrature
-    /// Directions and weights that integrate a function over the sphere, each half by itself.
+    /// @formula sky-quadrature Directions and weights that integrate a function over the sphere, separately
+    ///          for each hemisphere.
     ///
     /// symbol   unit   meaning
     ///   n             rings of a half

@@ -1,5 +1,5 @@
 /// @file tile_journal.h
-/// Finished tiles of a picture in a file beside it, so that a render that was killed goes on where it was.
+/// Finished tiles of a picture in a file beside it, so that a killed render can be continued.
 ///
 /// The file is a header, then one record a tile in the order in which they were finished: number, checksum,
 /// floats, in the byte order of the machine. A process that dies leaves at most one incomplete record, which

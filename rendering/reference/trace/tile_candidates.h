@@ -12,7 +12,7 @@
 
 namespace fx::render {
 
-/// Columns of candidates; longer than size(), entries behind it are never met. Keeps its memory.
+/// Columns of candidates; padded beyond size() with entries that no ray hits. Keeps its memory.
 class TileCandidates
 {
 public:

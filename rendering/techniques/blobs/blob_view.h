@@ -46,13 +46,13 @@ private:
     DrawBatch takenBatch_;
     ImpostorSource impostors_;
     GlBuffer blobBuffer_;  ///< persistent, so that its content is reused in the next frame
-    GlBuffer lightBuffer_; ///< likewise
+    GlBuffer lightBuffer_; ///< lights of the blobs, persistent as well
     GlBuffer impostorBuffer_;
     GlTexture impostorAtlas_;      ///< pictures of effects; nothing before the first
     bool isKept_ = false;          ///< lists and buffers are those of the last frame
-    uint32_t blobsUnused_ = 0;     ///< frames, one after the other
-    uint32_t impostorsUnused_ = 0; ///< likewise
-    uint32_t restingFrames_ = 0;   ///< likewise
+    uint32_t blobsUnused_ = 0;     ///< consecutive frames without blobs
+    uint32_t impostorsUnused_ = 0; ///< consecutive frames without impostors
+    uint32_t restingFrames_ = 0;   ///< consecutive frames at rest
     ResourceId overdraw_;          ///< of the last frame; invalid: not counted
     int layerWidth_ = 0, layerHeight_ = 0;
 };

@@ -43,7 +43,7 @@ public:
     virtual void takeBack(base::Ticks now, uint32_t highWater, uint64_t dropped) = 0;
     /// So many births found their row taken.
     virtual void refuse(uint64_t births, StepCounters& counters) = 0;
-    /// All births of the step in hand are in their rows.
+    /// All births of the open step are in their rows.
     virtual void endStep(StepCounters& counters) = 0;
 
 protected:

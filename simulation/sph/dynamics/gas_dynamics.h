@@ -64,7 +64,7 @@ struct GasDynamicsDef
     ViscosityRules viscosity;
     StepScheme steps = StepScheme::Block;
     double courant = 0.2;        ///< [1] step = 2 courant h / v_sig, h = H / 2
-    double volumeChange = 0.025; ///< [1] of a particle in a step, at most
+    double volumeChange = 0.025; ///< [1] largest value of a particle in a step
     double neighborStepRatio =
         4; ///< [1] limiter of steps between neighbors; infinity switches it off (tests)
     /// false, for a look: block steps take no care of pairs with unlike steps, gas-step, and a support that
