@@ -149,8 +149,8 @@ public:
     void setNow(base::Ticks now);
 
     const Environment& environment() const { return environment_; }
-    /// Exchanges the geometry of the host, from the next step on; null for none. Strong guarantee; needs
-    /// memory when instances at different places were simulated as one.
+    /// Replaces the geometry of the host from the next step on; null for none. Strong guarantee; needs memory
+    /// when instances at different places were simulated as one.
     void setField(std::shared_ptr<const DistanceField> field);
 
     /// Sets the contact callback of the host from the next step on; without `meet` there are no contacts. As
