@@ -13,6 +13,6 @@ namespace fx::cli {
 /// @return NotFound when the library was built without gases
 base::Result<std::vector<Card>> explosionCards(double seconds);
 
-constexpr float kExplosionField = 10.0f; ///< [m] that the width of a picture of them shows
+constexpr float kExplosionField = 10.0f; ///< [m] width of the scene in a picture
 
 } // namespace fx::cli

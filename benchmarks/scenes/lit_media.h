@@ -63,7 +63,7 @@ struct LitPicture
     std::vector<glm::dvec3> light; ///< [1] exposed
     std::vector<double> opacity;   ///< [1]
     double variance = 0.0;         ///< [1] mean over pixels and channels of the square of the standard error
-    double seconds = 0.0;          ///< [s] that it took
+    double seconds = 0.0;          ///< [s] duration
 };
 
 /// Draws lists of blobs by OpenGL.

@@ -84,7 +84,7 @@ struct PooledRows
     static constexpr uint32_t nameOf(uint32_t member, uint32_t place) { return member << 8 | place; }
     uint32_t memberOf(uint32_t row) const { return owner[row] >> 8; }
     uint32_t placeOf(uint32_t row) const { return owner[row] & 0xFF; }
-    /// Calls f(row) for all rows that show something.
+    /// Calls f(row) for all non-empty rows.
     template <class F>
     void forEachRow(F&& f) const
     {

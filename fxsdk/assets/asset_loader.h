@@ -14,7 +14,7 @@ namespace fx::asset {
 constexpr uint64_t kMaxImageBytes = uint64_t(64) << 20; ///< [byte] of a PNG file
 constexpr uint64_t kMaxMeshBytes = uint64_t(32) << 20;  ///< [byte] of an OBJ file
 
-/// How numbers in an image are meant.
+/// Meaning of the values of an image.
 enum class ImageUse
 {
     Color,   ///< sRGB

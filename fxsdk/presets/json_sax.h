@@ -43,7 +43,7 @@ private:
     const char** furthest_;
 };
 
-/// Follows a stream of events: the JSON pointer of the value at hand and the offset of the token at hand.
+/// Follows a stream of events: the JSON pointer of the current value and the offset of the current token.
 class JsonPath
 {
 public:

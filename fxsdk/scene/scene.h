@@ -280,7 +280,7 @@ private:
         float reachWind = -1;                ///< [m/s] local; negative before it was measured
         std::unique_ptr<MotionHistory> past; ///< null while present values suffice for the bounds
     };
-    struct Restored; ///< a state on its way into the scene
+    struct Restored; ///< a state that is being restored
 
     void wake(base::Ticks until);
     void enterWorld(uint32_t index);

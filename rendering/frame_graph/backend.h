@@ -119,8 +119,8 @@ struct DrawCall
     uint32_t instances = 1;
     ResourceId depthTarget = {}; ///< depth texture; tested and written when valid
     bool reversedDepth = false;  ///< depth test GREATER instead of LESS
-    /// Buffer that begins with vertices, instances, 0, 0 as 32-bit words, instead of the numbers above, of
-    /// which none may be 0. Written by a dispatch.
+    /// Indirect draw arguments: a buffer that begins with vertices, instances, 0, 0 as 32-bit words and
+    /// replaces the numbers above. Written by a dispatch.
     ResourceId indirect = {};
 };
 

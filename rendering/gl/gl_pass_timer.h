@@ -83,7 +83,7 @@ private:
     PassGroups groups_;
     std::array<Frame, kFrames> frames_;
     size_t first_ = 0;   ///< oldest frame whose result is awaited
-    size_t waiting_ = 0; ///< pending pending frames from there
+    size_t waiting_ = 0; ///< pending frames from there
     Frame* open_ = nullptr;
     size_t group_ = 0;
     int counterBits_ = -1; ///< -1: not queried yet

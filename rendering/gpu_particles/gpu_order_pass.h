@@ -44,7 +44,7 @@ public:
 };
 
 constexpr size_t kGpuOrderPrograms = 8;
-/// Programs from this one on are those of radix sorts alone.
+/// First program that only radix sorts use.
 constexpr size_t kFirstRadixProgram = 4;
 const ProgramDesc& gpuOrderProgram(size_t index);
 

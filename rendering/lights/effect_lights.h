@@ -20,7 +20,7 @@ struct EffectLight
     bool isOfMedium = false; ///< of balls of medium, whose own fields may spread it better than a point does
 };
 
-constexpr size_t kMaxEffectLights = 4;  ///< that drawing takes into account
+constexpr size_t kMaxEffectLights = 4;  ///< largest number of lights in drawing
 constexpr size_t kMaxLightSources = 16; ///< kinds of snapshot data that shed light
 
 /// How groups of one kind of snapshot data shed light.

@@ -31,7 +31,7 @@ struct ImpostorPlan
 {
     float blobShare = 1.0f; ///< [1] of its cross section that is drawn as blobs; 0: none need be gathered
     bool isTaken = false;   ///< its blobs are to be drawn into a picture as well
-    uint32_t slot = 0;      ///< place of that picture among those that are taken in this frame
+    uint32_t slot = 0;      ///< index of the impostor among those rendered in this frame
 };
 
 class ImpostorField

@@ -84,11 +84,11 @@ private:
         // Only of rows that are computed: those members are about the buffer `computed`.
         uint64_t wordsOffset = 0, wordsBytes = 0; ///< range of the input data
         bool isComputed = false;
-        bool isThere = false;  ///< or will be, when the jobs of this frame have run
+        bool isThere = false;  ///< valid after the jobs of this frame have run
         bool isPacked = false; ///< in the layout of packed_rows.h
         /// Rows of the CPU are written; false for groups that are not drawn.
         bool isWritten = false;
-        bool isShared = false;             ///< it is the place of a group before it
+        bool isShared = false;             ///< shares the rows of an earlier group
         size_t rowsBegin = 0, rowsEnd = 0; ///< valid range of Place::rows
     };
     struct Place

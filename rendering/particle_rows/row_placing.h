@@ -23,7 +23,7 @@ struct PlacedRows
     glm::quat rotation;
     float scale;
     glm::vec3 offset;       ///< [m]
-    base::RowExtent extent; ///< of rows that show something, with their radii
+    base::RowExtent extent; ///< bounds of non-empty rows, with their radii
 };
 
 constexpr uint32_t kRowsBehind = 16;

@@ -30,11 +30,12 @@ struct ImpostorTaking
 /// One drawn impostor; layout of shaders/blobs/impostor.vert.glsl.
 struct ImpostorInstance
 {
-    glm::vec4 center;     ///< xyz [m] relative to the eye; w half the side of the square [m]
-    glm::vec4 right;      ///< xyz unit axis of the picture; w tile of the newer picture
-    glm::vec4 up;         ///< xyz unit; w tile of the older one
-    glm::vec4 appearance; ///< x share of the newer; y share of the effect that is drawn; z radius [m]; w side
-                          ///< of the square over that of the older picture
+    glm::vec4 center; ///< xyz [m] relative to the eye; w half the side of the square [m]
+    glm::vec4 right;  ///< xyz unit axis of the picture; w tile of the newer impostor
+    glm::vec4 up;     ///< xyz unit; w tile of the older one
+    /// X share of the newer; y share of the effect that is drawn; z radius [m]; w side of the square over
+    /// that of the older impostor.
+    glm::vec4 appearance;
 };
 static_assert(sizeof(ImpostorInstance) == 64);
 

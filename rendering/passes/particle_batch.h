@@ -46,7 +46,7 @@ enum class BatchShape : uint8_t
 struct BufferPart
 {
     uint32_t name = 0; ///< GL buffer
-    ResourceId id;     ///< the same in this frame's graph
+    ResourceId id;     ///< the buffer in this frame's graph
     uint64_t offset = 0;
     uint64_t bytes = 0; ///< 0: absent
 };

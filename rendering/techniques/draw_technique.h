@@ -126,7 +126,7 @@ public:
     virtual bool altersPicture(const PassFrame&) const { return false; }
     virtual void addPasses(PassStage, FrameGraph&, PassFrame&) {}
 
-    virtual void fence() {} ///< called when called when all draws of the frame have been issued
+    virtual void fence() {} ///< called when all draws of the frame have been issued
     /// Invalidates data of this frame, because gathering or drawing has failed.
     virtual void forget() {}
     virtual void endFrame(bool /*succeeded*/) {}
@@ -161,7 +161,7 @@ struct EffectContent
 {
     std::span<const base::KindDesc* const> kinds; ///< of its groups
     bool isDrawn = false;                         ///< a technique draws one of the kinds
-    bool bendsLight = false;                      ///< some of it is hot enough
+    bool bendsLight = false;                      ///< some of its media refract light
 };
 
 /// One technique. Has static storage.

@@ -79,7 +79,7 @@ public:
     struct Hit
     {
         bool found;
-        float share;      ///< [1] of the way that is free, 1 when nothing is met
+        float share;      ///< [1] free share of the path, 1 without a contact
         glm::vec3 normal; ///< of the surface that ends it
     };
     /// The free part of the way of a center from `from` to `to`.

@@ -19,7 +19,7 @@ public:
 
     /// The gas has been released: both generations are born.
     void begin(const GasView<const float>& gas, base::Arena& scratch);
-    /// The gas has flowed for `seconds`.
+    /// Advances the generations after the gas has flowed for `seconds`.
     void follow(const GasView<const float>& gas, double seconds, base::Arena& scratch);
     /// Adds the group that belongs to the group of blobs added last.
     void publish(base::KindId kind, uint32_t capacity, base::FrameSnapshot& snapshot) const;

@@ -260,8 +260,8 @@ public:
         return std::numeric_limits<float>::infinity();
     }
     /// The same for solvers with births by events.
-    /// @param bounds of bounds of births in it @param ioOthers by solver index: extended by births that it
-    ///         causes in others
+    /// @param bounds of births in it @param ioOthers by solver index: extended by births that it causes in
+    ///         others
     virtual float reachFrom(const ReachConditions& conditions, const BirthReach& /*births*/,
                             std::span<BirthReach> /*ioOthers*/) const
     {

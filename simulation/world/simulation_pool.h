@@ -112,7 +112,7 @@ struct SharedSimulation
     std::unique_ptr<LinkedPart> linked{}; ///< while it catches up separately
 
     // of one step of the world
-    uint64_t visitedIn = 0; ///< number of the last step that had it in its list
+    uint64_t visitedIn = 0; ///< number of the last step whose list contained it
     uint64_t dividedIn = 0; ///< number of the last step that had only some of its users
     uint32_t visits = 0;    ///< users in the list of that step
     uint32_t division = 0;  ///< simulation of these users
@@ -164,8 +164,8 @@ public:
     SimulationIndex copy(SimulationIndex index);
     /// All users of a shared simulation are to have other conditions from now on. Never fails.
     void reset(SimulationIndex index, const SimulationConditions& conditions);
-    /// One user of a shared simulation is to have other conditions from now on. @return the simulation it
-    /// then belongs to
+    /// Changes the conditions of one user of a shared simulation from now on. @return the simulation of this
+    /// user afterwards
     SimulationIndex change(SimulationIndex index, const SimulationConditions& conditions);
     /// Removes a user; without users the solvers are destroyed.
     void leave(SimulationIndex index);

@@ -149,8 +149,8 @@ public:
     void setNow(base::Ticks now);
 
     const Environment& environment() const { return environment_; }
-    /// Exchanges the geometry of the host, from the next step on; null for none. Strong guarantee; needs
-    /// memory when instances at different places were simulated as one.
+    /// Replaces the geometry of the host from the next step on; null for none. Strong guarantee; needs memory
+    /// when instances at different places were simulated as one.
     void setField(std::shared_ptr<const DistanceField> field);
 
     /// Sets the contact callback of the host from the next step on; without `meet` there are no contacts. As
@@ -270,7 +270,7 @@ private:
         size_t place = 0; ///< in the list, of the current simulation
         std::span<const Slot> active;
         std::span<const Slot> list;           ///< those of them that are in no pool
-        std::vector<Slot> ownActive, ownList; ///< their memory, between two calls
+        std::vector<Slot> ownActive, ownList; ///< memory of both, reused between calls
         StepCounters counters;
         std::optional<EventBoard> board;         ///< of the open sub-step
         std::span<const HostEvent> hostEvents{}; ///< host events of the step

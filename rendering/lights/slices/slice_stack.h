@@ -25,7 +25,7 @@ enum class SliceMapping : uint8_t
     Octahedral, ///< shells around a point
 };
 
-constexpr int kMinSlicePlanes = 3; ///< before, within and behind the media, wherever snapping moves them
+constexpr int kMinSlicePlanes = 3; ///< before, within and behind the media, for any shift by snapping
 constexpr int kMaxSlicePlanes = 128;
 constexpr int kMaxSliceTexels = 512; ///< along a side
 
@@ -44,7 +44,8 @@ struct SliceStack
 {
     SliceMapping mapping = SliceMapping::Parallel;
     SliceResolution resolution;
-    glm::vec3 right{1, 0, 0}, up{0, 1, 0}, along{0, 0, 1}; ///< unit; `along` is where parallel light goes
+    /// Unit; `along` is the direction of parallel light.
+    glm::vec3 right{1, 0, 0}, up{0, 1, 0}, along{0, 0, 1};
     glm::vec3 origin{0}; ///< [m] corner of the first plane, or the light's place
     glm::dvec3 corner{
         0};             ///< `origin` in the world: in texels, texels and planes, or [m] of a light at a point

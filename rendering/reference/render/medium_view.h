@@ -13,7 +13,7 @@
 
 namespace fx::render {
 
-/// What blobs send out in one integration. Columns in the order of the tree.
+/// Source light of blobs in one integration. Columns in the order of the tree.
 enum class MediumSource : uint8_t
 {
     Light,    ///< [cd/m2] emitted light

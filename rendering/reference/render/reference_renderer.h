@@ -33,7 +33,7 @@ public:
     void restore(uint32_t tile, std::span<const float> values) { tiles_.restore(tile, values); }
     /// Renders the tiles that are missing.
     /// @param journal receives each tile, may be null
-    /// @return Interrupted when asked to stop, or what the journal failed with
+    /// @return Interrupted on request, or the error of the journal
     base::Status render(TileJournal* journal, const RenderCallbacks& callbacks);
 
     /// One channel after another (see reference_channel), each width x height, rows from the top.

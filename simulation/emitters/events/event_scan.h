@@ -80,7 +80,8 @@ public:
 private:
     std::array<bool, 5> kinds_{};
     bool colors_ = false;
-    float leastSpeed_ = std::numeric_limits<float>::infinity(); ///< [m/s] of rules about contacts
+    /// [m/s] smallest threshold of rules for contacts.
+    float leastSpeed_ = std::numeric_limits<float>::infinity();
     float leastLastSpeed_ = leastSpeed_;
     std::vector<base::Ticks> ages_;
 };

@@ -87,10 +87,11 @@ struct DynamicsState
     base::Column<T> sortedX, sortedY, sortedZ, sortedSupport; ///< as the tree was sorted by, to sort it again
     base::Column<T> nowX, nowY, nowZ;                         ///< [m] positions now, for the tree
     base::Column<T> listX, listY, listZ, listSupport; ///< where `listState` was built, while it is valid
-    base::Column<GasRecord<T>> records;               ///< particles as their neighbors see them now
-    base::Column<uint32_t> recordRound;               ///< the prediction that each record belongs to
-    uint32_t round = 0;                               ///< number of the last prediction
-    bool recordsAreComplete = false;                  ///< all records belong to the last prediction
+    /// Records of the particles for their neighbors, at the present time.
+    base::Column<GasRecord<T>> records;
+    base::Column<uint32_t> recordRound; ///< the prediction that each record belongs to
+    uint32_t round = 0;                 ///< number of the last prediction
+    bool recordsAreComplete = false;    ///< all records belong to the last prediction
 
     uint64_t now = 0;              ///< [tick] of the frame
     double tick = 0;               ///< [s]

@@ -66,8 +66,9 @@ public:
     std::span<const uint32_t> order() const { return sort_.order(); }
 
     /// Recomputes bounds and reaches of all cells from columns that are in tree order, and keeps a copy of
-    /// them; as often as particles move. The cells stay right however far particles have moved, only slower:
-    /// sort again when loosened() exceeds a quarter, where sorting begins to cost less than slow searches.
+    /// them. Called whenever particles have moved. The cells stay right however far particles have moved,
+    /// only slower: sort again when loosened() exceeds a quarter, where sorting begins to cost less than slow
+    /// searches.
     void refit(const PointColumns<T>& sorted, base::TaskRunner& tasks);
     /// [1] growth, since the first refit after the last sort, of the volume that a search from a leaf covers,
     /// in units of its reach cubed, mean over leaves: 1 means that searches test about twice as many

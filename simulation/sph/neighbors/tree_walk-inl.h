@@ -1,5 +1,5 @@
 /// @file tree_walk-inl.h
-/// From the root to all leaves that a query touches, eight children at once. Compiled once for each
+/// Traversal from the root to all leaves that a query touches, eight children at once. Compiled once for each
 /// instruction set.
 #if defined(FX_TREE_WALK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef FX_TREE_WALK_INL_H
