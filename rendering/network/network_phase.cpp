@@ -20,7 +20,7 @@ double leastOf(double g1, double g2)
 
 } // namespace
 
-double NetworkPhase::at(double c) const
+double NetworkPhase::series(double c) const
 {
     return (1.0 + 3.0 * factors[1] * c + 5.0 * factors[2] * (1.5 * c * c - 0.5)) / (4.0 * std::numbers::pi);
 }
@@ -30,6 +30,7 @@ NetworkPhase networkPhase(double anisotropy, int moments)
     NetworkPhase phase;
     const double g = std::clamp(anisotropy, -0.3, 0.98);
     phase.anisotropy = g;
+    phase.bands = moments > 4 ? 3 : 2;
     const auto withPeak = [&](double f) {
         phase.peak = f;
         phase.factors = {1.0, (g - f) / (1.0 - f), moments > 4 ? (g * g - f) / (1.0 - f) : 0.0}; // (1)

@@ -2,6 +2,7 @@
 /// A phase function in few moments that is nowhere negative.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 namespace fx::render {
@@ -37,10 +38,11 @@ struct NetworkPhase
     double anisotropy = 0.0;                      ///< [1] g, within its range
     double peak = 0.0;                            ///< [1] f
     std::array<double, 3> factors{1.0, 0.0, 0.0}; ///< [1] g_l
+    int bands = 2;                                ///< L + 1
 
     double extinctionShare(double albedo) const { return 1.0 - albedo * peak; } ///< [1] k' over k
     double albedo(double albedo) const { return albedo * (1.0 - peak) / (1.0 - albedo * peak); }
-    double at(double cosine) const; ///< [1/sr] P
+    double series(double cosine) const; ///< [1/sr] P
 };
 
 /// @param moments 4 or 9

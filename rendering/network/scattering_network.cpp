@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMaxCells = 256;                  // along an axis
 constexpr double kMaxScattered = 1.0 - 0x1p-20; // (5)
-constexpr double kDeepest = 700.0;              // [1] beyond it exp(-tau) is 0 in any precision
+constexpr double kRounding = 0x1p-22;           // [1] of the light of a sweep
 const double kRootSphere = std::sqrt(4.0 * std::numbers::pi);
 
 base::Status refused(const std::string& what)
@@ -86,7 +86,7 @@ base::Status ScatteringNetwork::setMedium(const NetworkMedium& medium, const Net
         if (extinction_[i] > 0.0f)
             contraction_ = std::max(contraction_, double(scattering_[i]));
         for (int way = 0; way < 3; ++way) {
-            const double tau = std::min(double(extinction_[i]) * grid_.side * std::sqrt(way + 1.0), kDeepest);
+            const double tau = double(extinction_[i]) * grid_.side * std::sqrt(way + 1.0);
             const double taken =
                 tau < 1e-3 ? tau * (1.0 - tau * (0.5 - tau / 6.0)) : 1.0 - base::naturalExp(-tau);
             taken_[size_t(way)][i] = float(taken);
@@ -190,7 +190,7 @@ void ScatteringNetwork::storeChange(const std::vector<float>& before, const std:
         scattered += weight * (double(after[i]) + double(direct_[i]));
     }
     last_.change = scattered > 0.0 ? change / scattered : 0.0;
-    last_.bound = last_.change * contraction_ / (1.0 - contraction_); // (6)
+    last_.bound = (last_.change + kRounding) * contraction_ / (1.0 - contraction_); // (6)
 }
 
 NetworkEnergy ScatteringNetwork::energy(const NetworkState& state, base::TaskRunner& tasks)

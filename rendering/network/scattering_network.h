@@ -92,7 +92,8 @@ struct NetworkEnergy
 ///   Each sweep is an affine map of the scattered light. All light that a cell scatters meets matter again
 ///   or escapes: in the sum over cells of volume, k' and absolute value the map shrinks differences by
 ///       q = largest albedo', at most 1 - 2^-20                                                  (5)
-///   so that after a sweep which changed the light by c it is at most c q / (1 - q) off         (6)
+///   so that after a sweep which changed the light by c it is at most c q / (1 - q) off, where 2^-22 is
+///   added to c for rounding                                                                    (6)
 ///   c is bounded by sqrt(4 pi sum over k of (change of moment k of S)^2)                        (7)
 ///   Acceleration mixes earlier sweeps so that the change of their mean is least. Where the mix has a
 ///   negative S, a cell keeps its light; the last step is always a sweep.

@@ -146,7 +146,7 @@ class Small:
 
 
 FEW = {"--count": "1000", "--steps": "1"}
-HAVE_SMALL = ("paper-frame", "billboards", "composition", "detail", "layer-scale", "slices", "lit-frame", "neighbor-search", "pair-loops", "explosion", "ray-integral", "trace",
+HAVE_SMALL = ("paper-frame", "billboards", "composition", "detail", "layer-scale", "slices", "lit-frame", "neighbor-search", "pair-loops", "explosion", "ray-integral", "network", "trace",
               "reference", "parallel-loop", "work-units")  # an option for it
 # Verdicts of --check hold for full sizes only; tests of their own ask for them (CMakeLists.txt, test_fx_*.py).
 SMALL = (
@@ -165,7 +165,7 @@ SMALL = (
     Small(("fx", "verify"), {"--particles": "512", "--time": "0.001"}),
     *(Small(("fx", "accuracy", technique), {"--repeat": "1", "--no-callgrind": None}, absent={"--scene": scene})
       for technique, scene in (("ray-integral", "tau-0.1"), ("furnace", "float"), ("billboards", "isolated-1"),
-                               ("dazzle", "gray"), ("light-slices", "parallel-tau-1"))),
+                               ("dazzle", "gray"), ("light-slices", "parallel-tau-1"), ("network", "side-5-small"))),
     Small(("fx", "accuracy", "detail"), {"--repeat": "1", "--no-callgrind": None, "--scene": "explosion-0.6-small"}),
     Small(("fx", "stability"), {"--quick": None}),
 )

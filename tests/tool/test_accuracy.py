@@ -53,6 +53,17 @@ class FxAccuracyOfLightSlices(FxTest):
                 self.assertLess(line["work"]["change_with_half_texels"], 0.1, line["scene"] + " " + line["setting"])
 
 
+class FxAccuracyOfNetworks(FxTest):
+    def test_light_in_cells_is_nearer_to_paths_than_the_closed_form(self):
+        settings = by_setting(lines_of("network", "--scene", "side-5-small", *QUICK))
+        closed, network = settings["closed-form"]["work"], settings["network-48-26-9"]["work"]
+        for case in (name for name in closed if name.startswith("rmse")):
+            self.assertLess(network[case], closed[case] / 2, case)
+            self.assertLess(network[case], 0.08, case)
+        self.assertLess(settings["moving-2-sweeps"]["error_mean"], 1.2 * settings["network-32-26-9"]["error_mean"] + 0.01)
+        self.assertGreater(settings["cold-2-sweeps"]["error_mean"], 0.2)
+
+
 class FxAccuracyOfLitMedia(FxTest):
     def test_light_that_is_scattered_once_is_that_of_exact_shadow_rays(self):
         names = by_setting(lines_of("light", "--scene", "blobs-270-small", *QUICK))

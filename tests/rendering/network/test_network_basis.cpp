@@ -86,12 +86,12 @@ TEST(NetworkPhase, isNowhereNegativeAndKeepsTheMeanCosine)
             constexpr int kSteps = 2000;
             for (int i = 0; i < kSteps; ++i) {
                 const double c = -1.0 + (i + 0.5) * 2.0 / kSteps;
-                const double p = phase.at(c) * kSphere / kSteps;
+                const double p = phase.series(c) * kSphere / kSteps;
                 sum += p;
                 cosine += p * c;
-                least = std::min(least, phase.at(c));
+                least = std::min(least, phase.series(c));
             }
-            EXPECT_GE(std::min({least, phase.at(-1.0), phase.at(1.0)}), -1e-9) << moments << " " << g;
+            EXPECT_GE(std::min({least, phase.series(-1.0), phase.series(1.0)}), -1e-9) << moments << " " << g;
             EXPECT_NEAR(sum, 1.0, 1e-6);
             EXPECT_NEAR(phase.peak + (1.0 - phase.peak) * cosine, g, 1e-6) << moments << " " << g;
             EXPECT_NEAR((1.0 - phase.peak) * (1.0 - phase.factors[1]), 1.0 - g, 1e-12);

@@ -48,31 +48,55 @@ TEST(NetworkGather, ofAWhiteMediumInAWhiteRoomIsTheRoom)
     }
 }
 
-TEST(NetworkGather, withoutAPeakIsExactSingleScattering)
+TEST(NetworkGather, ofIsotropicScatteringIsExactSingleScattering)
 {
-    const NetworkPhase phase = networkPhase(0.0, 4);
-    const GatheredLight light = gatherUnscattered(phase, {0.9, 2.0, 0.3, 4.0});
-    EXPECT_NEAR(light.plain, 0.0, 1e-12);
-    EXPECT_NEAR(light.scaled, 4.0 * std::exp(-2.0) * 0.9 / (4.0 * std::numbers::pi), 1e-6);
+    for (const double eyeDepth : {0.0, 3.0}) {
+        const GatheredLight light = gatherUnscattered(networkPhase(0.0, 4), {0.9, 2.0, eyeDepth, 0.3, 4.0});
+        EXPECT_NEAR(light.plain, 0.0, 1e-12);
+        EXPECT_NEAR(light.scaled, 4.0 * std::exp(-2.0) * 0.9 / (4.0 * std::numbers::pi), 1e-6);
+    }
 }
 
 TEST(NetworkGather, inThinMediaIsExactSingleScatteringWithTheWholePhaseFunction)
 {
     for (const int moments : {4, 9})
-        for (const double cosine : {-1.0, 0.0, 0.9, 1.0}) {
-            const GatheredLight light =
-                gatherUnscattered(networkPhase(0.85, moments), {0.95, 0.0, cosine, 1.0});
-            EXPECT_NEAR(light.plain + light.scaled, 0.95 * formula64::fxHenyeyGreenstein(cosine, 0.85), 1e-9);
-        }
+        for (const double g : {-0.3, 0.4, 0.85, 0.95})
+            for (const double cosine : {-1.0, 0.0, 0.9, 1.0}) {
+                const GatheredLight light =
+                    gatherUnscattered(networkPhase(g, moments), {0.95, 0.0, 0.0, cosine, 1.0});
+                EXPECT_NEAR(light.plain + light.scaled, 0.95 * formula64::fxHenyeyGreenstein(cosine, g),
+                            1e-9);
+            }
 }
 
-TEST(NetworkGather, isNeverNegativeInAllParts)
+TEST(NetworkGather, hasTheLightThatIsScatteredTwiceThroughSmallAngles)
 {
-    // the part behind T may be; it is less than the one behind T', which is larger
+    // of all orders, the share of the second is that of the derivative by albedo^2 at albedo 0
+    const NetworkPhase phase = networkPhase(0.85, 9);
+    const double depth = 1.5, step = 1e-3, c = 0.98;
+    const auto both = [&](double albedo) {
+        const GatheredLight light = gatherUnscattered(phase, {albedo, depth, 0.0, c, 1.0});
+        return light.plain + light.scaled;
+    };
+    const double second = (both(2.0 * step) - 2.0 * both(step)) / (2.0 * step * step);
+    const double f = phase.peak, twice = (1.0 - f) * (1.0 - f);
+    double network = 0.0; // light that the network scatters twice, in the bands of the series
+    const double legendre[3] = {1.0, 3.0 * c, 5.0 * (1.5 * c * c - 0.5)};
+    for (size_t l = 0; l < 3; ++l)
+        network += legendre[l] * twice * phase.factors[l] * phase.factors[l] / (4.0 * std::numbers::pi);
+    const double whole = formula64::fxHenyeyGreenstein(c, 0.85 * 0.85);
+    EXPECT_NEAR(second / (std::exp(-depth) * depth / 2.0), whole - network, 0.02 * whole);
+}
+
+TEST(NetworkGather, isNeverNegative)
+{
     for (const double g : {-0.3, 0.3, 0.7, 0.9})
         for (const double cosine : {-1.0, -0.5, 0.0, 0.5, 1.0})
-            for (const double depth : {0.0, 1.0, 20.0}) {
-                const GatheredLight light = gatherUnscattered(networkPhase(g, 9), {1.0, depth, cosine, 1.0});
-                EXPECT_GE(light.scaled + std::min(light.plain, 0.0), -1e-15);
-            }
+            for (const double depth : {0.0, 1.0, 20.0, 1000.0})
+                for (const double eyeDepth : {0.0, 2.0, 30.0}) {
+                    const NetworkPhase phase = networkPhase(g, 9);
+                    const GatheredLight light = gatherUnscattered(phase, {1.0, depth, eyeDepth, cosine, 1.0});
+                    EXPECT_GE(light.scaled, 0.0);
+                    EXPECT_GE(light.plain + light.scaled * std::exp(phase.peak * eyeDepth), -1e-12);
+                }
 }

@@ -1,0 +1,341 @@
+/// @file network.cpp
+/// Light scattered many times in a cloud of lumps: illumination networks, the closed form and single
+/// scattering against paths.
+
+#include "benchmarks/accuracy/accuracy_technique.h"
+#include "benchmarks/measure/clocks.h"
+#include "benchmarks/scenes/lumpy_cloud.h"
+#include "fxsdk/cli/support/interrupt.h"
+#include "rendering/network/network_gather.h"
+#include "shaders/formulas/formula.h"
+
+#include <glm/geometric.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <optional>
+
+namespace fx::cli {
+namespace {
+
+constexpr double kAlbedos[2] = {0.9, 0.99};
+constexpr int kRaysAcross = 2;   // of a pixel, along each axis
+constexpr int kFrames = 10;      // of a cloud that moves
+constexpr double kGrowth = 0.02; // of the lumps' distances in a frame
+
+struct CloudScene
+{
+    const char* name;
+    CloudLight light;
+    double depth;
+};
+constexpr std::array<CloudScene, 9> kScenes{{{"front-5", CloudLight::Front, 5.0},
+                                             {"side-5", CloudLight::Side, 5.0},
+                                             {"back-5", CloudLight::Back, 5.0},
+                                             {"inside-5", CloudLight::Inside, 5.0},
+                                             {"front-20", CloudLight::Front, 20.0},
+                                             {"side-20", CloudLight::Side, 20.0},
+                                             {"back-20", CloudLight::Back, 20.0},
+                                             {"inside-20", CloudLight::Inside, 20.0},
+                                             {"side-5-small", CloudLight::Side, 5.0}}};
+
+enum class Form
+{
+    Single,
+    Closed,
+    Network,
+    Moving ///< a network that sweeps so often in each frame of a cloud that grows
+};
+
+struct NetworkForm
+{
+    const char* name;
+    const char* tier;
+    Form form;
+    int cells, directions, moments;
+    int sweeps; ///< 0: to rest
+};
+constexpr std::array<NetworkForm, 15> kForms{{{"single", "", Form::Single, 0, 0, 0, 0},
+                                              {"closed-form", "", Form::Closed, 0, 0, 0, 0},
+                                              {"network-32-6-4", "", Form::Network, 32, 6, 4, 0},
+                                              {"network-32-14-4", "low", Form::Network, 32, 14, 4, 0},
+                                              {"network-32-26-4", "", Form::Network, 32, 26, 4, 0},
+                                              {"network-32-14-9", "", Form::Network, 32, 14, 9, 0},
+                                              {"network-24-26-9", "", Form::Network, 24, 26, 9, 0},
+                                              {"network-32-26-9", "default", Form::Network, 32, 26, 9, 0},
+                                              {"network-48-26-9", "high", Form::Network, 48, 26, 9, 0},
+                                              {"cold-2-sweeps", "", Form::Network, 32, 26, 9, 2},
+                                              {"cold-5-sweeps", "", Form::Network, 32, 26, 9, 5},
+                                              {"cold-10-sweeps", "", Form::Network, 32, 26, 9, 10},
+                                              {"moving-1-sweep", "", Form::Moving, 32, 26, 9, 1},
+                                              {"moving-2-sweeps", "", Form::Moving, 32, 26, 9, 2},
+                                              {"moving-3-sweeps", "", Form::Moving, 32, 26, 9, 3}}};
+
+/// A piece of a ray with medium.
+struct Piece
+{
+    glm::dvec3 place;
+    double depth;                                     ///< [1]
+    double lightDepth, lineDepth, irradiance, cosine; ///< see LumpyCloud
+};
+
+struct EyeRay
+{
+    glm::dvec3 toEye;
+    std::vector<Piece> pieces; ///< from the eye on
+};
+
+std::vector<EyeRay> raysThrough(const LumpyCloud& cloud, int size)
+{
+    const render::ReferenceCamera camera = cloud.camera();
+    const render::RayGrid grid = camera.grid(size, size);
+    const double step = 1.2 * cloud.grid().side, far = glm::length(camera.eye);
+    std::vector<EyeRay> rays;
+    for (int y = 0; y < size * kRaysAcross; ++y)
+        for (int x = 0; x < size * kRaysAcross; ++x) {
+            const render::TraceRay ray = grid.ray((x + 0.5) / kRaysAcross, (y + 0.5) / kRaysAcross);
+            EyeRay eye{-ray.direction, {}};
+            for (double at = far - 2.0 + 0.5 * step; at < far + 2.0; at += step) {
+                const glm::dvec3 place = camera.eye + ray.origin + at * ray.direction;
+                if (std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)}) > kCloudHalf)
+                    continue;
+                const double extinction = cloud.extinction(place);
+                if (!(extinction > 0.0))
+                    continue;
+                glm::dvec3 travel;
+                const double irradiance = cloud.irradiance(place, travel);
+                eye.pieces.push_back({place, step * extinction, cloud.lightDepth(place),
+                                      cloud.lineDepth(place), irradiance, glm::dot(travel, eye.toEye)});
+            }
+            rays.push_back(std::move(eye));
+        }
+    return rays;
+}
+
+/// Means of the rays of each pixel. @param light(ray) its radiance
+template <class Light>
+std::vector<double> pictureOf(const std::vector<EyeRay>& rays, int size, Light&& light)
+{
+    std::vector<double> picture(size_t(size) * size_t(size), 0.0);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const size_t across = size_t(size) * kRaysAcross, x = i % across / kRaysAcross,
+                     y = i / across / kRaysAcross;
+        picture[y * size_t(size) + x] += light(rays[i]) / (kRaysAcross * kRaysAcross);
+    }
+    return picture;
+}
+
+double withoutNetwork(const EyeRay& ray, double albedo, double g, bool isSingle)
+{
+    double light = 0.0, transmittance = 1.0;
+    for (const Piece& p : ray.pieces) {
+        const double scattered =
+            isSingle ? albedo * formula64::fxHenyeyGreenstein(p.cosine, g) * std::exp(-p.lightDepth)
+                     : formula64::fxScatteredLight(albedo, g, p.cosine, p.lightDepth, p.lineDepth);
+        const double passed = transmittance * std::exp(-p.depth);
+        light += (transmittance - passed) * scattered * p.irradiance;
+        transmittance = passed;
+    }
+    return light;
+}
+
+double withNetwork(const EyeRay& ray, double albedo, const render::NetworkPhase& phase,
+                   const render::NetworkState& state)
+{
+    const double share = phase.extinctionShare(albedo);
+    double light = 0.0, transmittance = 1.0, scaled = 1.0, depth = 0.0;
+    for (const Piece& p : ray.pieces) {
+        const render::GatheredLight first = render::gatherUnscattered(
+            phase, {albedo, p.lightDepth, depth + 0.5 * p.depth, p.cosine, p.irradiance});
+        const double more = render::gatherScattered(phase, albedo, state, p.place, ray.toEye);
+        const double passed = transmittance * std::exp(-p.depth), less = scaled * std::exp(-share * p.depth);
+        light += (transmittance - passed) * first.plain + (scaled - less) / share * (first.scaled + more);
+        transmittance = passed;
+        scaled = less;
+        depth += p.depth;
+    }
+    return light;
+}
+
+/// A network's light, and what it cost.
+struct Solved
+{
+    render::NetworkPhase phase;
+    render::NetworkState state;
+    int sweeps = 0;
+    double seconds = 0.0, change = 0.0;
+};
+
+class NetworkAccuracy final : public AccuracyTechnique
+{
+public:
+    explicit NetworkAccuracy(const CloudScene& scene) : scene_(scene)
+    {
+        isSmall_ = std::string_view(scene.name).ends_with("-small");
+        size_ = isSmall_ ? 16 : 32;
+        for (const NetworkForm& form : kForms)
+            settings_.push_back({form.name,
+                                 form.tier,
+                                 {{"cells", form.cells},
+                                  {"directions", form.directions},
+                                  {"moments", form.moments},
+                                  {"sweeps", form.sweeps}}});
+    }
+
+    std::string_view scene() const override { return scene_.name; }
+    const std::vector<AccuracySetting>& settings() const override { return settings_; }
+    base::Result<AccuracySample> run(size_t setting, const std::function<bool()>& stop) override;
+
+private:
+    std::vector<double> anisotropies() const
+    {
+        return isSmall_ ? std::vector<double>{0.0, 0.7} : std::vector<double>{0.0, 0.7, 0.85};
+    }
+    base::Result<const CloudTruth*> truthOf(double g, const std::function<bool()>& stop);
+    base::Result<Solved> solve(const NetworkForm& form, double albedo, double g);
+    const LumpyCloud& frame(int f);
+
+    const CloudScene& scene_;
+    bool isSmall_;
+    int size_;
+    std::vector<AccuracySetting> settings_;
+    std::optional<LumpyCloud> cloud_;
+    std::map<int, LumpyCloud> frames_;
+    std::vector<EyeRay> rays_;
+    std::map<double, CloudTruth> truths_; ///< by g
+};
+
+base::Result<const CloudTruth*> NetworkAccuracy::truthOf(double g, const std::function<bool()>& stop)
+{
+    const auto known = truths_.find(g);
+    if (known != truths_.end())
+        return &known->second;
+    auto truth = tracedCloud(*cloud_, kAlbedos, g, size_, 64, stop);
+    if (!truth.ok())
+        return truth.status();
+    return &truths_.emplace(g, std::move(*truth)).first->second;
+}
+
+/// The cloud so many frames before it is as in the picture.
+const LumpyCloud& NetworkAccuracy::frame(int before)
+{
+    if (before == 0)
+        return *cloud_;
+    const auto known = frames_.find(before);
+    if (known != frames_.end())
+        return known->second;
+    const double spread = std::pow(1.0 + kGrowth, -before);
+    return frames_.emplace(before, LumpyCloud(scene_.depth, scene_.light, 64, spread)).first->second;
+}
+
+base::Result<Solved> NetworkAccuracy::solve(const NetworkForm& form, double albedo, double g)
+{
+    const auto tasks = base::makeSerialRunner();
+    const bool isMoving = form.form == Form::Moving;
+    const CloudNetwork asked{
+        isSmall_ ? form.cells / 2 : form.cells, {form.directions, form.moments, g}, albedo};
+    const render::SweepRules toRest{200, 2, 1e-3};
+    render::ScatteringNetwork network;
+    Solved solved;
+    for (int before = isMoving ? kFrames : 0; before >= 0; --before) {
+        if (base::Status status = give(frame(before), asked, network); !status)
+            return status;
+        const bool isToRest = form.sweeps == 0 || (isMoving && before == kFrames);
+        const double start = threadSeconds();
+        const render::SweepReport report =
+            network.sweep(isToRest ? toRest : render::SweepRules{form.sweeps, 0, 0.0}, solved.state, *tasks);
+        solved.seconds = threadSeconds() - start;
+        solved.sweeps = report.sweeps;
+        solved.change = report.change;
+    }
+    solved.phase = network.phase();
+    return solved;
+}
+
+base::Result<AccuracySample> NetworkAccuracy::run(size_t index, const std::function<bool()>& stop)
+{
+    if (!cloud_) {
+        cloud_.emplace(scene_.depth, scene_.light, isSmall_ ? 64 : 128);
+        rays_ = raysThrough(*cloud_, size_);
+    }
+    const NetworkForm& form = kForms[index];
+    AccuracySample sample;
+    std::vector<double> errors;
+    std::string note;
+    double network = 0.0, reference = 0.0;
+    int sweeps = 0;
+    for (const double g : anisotropies()) {
+        const auto truth = truthOf(g, stop);
+        if (!truth.ok())
+            return truth.status();
+        reference += (*truth)->seconds;
+        for (int a = 0; a < 2; ++a) {
+            if (stop())
+                return interruptedStatus();
+            const double albedo = kAlbedos[a];
+            std::vector<double> picture;
+            double start = threadSeconds();
+            if (form.form == Form::Single || form.form == Form::Closed) {
+                picture = pictureOf(rays_, size_, [&](const EyeRay& ray) {
+                    return withoutNetwork(ray, albedo, g, form.form == Form::Single);
+                });
+            } else {
+                const auto solved = solve(form, albedo, g);
+                if (!solved.ok())
+                    return solved.status();
+                network += solved->seconds;
+                sweeps += solved->sweeps;
+                sample.seconds += solved->seconds;
+                start = threadSeconds();
+                picture = pictureOf(rays_, size_, [&](const EyeRay& ray) {
+                    return withNetwork(ray, albedo, solved->phase, solved->state);
+                });
+            }
+            sample.seconds += threadSeconds() - start;
+            errors.push_back(cloudError(picture, **truth, a));
+            char name[64], text[32];
+            std::snprintf(name, sizeof name, "rmse_g%g_albedo%g", g, albedo);
+            std::snprintf(text, sizeof text, "%s%.3f", note.empty() ? "RMSE " : " ", errors.back());
+            sample.work[name] = errors.back();
+            note += text;
+        }
+    }
+    sample.items = double(errors.size());
+    sample.note = note;
+    sample.work["sweeps"] = sweeps;
+    sample.work["seconds_network"] = network;
+    sample.work["seconds_reference"] = reference;
+    storeErrors(std::move(errors), sample);
+    return sample;
+}
+
+std::unique_ptr<AccuracyTechnique> make(const std::string& scene, const AccuracyScale&)
+{
+    for (const CloudScene& known : kScenes)
+        if (scene == known.name)
+            return std::make_unique<NetworkAccuracy>(known);
+    return nullptr;
+}
+
+} // namespace
+
+AccuracyTechniqueEntry networkAccuracy()
+{
+    std::vector<std::string> scenes;
+    for (const CloudScene& scene : kScenes)
+        scenes.emplace_back(scene.name);
+    return {
+        "network",
+        "light scattered many times in a cloud of lumps, by illumination networks and a closed form, against "
+        "paths",
+        "picture",
+        ShownError::Mean,
+        scenes,
+        kScenes.size() - 1,
+        false,
+        make};
+}
+
+} // namespace fx::cli

@@ -1,0 +1,278 @@
+#include "benchmarks/scenes/lumpy_cloud.h"
+
+#include "benchmarks/scenes/chance.h"
+#include "rendering/network/network_basis.h"
+#include "rendering/reference/path/path_renderer.h"
+#include "shaders/formulas/formula.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+namespace fx::cli {
+
+namespace {
+
+constexpr double kCovered = 0.3;  // [1] opacity
+constexpr double kDistance = 5.0; // [m] of the eye
+
+/// Along an axis of a fine grid, the cells that a ball may reach.
+std::pair<int, int> reached(const render::NetworkGrid& grid, double center, double radius, int axis)
+{
+    const auto cell = [&](double at) {
+        return std::clamp(int(std::floor((at - grid.corner[axis]) / grid.side)), 0, grid.cells[axis] - 1);
+    };
+    return {cell(center - radius), cell(center + radius)};
+}
+
+} // namespace
+
+LumpyCloud::LumpyCloud(double depth, CloudLight light, int fine, double spread) : light_(light)
+{
+    grid_ = {glm::dvec3(-kCloudHalf), 2.0 * kCloudHalf / fine, glm::ivec3(fine)};
+    bench::Chance chance(1);
+    for (int lump = 0; lump < 40; ++lump) {
+        glm::dvec3 center;
+        do {
+            center = chance.inCube();
+        } while (glm::length(center) > 1.0);
+        for (int i = 0; i < 15; ++i) {
+            const auto triangle = [&] { return chance() + chance() - 1.0; };
+            const glm::dvec3 offset(triangle(), triangle(), triangle());
+            render::MediumBlob blob;
+            blob.center = spread * 0.62 * center + 0.22 * offset;
+            blob.radius = chance.between(0.07, 0.2);
+            blob.crossSection = chance.between(0.5, 1.5) * std::pow(blob.radius, 3.0); // even densities
+            blobs_.push_back(blob);
+        }
+    }
+    fill();
+    double sum = 0.0; // of the depths of the columns near the middle
+    int columns = 0;
+    for (int y = 0; y < fine; ++y)
+        for (int x = 0; x < fine; ++x) {
+            const glm::dvec3 p = grid_.middle({x, y, 0});
+            if (p.x * p.x + p.y * p.y > 0.16)
+                continue;
+            ++columns;
+            for (int z = 0; z < fine; ++z)
+                sum += double(extinction_[grid_.index({x, y, z})]) * grid_.side;
+        }
+    const double scale = depth * columns / sum;
+    for (render::MediumBlob& blob : blobs_)
+        blob.crossSection *= scale;
+    fill();
+    if (light_ == CloudLight::Inside)
+        findLampDepths();
+    else
+        findSunDepths();
+}
+
+void LumpyCloud::fill()
+{
+    extinction_.assign(grid_.count(), 0.0f);
+    for (const render::MediumBlob& blob : blobs_) {
+        const double r2 = blob.radius * blob.radius, e = grid_.side * grid_.side / r2;
+        const double peak = 105.0 * blob.crossSection / (32.0 * std::numbers::pi * r2 * blob.radius);
+        const auto [x0, x1] = reached(grid_, blob.center.x, blob.radius, 0);
+        const auto [y0, y1] = reached(grid_, blob.center.y, blob.radius, 1);
+        const auto [z0, z1] = reached(grid_, blob.center.z, blob.radius, 2);
+        for (int z = z0; z <= z1; ++z)
+            for (int y = y0; y <= y1; ++y)
+                for (int x = x0; x <= x1; ++x) {
+                    const glm::dvec3 offset = grid_.middle({x, y, z}) - blob.center;
+                    const double s2 = glm::dot(offset, offset) / r2;
+                    if (s2 < 1.0)
+                        extinction_[grid_.index({x, y, z})] +=
+                            float(peak * formula64::fxVoxelKernel(s2, std::min(e, 0.25)));
+                }
+    }
+    for (float& value : extinction_)
+        value = std::max(value, 0.0f);
+}
+
+void LumpyCloud::findSunDepths()
+{
+    lightDepth_.assign(grid_.count(), 0.0f);
+    lineDepth_.assign(grid_.count(), 0.0f);
+    for (int y = 0; y < grid_.cells.y; ++y)
+        for (int x = 0; x < grid_.cells.x; ++x) {
+            double depth = 0.0;
+            for (int z = grid_.cells.z - 1; z >= 0; --z) {
+                const size_t i = grid_.index({x, y, z});
+                const double here = double(extinction_[i]) * grid_.side;
+                lightDepth_[i] = float(depth + 0.5 * here);
+                depth += here;
+            }
+            for (int z = 0; z < grid_.cells.z; ++z)
+                lineDepth_[grid_.index({x, y, z})] = float(depth);
+        }
+}
+
+void LumpyCloud::findLampDepths()
+{
+    lightDepth_.assign(grid_.count(), 0.0f);
+    lineDepth_.assign(grid_.count(), 0.0f);
+    const double step = 0.75 * grid_.side;
+    for (size_t i = 0; i < grid_.count(); ++i) {
+        const int n = grid_.cells.x;
+        const glm::dvec3 place = grid_.middle({int(i) % n, int(i) / n % n, int(i) / (n * n)});
+        const double distance = glm::length(place);
+        const glm::dvec3 way = place / distance;
+        double depth = 0.0;
+        bool isBehind = false;
+        for (double at = kCloudLampRadius + 0.5 * step; at < 1.9; at += step) {
+            const bool isPast = at - 0.5 * step >= distance;
+            if (isPast && !isBehind)
+                lightDepth_[i] = float(depth);
+            isBehind = isPast;
+            const glm::dvec3 p = at * way;
+            if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kCloudHalf)
+                break;
+            depth += step * extinction(p);
+        }
+        if (!isBehind)
+            lightDepth_[i] = float(depth);
+        lineDepth_[i] = float(depth);
+    }
+}
+
+double LumpyCloud::extinction(const glm::dvec3& position) const
+{
+    return render::interpolated(extinction_.data(), grid_, position);
+}
+
+double LumpyCloud::lightDepth(const glm::dvec3& position) const
+{
+    return render::interpolated(lightDepth_.data(), grid_, position);
+}
+
+double LumpyCloud::lineDepth(const glm::dvec3& position) const
+{
+    return render::interpolated(lineDepth_.data(), grid_, position);
+}
+
+double LumpyCloud::irradiance(const glm::dvec3& position, glm::dvec3& outTravel) const
+{
+    outTravel = {0.0, 0.0, -1.0};
+    if (light_ != CloudLight::Inside)
+        return 1.0;
+    const double distance = glm::length(position);
+    if (distance > 0.0)
+        outTravel = position / distance;
+    return 1.0 / (distance * distance + kCloudLampRadius * kCloudLampRadius);
+}
+
+render::ReferenceCamera LumpyCloud::camera() const
+{
+    const glm::dvec3 eye = light_ == CloudLight::Front  ? glm::dvec3(0.0, 0.0, kDistance)
+                           : light_ == CloudLight::Back ? glm::dvec3(0.0, 0.0, -kDistance)
+                                                        : glm::dvec3(kDistance, 0.0, 0.0);
+    auto camera = render::ReferenceCamera::lookAt(eye, glm::dvec3(0.0), {0.0, 1.0, 0.0});
+    camera.halfHeight = 0.23;
+    camera.nearDistance = 1e-3;
+    return camera;
+}
+
+base::Status give(const LumpyCloud& cloud, const CloudNetwork& form, render::ScatteringNetwork& outNetwork)
+{
+    const render::NetworkGrid grid{glm::dvec3(-kCloudHalf), 2.0 * kCloudHalf / form.cells,
+                                   glm::ivec3(form.cells)};
+    const int samples = std::max(2, cloud.grid().cells.x / (form.cells + 8));
+    const render::NetworkPhase phase = render::networkPhase(form.settings.anisotropy, form.settings.moments);
+    const double share = phase.extinctionShare(form.albedo), each = 1.0 / double(samples * samples * samples);
+    std::vector<float> extinction(grid.count());
+    std::vector<std::array<double, render::kMaxNetworkMoments>> direct(grid.count());
+    for (size_t cell = 0; cell < grid.count(); ++cell) {
+        const int n = form.cells;
+        const glm::dvec3 corner(int(cell) % n, int(cell) / n % n, int(cell) / (n * n));
+        double sum = 0.0;
+        std::array<double, render::kMaxNetworkMoments> moments{};
+        for (int i = 0; i < samples * samples * samples; ++i) {
+            const glm::dvec3 offset(i % samples + 0.5, i / samples % samples + 0.5,
+                                    i / (samples * samples) + 0.5);
+            const glm::dvec3 place = grid.corner + grid.side * (corner + offset / double(samples));
+            const double here = cloud.extinction(place);
+            if (!(here > 0.0))
+                continue;
+            glm::dvec3 travel;
+            const double light = cloud.irradiance(place, travel) * std::exp(-share * cloud.lightDepth(place));
+            const auto y = render::harmonics(travel);
+            for (size_t k = 0; k < moments.size(); ++k)
+                moments[k] += here * light * y[k];
+            sum += here;
+        }
+        extinction[cell] = float(sum * each);
+        for (size_t k = 0; sum > 0.0 && k < moments.size(); ++k)
+            direct[cell][k] = moments[k] / sum;
+    }
+    const std::vector<float> albedo(grid.count(), float(form.albedo));
+    if (base::Status status = outNetwork.setMedium({grid, extinction, albedo, {}}, form.settings); !status)
+        return status;
+    for (size_t cell = 0; cell < grid.count(); ++cell)
+        outNetwork.addDirect(cell, direct[cell]);
+    return {};
+}
+
+base::Result<CloudTruth> tracedCloud(const LumpyCloud& cloud, const double (&albedos)[2], double anisotropy,
+                                     int size, uint32_t paths, const std::function<bool()>& stop)
+{
+    const auto start = std::chrono::steady_clock::now();
+    render::ReferenceScene scene;
+    scene.blobs = cloud.blobs();
+    for (render::MediumBlob& blob : scene.blobs) {
+        blob.albedo = {albedos[0], albedos[1], albedos[1]};
+        blob.anisotropy = anisotropy;
+    }
+    scene.opaque.isEmpty = true;
+    scene.opaque.lighting.groundAlbedo = 0.0f;
+    scene.opaque.lighting.sunDirection = {0.0f, 0.0f, 1.0f};
+    if (cloud.light() == CloudLight::Inside)
+        scene.opaque.particleLights.push_back({glm::dvec3(0.0), glm::vec3(1.0f), float(kCloudLampRadius)});
+    else
+        scene.opaque.lighting.sunIlluminance = glm::vec3(1.0f);
+    scene.camera = cloud.camera();
+    const auto tasks = base::makeTbbRunner();
+    CloudTruth truth;
+    for (uint32_t picture = 0; picture < 2; ++picture) {
+        render::PathPictureSettings settings;
+        settings.width = settings.height = size;
+        settings.samples = paths;
+        settings.sunRadius = 0.0;
+        settings.seed = picture + 1;
+        render::PathRenderer renderer;
+        if (base::Status status = renderer.build(scene, settings, *tasks); !status)
+            return status;
+        if (base::Status status = renderer.render(nullptr, {{}, stop}); !status)
+            return status;
+        truth.isCovered.clear();
+        for (const float opacity : renderer.pixels(render::path_channel::Color + 3))
+            truth.isCovered.push_back(double(opacity) > kCovered);
+        for (uint32_t c = 0; c < 2; ++c) {
+            const std::vector<float>& light = renderer.pixels(render::path_channel::Color + c);
+            truth.light[picture][c].assign(light.begin(), light.end());
+        }
+    }
+    truth.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return truth;
+}
+
+double cloudError(const std::vector<double>& picture, const CloudTruth& truth, int albedo)
+{
+    double squares = 0.0, mean = 0.0, count = 0.0;
+    for (size_t i = 0; i < picture.size(); ++i) {
+        if (!truth.isCovered[i])
+            continue;
+        const double first = truth.light[0][albedo][i], second = truth.light[1][albedo][i];
+        squares += (picture[i] - first) * (picture[i] - second);
+        mean += 0.5 * (first + second);
+        count += 1.0;
+    }
+    return std::sqrt(std::max(squares / count, 0.0)) / (mean / count);
+}
+
+} // namespace fx::cli
