@@ -30,4 +30,15 @@ base::Placement placementAt(const base::SnapshotGroup& newer, const base::Snapsh
     return p;
 }
 
+PlaceDrift placeDrift(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float seconds)
+{
+    if (!older || !(seconds > 0.0f))
+        return {};
+    const base::Placement& now = newer.info().placement;
+    const base::Placement& then = older->info().placement;
+    const glm::mat3 turned =
+        glm::mat3_cast(now.rotation) * now.scale - glm::mat3_cast(then.rotation) * then.scale;
+    return {turned / seconds, glm::vec3((now.position - then.position) / double(seconds))};
+}
+
 } // namespace fx::render

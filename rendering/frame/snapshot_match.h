@@ -4,6 +4,7 @@
 
 #include "foundation/snapshot/frame_snapshot.h"
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
@@ -20,5 +21,17 @@ size_t findSameGroup(const base::FrameSnapshot* older, const base::GroupName& na
 /// @param older may be null
 base::Placement placementAt(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t,
                             const glm::dvec3& eye);
+
+/// Velocity of points that rest in a group's axes, relative to the world.
+struct PlaceDrift
+{
+    glm::mat3 turn{0.0f};  ///< [1/s]
+    glm::vec3 shift{0.0f}; ///< [m/s]
+
+    glm::vec3 at(const glm::vec3& local) const { return turn * local + shift; }
+};
+
+/// @param older may be null: the group rests  @param seconds between both
+PlaceDrift placeDrift(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float seconds);
 
 } // namespace fx::render

@@ -58,6 +58,20 @@ inline Composition resolved(Composition asked, Composition preferred)
     return asked == Composition::Automatic ? preferred : asked;
 }
 
+/// Pictures for those who need ground truth; bits of ViewSettings::outputs.
+namespace view_output {
+enum : uint32_t
+{
+    InstanceId = 1,   ///< of what has the largest share of the pixel
+    Motion = 2,       ///< [pixel] since the frame before
+    FirstDepth = 4,   ///< [m] where media begin to be seen
+    MeanDepth = 8,    ///< [m] of what is seen
+    OpticalDepth = 16 ///< [1] of the media
+};
+constexpr size_t kCount = 5;
+constexpr uint32_t kAll = (1u << kCount) - 1;
+} // namespace view_output
+
 /// One directional light, and light from everywhere.
 struct Lighting
 {
@@ -177,6 +191,7 @@ struct ViewSettings
         1.0f;
     bool toneMap = false;      ///< write display-referred values
     bool layerOutputs = false; ///< keep fire, smoke, dust, depth and optical depth as textures of their own
+    uint32_t outputs = 0;      ///< view_output bits; 0: no pass, program or memory exists for them
     bool countOverdraw =
         false; ///< count contributing fragments and read statistics back: costs a pass and waits for the GPU
     LodSettings lod;
@@ -210,6 +225,15 @@ struct HostTargets
     int height = 0;              ///< [pixel]
 };
 
+/// How ids of instances are called outside; without a function they are called as in snapshots.
+struct InstanceNames
+{
+    uint64_t (*name)(const void* owner, uint64_t instance) = nullptr;
+    const void* owner = nullptr;
+
+    uint64_t of(uint64_t instance) const { return name ? name(owner, instance) : instance; }
+};
+
 /// A box of which the activation overlay draws the edges.
 struct OverlayBox
 {
@@ -228,6 +252,7 @@ struct FrameRequest
     double time = 0.0;                     ///< [s] scene time, drives moving noise
     bool resetHistory = false;             ///< camera cut: adaptation starts from this frame
     std::span<const OverlayBox> overlay{}; ///< drawn over the finished picture
+    InstanceNames instances;               ///< of ViewSettings::outputs; those of a scene do not change
 };
 
 /// Counters of one rendered frame; exact counts except for the times.

@@ -70,9 +70,10 @@ std::vector<float> readDepthTexture(GlDevice& device, uint32_t texture, int widt
     return read<float>(device, texture, width, height, 1, GL_DEPTH_COMPONENT, GL_FLOAT);
 }
 
-std::vector<uint32_t> readUintTexture(GlDevice& device, uint32_t texture, int width, int height)
+std::vector<uint32_t> readUintTexture(GlDevice& device, uint32_t texture, int width, int height, int channels)
 {
-    return read<uint32_t>(device, texture, width, height, 1, GL_RED_INTEGER, GL_UNSIGNED_INT);
+    return read<uint32_t>(device, texture, width, height, channels,
+                          channels == 2 ? GL_RG_INTEGER : GL_RED_INTEGER, GL_UNSIGNED_INT);
 }
 
 std::vector<float> readFramebuffer(GlDevice& device, uint32_t framebuffer, int width, int height,

@@ -16,8 +16,9 @@ std::vector<float> readTexture(GlDevice& device, uint32_t texture, int width, in
 /// Depth values in [0, 1] of a depth texture, in the same order.
 std::vector<float> readDepthTexture(GlDevice& device, uint32_t texture, int width, int height);
 
-/// Texels of an R32UI texture, in the same order.
-std::vector<uint32_t> readUintTexture(GlDevice& device, uint32_t texture, int width, int height);
+/// Texels of a texture of one or two unsigned channels, in the same order.
+std::vector<uint32_t> readUintTexture(GlDevice& device, uint32_t texture, int width, int height,
+                                      int channels = 1);
 
 /// The first color attachment of a framebuffer (0 is the window's back buffer) as for readTexture().
 std::vector<float> readFramebuffer(GlDevice& device, uint32_t framebuffer, int width, int height,

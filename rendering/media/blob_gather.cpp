@@ -65,6 +65,15 @@ public:
         const glm::vec3 p = vector(column::PositionX);
         return hasOld_ || !older_ ? p : p - vector(column::VelocityX) * ((1.0f - t_) * stepSeconds_);
     }
+    /// Of what is shown: between two snapshots, the way from one to the other.
+    glm::vec3 velocity() const
+    {
+        if (!hasOld_ || !(stepSeconds_ > 0.0f))
+            return vector(column::VelocityX);
+        const auto way = [&](size_t c) { return newer_.column(c)[i_] - older_->column(c)[j_]; };
+        return glm::vec3(way(column::PositionX), way(column::PositionY), way(column::PositionZ)) /
+               stepSeconds_;
+    }
     uint64_t id() const { return newer_.ids()[i_]; }
     std::array<glm::vec3, 2> carried(const BlobDetail& detail) const
     {
@@ -137,6 +146,7 @@ public:
     {
         const base::Placement place = placementAt(newer, older, t, camera_.eye);
         level_ = lod_ ? lod_->levelOf(newer.info(), place) : LodLevel();
+        const PlaceDrift drift = placeDrift(newer, older, stepSeconds);
         const std::span<const float> constants = newer.constants();
         ElementReader reader(newer, older, t, stepSeconds);
         for (size_t i = 0; i < newer.count(); ++i) {
@@ -166,6 +176,7 @@ public:
             if (shownWeight == 0.0f)
                 continue;
             blob.crossSection *= shownWeight / share_;
+            blob.velocity = place.rotation * (reader.velocity() * place.scale) + drift.at(reader.position());
             add(blob, velocity * constants[constant::Shutter]);
         }
     }

@@ -35,6 +35,7 @@ struct GatheredBlob
     float anisotropy;                   ///< [1]
     uint32_t layer;                     ///< MediaLayer
     int detail = -1;                    ///< number of its group's detail; -1: it has none
+    glm::vec3 velocity{0.0f};           ///< [m/s] relative to the world
     std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
 };
 

@@ -13,9 +13,10 @@ namespace fx::render {
 
 FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
     : gathered_(memory), casters_(memory), instances_(memory), shaded_(memory), fields_(memory),
-      materials_(memory), effects_(memory), sorted_(memory), distances_(memory), depthSort_(memory),
-      impostors_(memory), impostorSort_(memory), takenSort_(memory), sortedImpostors_(memory), taken_(memory),
-      sortedTaken_(memory), takenDistances_(memory), identity_(memory), takenTiles_(memory)
+      materials_(memory), marks_(memory), sortedMarks_(memory), effects_(memory), sorted_(memory),
+      distances_(memory), depthSort_(memory), impostors_(memory), impostorSort_(memory), takenSort_(memory),
+      sortedImpostors_(memory), taken_(memory), sortedTaken_(memory), takenDistances_(memory),
+      identity_(memory), takenTiles_(memory)
 {}
 
 void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest& request,
@@ -27,6 +28,8 @@ void FrameBuilder::build(const base::SnapshotPair& snapshots, const FrameRequest
     instances_.clear();
     fields_.details.clear();
     fields_.runs.clear();
+    names_ = request.instances;
+    isMarked_ = settings.outputs != 0;
     beginImpostors(request, settings, camera, content);
     counts_ = gatherBlobs(snapshots, request.interpolation, camera, request.targets.height, gathered_,
                           casters_, instances_, settings.particleShare, &lod, &impostors_, castsShadows,
@@ -47,7 +50,8 @@ void FrameBuilder::beginImpostors(const FrameRequest& request, const ViewSetting
     hostLights_ = settings.hostLights;
     slices_ = settings.slices;
     exposureEv100_ = settings.exposureEv100;
-    const float most = settings.layerOutputs || camera.orthographic ? 0.0f : settings.lod.impostorPixels;
+    const bool isAllowed = !settings.layerOutputs && settings.outputs == 0 && !camera.orthographic;
+    const float most = isAllowed ? settings.lod.impostorPixels : 0.0f;
     impostors_.begin({std::min(most, LodSettings::kMaxImpostorPixels), request.deltaTime, content,
                       lightingRevision_, request.resetHistory || mustForget_, settings.lod.hold},
                      camera);
@@ -63,13 +67,14 @@ void FrameBuilder::shade(const ViewSettings& settings, const CameraGeometry& cam
     effects_.clear();
     taken_.clear();
     materials_.clear();
+    marks_.clear();
     for (const InstanceBlobs& instance : instances_)
         for (size_t i = instance.visibleBegin; isSorted && i < instance.visibleEnd; ++i)
-            shade(gathered_[i], instance.plan, exposure, camera);
+            shade(gathered_[i], instance, exposure, camera);
     for (const BlobRun& run : fields_.runs) {
         const size_t begin = shaded_.size();
         for (size_t i = run.visibleBegin; i < run.visibleEnd; ++i) {
-            shade(gathered_[i], instances_[run.instance].plan, exposure, camera);
+            shade(gathered_[i], instances_[run.instance], exposure, camera);
             if (shaded_.size() > materials_.size())
                 materials_.push_back(
                     {{glm::vec4(gathered_[i].carried[0], 0.0f), glm::vec4(gathered_[i].carried[1], 0.0f)}});
@@ -79,11 +84,13 @@ void FrameBuilder::shade(const ViewSettings& settings, const CameraGeometry& cam
     }
 }
 
-void FrameBuilder::shade(const GatheredBlob& blob, const ImpostorPlan& plan, float exposure,
+void FrameBuilder::shade(const GatheredBlob& blob, const InstanceBlobs& instance, float exposure,
                          const CameraGeometry& camera)
 {
-    add(shadeBlob(blob, exposure), plan, camera);
-    anyHeat_ = anyHeat_ || (blob.heat > 0.0f && plan.blobShare > 0.0f);
+    add(shadeBlob(blob, exposure), instance.plan, camera);
+    if (isMarked_ && shaded_.size() > marks_.size())
+        marks_.push_back({glm::vec4(blob.velocity, 0.0f), instanceWords(names_.of(instance.instance))});
+    anyHeat_ = anyHeat_ || (blob.heat > 0.0f && instance.plan.blobShare > 0.0f);
     anyDetail_ = anyDetail_ || blob.detailAmount > 0.0f;
 }
 
@@ -137,6 +144,7 @@ void FrameBuilder::sort(const CameraGeometry& camera, bool isSorted)
 {
     if (!isSorted) {
         sorted_.assign(shaded_.begin(), shaded_.end());
+        sortedMarks_.assign(marks_.begin(), marks_.end());
         identity_.resize(shaded_.size());
         std::iota(identity_.begin(), identity_.end(), 0u);
         order_ = identity_;
@@ -155,6 +163,9 @@ void FrameBuilder::sort(const CameraGeometry& camera, bool isSorted)
     isParallel_ = camera.orthographic;
     for (const uint32_t index : order_)
         sorted_.push_back(shaded_[index]);
+    sortedMarks_.clear();
+    for (size_t i = 0; i < order_.size() && isMarked_; ++i)
+        sortedMarks_.push_back(marks_[order_[i]]);
 }
 
 void FrameBuilder::sortImpostors(const CameraGeometry& camera)

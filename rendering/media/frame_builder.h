@@ -8,6 +8,7 @@
 #include "rendering/lights/medium_caster.h"
 #include "rendering/media/blob_gather.h"
 #include "rendering/passes/blob_instance.h"
+#include "rendering/passes/output_marks.h"
 
 #include <memory_resource>
 #include <span>
@@ -37,6 +38,8 @@ public:
     /// Materials of blobs() for the detail of their fields; empty if they are sorted.
     std::span<const BlobMaterial> materials() const { return materials_; }
     std::span<const GroupDetail> details() const { return fields_.details; }
+    /// Of blobs(), with ViewSettings::outputs; otherwise none.
+    std::span<const BlobMark> marks() const { return sortedMarks_; }
     bool anyHeat() const { return anyHeat_; }     ///< some blob bends light
     bool anyDetail() const { return anyDetail_; } ///< some blob has procedural detail
     /// All shadow casters, visible or not.
@@ -57,7 +60,7 @@ public:
 
 private:
     void shade(const ViewSettings& settings, const CameraGeometry& camera, bool isSorted);
-    void shade(const GatheredBlob& blob, const ImpostorPlan& plan, float exposure,
+    void shade(const GatheredBlob& blob, const InstanceBlobs& instance, float exposure,
                const CameraGeometry& camera);
     void addEffect(const BlobRun& run, size_t begin);
     void sort(const CameraGeometry& camera, bool isSorted);
@@ -72,6 +75,9 @@ private:
     std::pmr::vector<BlobInstance> shaded_;
     FieldGather fields_;
     std::pmr::vector<BlobMaterial> materials_;
+    std::pmr::vector<BlobMark> marks_, sortedMarks_; ///< of shaded_ and sorted_
+    InstanceNames names_;
+    bool isMarked_ = false; ///< the frame has marks
     std::pmr::vector<BlobEffect> effects_;
     std::pmr::vector<std::pair<float, float>> radii_; ///< scratch: radius and cross section
     std::pmr::vector<BlobInstance> sorted_;

@@ -144,7 +144,8 @@ bool ParticleBuffers::mixes(const base::SnapshotPair& snapshots, const UploadRev
     const bool isComputed =
         std::ranges::any_of(frame.batches(), [](const ParticleBatch& batch) { return batch.isComputed; });
     const bool hasOlder = std::ranges::any_of(frame.groups(), [](const auto& group) { return group.older; });
-    if (!snapshots.older || !hasOlder || isComputed || revisions.snapshots == mixedBefore ||
+    if (!snapshots.older || !hasOlder || isComputed || frame.keepsSnapshots() ||
+        revisions.snapshots == mixedBefore ||
         find(revisions.snapshots.newer, drawsPools(*snapshots.newer, false, frame.groups())) ||
         find(revisions.snapshots.older, drawsPools(*snapshots.older, true, frame.groups())))
         return false;

@@ -6,6 +6,7 @@
 #include "rendering/frame/view_volume.h"
 #include "rendering/lod/stochastic_simplification.h"
 #include "rendering/particle_rows/particle_estimate.h"
+#include "rendering/passes/output_marks.h"
 
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -113,6 +114,7 @@ void ParticleFrame::build(const ParticleFrameInputs& in)
     drawn_ = {};
     orderedRows_ = thinnedRows_ = 0;
     fragments_ = {};
+    keepsSnapshots_ = in.settings->outputs != 0;
     if (!in.snapshots->newer)
         return;
     const base::FrameSnapshot& newer = *in.snapshots->newer;
@@ -248,6 +250,15 @@ void ParticleFrame::fillBlock(const ParticleFrameInputs& in, const base::Placeme
     b.atlas = {float(group.columns * group.rows), c[constant::FrameBlend], c[constant::MotionScale],
                group.texture ? 1.0f : 0.0f};
     b.strip = {group.motion ? 1.0f : 0.0f, c[constant::ArcPerTile], 0.0f, c[constant::Edge]};
+    if (in.settings->outputs == 0)
+        return;
+    const base::SnapshotGroup* past =
+        group.olderIndex == kNoGroup ? nullptr : &in.snapshots->older->group(group.olderIndex);
+    const PlaceDrift drift = placeDrift(*group.newer, past, seconds);
+    for (int row = 0; row < 3; ++row)
+        batch.drift[size_t(row)] = {drift.turn[0][row], drift.turn[1][row], drift.turn[2][row],
+                                    drift.shift[row]};
+    batch.instance = instanceWords(in.request->instances.of(group.newer->info().instance));
 }
 
 ParticleFrame::Orderer& ParticleFrame::ordererOf(const base::GroupInfo& info)

@@ -84,6 +84,8 @@ public:
     /// Batches that do not hide, for DrawBatcher.
     std::span<const DrawStream> streams() const { return streams_; }
     const DrawnCounts& drawn() const { return drawn_; }
+    /// Rows have to be there of both snapshots, and each group keeps its own: outputs tell how they move.
+    bool keepsSnapshots() const { return keepsSnapshots_; }
     uint64_t orderedRows() const { return orderedRows_; } ///< in orders
     uint64_t thinnedRows() const { return thinnedRows_; } ///< left to others by the level of detail
     /// Estimated fragments of transparent rows.
@@ -115,6 +117,7 @@ private:
     std::pmr::vector<std::unique_ptr<Orderer>> orderers_;
     size_t lastOrderer_ = 0; ///< that ordererOf() found
     uint64_t frame_ = 0;
+    bool keepsSnapshots_ = false;
     DrawnCounts drawn_;
     uint64_t orderedRows_ = 0;
     uint64_t thinnedRows_ = 0;

@@ -29,11 +29,13 @@ struct CardLists
 {
     ResourceId heads = {}; ///< buffer; invalid: fragments are drawn
     ResourceId nodes = {}; ///< buffer
+    ResourceId marks = {}; ///< buffer of CardMark, one beside each node; invalid: they are not wanted
 
     bool valid() const { return heads.valid(); }
 };
 constexpr uint32_t kCardHeadBinding = 4;
 constexpr uint32_t kCardNodeBinding = 5;
+constexpr uint32_t kCardMarkBinding = 7;
 
 /// Balls of medium, for compositions that sum them up instead of drawing them.
 struct BallList
@@ -54,6 +56,7 @@ struct MediaTarget
     bool isSmall;                        ///< texels are larger than pixels
     LightBindings lights{};              ///< of the view
     CardLists cards{};                   ///< lists in which cards are gathered, instead of `targets`
+    bool isMarked = false;               ///< solids write OutputMarks instead, see output_marks.h
 };
 
 /// Draws batches of its elements. It must not change from the addition of its pass until the graph has

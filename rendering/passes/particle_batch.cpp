@@ -35,6 +35,15 @@ constexpr ProgramDesc kCardPrograms[] = {sprite("FX_SOLID=0 FX_LAYERS=0 FX_CARDS
                                          mesh("FX_SOLID=0 FX_LAYERS=0 FX_CARDS=1")};
 static_assert(std::size(kCardPrograms) == size_t(BatchShape::Count));
 
+constexpr ProgramDesc kMarkedCardPrograms[] = {sprite("FX_SOLID=0 FX_LAYERS=0 FX_CARDS=1 FX_MARKS=1"),
+                                               ribbon("FX_SOLID=0 FX_LAYERS=0 FX_CARDS=1 FX_MARKS=1"),
+                                               mesh("FX_SOLID=0 FX_LAYERS=0 FX_CARDS=1 FX_MARKS=1")};
+constexpr ProgramDesc kMarkedSolidPrograms[] = {sprite("FX_SOLID=1 FX_LAYERS=0 FX_CARDS=0 FX_MARKS=1"),
+                                                ribbon("FX_SOLID=1 FX_LAYERS=0 FX_CARDS=0 FX_MARKS=1"),
+                                                mesh("FX_SOLID=1 FX_LAYERS=0 FX_CARDS=0 FX_MARKS=1")};
+static_assert(std::size(kMarkedCardPrograms) == size_t(BatchShape::Count) &&
+              std::size(kMarkedSolidPrograms) == size_t(BatchShape::Count));
+
 } // namespace
 
 const ProgramDesc& particleProgramAt(size_t index)
@@ -47,6 +56,16 @@ const ProgramDesc& cardProgram(BatchShape shape)
     return kCardPrograms[size_t(shape)];
 }
 
+const ProgramDesc& markedCardProgram(BatchShape shape)
+{
+    return kMarkedCardPrograms[size_t(shape)];
+}
+
+const ProgramDesc& markedSolidProgram(BatchShape shape)
+{
+    return kMarkedSolidPrograms[size_t(shape)];
+}
+
 const ProgramDesc& particleProgram(BatchShape shape, bool isSolid, bool layers)
 {
     return kPrograms[size_t(shape) * 4 + (isSolid ? 2 : 0) + (layers ? 1 : 0)];
@@ -54,11 +73,21 @@ const ProgramDesc& particleProgram(BatchShape shape, bool isSolid, bool layers)
 
 namespace {
 
+const ProgramDesc& programOf(const ParticleBatch& batch, const MediaTarget& target)
+{
+    if (target.isMarked)
+        return markedSolidProgram(batch.shape);
+    if (target.cards.valid())
+        return target.cards.marks.valid() ? markedCardProgram(batch.shape) : cardProgram(batch.shape);
+    return particleProgram(batch.shape, batch.isSolid, target.layers);
+}
+
 /// Draws instances `first` to `first + count` of a batch.
 void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uint32_t count,
                const MediaTarget& target, ResourceId depth)
 {
-    ParticleBlock block = batch.block;
+    MarkedParticleBlock marked{batch.block, batch.drift, batch.instance};
+    ParticleBlock& block = marked.particles;
     block.view = *target.view;
     block.rows[2] = int32_t(first);
     TextureBinding textures[] = {
@@ -69,7 +98,7 @@ void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uin
         {}};
     size_t textureCount = 3, bufferCount = 4;
     const BufferPart* parts[] = {&batch.newer, &batch.older, &batch.order, &batch.mesh};
-    std::array<BufferBinding, 7> buffers;
+    std::array<BufferBinding, 8> buffers;
     for (uint32_t i = 0; i < 4; ++i) { // what is not there is never read, but something has to be bound
         const BufferPart& part = parts[i]->bytes > 0 ? *parts[i] : batch.newer;
         buffers[i] = {i, part.id, part.offset, part.bytes};
@@ -82,18 +111,18 @@ void drawBatch(Backend& backend, const ParticleBatch& batch, uint32_t first, uin
         textures[textureCount++] = target.lights.textureBinding();
     if (target.lights.hostShadow.valid())
         textures[textureCount++] = target.lights.hostShadowBinding();
-    const bool isGathered = target.cards.valid();
-    if (isGathered) {
+    if (target.cards.valid()) {
         buffers[bufferCount++] = {kCardHeadBinding, target.cards.heads};
         buffers[bufferCount++] = {kCardNodeBinding, target.cards.nodes};
     }
+    if (target.cards.marks.valid())
+        buffers[bufferCount++] = {kCardMarkBinding, target.cards.marks};
     DrawCall call;
-    call.program =
-        isGathered ? &cardProgram(batch.shape) : &particleProgram(batch.shape, batch.isSolid, target.layers);
+    call.program = &programOf(batch, target);
     call.targets = target.targets;
     call.textures = {textures, textureCount};
     call.buffers = {buffers.data(), bufferCount};
-    call.uniforms = asUniforms(block);
+    call.uniforms = target.isMarked || target.cards.marks.valid() ? asUniforms(marked) : asUniforms(block);
     call.blend = batch.isSolid ? Blend::None : Blend::Premultiplied;
     call.vertices = batch.vertices;
     call.instances = count;

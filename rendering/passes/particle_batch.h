@@ -33,6 +33,15 @@ struct ParticleBlock
 };
 static_assert(sizeof(ParticleBlock) == sizeof(ViewBlock) + 8 * 16 + 9 * 16);
 
+/// The same for programs that write marks, see output_marks.h.
+struct MarkedParticleBlock
+{
+    ParticleBlock particles;
+    std::array<glm::vec4, 3> drift;
+    glm::uvec4 instance;
+};
+static_assert(sizeof(MarkedParticleBlock) == sizeof(ParticleBlock) + 4 * 16);
+
 /// Geometry drawn for each row.
 enum class BatchShape : uint8_t
 {
@@ -63,8 +72,10 @@ struct ParticleBatch
     uint32_t texture = 0; ///< GL texture array
     uint32_t motion = 0;
     ResourceId textureId, motionId;
-    bool isComputed = false; ///< rows are written on the GPU
-    ResourceId arguments;    ///< of the draw, written on the GPU; invalid: `instances` are drawn
+    bool isComputed = false;          ///< rows are written on the GPU
+    ResourceId arguments;             ///< of the draw, written on the GPU; invalid: `instances` are drawn
+    std::array<glm::vec4, 3> drift{}; ///< as MarkedParticleBlock, only with outputs, as the next
+    glm::uvec4 instance{};
 };
 
 /// The program of one permutation; `isSolid` writes depth and distance, `layers` as in MediaPass.
@@ -74,6 +85,10 @@ const ProgramDesc& particleProgramAt(size_t index);
 
 /// The program that gathers fragments, see CardLists.
 const ProgramDesc& cardProgram(BatchShape shape);
+
+/// The same with marks, and that which marks solid ones, see output_marks.h.
+const ProgramDesc& markedCardProgram(BatchShape shape);
+const ProgramDesc& markedSolidProgram(BatchShape shape);
 
 /// Draws groups of particles and ribbons; runs number its batches.
 class BatchSource final : public MediaSource

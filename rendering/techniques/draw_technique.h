@@ -24,6 +24,7 @@
 #include "rendering/passes/blob_instance.h"
 #include "rendering/passes/light_bindings.h"
 #include "rendering/passes/media_source.h"
+#include "rendering/passes/output_marks.h"
 #include "rendering/techniques/quality_knob.h"
 
 #include <memory>
@@ -66,6 +67,8 @@ struct GatheredFrame
     std::span<const BlobInstance> blobs{};             ///< balls of medium
     /// Ranges of blobs by instance, if blobs are in the order of instances.
     std::span<const BlobEffect> effects{};
+    /// Outputs of blobs, if they are in the order of instances; with ViewSettings::outputs.
+    std::span<const BlobMark> marks{};
     /// Noise coordinates of blobs, if they are in the order of instances.
     std::span<const BlobMaterial> materials{};
     /// Detail of effects, if blobs are in the order of instances.

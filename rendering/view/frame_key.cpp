@@ -20,6 +20,7 @@ FrameKey frameKey(const RevisionPair& revisions, const FrameRequest& request, co
     key.composition = settings.composition;
     key.voxels = settings.voxels;
     key.layerOutputs = settings.layerOutputs;
+    key.outputs = settings.outputs;
     key.assets = assets;
     return key;
 }

@@ -27,6 +27,7 @@ struct FrameKey
     Composition composition = Composition::Sorted;
     int voxels = 0;
     bool layerOutputs = false;
+    uint32_t outputs = 0;
     const base::AssetTable* assets = nullptr; ///< never followed
 
     bool operator==(const FrameKey&) const = default;

@@ -9,7 +9,7 @@ base::Status ViewRenderer::Impl::begin(const base::SnapshotPair& snapshots, cons
 {
     idleFrames = 0;
     hasLights = false;
-    compose(settings.composition);
+    compose(settings);
     for (const auto& part : parts)
         if (base::Status status = part->begin(settings); !status)
             return status;

@@ -121,8 +121,11 @@ private:
         addStage(PassStage::Upload);
         const auto solid = SolidPass::addTo(graph_, {in_.solids, frame_.distance, frame_.width, frame_.height,
                                                      frame_.view, settings_.layerOutputs, frame_.lights});
+        const ResourceId hostDistance = frame_.distance;
         frame_.distance = solid.distance;
         frame_.layerDistance = solid.distance;
+        if (in_.outputs)
+            addOutputs(hostDistance);
         const auto drawn =
             grid_.divisor == 1 ? drawLayers(frame_.distance, solid.under) : drawSmallLayers(solid.under);
         media_ = drawn.media;
@@ -140,6 +143,14 @@ private:
                 graph_.keep(kept);
         }
         addStage(PassStage::Measure);
+    }
+
+    void addOutputs(ResourceId hostDistance)
+    {
+        out_.outputs = in_.outputs->addTo(graph_, frame_, hostDistance, in_.solids, *in_.past);
+        for (const ResourceId kept : out_.outputs)
+            if (kept.valid())
+                graph_.keep(kept);
     }
 
     /// All that belongs into the layers and does not hide, at their size, as far as `distance` lets it be

@@ -6,6 +6,7 @@
 #include "rendering/frame/view_types.h"
 #include "rendering/frame_graph/frame_graph.h"
 #include "rendering/lights/slices/view_lights.h"
+#include "rendering/outputs/output_view.h"
 #include "rendering/techniques/draw_technique.h"
 
 #include <memory>
@@ -26,12 +27,15 @@ struct ViewGraphInputs
     ViewLights* lights = nullptr;               ///< gathered; null: nothing is lit
     CompositionView* composition = nullptr;     ///< draws media before `batches`; null: none
     int layerDivisor = 1;                       ///< of this frame, >= that of the settings
+    OutputView* outputs = nullptr;              ///< null: the settings ask for none
+    const PastFrame* past = nullptr;            ///< of `outputs`
 };
 
 /// Resources that exist after the frame besides the host's picture; invalid if they were not requested.
 struct ViewGraphOutputs
 {
     ResourceId fire, smoke, dust, media, depth, opticalDepth;
+    OutputTextures outputs;
     bool anyPass = false; ///< false: the host's picture does not change
 };
 

@@ -39,16 +39,25 @@ ViewRenderer::Impl::Impl(GlDevice* d, const base::SnapshotSchema* kinds, std::pm
     }
 }
 
-void ViewRenderer::Impl::compose(Composition wanted)
+void ViewRenderer::Impl::compose(const ViewSettings& settings)
 {
-    if (composing->value == wanted)
+    const bool hasOutputs = settings.outputs != 0;
+    if (composing->value == settings.composition && hasOutputs == (outputView != nullptr))
         return;
-    const MediaComposition* found = findComposition(wanted);
+    const MediaComposition* found = findComposition(settings.composition);
     key.reset();
     if (composition)
         parts.pop_back();
+    if (outputView)
+        parts.pop_back();
     composition = nullptr;
+    outputView = nullptr;
     composing = found;
+    if (hasOutputs) {
+        auto made = std::make_unique<OutputView>(TechniqueSetup{device, schema, memory, techniques});
+        outputView = made.get();
+        parts.push_back(std::move(made));
+    }
     if (!found->create)
         return;
     std::unique_ptr<CompositionView> made = found->create({device, schema, memory, techniques});

@@ -44,7 +44,7 @@ struct ViewRenderer::Impl
                             const FrameRequest& request, const ViewSettings& settings);
     base::Status begin(const base::SnapshotPair& snapshots, const FrameRequest& request,
                        const ViewSettings& settings); ///< the parts, then gather()
-    void compose(Composition wanted);                 ///< makes its part, in place of that of another
+    void compose(const ViewSettings& settings); ///< makes parts that settings ask for, in place of others
     base::Status fillLights(const ViewSettings& settings);
     void dropPrepared(); ///< lists that were gathered and not drawn
     /// Whether prepareLights() has built the lists of this frame; they are then reused.
@@ -70,9 +70,11 @@ struct ViewRenderer::Impl
     GlBackend lightBackend;
     DrawTechniques techniques;
     std::pmr::vector<std::unique_ptr<TechniqueView>>
-        parts;                              ///< of techniques, in their order; then `composition`
-    const MediaComposition* composing;      ///< of the last frame
+        parts;                         ///< of techniques, in their order; then `outputs`, then `composition`
+    const MediaComposition* composing; ///< of the last frame
     CompositionView* composition = nullptr; ///< among the parts; null: it keeps nothing
+    OutputView* outputView = nullptr;       ///< among the parts; null: there are no outputs
+    FrameHistory history;                   ///< while there are outputs
     LevelOfDetail lod;
     ViewLights lights;
     std::pmr::vector<MediumCaster> casters;

@@ -192,6 +192,9 @@ base::Status ViewRenderer::warmUp()
         if (base::Status status = composition->programs ? compile(composition->programs()) : base::Status();
             !status)
             return status;
+    if (settings_.outputs != 0)
+        if (base::Status status = compile(outputPrograms()); !status)
+            return status;
     for (const auto& part : impl_->parts)
         if (base::Status status = part->prepare(); !status)
             return status;
@@ -230,8 +233,8 @@ base::Status ViewRenderer::check(const FrameRequest& request)
 base::Status ViewRenderer::Impl::draw(const FrameRequest& request, const ViewSettings& settings, int divisor)
 {
     graph.begin();
-    outputs = buildViewGraph(
-        graph, {&request, &settings, parts, mediaBatches, solids, &lights, composition, divisor});
+    outputs = buildViewGraph(graph, {&request, &settings, parts, mediaBatches, solids, &lights, composition,
+                                     divisor, outputView, &history.past()});
     if (!outputs.anyPass)
         return {};
     graph.compile();
@@ -259,6 +262,8 @@ base::Status ViewRenderer::checkAll(const FrameRequest& request) const
                        std::to_string(int(settings_.composition)));
     if (settings_.slabs != 6 && settings_.slabs != 16)
         return invalid("settings: slabs are 6 or 16");
+    if (settings_.outputs > view_output::kAll)
+        return invalid("settings: this library has no such outputs");
     if (settings_.voxels < 16 || settings_.voxels > 256)
         return invalid("settings: voxels are 16 to 256");
     for (const DrawTechnique* technique : impl_->techniques)
@@ -281,10 +286,14 @@ base::Status ViewRenderer::render(const base::SnapshotPair& snapshots, const Fra
     if (base::Status status = checkAll(asked); !status)
         return status;
     asleep_ = false;
+    if (settings_.outputs != 0)
+        s.history.advance(asked);
+    else
+        s.history.forget();
     if (s.leavesPictureAlone(snapshots, asked, settings_)) {
         statistics_ = s.rest();
         tellComposition();
-        asleep_ = statistics_.glCalls == 0 && s.holdsNothing();
+        asleep_ = statistics_.glCalls == 0 && s.holdsNothing() && settings_.outputs == 0; // which tell motion
         return {};
     }
     const uint64_t callsBefore = s.device->callCount();
@@ -392,6 +401,12 @@ LayerTextures ViewRenderer::layers() const
     const auto name = [&](ResourceId id) { return id.valid() ? s.backend.textureName(id) : 0; };
     const ViewGraphOutputs& o = s.outputs;
     return {name(o.fire), name(o.smoke), name(o.dust), name(o.depth), name(o.opticalDepth), name(o.media)};
+}
+
+uint32_t ViewRenderer::output(size_t number) const
+{
+    const ResourceId id = impl_->outputs.outputs[number];
+    return id.valid() ? impl_->backend.textureName(id) : 0;
 }
 
 std::span<const std::string_view> ViewRenderer::executedPasses() const

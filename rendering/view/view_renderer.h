@@ -103,6 +103,9 @@ public:
 
     const FrameStatistics& statistics() const { return statistics_; }
     LayerTextures layers() const;
+    /// Texture of the bit `number` of view_output, valid as layers(); 0 when it was not asked for or nothing
+    /// is to be seen.
+    uint32_t output(size_t number) const;
     /// Names of the passes that the last frame executed, in order.
     std::span<const std::string_view> executedPasses() const;
 

@@ -8,6 +8,9 @@
 out vec3 fragmentPlace;
 out vec2 fragmentTexture;     // x across, 0 to 1; y [m] along, in lengths of the texture
 out vec4 fragmentColor;
+#ifdef FX_MARKS
+out vec3 fragmentVelocity; // [m/s] relative to the world
+#endif
 
 // Columns of the kind: x y z halfWidth arc color strip age. The strip is not there: a color whose opacity has a sign goes on
 // with the strip of the row before.
@@ -35,6 +38,9 @@ void main()
     fragmentPlace = vec3(0.0);
     fragmentTexture = vec2(0.0);
     fragmentColor = vec4(0.0);
+#ifdef FX_MARKS
+    fragmentVelocity = driftAt(vec4(newerVector(0, row), 1.0)); // points of a trail rest where they were left
+#endif
     gl_Position = clippedAway();
     if (!goesOn(row + 1) || levelFactors.x == 0.0)
         return;

@@ -12,6 +12,16 @@
 //                 z OrderForm: which rows are drawn, and how; w share of a ribbon's half width that is soft
 // newerAt         places of the columns in the newer rows, in words of 4 bytes; -1: not there. olderAt the same in the older
 // rows            x rows of the newer; y of the older; z first of this draw; w first index of the mesh in words
+// Where FX_MARKS is defined:
+// drift           rows of a matrix: velocity of a point of the group's axes that rests in them, relative to the world [m/s]
+// markInstance    xy id of the instance, low word first
+#ifdef FX_MARKS
+#define FX_MARK_EXTRA \
+    vec4 drift[3]; \
+    uvec4 markInstance;
+#else
+#define FX_MARK_EXTRA
+#endif
 #define FX_VIEW_EXTRA \
     vec4 placePosition; \
     vec4 placeRotation; \
@@ -23,4 +33,5 @@
     vec4 strip; \
     ivec4 newerAt[4]; \
     ivec4 olderAt[4]; \
-    ivec4 rows;
+    ivec4 rows; \
+    FX_MARK_EXTRA

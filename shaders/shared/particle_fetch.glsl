@@ -51,6 +51,11 @@ float opacityOf(float opacity, vec2 levelFactors)
 
 vec3 rotated(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 
+#ifdef FX_MARKS
+// Velocity of a point that rests in the group's axes; with w 0, of a way in them.
+vec3 driftAt(vec4 local) { return vec3(dot(drift[0], local), dot(drift[1], local), dot(drift[2], local)); }
+#endif
+
 // From the group's axes to the world's, relative to the eye.
 vec3 placed(vec3 local) { return placePosition.xyz + rotated(placeRotation, local * placePosition.w); }
 vec3 placedDirection(vec3 local) { return rotated(placeRotation, local * placePosition.w); }
@@ -65,6 +70,11 @@ struct Particle
     float angle;   // [rad]
     float frame;
     vec4 orientation;
+#ifdef FX_MARKS
+    vec3 drift;     // [m/s] of the center, relative to the world
+    vec2 turned;    // [rad] angles in the older and the newer snapshot
+    vec4 oriented[2]; // orientations, likewise
+#endif
 };
 
 // Rows of the CPU are packed, as rendering/particle_rows/packed_rows.h says.
@@ -199,12 +209,22 @@ Particle fetchParticle(int row)
     float back = (1.0 - moment.x) * moment.y;
     bool isBorn = isPacked ? newer.age + kAgeUnit > back || newer.age >= kMaxAge : newer.age >= back;
     bool both = false;
+#ifdef FX_MARKS
+    vec3 local = newer.velocity;
+    p.turned = vec2(newer.angle);
+    p.oriented[0] = p.oriented[1] = newer.orientation;
+#endif
     if (moment.z > 0.5 && row < rows.y) {
         Row older = olderRow(row, newer);
         both = isSame(older, newer, isPacked || olderIsPacked());
         if (both) {
             float t = moment.x;
             vec4 now = newer.orientation;
+#ifdef FX_MARKS
+            local = (newer.position - older.position) / moment.y;
+            p.turned.x = older.angle;
+            p.oriented[0] = older.orientation;
+#endif
             newer.position = mix(older.position, newer.position, t);
             newer.radius = mix(older.radius, newer.radius, t);
             newer.velocity = mix(older.velocity, newer.velocity, t);
@@ -221,6 +241,9 @@ Particle fetchParticle(int row)
     if (!both && moment.z > 0.5)
         newer.position -= newer.velocity * back;
     p.center = placed(newer.position);
+#ifdef FX_MARKS
+    p.drift = placedDirection(local) + driftAt(vec4(newer.position, 1.0));
+#endif
     p.velocity = placedDirection(newer.velocity);
     p.radius = newer.radius * placePosition.w;
     p.color = newer.color;

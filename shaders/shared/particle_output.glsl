@@ -1,10 +1,18 @@
 // What a fragment of a particle adds to the targets of the media pass. Needs shared/view_block.glsl and
 // shared/particle_block.glsl. FX_LAYERS as in media.frag.glsl; FX_SOLID 1 replaces instead, with depth and distance;
-// FX_CARDS 1 gathers fragments instead.
+// FX_CARDS 1 gathers fragments instead. FX_MARKS, where it is defined, tells outputs whose fragment it is and how it moves:
+// beside gathered fragments, or in place of the light of solid ones.
 layout(binding = 0) uniform sampler2D sceneDistance; // [m] along the ray to the opaque surface, +inf for none
+
+#ifdef FX_MARKS
+in vec3 fragmentVelocity; // [m/s] relative to the world
+#endif
 
 #if FX_CARDS
 #include "shared/card_lists.glsl"
+#elif defined(FX_MARKS)
+layout(location = 0) out vec4 solidVelocity;
+layout(location = 1) out uvec2 solidInstance;
 #elif FX_LAYERS
 #include "shared/layer_outputs.glsl"
 #if FX_SOLID
@@ -47,13 +55,18 @@ void writeParticle(vec3 light, float alpha, vec3 place)
         discard;
 #if FX_SOLID
     float d = distanceOf(place);
+#ifndef FX_MARKS
     solidDistance = vec4(d, 0.0, 0.0, 1.0);
+#endif
     gl_FragDepth = 1.0 / (1.0 + max(d, 0.0)); // nearer is more, as precise far away as a float is
 #endif
     float cover = appearance.w > 0.5 && appearance.w < 1.5 ? 0.0 : alpha; // what only adds hides nothing
     vec3 seen = alpha * light;
 #if FX_CARDS
     addCard(light, alpha, cover, distanceOf(place), 2.0 * appearance.z, shine.z);
+#elif defined(FX_MARKS)
+    solidVelocity = vec4(fragmentVelocity, 1.0);
+    solidInstance = markInstance.xy;
 #elif FX_LAYERS
     float layer = shine.z;
     vec3 ofLayer = vec3(layer < 0.5, layer > 0.5 && layer < 1.5, layer > 1.5);

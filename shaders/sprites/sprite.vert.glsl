@@ -10,6 +10,9 @@ out vec2 fragmentTexture;    // [0, 1] from the lower left of the frame
 flat out vec4 fragmentColor; // rgb exposed light that a white texel emits; a opacity
 out vec3 fragmentScattered;  // exposed light that it scatters
 flat out float fragmentFrame;
+#ifdef FX_MARKS
+out vec3 fragmentVelocity; // [m/s] relative to the world
+#endif
 
 // Vertical and horizontal of the square, unit. Returns whether the vertical lies along the velocity, before it is turned.
 bool standUp(Particle p, out vec3 horizontal, out vec3 vertical)
@@ -58,6 +61,9 @@ void main()
     fragmentColor = vec4(0.0);
     fragmentScattered = vec3(0.0);
     fragmentFrame = p.frame;
+#ifdef FX_MARKS
+    fragmentVelocity = p.drift;
+#endif
     gl_Position = clippedAway();
     vec2 levelFactors = factorsOfRank(rows.z + gl_InstanceID);
     if (!p.alive || levelFactors.x == 0.0)

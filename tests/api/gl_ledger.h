@@ -63,6 +63,8 @@ private:
             return "R32F";
         case GL_RG32F:
             return "RG32F";
+        case GL_RG32UI:
+            return "RG32UI";
         case GL_RGBA8:
             return "RGBA8";
         default:

@@ -28,18 +28,23 @@ SlabMedia::SlabMedia(const TechniqueSetup& setup)
 
 void SlabMedia::gather(const GatherInputs& in, GatheredFrame& io)
 {
+    see(in, io);
+    io.streams->clear();
+}
+
+void SlabMedia::see(const GatherInputs& in, const GatheredFrame& from)
+{
     ballSource_ = nullptr;
     cards_.clear();
-    for (const DrawStream& stream : *io.streams) {
+    for (const DrawStream& stream : *from.streams) {
         if (stream.source->balls())
             ballSource_ = stream.source;
         else
             cards_.push_back({stream.batch, 0, stream.count, stream.source});
     }
-    io.streams->clear();
     const HostTargets& targets = in.request->targets;
-    const FragmentCounts ofBalls = estimateFragments(io.blobs, *in.camera, targets.width, targets.height);
-    cardFragments_ = io.fragments[0] - std::min(io.fragments[0], ofBalls[0]);
+    const FragmentCounts ofBalls = estimateFragments(from.blobs, *in.camera, targets.width, targets.height);
+    cardFragments_ = from.fragments[0] - std::min(from.fragments[0], ofBalls[0]);
     width_ = targets.width;
 }
 
@@ -58,14 +63,15 @@ uint64_t SlabMedia::cardCapacity(const MediaPass::Inputs& in) const
     return std::min(std::bit_ceil(wanted), kMaxCards);
 }
 
-SlabMedia::Lists SlabMedia::list(FrameGraph& graph, const MediaPass::Inputs& in, ResourceId fieldTiles)
+SlabMedia::Lists SlabMedia::list(FrameGraph& graph, const MediaPass::Inputs& in, ResourceId fieldTiles,
+                                 bool marks)
 {
     const BallList balls = ballSource_ ? *ballSource_->balls() : BallList();
     const uint64_t entries = findTiles(balls.instances, in.view, rects_);
     capacity_ = cardCapacity(in);
     Lists out{};
     out.detail = balls.detail;
-    out.cards = SlabCardPass::addTo(graph, {cards_, &in, capacity_});
+    out.cards = SlabCardPass::addTo(graph, {cards_, &in, capacity_, marks});
     out.tiles = SlabTilePass::addTo(
         graph, {rects_, entries, in.width, in.height, in.view.rayOriginY.w, out.cards, fieldTiles});
     out.balls = SlabBallPass::addTo(graph, balls, in.view);

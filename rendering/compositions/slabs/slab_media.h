@@ -16,6 +16,8 @@ public:
 
     /// Takes all streams.
     void gather(const GatherInputs& in, GatheredFrame& io);
+    /// Lists all streams as well as who takes them.
+    void see(const GatherInputs& in, const GatheredFrame& from);
     /// In place of the balls that it has taken; null: none. Must stay, and have its buffers when list() is
     /// called.
     void replaceBalls(const MediaSource* balls) { ballSource_ = balls; }
@@ -38,8 +40,9 @@ public:
         }
     };
     /// Adds the passes that list balls and cards. A frame calls it once or twice.
-    /// @param fieldTiles as SlabTilePass
-    [[nodiscard]] Lists list(FrameGraph& graph, const MediaPass::Inputs& in, ResourceId fieldTiles = {});
+    /// @param fieldTiles as SlabTilePass  @param marks cards are gathered with what outputs need
+    [[nodiscard]] Lists list(FrameGraph& graph, const MediaPass::Inputs& in, ResourceId fieldTiles = {},
+                             bool marks = false);
 
     void forget() { tiles_ = heads_ = {}; }
     void readBack(const GlBackend& backend, FrameStatistics& statistics);

@@ -1,6 +1,7 @@
 #include "rendering/compositions/slabs/slab_passes.h"
 
 #include "rendering/passes/blob_light_pass.h"
+#include "rendering/passes/output_marks.h"
 
 #include <algorithm>
 #include <bit>
@@ -69,6 +70,8 @@ CardLists SlabCardPass::addTo(FrameGraph& graph, const Inputs& in)
         const size_t words = headWords(media.width, media.height);
         cards.heads = builder.write(builder.create(BufferDesc{"card heads", words * 4}));
         cards.nodes = makeBuffer(builder, "cards", size_t(in.capacity) * kCardBytes);
+        if (in.marks)
+            cards.marks = makeBuffer(builder, "marks of cards", size_t(in.capacity) * kCardMarkBytes);
         const ResourceId fragments =
             builder.write(builder.create({"cards of texels", media.width, media.height, Format::R32F}));
         return [media, cards, fragments, words, batches = in.batches](Backend& backend) {

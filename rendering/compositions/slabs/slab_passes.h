@@ -35,6 +35,7 @@ public:
         std::span<const DrawBatch> batches; ///< of sources without balls; must stay, as must their sources
         const MediaPass::Inputs* media;     ///< of the composition
         uint64_t capacity;                  ///< fragments; more are left out and counted
+        bool marks = false;                 ///< besides, what outputs need
     };
     [[nodiscard]] static CardLists addTo(FrameGraph& graph, const Inputs& in);
 };

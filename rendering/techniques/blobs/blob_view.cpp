@@ -24,6 +24,7 @@ base::Status BlobView::gather(const GatherInputs& in, GatheredFrame& io)
                    in.needsOrder);
     io.blobs = builder_.blobs();
     io.effects = builder_.effects();
+    io.marks = builder_.marks();
     io.materials = builder_.materials();
     io.details = builder_.details();
     io.casters->insert(io.casters->end(), builder_.casters().begin(), builder_.casters().end());

@@ -38,12 +38,14 @@ base::Status RowView::gather(const GatherInputs& in, GatheredFrame& io)
     isKept_ = false;
     batches_.clear();
     source_.batches = {};
-    merger_.build(*in.snapshots, in.revisions, in.newerRows, in.olderRows);
-    const base::SnapshotPair merged = merger_.merged();
+    isMerged_ = in.settings->outputs == 0; // outputs tell instances apart
+    if (isMerged_)
+        merger_.build(*in.snapshots, in.revisions, in.newerRows, in.olderRows);
+    const base::SnapshotPair merged = isMerged_ ? merger_.merged() : base::SnapshotPair();
     ParticleFrameInputs inputs{in.snapshots, in.request, in.settings, in.camera};
     inputs.techniques = techniques_;
     inputs.lod = in.lod;
-    inputs.left = merger_.taken();
+    inputs.left = taken();
     if (base::Status status = add(single_, inputs, {in.revisions, in.newerRows, in.olderRows}, in.assets, io);
         !status)
         return status;
@@ -63,13 +65,13 @@ base::Status RowView::gather(const GatherInputs& in, GatheredFrame& io)
 void RowView::addCasters(const GatherInputs& in, std::pmr::vector<MediumCaster>& io) const
 {
     const size_t begin = io.size();
-    const base::SnapshotPair merged = merger_.merged();
-    RowCasterInputs inputs{in.snapshots, techniques_, in.request->interpolation, in.camera->eye,
-                           merger_.taken()};
+    const base::SnapshotPair merged = isMerged_ ? merger_.merged() : base::SnapshotPair();
+    RowCasterInputs inputs{in.snapshots, techniques_, in.request->interpolation, in.camera->eye, taken()};
     gatherRowCasters(inputs, io);
     inputs.snapshots = &merged;
     inputs.left = {};
-    gatherRowCasters(inputs, io);
+    if (isMerged_)
+        gatherRowCasters(inputs, io);
     widenCasters(std::span(io).subspan(begin), io, in.settings->slices.resolution.texels);
 }
 

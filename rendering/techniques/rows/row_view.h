@@ -38,6 +38,11 @@ private:
     base::Status add(Rows& rows, const ParticleFrameInputs& inputs, const UploadRevisions& of,
                      const base::AssetTable* assets, GatheredFrame& io);
     void addCasters(const GatherInputs& in, std::pmr::vector<MediumCaster>& io) const;
+    /// By group of the newer snapshot: 1 where it is drawn as part of a merged one.
+    std::span<const uint8_t> taken() const
+    {
+        return isMerged_ ? merger_.taken() : std::span<const uint8_t>();
+    }
 
     std::pmr::vector<const RowTechnique*> techniques_;
     GroupMerger merger_;
@@ -46,6 +51,7 @@ private:
     std::pmr::vector<ParticleBatch> batches_;
     BatchSource source_;
     bool isKept_ = false;
+    bool isMerged_ = true; ///< small groups are joined
 };
 
 } // namespace fx::render

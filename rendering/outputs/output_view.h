@@ -1,0 +1,39 @@
+/// @file output_view.h
+/// What a view keeps to tell what its pixels show.
+#pragma once
+
+#include "rendering/gl/gl_buffer.h"
+#include "rendering/outputs/output_pass.h"
+
+namespace fx::render {
+
+/// A part of a view that exists while its settings ask for outputs. It gathers behind all techniques and
+/// before the composition, and takes nothing.
+class OutputView final : public TechniqueView
+{
+public:
+    explicit OutputView(const TechniqueSetup& setup) : device_(*setup.device), media_(setup) {}
+
+    base::Status gather(const GatherInputs& in, GatheredFrame& io) override;
+    void keep() override { isKept_ = true; }
+    void addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame) override;
+    void forget() override { media_.forget(); }
+    void rest() override;
+    uint64_t bytes() const override { return marks_.bytes(); }
+    void readBack(const GlBackend& backend, FrameStatistics& statistics) override;
+
+    /// Adds the passes of a frame; PassFrame::distance has solid things by then.
+    /// @param hostDistance [m] along the ray to the host's opaque geometry alone
+    [[nodiscard]] OutputTextures addTo(FrameGraph& graph, const PassFrame& frame, ResourceId hostDistance,
+                                       std::span<const MediaSource* const> solids, const PastFrame& past);
+
+private:
+    GlDevice& device_;
+    SlabMedia media_;
+    GlBuffer marks_;
+    std::span<const BlobMark> listed_; ///< of the frame
+    ResourceId markBuffer_;
+    bool isKept_ = false;
+};
+
+} // namespace fx::render

@@ -1,0 +1,28 @@
+/// @file output_marks.h
+/// Whose what is shown is, and how it moves: what the outputs of a view need besides light.
+#pragma once
+
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace fx::render {
+
+/// Of a ball; layout of shaders/shared/output_marks.glsl.
+struct BlobMark
+{
+    glm::vec4 velocity;  ///< xyz [m/s] relative to the world
+    glm::uvec4 instance; ///< xy its id, low word first
+};
+static_assert(sizeof(BlobMark) == 32 && offsetof(BlobMark, instance) == 16);
+
+/// Of a fragment of a card, written on the GPU; layout likewise.
+constexpr size_t kCardMarkBytes = 32;
+
+inline glm::uvec4 instanceWords(uint64_t id)
+{
+    return {uint32_t(id), uint32_t(id >> 32), 0u, 0u};
+}
+
+} // namespace fx::render

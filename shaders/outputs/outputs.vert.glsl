@@ -1,0 +1,2 @@
+#include "outputs/output_block.glsl"
+#include "slabs/slabs.vert.glsl"
