@@ -162,6 +162,8 @@ FxResult fxContext_WarmUp(FxContext* context)
             return scope.status();
         fx::render::ViewRenderer renderer(context->device.get(), &context->schema, &context->memory,
                                           context->techniques.draws);
+        for (const FxView* view : context->views)
+            renderer.settings().outputs |= view->renderer.settings().outputs;
         if (Status status = renderer.warmUp(); !status) // programs belong to the device and stay
             return status;
         for (const auto& program : gpuPrograms(*context))

@@ -19,6 +19,12 @@ static_assert(int(FX_COMPOSITION_SLABS) == int(fx::render::Composition::Slabs));
 static_assert(int(FX_COMPOSITION_VOLUME) == int(fx::render::Composition::Volume));
 static_assert(int(FX_COMPOSITION_AUTOMATIC) == int(fx::render::Composition::Automatic));
 
+static_assert(int(FX_OUTPUT_INSTANCE_ID) == int(fx::render::view_output::InstanceId));
+static_assert(int(FX_OUTPUT_MOTION) == int(fx::render::view_output::Motion));
+static_assert(int(FX_OUTPUT_FIRST_DEPTH) == int(fx::render::view_output::FirstDepth));
+static_assert(int(FX_OUTPUT_MEAN_DEPTH) == int(fx::render::view_output::MeanDepth));
+static_assert(int(FX_OUTPUT_OPTICAL_DEPTH) == int(fx::render::view_output::OpticalDepth));
+
 constexpr float kBrightest = 1e6f;  // [cd/m2] and [lx]
 constexpr double kFarthest = 1e9;   // [m]
 constexpr int32_t kWidest = 16'384; // [pixel]
@@ -57,6 +63,7 @@ void checkSwitches(fx::api::Checks& check, const FxViewSettings& given)
     check.flag(given.detail, "settings.detail");
     check.flag(given.toneMap, "settings.toneMap");
     check.flag(given.layerOutputs, "settings.layerOutputs");
+    check.range(given.outputs, 0u, fx::render::view_output::kAll, "settings.outputs");
     check.flag(given.countOverdraw, "settings.countOverdraw");
     check.flag(given.activationOverlay, "settings.activationOverlay");
     check.that(given.layerScale == 1.0f || given.layerScale == 0.5f || given.layerScale == 0.25f,
@@ -143,6 +150,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     settings.detail = given.detail != 0;
     settings.toneMap = given.toneMap != 0;
     settings.layerOutputs = given.layerOutputs != 0;
+    settings.outputs = given.outputs;
     settings.countOverdraw = given.countOverdraw != 0;
     settings.overlay = given.activationOverlay != 0;
     settings.layerDivisor = int(1.0f / given.layerScale);

@@ -129,6 +129,7 @@ Status renderFrame(FxView& view, const FxFrameDef* frame)
     const fx::scene::Presentation& shown = view.prepared->shown();
     request.interpolation = shown.interpolation;
     request.time = shown.time;
+    request.instances = fx::api::instanceNames(view);
     const bool marks = view.renderer.settings().overlay;
     if (marks) {
         view.scene->scene.copyMarks(view.marks);
@@ -239,6 +240,19 @@ FxResult fxView_GetLayerTextures(FxView* view, FxLayerTextures* ioTextures)
         textures.depth = layers.depth;
         textures.opticalDepth = layers.opticalDepth;
         textures.media = layers.media;
+        return fx::api::writeStruct(textures, ioTextures, "ioTextures");
+    });
+}
+
+FxResult fxView_GetOutputTextures(FxView* view, FxOutputTextures* ioTextures)
+{
+    return fx::api::insideView("fxView_GetOutputTextures", view, [&]() -> Status {
+        FxOutputTextures textures{};
+        uint32_t* const names[] = {&textures.instanceId, &textures.motion, &textures.firstDepth,
+                                   &textures.meanDepth, &textures.opticalDepth};
+        static_assert(std::size(names) == fx::render::view_output::kCount);
+        for (size_t i = 0; i < std::size(names); ++i)
+            *names[i] = view->renderer.output(i);
         return fx::api::writeStruct(textures, ioTextures, "ioTextures");
     });
 }

@@ -95,6 +95,7 @@ Status prepareLights(FxView& view, const FxFrameDef* frame)
     fx::api::ShownFrame& frameToShow = fx::api::showFrame(view, known);
     request.interpolation = frameToShow.shown().interpolation;
     request.time = frameToShow.shown().time;
+    request.instances = fx::api::instanceNames(view);
     Status status = view.renderer.prepareLights(frameToShow.shown().snapshots, request);
     frameToShow.allocations = view.context->memory.allocationCount() - before;
     if (!status)

@@ -71,6 +71,15 @@ base::Status convertSettings(const FxViewSettings& given, render::ViewSettings& 
 base::Status convertBudget(const FxViewSettings& given, quality::BudgetOptions& outOptions);
 base::Status convertFrame(const FxFrameDef& given, render::FrameRequest& outRequest);
 
+/// What its outputs call instances: as the C API does.
+inline render::InstanceNames instanceNames(const FxView& view)
+{
+    return {[](const void* scene, uint64_t instance) {
+                return static_cast<const FxScene*>(scene)->ids.encode(instance, kInstanceIdType);
+            },
+            view.scene};
+}
+
 /// Shows the present moment with the settings that the budget allows.
 inline ShownFrame& showFrame(FxView& view, const FxFrameDef& frame)
 {

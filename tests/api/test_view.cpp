@@ -95,6 +95,41 @@ TEST_F(ViewApi, aWarmFrameCompilesAndAllocatesNothing)
     }
 }
 
+TEST_F(ViewApi, outputsNameInstancesAsTheSceneDoes)
+{
+    update(60);
+    FxViewSettings settings = fxDefaultViewSettings();
+    settings.outputs = FX_OUTPUT_INSTANCE_ID | FX_OUTPUT_FIRST_DEPTH;
+    ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK);
+    ASSERT_EQ(fxContext_WarmUp(context_), FX_OK) << fxGetLastErrorMessage();
+    const FxFrameDef def = frame();
+    ASSERT_EQ(fxView_Render(view_, &def), FX_OK) << fxGetLastErrorMessage();
+    EXPECT_EQ(statistics().programsCompiled, 0u) << "they were warmed up for the view";
+    FxOutputTextures outputs{};
+    outputs.structSize = sizeof outputs;
+    ASSERT_EQ(fxView_GetOutputTextures(view_, &outputs), FX_OK);
+    EXPECT_EQ(outputs.motion, 0u) << "only what is asked for";
+    ASSERT_NE(outputs.instanceId, 0u);
+    const auto words = fx::render::readUintTexture(*host_, outputs.instanceId, kSize, kSize, 2);
+    const size_t middle = size_t(kSize / 2 * kSize + kSize / 2);
+    FxInstanceId instance{};
+    uint32_t count = 0;
+    ASSERT_EQ(fxScene_GetInstances(scene_, &instance, 1, &count), FX_OK);
+    EXPECT_EQ(words[2 * middle] | uint64_t(words[2 * middle + 1]) << 32, instance.bits);
+    EXPECT_EQ(words[0] | words[1], 0u) << "nothing is in the corner";
+    const auto first = fx::render::readTexture(*host_, outputs.firstDepth, kSize, kSize, 1);
+    EXPECT_GT(first[middle], 0.0f);
+    EXPECT_TRUE(std::isinf(first[0]));
+
+    settings.outputs = 0;
+    ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK);
+    ASSERT_EQ(fxView_Render(view_, &def), FX_OK);
+    ASSERT_EQ(fxView_GetOutputTextures(view_, &outputs), FX_OK);
+    EXPECT_EQ(outputs.instanceId | outputs.firstDepth, 0u);
+    settings.outputs = 32;
+    EXPECT_EQ(fxView_SetSettings(view_, &settings), FX_ERROR_INVALID_ARGUMENT);
+}
+
 TEST_F(ViewApi, layersAreKeptOnRequestAndPassesHaveNames)
 {
     update(60);

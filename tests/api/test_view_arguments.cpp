@@ -108,6 +108,7 @@ TEST_F(ViewArguments, nullIsRefusedByEveryFunction)
     FxView* view = nullptr;
     FxViewStatistics statistics{};
     FxLayerTextures layers{};
+    FxOutputTextures outputs{};
     uint32_t count = 0;
     char name[8];
     EXPECT_EQ(fxCreateView(nullptr, scene_, &settings, &view), FX_ERROR_INVALID_ARGUMENT);
@@ -123,6 +124,9 @@ TEST_F(ViewArguments, nullIsRefusedByEveryFunction)
     EXPECT_EQ(fxView_GetLayerTextures(nullptr, &layers), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(fxView_GetLayerTextures(view_, nullptr), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(fxView_GetLayerTextures(view_, &layers), FX_ERROR_VERSION);
+    EXPECT_EQ(fxView_GetOutputTextures(nullptr, &outputs), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxView_GetOutputTextures(view_, nullptr), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxView_GetOutputTextures(view_, &outputs), FX_ERROR_VERSION);
     EXPECT_EQ(fxView_GetPassCount(nullptr, &count), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(fxView_GetPassCount(view_, nullptr), FX_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(fxView_GetPassName(nullptr, 0, name, sizeof name), FX_ERROR_INVALID_ARGUMENT);
@@ -146,6 +150,9 @@ TEST_F(ViewArguments, everyFunctionRefusesAnotherThreadUntilItAdoptsGl)
         EXPECT_EQ(fxView_Render(view_, &def), FX_ERROR_WRONG_THREAD);
         EXPECT_EQ(fxView_GetStatistics(view_, &statistics), FX_ERROR_WRONG_THREAD);
         EXPECT_EQ(fxView_GetLayerTextures(view_, &layers), FX_ERROR_WRONG_THREAD);
+        FxOutputTextures outputs{};
+        outputs.structSize = sizeof outputs;
+        EXPECT_EQ(fxView_GetOutputTextures(view_, &outputs), FX_ERROR_WRONG_THREAD);
         EXPECT_EQ(fxView_GetPassCount(view_, &count), FX_ERROR_WRONG_THREAD);
         EXPECT_EQ(fxView_GetPassName(view_, 0, name, sizeof name), FX_ERROR_WRONG_THREAD);
         EXPECT_EQ(fxDestroyView(view_), FX_ERROR_WRONG_THREAD);

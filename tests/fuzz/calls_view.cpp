@@ -21,6 +21,7 @@ FxViewSettings CallsPlayer::anySettings()
     settings.detail = input_.below(2);
     settings.toneMap = input_.below(2);
     settings.layerOutputs = input_.below(2);
+    settings.outputs = input_.below(33);
     settings.countOverdraw = input_.below(2);
     constexpr std::array<float, 4> kScales{1.0f, 0.5f, 0.25f, 0.3f};
     settings.layerScale = kScales[input_.below(4)];
@@ -95,6 +96,8 @@ void CallsPlayer::readView()
     checked(fxView_GetStatistics(view, &statistics));
     FxLayerTextures textures = sized<FxLayerTextures>();
     checked(fxView_GetLayerTextures(view, &textures));
+    FxOutputTextures outputs = sized<FxOutputTextures>();
+    checked(fxView_GetOutputTextures(view, &outputs));
     FxQualityReport report = sized<FxQualityReport>();
     checked(fxView_GetQualityReport(view, &report));
     FxQualityChoice choice = sized<FxQualityChoice>();

@@ -66,6 +66,16 @@ enum
     FX_COMPOSITION_AUTOMATIC = 3
 };
 
+/// Bits of FxViewSettings::outputs: pictures for those who need ground truth, see docs/howto/outputs.md.
+enum
+{
+    FX_OUTPUT_INSTANCE_ID = 1,   ///< instance with the largest share of the pixel
+    FX_OUTPUT_MOTION = 2,        ///< motion of what is seen since the frame before
+    FX_OUTPUT_FIRST_DEPTH = 4,   ///< distance at which media begin to be seen
+    FX_OUTPUT_MEAN_DEPTH = 8,    ///< mean distance of what is seen
+    FX_OUTPUT_OPTICAL_DEPTH = 16 ///< optical depth of all media
+};
+
 /// Values of FxViewSettings::budgetClock.
 enum
 {
@@ -166,8 +176,8 @@ typedef struct FxViewSettings
 
     /// [pixel] 0..13, an effect whose bounding sphere has a smaller radius on the picture is drawn as an
     /// impostor. It is re-rendered ten times a second while the effect changes, and when the view direction
-    /// changes, and cross-fades into the next one. Not with layerOutputs or orthographic projections. 0
-    /// (default): none.
+    /// changes, and cross-fades into the next one. Not with layerOutputs, outputs or orthographic
+    /// projections. 0 (default): none.
     float lodImpostorPixels;
 
     /// 1: draws the bounding boxes of visibility culling over the picture, as of the last update: green
@@ -209,6 +219,12 @@ typedef struct FxViewSettings
     /// lag by up to one frame less than this number, and the passes that fill the planes are not executed in
     /// between. Moving lights update the slices at once, media that come to rest in the next frame.
     uint32_t lightRefreshFrames;
+
+    /// Bits FX_OUTPUT_...: pictures that fxView_GetOutputTextures() gives, at the size of the picture, the
+    /// same for all compositions. Effects are then drawn one by one and never as impostors. Default 0: none
+    /// of their passes, programs and textures exist. The first frame that asks for them compiles programs,
+    /// unless fxContext_WarmUp() was called while the settings did.
+    uint32_t outputs;
 } FxViewSettings;
 
 /// Daylight exposure, no lights, all effects enabled.
@@ -363,6 +379,33 @@ typedef struct FxLayerTextures
     uint32_t reserved;
 } FxLayerTextures;
 
+/// Outputs of the last frame: GL names; 0 where settings.outputs did not ask for it, or nothing was drawn.
+/// Fill structSize with sizeof before the call. The textures belong to the view and are valid until its next
+/// fxView_Render(). Texels lie as those of the target; distances are from the eye along the ray of the pixel,
+/// whose center it is. Meshes and other opaque particles count, the host's own surfaces do not.
+typedef struct FxOutputTextures
+{
+    /// Set by the caller.
+    uint32_t structSize;
+
+    /// RG32UI, FxInstanceId::bits of the instance with the largest share of the pixel: low 32 bits in red,
+    /// high in green; 0 where an opacity of 0.01 is not reached.
+    uint32_t instanceId;
+
+    /// RG32F [pixel] from where it was in the frame before: mean over what is seen, to the right and up in
+    /// texel coordinates; 0 where there is no instance.
+    uint32_t motion;
+
+    /// R32F [m] where the optical depth reaches 0.01; +inf where it does not.
+    uint32_t firstDepth;
+
+    /// R32F [m] mean over what is seen; +inf where there is nothing.
+    uint32_t meanDepth;
+
+    /// R32F [1] of all media up to the first opaque thing.
+    uint32_t opticalDepth;
+} FxOutputTextures;
+
 /// Creates a view of a scene. [GL thread]
 /// @param settings null for the defaults
 /// @param outView  receives the view; untouched on failure
@@ -401,6 +444,12 @@ FX_API FxResult fxView_GetStatistics(FxView* view, FxViewStatistics* ioStatistic
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetLayerTextures(FxView* view, FxLayerTextures* ioTextures);
+
+/// Reads the outputs of the last frame. [GL thread]
+/// @param ioTextures structSize must be set; the rest is overwritten on success and untouched on failure
+/// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_VERSION (structSize), FX_ERROR_WRONG_THREAD,
+/// FX_ERROR_RE_ENTRANT
+FX_API FxResult fxView_GetOutputTextures(FxView* view, FxOutputTextures* ioTextures);
 
 /// Reads the number of passes of the last frame. [GL thread]
 /// @param outCount receives the number; untouched on failure
