@@ -75,6 +75,19 @@ base::Status check(const ExrImage& image)
     return {};
 }
 
+Imf::PixelType pixelType(ExrPrecision precision)
+{
+    switch (precision) {
+    case ExrPrecision::Half:
+        return Imf::HALF;
+    case ExrPrecision::Float:
+        return Imf::FLOAT;
+    case ExrPrecision::Whole:
+        return Imf::UINT;
+    }
+    return Imf::FLOAT;
+}
+
 Imf::Header headerOf(const ExrImage& image)
 {
     Imf::Header header(image.width, image.height);
@@ -83,8 +96,7 @@ Imf::Header headerOf(const ExrImage& image)
     if (image.whiteLuminance > 0.0f)
         Imf::addWhiteLuminance(header, image.whiteLuminance);
     for (const ExrChannel& channel : image.channels) {
-        const bool isHalf = channel.precision == ExrPrecision::Half;
-        header.channels().insert(channel.name, Imf::Channel(isHalf ? Imf::HALF : Imf::FLOAT));
+        header.channels().insert(channel.name, Imf::Channel(pixelType(channel.precision)));
     }
     return header;
 }
@@ -99,6 +111,17 @@ std::vector<Imath::half> toHalf(const ExrChannel& channel, size_t pixels)
     return result;
 }
 
+std::vector<uint32_t> toWhole(const ExrChannel& channel, size_t pixels)
+{
+    constexpr float kMax = 16777216.0f; // 2^24, up to where floats hold all whole numbers
+    std::vector<uint32_t> result(pixels);
+    for (size_t i = 0; i < pixels; ++i) {
+        const float value = channel.values[channel.offset + i * channel.stride];
+        result[i] = value > 0.0f ? uint32_t(std::lround(std::min(value, kMax))) : 0u; // NaN is 0
+    }
+    return result;
+}
+
 std::string encode(const ExrImage& image, int threads)
 {
     if (Imf::globalThreadCount() < threads)
@@ -106,6 +129,8 @@ std::string encode(const ExrImage& image, int threads)
     const size_t pixels = size_t(image.width) * size_t(image.height);
     std::vector<std::vector<Imath::half>> halves; // lives until the file is complete
     halves.reserve(image.channels.size());
+    std::vector<std::vector<uint32_t>> wholes; // likewise
+    wholes.reserve(image.channels.size());
     Imf::FrameBuffer frame;
     for (const ExrChannel& channel : image.channels) {
         if (channel.precision == ExrPrecision::Half) {
@@ -113,6 +138,10 @@ std::string encode(const ExrImage& image, int threads)
             frame.insert(channel.name,
                          Imf::Slice(Imf::HALF, reinterpret_cast<char*>(halves.back().data()),
                                     sizeof(Imath::half), sizeof(Imath::half) * size_t(image.width)));
+        } else if (channel.precision == ExrPrecision::Whole) {
+            wholes.push_back(toWhole(channel, pixels));
+            frame.insert(channel.name, Imf::Slice(Imf::UINT, reinterpret_cast<char*>(wholes.back().data()),
+                                                  sizeof(uint32_t), sizeof(uint32_t) * size_t(image.width)));
         } else {
             // OpenEXR only reads from the pointer, but its type serves readers too.
             char* first = reinterpret_cast<char*>(const_cast<float*>(channel.values.data() + channel.offset));

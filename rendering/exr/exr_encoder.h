@@ -20,6 +20,7 @@ enum class ExrPrecision
 {
     Half,  ///< 16 bits, relative error 2^-11; finite values outside its range are written as +-65504
     Float, ///< 32 bits, exact
+    Whole, ///< 32 bits, whole numbers from 0 to 2^24; others are rounded, or cut to these
 };
 
 /// One channel: `values[(row * width + column) * stride + offset]`, rows from the top.

@@ -1,4 +1,4 @@
-"""Reads the channels of the EXR files that fx writes: 32-bit floats, rows from the top, ZIP or not compressed."""
+"""Reads the channels of the EXR files that fx writes: 32 bits, floats or whole numbers, rows from the top, ZIP or not compressed."""
 import array
 import struct
 import zlib
@@ -21,12 +21,14 @@ def _header(data):
 
 
 def _channels(block):
-    names, at = [], 0
+    """Codes of array.array by channel name, in the order of the file."""
+    names, at = {}, 0
     while block[at]:
         name, at = _text(block, at)
-        if struct.unpack_from("<i", block, at)[0] != 2:
-            raise ValueError(f"channel {name} is not of 32-bit floats")
-        names.append(name)
+        kind = struct.unpack_from("<i", block, at)[0]
+        if kind not in (0, 2):
+            raise ValueError(f"channel {name} is not of 32 bits")
+        names[name] = "f" if kind == 2 else "I"
         at += 16
     return names
 
@@ -43,14 +45,14 @@ def _unpacked(data):
 
 
 def read_planes(path):
-    """Width, height, and an array of floats for each channel name."""
+    """Width, height, and an array of numbers for each channel name."""
     data = path.read_bytes()
     attributes, at = _header(data)
     names = _channels(attributes["channels"])
     x0, y0, x1, y1 = struct.unpack("<4i", attributes["dataWindow"])
     width, height = x1 - x0 + 1, y1 - y0 + 1
     rows = {0: 1, 2: 1, 3: 16}[attributes["compression"][0]]
-    planes = {name: array.array("f") for name in names}
+    planes = {name: array.array(code) for name, code in names.items()}
     for block in range((height + rows - 1) // rows):
         begin = struct.unpack_from("<Q", data, at + 8 * block)[0]
         size = struct.unpack_from("<i", data, begin + 4)[0]

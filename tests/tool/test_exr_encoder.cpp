@@ -8,6 +8,7 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfThreading.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <thread>
@@ -96,6 +97,30 @@ TEST(ExrEncoder, halfChannelsAreWithinTheStatedRelativeError)
         exact = exact && read[i] == rgba[i * 4 + 2];
     }
     EXPECT_FALSE(exact); // otherwise the channel was not a half
+}
+
+TEST(ExrEncoder, wholeChannelsAreWholeNumbersInTheFileToo)
+{
+    ExrImage image{kWidth, kHeight, {}};
+    const float given[] = {
+        0.0f, 1.0f, 16777216.0f, 2.6f, -3.0f, 4e9f, std::numeric_limits<float>::quiet_NaN()};
+    std::vector<float> values(kPixels, 7.0f);
+    std::copy(std::begin(given), std::end(given), values.begin());
+    addPlane(image, "id", values, ExrPrecision::Whole);
+    const auto bytes = encodeExr(image);
+    ASSERT_TRUE(bytes.ok()) << bytes.status().message();
+    test::TemporaryFolder folder;
+    test::writeText(folder / "a.exr", *bytes);
+    Imf::InputFile file((folder / "a.exr").c_str());
+    EXPECT_EQ(file.header().channels()["id"].type, Imf::UINT);
+    std::vector<uint32_t> read(kPixels, 99);
+    Imf::FrameBuffer frame;
+    frame.insert("id", Imf::Slice(Imf::UINT, reinterpret_cast<char*>(read.data()), sizeof(uint32_t),
+                                  sizeof(uint32_t) * kWidth));
+    file.setFrameBuffer(frame);
+    file.readPixels(0, kHeight - 1);
+    const uint32_t expected[] = {0, 1, 16777216, 3, 0, 16777216, 0, 7};
+    EXPECT_TRUE(std::equal(std::begin(expected), std::end(expected), read.begin()));
 }
 
 TEST(ExrEncoder, finiteValuesBeyondHalfStayFiniteAndInfinityStaysInfinite)

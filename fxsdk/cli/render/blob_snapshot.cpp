@@ -35,6 +35,7 @@ void setRow(base::SnapshotGroup& io, uint32_t row, const render::MediumBlob& blo
             io.editColumn(first + k)[row] = float(value[int(k)]);
     };
     setVector(column::PositionX, blob.center - origin);
+    setVector(column::VelocityX, blob.velocity);
     setVector(column::AlbedoR, blob.albedo);
     setVector(column::EmissionR, blob.source);
     io.editColumn(column::Radius)[row] = float(blob.radius);

@@ -98,11 +98,26 @@ public:
             render::addRgba(image, names[i], layers.media[i].pixels, ExrPrecision::Float);
         render::addPlane(image, "depth.Z", layers.depth.pixels, ExrPrecision::Float);
         render::addPlane(image, "opticalDepth.Y", layers.opticalDepth.pixels, ExrPrecision::Float);
+        addOutputs(image, layers.outputs);
         const auto bytes = render::encodeExr(image);
         return bytes.ok() ? writeFileAtomically(target_.frame(number), *bytes) : bytes.status();
     }
 
 private:
+    static void addOutputs(render::ExrImage& io, const FrameLayers::Outputs& outputs)
+    {
+        using render::ExrPrecision;
+        const auto add = [&](const char* name, const Picture& from, size_t channel, ExrPrecision precision) {
+            if (!from.pixels.empty())
+                io.channels.push_back({name, from.pixels, channel, size_t(from.channels), precision});
+        };
+        add("id", outputs.instance, 0, ExrPrecision::Whole);
+        add("motion.X", outputs.motion, 0, ExrPrecision::Float);
+        add("motion.Y", outputs.motion, 1, ExrPrecision::Float);
+        add("firstDepth.Z", outputs.firstDepth, 0, ExrPrecision::Float);
+        add("meanDepth.Z", outputs.meanDepth, 0, ExrPrecision::Float);
+    }
+
     OutputTarget target_;
     float exposureEv100_;
 };

@@ -152,7 +152,8 @@ base::Status FrameRenderer::render(base::Ticks tick)
         return status;
     if (options_.settings.layerOutputs)
         background_ = readPicture(stage_->colorTexture(), 4);
-    const double passed = lastTick_ < 0 ? 0.0 : base::toSeconds(tick - lastTick_);
+    const double first = options_.settings.outputs != 0 ? options_.frameSeconds : 0.0;
+    const double passed = lastTick_ < 0 ? first : base::toSeconds(tick - lastTick_);
     if (base::Status status = drawEffects(camera, passed); !status)
         return status;
     device_->gl.Finish();
@@ -295,7 +296,42 @@ base::Result<FrameLayers> FrameRenderer::read()
                     readPicture(textures.dust, 4)};
     layers.depth = readPicture(textures.depth, 1, std::numeric_limits<float>::infinity());
     layers.opticalDepth = readPicture(textures.opticalDepth, 1);
+    if (base::Status status = readOutputs(layers.outputs); !status)
+        return status;
     return layers;
+}
+
+/// Ids as numbers of the scene's instances.
+Picture FrameRenderer::readInstances(uint32_t texture)
+{
+    const size_t count = size_t(options_.width) * size_t(options_.height);
+    std::vector<float> numbers(count, 0.0f);
+    if (texture != 0) {
+        const std::vector<uint32_t> words =
+            render::readUintTexture(*device_, texture, options_.width, options_.height, 2);
+        for (size_t i = 0; i < count; ++i)
+            numbers[i] = float(effects_->numberOf(words[2 * i] | uint64_t(words[2 * i + 1]) << 32));
+    }
+    return fromBottomUp(options_.width, options_.height, 1, std::move(numbers));
+}
+
+base::Status FrameRenderer::readOutputs(FrameLayers::Outputs& out)
+{
+    FxOutputTextures textures = {};
+    textures.structSize = sizeof textures;
+    if (base::Status status = toStatus(fxView_GetOutputTextures(view_, &textures)); !status)
+        return status;
+    const uint32_t asked = options_.settings.outputs;
+    constexpr float kNone = std::numeric_limits<float>::infinity();
+    if ((asked & FX_OUTPUT_INSTANCE_ID) != 0)
+        out.instance = readInstances(textures.instanceId);
+    if ((asked & FX_OUTPUT_MOTION) != 0)
+        out.motion = readPicture(textures.motion, 2);
+    if ((asked & FX_OUTPUT_FIRST_DEPTH) != 0)
+        out.firstDepth = readPicture(textures.firstDepth, 1, kNone);
+    if ((asked & FX_OUTPUT_MEAN_DEPTH) != 0)
+        out.meanDepth = readPicture(textures.meanDepth, 1, kNone);
+    return {};
 }
 
 } // namespace fx::cli

@@ -25,7 +25,8 @@ struct FrameRendererOptions
     int width = 0;  ///< [pixel]
     int height = 0; ///< [pixel]
     render::ViewSettings settings;
-    EffectSceneOptions scene; ///< its `gl` is filled in
+    EffectSceneOptions scene;  ///< its `gl` is filled in
+    double frameSeconds = 0.0; ///< [s] that the first frame counts motion over
 };
 
 /// The pictures of one frame; those besides `color` only with settings.layerOutputs.
@@ -36,6 +37,15 @@ struct FrameLayers
     std::array<Picture, 3> media; ///< RGBA of fire, smoke, dust
     Picture depth;                ///< 1 channel [m]
     Picture opticalDepth;         ///< 1 channel
+    /// Of settings.outputs; pictures without pixels are not there.
+    struct Outputs
+    {
+        Picture instance;     ///< 1 channel: number in the scene, from 1; 0: none
+        Picture motion;       ///< 2 channels [pixel]
+        Picture firstDepth;   ///< 1 channel [m]
+        Picture meanDepth;    ///< 1 channel [m]
+        Picture opticalDepth; ///< 1 channel [1]
+    } outputs;
 };
 
 /// Counters of the last frame.
@@ -82,6 +92,8 @@ private:
     base::Status drawEffects(const render::CameraView& camera, double passed);
     base::Status count();
     Picture readPicture(uint32_t texture, int channels, float whenAbsent = 0.0f);
+    Picture readInstances(uint32_t texture);
+    base::Status readOutputs(FrameLayers::Outputs& out);
 
     const scene_file::SceneFile& file_;
     FrameRendererOptions options_;

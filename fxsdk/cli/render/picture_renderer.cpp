@@ -24,9 +24,13 @@ void addLayer(render::ExrImage& io, std::vector<std::vector<float>>& outPixels, 
 class ReferencePicture final : public PictureRenderer
 {
 public:
-    ReferencePicture(const ReferenceArguments& arguments, const ReferencePlan& plan, int width, int height)
+    ReferencePicture(const ReferenceArguments& arguments, const ReferencePlan& plan, int width, int height,
+                     const render::ReferencePast* past)
         : arguments_(arguments)
     {
+        settings_.outputs = past != nullptr;
+        if (past)
+            settings_.past = *past;
         settings_.width = width;
         settings_.height = height;
         settings_.samples = arguments.samples;
@@ -59,6 +63,13 @@ public:
             addLayer(io, outPixels, renderer_, name, first);
         render::addPlane(io, "depth.Z", renderer_.pixels(channel::Depth), ExrPrecision::Float);
         render::addPlane(io, "opticalDepth.Y", renderer_.pixels(channel::OpticalDepth), ExrPrecision::Float);
+        if (!settings_.outputs)
+            return;
+        render::addPlane(io, "id", renderer_.pixels(channel::InstanceId), ExrPrecision::Whole);
+        render::addPlane(io, "motion.X", renderer_.pixels(channel::MotionX), ExrPrecision::Float);
+        render::addPlane(io, "motion.Y", renderer_.pixels(channel::MotionY), ExrPrecision::Float);
+        render::addPlane(io, "firstDepth.Z", renderer_.pixels(channel::FirstDepth), ExrPrecision::Float);
+        render::addPlane(io, "meanDepth.Z", renderer_.pixels(channel::Depth), ExrPrecision::Float);
     }
     void addStatistics(nlohmann::json& io, double) const override
     {
@@ -145,9 +156,10 @@ private:
 } // namespace
 
 std::unique_ptr<PictureRenderer> makeReferencePicture(const ReferenceArguments& arguments,
-                                                      const ReferencePlan& plan, int width, int height)
+                                                      const ReferencePlan& plan, int width, int height,
+                                                      const render::ReferencePast* past)
 {
-    return std::make_unique<ReferencePicture>(arguments, plan, width, height);
+    return std::make_unique<ReferencePicture>(arguments, plan, width, height, past);
 }
 
 std::unique_ptr<PictureRenderer> makePathPicture(const ReferenceArguments& arguments, int width, int height,

@@ -5,6 +5,7 @@
 #include "fxsdk/cli/render/reference_options.h"
 #include "rendering/exr/exr_encoder.h"
 #include "rendering/reference/render/reference_scene.h"
+#include "rendering/reference/render/seen_outputs.h"
 #include "rendering/reference/render/tiled_picture.h"
 
 #include <nlohmann/json.hpp>
@@ -35,8 +36,10 @@ public:
     virtual uint64_t nonFinite() const = 0; ///< values or paths that gave no number
 };
 
+/// @param past of --outputs motion; null: there are no channels of --outputs
 std::unique_ptr<PictureRenderer> makeReferencePicture(const ReferenceArguments& arguments,
-                                                      const ReferencePlan& plan, int width, int height);
+                                                      const ReferencePlan& plan, int width, int height,
+                                                      const render::ReferencePast* past = nullptr);
 std::unique_ptr<PictureRenderer> makePathPicture(const ReferenceArguments& arguments, int width, int height,
                                                  std::optional<uint64_t> seed);
 

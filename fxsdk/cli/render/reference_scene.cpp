@@ -75,6 +75,8 @@ base::Result<ReferenceFrame> ReferenceSceneSource::frameAt(base::Ticks tick)
     render::MediumList medium = render::mediumOf(moment->snapshots, moment->interpolation);
     frame.scene.blobs = std::move(medium.blobs);
     frame.scene.details = std::move(medium.details);
+    for (render::MediumBlob& blob : frame.scene.blobs)
+        blob.instance = effects_->numberOf(blob.instance);
     frame.nonFinite = medium.nonFinite;
     frame.scene.opaque = opaqueOf(file_);
     frame.scene.camera = cameraOf(file_.camera, base::toSeconds(tick));

@@ -83,6 +83,7 @@ public:
     {
         FrameRendererOptions options{plan_.width, plan_.height, scene_.view, {}};
         applyArguments(arguments_, plan_.output.kind, options.settings);
+        options.frameSeconds = 1.0 / plan_.framesPerSecond;
         options.scene.stepsPerSecond = plan_.stepsPerSecond;
         options.scene.quality = plan_.simulationQuality;
         options.scene.seed = arguments_.seed;

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -99,6 +100,31 @@ base::Status planFrames(const RenderArguments& arguments, RenderPlan& plan)
     return {};
 }
 
+struct NamedOutputs
+{
+    std::string_view name;
+    uint32_t bits;
+};
+constexpr NamedOutputs kOutputs[] = {
+    {"id", render::view_output::InstanceId},
+    {"motion", render::view_output::Motion},
+    {"depth", render::view_output::FirstDepth | render::view_output::MeanDepth},
+};
+
+/// view_output bits of names with commas between; nothing where one is unknown.
+std::optional<uint32_t> outputsOf(const std::string& names)
+{
+    uint32_t bits = 0;
+    std::istringstream list(names);
+    for (std::string name; std::getline(list, name, ',');) {
+        const auto found = std::ranges::find(kOutputs, std::string_view(name), &NamedOutputs::name);
+        if (found == std::end(kOutputs))
+            return std::nullopt;
+        bits |= found->bits;
+    }
+    return bits;
+}
+
 /// What is drawn, of when, and where it goes.
 void addOutputOptions(CLI::App& command, RenderArguments& arguments)
 {
@@ -125,6 +151,16 @@ void addOutputOptions(CLI::App& command, RenderArguments& arguments)
     command.add_option("--times", arguments.times,
                        "Scene times T,T,... [s] instead of frames: one file each with a sequence, a sheet of "
                        "all of them with one PNG");
+    command
+        .add_option(
+            "--outputs", arguments.outputs,
+            "More channels of an EXR file, with commas between: id, number of the instance; motion, in "
+            "pixels; depth, where media begin and their mean")
+        ->check(CLI::Validator(
+            [](std::string& text) {
+                return outputsOf(text) ? std::string() : "expected id, motion, depth, found " + text;
+            },
+            "NAMES"));
     command.add_option("--fps", arguments.framesPerSecond, "Frames a second; frame N shows the time N / fps")
         ->check(CLI::Range(0.1, 1000.0))
         ->capture_default_str();
@@ -284,6 +320,8 @@ base::Result<RenderPlan> planRender(const RenderArguments& arguments)
         return usage("--scattering none needs --renderer reference; with gl it is single or multiple");
     if (arguments.renderer == "reference" && tiled.scattering == "multiple")
         return usage("--scattering multiple needs --renderer gl or path");
+    if (!arguments.outputs.empty() && (plan.output.kind != OutputKind::Exr || arguments.renderer == "path"))
+        return usage("--outputs needs an EXR file (-o NAME.exr) of --renderer gl or reference");
     plan.framesPerSecond = arguments.framesPerSecond;
     plan.stepsPerSecond = arguments.quality == "reference" ? 120 : 60;
     if (arguments.quality == "reference" || arguments.quality == "low")
@@ -322,6 +360,7 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
         settings.dazzle.enabled = false;
     settings.toneMap = !linear;
     settings.layerOutputs = linear;
+    settings.outputs = outputsOf(arguments.outputs).value_or(0);
     settings.countOverdraw = arguments.overdraw;
     settings.overlay = arguments.overlay;
     settings.layerDivisor = int(std::lround(1.0 / std::stod(arguments.layerScale)));

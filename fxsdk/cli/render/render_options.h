@@ -45,6 +45,7 @@ struct RenderArguments
     float lodBias = 0.0f;
     float impostorPixels = 0.0f; ///< [pixel]
     uint32_t fragmentBudget = 0; ///< 0: none
+    std::string outputs;         ///< "id,motion,depth" or some of them; empty: none
     std::string lightSlices;     ///< "off" or the number of planes of the sun; empty: that of the settings
     int lightRefresh = 1;        ///< [frame]
     bool noDazzle = false;

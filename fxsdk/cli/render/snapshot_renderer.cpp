@@ -50,6 +50,7 @@ struct SnapshotRenderer::Impl
         return fromBottomUp(width, height, channels,
                             render::readTexture(*device, texture, width, height, channels));
     }
+    void readOutputs(FrameLayers::Outputs& out);
     base::Status start(const base::SnapshotSchema& schema);
 
     int width = 0, height = 0;
@@ -75,6 +76,30 @@ base::Result<std::unique_ptr<SnapshotRenderer>> SnapshotRenderer::create(const b
         return status;
     renderer->settings() = settings;
     return renderer;
+}
+
+void SnapshotRenderer::Impl::readOutputs(FrameLayers::Outputs& out)
+{
+    namespace output = render::view_output;
+    constexpr float kNone = std::numeric_limits<float>::infinity();
+    const uint32_t asked = view->settings().outputs;
+    if ((asked & output::InstanceId) != 0) {
+        std::vector<float> numbers(size_t(width) * size_t(height), 0.0f);
+        if (view->output(0) != 0) {
+            const auto words = render::readUintTexture(*device, view->output(0), width, height, 2);
+            for (size_t i = 0; i < numbers.size(); ++i)
+                numbers[i] = float(words[2 * i]);
+        }
+        out.instance = fromBottomUp(width, height, 1, std::move(numbers));
+    }
+    if ((asked & output::Motion) != 0)
+        out.motion = read(view->output(1), 2);
+    if ((asked & output::FirstDepth) != 0)
+        out.firstDepth = read(view->output(2), 1, kNone);
+    if ((asked & output::MeanDepth) != 0)
+        out.meanDepth = read(view->output(3), 1, kNone);
+    if ((asked & output::OpticalDepth) != 0)
+        out.opticalDepth = read(view->output(4), 1);
 }
 
 base::Status SnapshotRenderer::Impl::start(const base::SnapshotSchema& schema)
@@ -135,6 +160,7 @@ FrameLayers SnapshotRenderer::read()
     layers.media = {impl.read(textures.fire, 4), impl.read(textures.smoke, 4), impl.read(textures.dust, 4)};
     layers.depth = impl.read(textures.depth, 1, std::numeric_limits<float>::infinity());
     layers.opticalDepth = impl.read(textures.opticalDepth, 1);
+    impl.readOutputs(layers.outputs);
     return layers;
 }
 

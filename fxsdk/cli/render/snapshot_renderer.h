@@ -25,7 +25,8 @@ public:
 
     /// @param time [s] of the picture, for effects with a history
     base::Status render(const SceneMoment& moment, const render::ReferenceCamera& camera, double time);
-    /// Copies the pictures from the GPU; those besides `color` only with settings.layerOutputs.
+    /// Copies the pictures from the GPU; those besides `color` only with settings.layerOutputs. Instances are
+    /// called as in the snapshots, if that is below 2^24.
     FrameLayers read();
 
     const render::FrameStatistics& statistics() const;

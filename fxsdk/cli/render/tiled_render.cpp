@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 namespace fx::cli {
@@ -106,6 +107,10 @@ private:
     {
         frame.scene.camera = camera_.at(base::toSeconds(moment.tick), frame.scene.camera);
         const Clock::time_point start = Clock::now();
+        const double time = base::toSeconds(moment.tick);
+        past_ = {shown_ ? shown_->camera : frame.scene.camera,
+                 shown_ ? time - shown_->time : 1.0 / plan_.framesPerSecond};
+        shown_ = {frame.scene.camera, time};
         const std::unique_ptr<PictureRenderer> made = makeRenderer();
         PictureRenderer& renderer = *made;
         if (base::Status status = renderer.build(frame.scene, 1.0 / double(white_), *tasks_); !status)
@@ -133,7 +138,8 @@ private:
     {
         if (arguments_.renderer == "path")
             return makePathPicture(arguments_.reference, plan_.width, plan_.height, arguments_.seed);
-        return makeReferencePicture(arguments_.reference, reference_, plan_.width, plan_.height);
+        return makeReferencePicture(arguments_.reference, reference_, plan_.width, plan_.height,
+                                    arguments_.outputs.empty() ? nullptr : &past_);
     }
 
     base::Status renderTiles(PictureRenderer& renderer, render::TileJournal& journal)
@@ -179,6 +185,13 @@ private:
     const ReferencePlan& reference_;
     const scene_file::SceneFile* lights_; ///< of --lights; null: none
     const CameraChoice& camera_;
+    struct Shown
+    {
+        render::ReferenceCamera camera;
+        double time; ///< [s]
+    };
+    std::optional<Shown> shown_; ///< the picture before
+    render::ReferencePast past_; ///< of this picture
     std::unique_ptr<base::TaskRunner> tasks_;
     float white_ = 1.0f; ///< [cd/m2] that is written as 1
     Machine machine_ = readMachine();

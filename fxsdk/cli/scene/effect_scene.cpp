@@ -202,8 +202,15 @@ base::Status EffectScene::addInstances(const scene_file::SceneFile& file, const 
         if (base::Status status = toStatus(fxScene_CreateInstance(scene_, &def, &id)); !status)
             return status;
         director_.add(instance, id);
+        instances_.push_back(id.bits);
     }
     return {};
+}
+
+uint32_t EffectScene::numberOf(uint64_t instance) const
+{
+    const auto found = std::ranges::find(instances_, instance);
+    return found == instances_.end() ? 0 : uint32_t(found - instances_.begin()) + 1;
 }
 
 base::Status EffectScene::showMoment(base::Ticks tick)

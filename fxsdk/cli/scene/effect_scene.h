@@ -61,6 +61,9 @@ public:
     /// Center and radius [m] of every sprite and mesh of the last step, in the world.
     base::Result<std::vector<glm::vec4>> places();
 
+    /// Number of an instance in the scene file, from 1, by FxInstanceId::bits; 0: it is none of them.
+    uint32_t numberOf(uint64_t instance) const;
+
     base::Result<FxSceneStatistics> statistics() const;
     FxContext* context() const { return context_; }
     FxScene* scene() const { return scene_; }
@@ -78,6 +81,7 @@ private:
     FxContext* context_ = nullptr;
     FxScene* scene_ = nullptr;
     InstanceDirector director_;
+    std::vector<uint64_t> instances_; ///< ids, in the order of the file
     base::Ticks step_ = 0;
     base::Ticks now_ = 0;
     base::SnapshotSchema schema_;

@@ -44,6 +44,7 @@ FxViewSettings toApi(const render::ViewSettings& settings)
     api.composition = uint32_t(settings.composition);
     api.slabs = uint32_t(settings.slabs);
     api.voxels = uint32_t(settings.voxels);
+    api.outputs = settings.outputs;
     return api;
 }
 

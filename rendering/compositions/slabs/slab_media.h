@@ -16,7 +16,7 @@ public:
 
     /// Takes all streams.
     void gather(const GatherInputs& in, GatheredFrame& io);
-    /// Lists all streams as well as who takes them.
+    /// Remembers all streams, and leaves them where they are.
     void see(const GatherInputs& in, const GatheredFrame& from);
     /// In place of the balls that it has taken; null: none. Must stay, and have its buffers when list() is
     /// called.

@@ -107,6 +107,7 @@ private:
         blob.anisotropy = double(newer_.constants()[constant::Anisotropy]);
         blob.layer = base::MediaLayer(uint32_t(newer_.constants()[constant::Layer]));
         blob.instance = newer_.info().instance;
+        blob.velocity = worldVelocity(i, old, position);
         const glm::dvec3 streak =
             rotation * (velocity * scale) * double(newer_.constants()[constant::Shutter]);
         if (!isFinite(blob) || !base::isFinite(temperature) || !base::isFinite(glm::dot(streak, streak))) {
@@ -123,6 +124,25 @@ private:
                 {glm::vec3(blob.center - place_.position), float(blob.radius), float(blob.crossSection)});
         }
         out.details.balls.resize(out.blobs.size(), ball); // all pieces of the streak
+    }
+
+    /// Between two snapshots, the way from one to the other; that of the group included.
+    glm::dvec3 worldVelocity(size_t i, size_t old, const glm::dvec3& position) const
+    {
+        glm::dvec3 local = vector(column::VelocityX, i, old);
+        if (!older_ || !(stepSeconds_ > 0.0))
+            return glm::dquat(place_.rotation) * (local * double(place_.scale));
+        if (old != kNone)
+            for (int axis = 0; axis < 3; ++axis)
+                local[axis] = (double(newer_.column(column::PositionX + size_t(axis))[i]) -
+                               double(older_->column(column::PositionX + size_t(axis))[old])) /
+                              stepSeconds_;
+        const base::Placement& now = newer_.info().placement;
+        const base::Placement& then = older_->info().placement;
+        const glm::dvec3 drift = now.position - then.position +
+                                 glm::dquat(now.rotation) * (position * double(now.scale)) -
+                                 glm::dquat(then.rotation) * (position * double(then.scale));
+        return glm::dquat(place_.rotation) * (local * double(place_.scale)) + drift / stepSeconds_;
     }
 
     static bool isFinite(const MediumBlob& b)

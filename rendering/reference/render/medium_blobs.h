@@ -25,6 +25,7 @@ struct MediumBlob
     double fireShare = 0.0;                           ///< [1] of the opacity that counts as fire
     base::MediaLayer layer = base::MediaLayer::Smoke; ///< takes the rest
     uint64_t instance = 0;                            ///< of the scene; what it is part of
+    glm::dvec3 velocity{0.0};                         ///< [m/s] world, of what is shown
 };
 
 /// Blobs of all groups and how many were left out because a number was not finite.

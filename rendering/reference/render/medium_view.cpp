@@ -130,7 +130,7 @@ private:
 } // namespace
 
 void MediumView::build(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
-                       const MediumDetails& details, const PixelWidth& pixel)
+                       const MediumDetails& details, const PixelWidth& pixel, bool hasTracks)
 {
     const auto balls = std::make_unique_for_overwrite<TraceBall[]>(blobs.size());
     const uint32_t parts = uint32_t((blobs.size() + kPart - 1) / kPart);
@@ -149,6 +149,7 @@ void MediumView::build(std::span<const MediumBlob> blobs, const glm::dvec3& eye,
     blobs_ = std::make_unique_for_overwrite<BallBlob<double>[]>(count_);
     coverage_.resize(isUniform_ ? std::min<size_t>(count_, 1) : count_);
     scattering_ = std::make_unique_for_overwrite<Scattering[]>(count_);
+    tracks_.resize(hasTracks ? count_ : 0);
     tasks.parallelFor(tree_.count(), kPart, [&](uint32_t begin, uint32_t end) {
         for (uint32_t place = begin; place < end; ++place) {
             const MediumBlob& blob = blobs[tree_.ballAt(place)];
@@ -156,6 +157,8 @@ void MediumView::build(std::span<const MediumBlob> blobs, const glm::dvec3& eye,
             if (place < coverage_.size())
                 coverage_[place] = coverageOf(blob);
             scattering_[place] = {glm::vec3(blob.albedo), float(blob.anisotropy), blob.layer};
+            if (hasTracks)
+                tracks_[place] = {blob.velocity, blob.instance};
         }
     });
 }

@@ -28,13 +28,21 @@ class MediumView
 {
 public:
     /// @param details of the blobs; none: they are smooth  @param pixel of the picture, for details
+    /// @param hasTracks track() is going to be asked
     void build(std::span<const MediumBlob> blobs, const glm::dvec3& eye, base::TaskRunner& tasks,
-               const MediumDetails& details = {}, const PixelWidth& pixel = {});
+               const MediumDetails& details = {}, const PixelWidth& pixel = {}, bool hasTracks = false);
 
     const BallTree& tree() const { return tree_; }
     /// Of the blob at a place of the tree's order, relative to the eye.
     const BallBlob<double>& blob(uint32_t place) const { return blobs_[place]; }
     const std::array<double, 3>& coverage(uint32_t place) const { return coverage_[isUniform_ ? 0 : place]; }
+    /// Whose a blob is, and how it moves.
+    struct Track
+    {
+        glm::dvec3 velocity; ///< [m/s] world
+        uint64_t instance;
+    };
+    const Track& track(uint32_t place) const { return tracks_[place]; }
     /// How a blob scatters.
     struct Scattering
     {
@@ -62,6 +70,7 @@ private:
     std::vector<std::array<double, 3>> coverage_; ///< one for all when they are alike
     std::unique_ptr<Scattering[]> scattering_;
     std::vector<glm::vec3> scattered_;
+    std::vector<Track> tracks_; ///< none unless they were wanted
     DetailedMedium details_;
     std::array<bool, 3> scatters_{};
     bool isUniform_ = true;

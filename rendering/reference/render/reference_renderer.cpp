@@ -20,6 +20,17 @@ uint64_t keyOf(const ReferenceScene& scene, const ReferenceSettings& s, base::Ta
         hash.add(number);
     if (scene.details.isGiven())
         hash.add(s.detailTolerance);
+    if (!s.outputs)
+        return hash.value();
+    for (const MediumBlob& blob : scene.blobs) {
+        hash.addWord(blob.instance);
+        hash.add(blob.velocity);
+    }
+    const ReferenceCamera& camera = s.past.camera;
+    for (const glm::dvec3& vector : {camera.eye, camera.right, camera.up, camera.forward})
+        hash.add(vector);
+    for (const double number : {s.past.seconds, camera.halfHeight, double(camera.orthographic)})
+        hash.add(number);
     return hash.value();
 }
 
@@ -40,15 +51,16 @@ base::Status ReferenceRenderer::build(const ReferenceScene& scene, const Referen
     tasks_ = &tasks;
     key_ = keyOf(scene, settings, tasks);
     picture_.settings = settings;
+    picture_.settings.past.camera = withUnitAxes(settings.past.camera);
     picture_.medium.build(scene.blobs, scene.camera.eye, tasks, scene.details,
-                          PixelWidth(picture_.camera, settings.height));
+                          PixelWidth(picture_.camera, settings.height), settings.outputs);
     picture_.opaque.build(scene.opaque, scene.camera.eye, tasks);
     picture_.lights.build(scene.opaque, scene.camera.eye, settings.skyRings);
     const bool atCenters = settings.scattering == ScatteringMode::Centers;
     picture_.medium.setScattered(
         atCenters ? lightAtCenters(picture_.medium, picture_.opaque, picture_.lights, tasks)
                   : std::vector<glm::vec3>());
-    tiles_.start(settings.width, settings.height, settings.samples == 1 ? 16 : 8, reference_channel::Count);
+    tiles_.start(settings.width, settings.height, settings.samples == 1 ? 16 : 8, settings.channels());
     idle_.clear();
     work_ = {};
     return {};

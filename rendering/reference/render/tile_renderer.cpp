@@ -22,6 +22,8 @@ struct TileRenderer::Sample
     double transmittance = 1.0;
     double opticalDepth = 0.0;
     double depth = std::numeric_limits<double>::infinity(); ///< [m]
+    SeenOutputs::Seen seen;
+    std::vector<InstanceShare> shares;
 };
 
 ReferenceWork& ReferenceWork::operator+=(const ReferenceWork& other)
@@ -36,6 +38,8 @@ TileRenderer::TileRenderer(const ReferencePicture& picture)
     : picture_(picture), grid_(picture.camera.grid(picture.settings.width * picture.settings.samples,
                                                    picture.settings.height * picture.settings.samples)),
       integrator_(makeBundleIntegrator(picture.settings.integral, picture.settings.isSingle)),
+      seenOutputs_(picture.medium, picture.camera.eye, picture.settings.past, picture.settings.width,
+                   picture.settings.height),
       detailed_(picture.medium, DetailedRay::Wanted::Light, picture.settings.detailTolerance),
       scattered_(picture.medium, picture.opaque, picture.lights),
       surfaceLight_(picture.medium, picture.opaque, picture.lights)
@@ -66,8 +70,11 @@ bool TileRenderer::render(const PixelBlock& block, std::span<float> out,
         return false;
     float* pixel = out.data();
     for (int y = block.y0; y < block.y1; ++y)
-        for (int x = block.x0; x < block.x1; ++x, pixel += reference_channel::Count)
+        for (int x = block.x0; x < block.x1; ++x, pixel += picture_.settings.channels()) {
             writePixel(rays, x, y, pixel);
+            if (picture_.settings.outputs)
+                writeOutputs(rays, x, y, pixel);
+        }
     return true;
 }
 
@@ -128,6 +135,7 @@ void TileRenderer::renderDetailed(const PixelBlock& rays, const PixelBlock& part
             sample.opticalDepth = detailed_.opticalDepth();
             sample.transmittance = std::exp(-sample.opticalDepth);
             sample.depth = detailed_.distance();
+            seeOutputs(rays, x, y, &detailed_);
             if (picture_.settings.scattering == ScatteringMode::Single)
                 sample.scattered = scattered_.along(sample.ray, hits_, sample.begin, sample.opaque.distance);
             for (size_t layer = 0; layer < sample.scattered.size(); ++layer)
@@ -140,10 +148,12 @@ void TileRenderer::renderBundle(const PixelBlock& rays, const PixelBlock& part,
 {
     RayBundle bundle;
     std::array<Sample*, kPacketRays> samples;
+    std::array<std::array<int, 2>, kPacketRays> places;
     for (int y = part.y0; y < part.y1; ++y)
         for (int x = part.x0; x < part.x1; ++x) {
             Sample& sample = sampleAt(rays, x, y);
             samples[bundle.count] = &sample;
+            places[bundle.count] = {x, y};
             bundle.ray[bundle.count] = sample.ray;
             bundle.begin[bundle.count] = sample.begin;
             bundle.end[bundle.count++] = sample.opaque.distance;
@@ -170,10 +180,24 @@ void TileRenderer::renderBundle(const PixelBlock& rays, const PixelBlock& part,
             seenDepth_.along(picture_.medium, hits_, sample.begin, sample.opaque.distance);
         sample.opticalDepth = depth.opticalDepth; // the integrator stops where nothing is seen any more
         sample.depth = depth.distance;
+        seeOutputs(rays, places[i][0], places[i][1], nullptr);
         if (picture_.settings.scattering == ScatteringMode::Single)
             sample.scattered = scattered_.along(sample.ray, hits_, sample.begin, sample.opaque.distance);
     }
     addScattered({samples.data(), bundle.count});
+}
+
+/// For the ray whose hits have been found last.
+void TileRenderer::seeOutputs(const PixelBlock& rays, int x, int y, DetailedRay* detailed)
+{
+    const ReferenceSettings& settings = picture_.settings;
+    if (!settings.outputs)
+        return;
+    Sample& sample = sampleAt(rays, x, y);
+    const double perPixel = 1.0 / settings.samples;
+    const glm::dvec2 window((x + 0.5) * perPixel, settings.height - (y + 0.5) * perPixel);
+    sample.seen = seenOutputs_.along(sample.ray, hits_, sample.begin, sample.opaque.distance, detailed,
+                                     window, sample.shares);
 }
 
 /// Light that has been taken at the centers of blobs.
@@ -256,6 +280,35 @@ void TileRenderer::writePixel(const PixelBlock& rays, int x, int y, float* out)
     out[channel::Depth] = opacity > 0.0 ? float(depth / opacity) : std::numeric_limits<float>::infinity();
     out[channel::OpticalDepth] = float(opticalDepth);
     work_.nonFinite += replaceNonFinite(out);
+}
+
+/// Shares and motion are those of all rays of a pixel, the first depth is the mean of those that have one.
+void TileRenderer::writeOutputs(const PixelBlock& rays, int x, int y, float* out)
+{
+    namespace channel = reference_channel;
+    const int n = picture_.settings.samples;
+    pixelShares_.clear();
+    glm::dvec2 motion(0.0);
+    double share = 0.0, first = 0.0;
+    int begun = 0;
+    for (int j = y * n; j < (y + 1) * n; ++j)
+        for (int i = x * n; i < (x + 1) * n; ++i) {
+            const Sample& s = sampleAt(rays, i, j);
+            motion += s.seen.motion;
+            share += s.seen.share;
+            for (const InstanceShare& one : s.shares)
+                addShare(pixelShares_, one.instance, one.share);
+            if (s.seen.first < std::numeric_limits<double>::infinity()) {
+                first += s.seen.first;
+                ++begun;
+            }
+        }
+    const bool isSeen = share >= -std::expm1(-SeenOutputs::kSeenDepth) * n * n;
+    const auto most = std::ranges::max_element(pixelShares_, {}, &InstanceShare::share);
+    out[channel::InstanceId] = isSeen ? float(most->instance) : 0.0f;
+    out[channel::MotionX] = isSeen ? float(motion.x / share) : 0.0f;
+    out[channel::MotionY] = isSeen ? float(motion.y / share) : 0.0f;
+    out[channel::FirstDepth] = begun > 0 ? float(first / begun) : std::numeric_limits<float>::infinity();
 }
 
 } // namespace fx::render

@@ -8,6 +8,7 @@
 #include "rendering/reference/render/reference_camera.h"
 #include "rendering/reference/render/scattered_light.h"
 #include "rendering/reference/render/seen_depth.h"
+#include "rendering/reference/render/seen_outputs.h"
 #include "rendering/reference/render/surface_light.h"
 
 #include <functional>
@@ -37,6 +38,10 @@ struct ReferenceSettings
     IntegralSettings integral;
     /// [1] 1e-6..0.1, of the quadrature of media with detail: see detailed-ray-integral
     double detailTolerance = 1e-3;
+    bool outputs = false; ///< the channels from reference_channel::InstanceId on are there
+    ReferencePast past;   ///< of motion
+
+    uint32_t channels() const;
 };
 
 /// Values of a pixel, in this order.
@@ -50,8 +55,18 @@ enum : uint32_t
     Dust = 16,
     Depth = 20,   ///< [m] mean distance of the medium seen, +infinity for none
     OpticalDepth, ///< [1]
-    Count
+    Count,
+    InstanceId = Count, ///< [1] MediumBlob::instance of what is most seen, exact below 2^24; 0 for none
+    MotionX,            ///< [pixel] to the right, since the frame before
+    MotionY,            ///< [pixel] up
+    FirstDepth,         ///< [m] +infinity for none
+    CountWithOutputs
 };
+}
+
+inline uint32_t ReferenceSettings::channels() const
+{
+    return outputs ? reference_channel::CountWithOutputs : reference_channel::Count;
 }
 
 /// Data shared by all tiles. Built once, then read by all threads.
@@ -81,7 +96,7 @@ public:
     explicit TileRenderer(const ReferencePicture& picture);
     ~TileRenderer();
 
-    /// Writes reference_channel::Count floats for each pixel of `block`, row by row from the top.
+    /// Writes ReferenceSettings::channels() floats for each pixel of `block`, row by row from the top.
     /// @param shouldStop called repeatedly between rays; may be empty
     /// @return false when it was stopped; `out` is then invalid
     bool render(const PixelBlock& block, std::span<float> out, const std::function<bool()>& shouldStop);
@@ -97,12 +112,16 @@ private:
     void renderBundle(const PixelBlock& rays, const PixelBlock& part, const TileCandidates& candidates);
     Sample& sampleAt(const PixelBlock& rays, int x, int y);
     void writePixel(const PixelBlock& rays, int x, int y, float* out);
+    void writeOutputs(const PixelBlock& rays, int x, int y, float* out);
+    void seeOutputs(const PixelBlock& rays, int x, int y, DetailedRay* detailed);
 
     const ReferencePicture& picture_;
     RayGrid grid_;
     TileWalk walk_;
     std::unique_ptr<BundleIntegrator> integrator_;
     SeenDepth seenDepth_;
+    SeenOutputs seenOutputs_;
+    std::vector<InstanceShare> pixelShares_; ///< scratch
     DetailedRay detailed_;
     ScatteredLight scattered_;
     SurfaceLight surfaceLight_;
