@@ -29,6 +29,7 @@ void readFieldDetail(const PresetValue& element, sim::FieldDetail& out)
     detail.read("billowSize", out.billowSize);
     detail.read("crispness", out.crispness);
     detail.read("raggedness", out.raggedness);
+    detail.read("softening", out.softening);
     detail.read("liveliness", out.liveliness);
     if (out.billowSize < kFarAway)
         detail.warning("billowSize",

@@ -31,8 +31,9 @@ struct FieldDetailBlock
     glm::vec4 erosion; ///< x size of lumps [m]; y, z thinnest, densest; w ramp
     glm::vec4 noise;   ///< x gain; y weight of the second generation; z cooling; w glow
     glm::vec4 lumps;   ///< xy size of the generations' lumps [m]; z factor that keeps the whole; w octaves
+    glm::vec4 soft;    ///< x softening as the medium thins
 };
-static_assert(sizeof(FieldDetailBlock) == 144);
+static_assert(sizeof(FieldDetailBlock) == 160);
 
 constexpr int kGlowCells = 32;       ///< along a side of a grid
 constexpr int kGlowRays[2] = {8, 4}; ///< grids beside each other that hold the rays of all directions

@@ -30,19 +30,21 @@ FieldFillPass::Outputs FieldFillPass::addTo(FrameGraph& graph, const Inputs& in)
                 builder.read(id);
         for (ResourceId* texture :
              {&out.textures.medium, &out.textures.scatter, &out.textures.shares, &out.textures.table,
-              &out.textures.material[0], &out.textures.material[1]})
+              &out.textures.material[0], &out.textures.material[1], &out.textures.change})
             if (texture->valid())
                 *texture = builder.write(*texture);
         return [in, textures = out.textures](Backend& backend) {
             const bool layers = textures.shares.valid();
             const bool detail = in.materials.valid();
             backend.clear(textures.table, {0.0f, 0.0f, 0.0f, 0.0f});
-            ImageBinding images[6] = {{0, textures.medium}, {1, textures.scatter}, {5, textures.table}};
+            ImageBinding images[7] = {{0, textures.medium}, {1, textures.scatter}, {5, textures.table}};
             size_t count = 3;
             if (layers)
                 images[count++] = {2, textures.shares};
             for (uint32_t g = 0; detail && g < 2; ++g)
                 images[count++] = {3 + g, textures.material[g]};
+            if (detail)
+                images[count++] = {6, textures.change};
             const BufferBinding buffers[] = {
                 {0, in.balls}, {2, in.bricks}, {3, in.brickBalls}, {4, in.materials}};
             const TextureBinding read[] = {{kFieldTexelUnit, in.fieldTexels},

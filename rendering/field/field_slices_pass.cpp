@@ -13,12 +13,12 @@ LightBindings FieldSlicesPass::addTo(FrameGraph& graph, const Inputs& in)
 {
     LightBindings out = in.lights;
     graph.addPass("field slices", [&](FrameGraph::Builder& builder) {
-        for (const ResourceId id : {in.fieldTexels, in.table, in.material, in.stacks})
+        for (const ResourceId id : {in.fieldTexels, in.table, in.change, in.stacks})
             builder.read(id);
         out.planes = builder.write(in.lights.planes);
         return [in, planes = out.planes](Backend& backend) {
             const glm::ivec4 counts(int(in.fieldCount), 0, 0, 0);
-            const TextureBinding textures[] = {{1, in.material, Sampling::Linear},
+            const TextureBinding textures[] = {{1, in.change, Sampling::Linear},
                                                {kFieldTexelUnit, in.fieldTexels},
                                                {kBrickTableUnit, in.table}};
             const ImageBinding images[] = {{0, planes}};

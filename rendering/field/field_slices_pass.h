@@ -13,7 +13,7 @@ extern const ProgramDesc kFieldSlicesProgram;
 
 /// reads   fieldTexels    of FieldTexelPass
 ///         table          of FieldFillPass
-///         material       second of the textures: change of extinction by detail
+///         change         of extinction by detail
 ///         stacks         buffer of SliceStackBlock
 /// writes  planes         of all lights, which have just been filled with smooth balls. Where a field has no
 /// bricks, because
@@ -24,7 +24,7 @@ public:
     struct Inputs
     {
         ResourceId fieldTexels, table;
-        ResourceId material;
+        ResourceId change;
         ResourceId stacks;
         LightBindings lights; ///< with planes
         uint32_t fieldCount;

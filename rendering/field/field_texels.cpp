@@ -25,7 +25,7 @@ void FieldTexels::build(const FieldPlan& plan, std::span<const FieldDetailBlock>
     }
     for (const FieldDetailBlock& detail : details) {
         texels_.insert(texels_.end(), std::begin(detail.rows), std::end(detail.rows));
-        texels_.insert(texels_.end(), {detail.erosion, detail.noise, detail.lumps});
+        texels_.insert(texels_.end(), {detail.erosion, detail.noise, detail.lumps, detail.soft});
     }
     tiles_.assign(plan.tiles().begin(), plan.tiles().end());
     for (FieldTileBlock& tile : tiles_)

@@ -34,18 +34,27 @@ struct Shell
 };
 constexpr Shell kShells[] = {{0.44424f, 0.37643f}, {-0.24300f, 0.62357f}};
 
-/// [1/m] of all balls.
-float extinctionAt(std::span<const MediumCaster> balls, const glm::vec3& p)
+/// n m of all balls at a point.
+float keptAt(const GroupDetail& detail, std::span<const MediumCaster> balls, const glm::vec3& p)
 {
-    float sum = 0;
+    float extinction = 0, thinning = 0;
     for (const MediumCaster& ball : balls) {
         const glm::vec3 d = p - ball.center;
-        sum += formula::fxKernelExtinction(ball.crossSection, ball.radius, glm::dot(d, d));
+        const float own = formula::fxKernelExtinction(ball.crossSection, ball.radius, glm::dot(d, d));
+        if (own > 0.0f)
+            thinning += own * thinningOf(detail, ball.crossSection, ball.radius);
+        extinction += own;
     }
-    return sum;
+    return meanErodedShare(detail.numbers, extinction * detail.scale,
+                           thinning / std::max(extinction, 1e-30f));
 }
 
 } // namespace
+
+float thinningOf(const GroupDetail& detail, float crossSection, float radius)
+{
+    return thinningOf(detail.numbers, crossSection * detail.scale, radius);
+}
 
 float conservationFactor(const GroupDetail& detail, std::span<const MediumCaster> balls)
 {
@@ -57,7 +66,7 @@ float conservationFactor(const GroupDetail& detail, std::span<const MediumCaster
         for (const Shell& shell : kShells)
             for (const glm::vec3& corner : kCorners) {
                 const glm::vec3 p = balls[i].center + balls[i].radius * shell.corner * corner;
-                const float kept = meanErodedShare(detail.numbers, extinctionAt(balls, p) * detail.scale);
+                const float kept = keptAt(detail, balls, p);
                 after += double(balls[i].crossSection * 0.25f * shell.weight * kept);
             }
     }

@@ -28,6 +28,10 @@ struct GroupDetail
     float factor = 1;   ///< [1] multiplies the eroded extinction, so that its integral is preserved
 };
 
+/// [1] v of field-detail of a ball by itself.
+/// @param crossSection [m2], radius [m] in the world
+float thinningOf(const GroupDetail& detail, float crossSection, float radius);
+
 /// GroupDetail::factor for balls of medium: the integral of the summed extinction over the mean integral
 /// after erosion, at most 4. It is evaluated at eight quadrature points of up to 128 balls each.
 /// @param balls all of the group, visible or not

@@ -28,18 +28,20 @@ DetailedField::DetailedField(std::vector<DetailedBall> balls, const FieldDetailN
 
 SmoothMedium DetailedField::smoothAt(const glm::vec3& point) const
 {
-    SmoothMedium sum{0.0f, {glm::vec3(0.0f), glm::vec3(0.0f)}};
+    SmoothMedium sum{0.0f, {glm::vec3(0.0f), glm::vec3(0.0f)}, 0.0f};
     for (const DetailedBall& ball : balls_) {
         const glm::vec3 away = point - ball.center;
         const float extinction = extinctionOf(ball, away);
         if (extinction == 0.0f)
             continue;
         sum.extinction += extinction;
+        sum.thinning += extinction * thinningOf(numbers_, ball.crossSection, ball.radius);
         for (size_t g = 0; g < 2; ++g)
             sum.place[g] += extinction * (numbers_.generations[g].growth * away + ball.place[g]);
     }
     for (glm::vec3& place : sum.place)
         place /= std::max(sum.extinction, 1e-30f);
+    sum.thinning /= std::max(sum.extinction, 1e-30f);
     return sum;
 }
 

@@ -58,6 +58,19 @@ float placeOf(const FieldDetailNumbers& numbers, float extinction)
     return formula::fxDetailPlace(extinction, numbers.length(), numbers.thinnest, numbers.densest);
 }
 
+/// s', w' and a of field-detail.
+struct SoftPlace
+{
+    float s, ramp, blur;
+
+    SoftPlace(const FieldDetailNumbers& numbers, float extinction, float thinning)
+        : blur(numbers.softening * thinning)
+    {
+        s = formula::fxDetailSoftPlace(placeOf(numbers, extinction), blur, numbers.thinnest, numbers.densest);
+        ramp = formula::fxDetailSoftRamp(numbers.ramp, blur);
+    }
+};
+
 } // namespace
 
 float FieldDetailNumbers::length() const
@@ -84,42 +97,50 @@ FieldDetailNumbers fieldDetailNumbers(std::span<const float> constants)
     numbers.gain = constants[constant::Gain];
     numbers.cooling = constants[constant::Cooling];
     numbers.glow = constants[constant::Glow];
+    numbers.softening = constants[constant::Softening];
     return numbers;
+}
+
+float thinningOf(const FieldDetailNumbers& numbers, float crossSection, float radius)
+{
+    return formula::fxDetailThinning(formula::fxKernelPeak(crossSection, radius) * numbers.length(),
+                                     numbers.thinnest, numbers.densest);
 }
 
 MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, const SmoothMedium& medium,
                       float pixel, int octaves)
 {
-    const float s = placeOf(numbers, medium.extinction);
+    const auto [s, ramp, blur] = SoftPlace(numbers, medium.extinction, medium.thinning);
     if (s <= 0.0f)
         return {0.0f, 1.0f, 0.0f};
-    if (s >= 1.0f + numbers.ramp + kDeepest)
+    if (s >= 1.0f + ramp + kDeepest)
         return {}; // whole inside: no noise is needed
+    const float gain = formula::fxDetailSoftGain(numbers.gain, blur);
     Octaves z[2];
     for (size_t g = 0; g < 2; ++g) {
         const FieldDetailNumbers::Generation& own = numbers.generations[g];
-        z[g] = octavesAt(tile, medium.place[g] / own.length + own.offset, own.length / own.growth,
-                         numbers.gain, pixel, octaves);
+        z[g] = octavesAt(tile, medium.place[g] / own.length + own.offset, own.length / own.growth, gain,
+                         pixel, octaves);
     }
     MediumDetail detail;
     detail.noise = formula::fxBlendGenerations(z[0].sum, z[1].sum, numbers.fade);
     const float faded = formula::fxBlendFaded(z[0].faded, z[1].faded, numbers.fade);
     const float h = formula::fxDetailThreshold(detail.noise);
-    detail.share = formula::fxDetailShareOver(s, detail.noise, faded, numbers.ramp) *
-                   formula::fxDetailGain(s, numbers.ramp);
+    detail.share = formula::fxDetailShareOver(s, detail.noise, faded, ramp) * formula::fxDetailGain(s, ramp);
     detail.temperature =
-        formula::fxDetailTemperature(1.0f, s, h, numbers.ramp, detail.noise, numbers.cooling, numbers.glow);
+        formula::fxDetailTemperature(1.0f, s, h, ramp, detail.noise, numbers.cooling, numbers.glow);
     return detail;
 }
 
 /// k n grows up to the place where m = 1/6; from there its logarithm is convex in s, so that the largest
-/// value is at an end.
+/// value is at an end. n is no more than for w = 1 without softening, whatever the thinning.
 float maxErodedExtinction(const FieldDetailNumbers& numbers, float most)
 {
     constexpr float kMargin = 1.0f + 1e-5f;
-    const float w = numbers.ramp, s = placeOf(numbers, most);
+    const bool isSoft = numbers.softening > 0.0f;
+    const float w = isSoft ? 1.0f : numbers.ramp, s = placeOf(numbers, most);
     if (s <= 0.0f)
-        return 0.0f;
+        return isSoft ? kMargin * kMaxDetailGain * most : 0.0f;
     const float capped = w > 1.0f / 3.0f ? std::sqrt(w / 3.0f) : 1.0f / 6.0f + 0.5f * w; // m = 1/6
     const float atEnd = most * formula::fxDetailGain(s, w);
     if (s <= capped)
@@ -129,10 +150,10 @@ float maxErodedExtinction(const FieldDetailNumbers& numbers, float most)
     return kMargin * std::max(atEnd, extinction * formula::fxDetailGain(capped, w));
 }
 
-float meanErodedShare(const FieldDetailNumbers& numbers, float extinction)
+float meanErodedShare(const FieldDetailNumbers& numbers, float extinction, float thinning)
 {
-    const float s = placeOf(numbers, extinction);
-    return formula::fxDetailMean(s, numbers.ramp) * formula::fxDetailGain(s, numbers.ramp);
+    const auto [s, ramp, blur] = SoftPlace(numbers, extinction, thinning);
+    return formula::fxDetailMean(s, ramp) * formula::fxDetailGain(s, ramp);
 }
 
 } // namespace fx::render

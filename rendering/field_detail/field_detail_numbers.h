@@ -31,6 +31,7 @@ struct FieldDetailNumbers
     float ramp = 0.25f;                    ///< [1] w
     float gain = 0.55f;                    ///< [1] amplitude of an octave over that of the one before
     float cooling = 0, glow = 0;           ///< [1] c, b
+    float softening = 0;                   ///< [1] a over v
 
     bool isGiven() const { return densest > thinnest; }
     float length() const; ///< [m] of the largest lumps now, mean of the two by their weights
@@ -44,6 +45,7 @@ struct SmoothMedium
 {
     float extinction = 0;           ///< [1/m]
     std::array<glm::vec3, 2> place; ///< [m] carried coordinates
+    float thinning = 0;             ///< [1] v of field-detail
 };
 
 /// The field with detail.
@@ -54,16 +56,19 @@ struct MediumDetail
     float noise = 0;       ///< [1] z
 };
 
+/// [1] v of field-detail of a ball by itself.
+float thinningOf(const FieldDetailNumbers& numbers, float crossSection, float radius);
+
 /// Formulas field-detail and lump-noise.
 /// @param pixel [m] width of a pixel there  @param octaves 1 .. kMaxDetailOctaves
 MediumDetail detailAt(const FieldDetailNumbers& numbers, const LumpTile& tile, const SmoothMedium& medium,
                       float pixel, int octaves);
 
-/// [1/m] upper bound of the eroded extinction for a smooth extinction of at most `most`, for any noise,
-/// before the multiplication by GroupDetail::factor.
+/// [1/m] upper bound of the eroded extinction for a smooth extinction of at most `most`, for any noise and
+/// thinning, before the multiplication by GroupDetail::factor.
 float maxErodedExtinction(const FieldDetailNumbers& numbers, float most);
 
 /// n m of field-detail: mean eroded extinction over the smooth one.
-float meanErodedShare(const FieldDetailNumbers& numbers, float extinction);
+float meanErodedShare(const FieldDetailNumbers& numbers, float extinction, float thinning = 0);
 
 } // namespace fx::render

@@ -41,7 +41,7 @@ class GlBackend final : public Backend
 {
 public:
     static constexpr uint32_t kTextureUnits = GlDrawState::kUnits;
-    static constexpr uint32_t kImageUnits = 6;      ///< units 0..5
+    static constexpr uint32_t kImageUnits = 7;      ///< units 0..6
     static constexpr uint32_t kStorageBindings = 8; ///< bindings 0..7
     static constexpr uint32_t kUniformBindings = 2; ///< bindings 0 (of the call itself) and 1
     static constexpr uint32_t kColorTargets = 8;    ///< minimum that OpenGL 4.5 guarantees

@@ -18,6 +18,7 @@ struct EffectLight
     glm::vec3 intensity;     ///< [cd] in every direction
     float radius;            ///< [m] root mean square extent of the emission, > 0
     bool isOfMedium = false; ///< of balls of medium, whose own fields may spread it better than a point does
+    float ownReach = 0.0f;   ///< [m] within which what hides the light is in the intensity already
 };
 
 constexpr size_t kMaxEffectLights = 4;  ///< largest number of lights in drawing
@@ -48,6 +49,8 @@ public:
     bool add(const glm::vec3& position, const glm::vec3& intensity, float radius);
 
     bool isDark() const; ///< too little to be a light
+
+    glm::dvec3 center() const { return moment_ / weight_; } ///< [m] of what is not dark
 
     /// [m] root mean square extent.
     /// @param leastSquare [m2] of the result where the elements are at one place

@@ -9,6 +9,7 @@ struct FieldDetail
     vec4 erosion;  // x size of lumps [m]; y, z optical depths of a lump that is nothing, that is whole; w ramp
     vec4 noise;    // x gain of an octave; y weight of the second generation; z cooling; w glow
     vec4 lumps;    // xy size of the generations' lumps in the world now [m]; z factor that keeps the whole; w octaves
+    vec4 soft;     // x softening as the medium thins
 };
 layout(binding = 10) uniform sampler3D lumpTile;
 
@@ -23,7 +24,24 @@ FieldDetail fieldDetail(int first)
     d.erosion = fieldTexel(first + 6);
     d.noise = fieldTexel(first + 7);
     d.lumps = fieldTexel(first + 8);
+    d.soft = fieldTexel(first + 9);
     return d;
+}
+
+// Where a medium is between what is eroded away and what is whole.
+struct DetailPlace
+{
+    float s;     // 0 .. 1
+    float ramp;  // w
+    float blur;  // thinning times softening
+};
+
+// @param erosion, soft of FieldDetail; k [1/m] smooth extinction; thinning mean of that of the balls there
+DetailPlace detailPlace(vec4 erosion, vec4 soft, float k, float thinning)
+{
+    float blur = soft.x * thinning;
+    float s = fxDetailPlace(k, erosion.x, erosion.y, erosion.z);
+    return DetailPlace(fxDetailSoftPlace(s, blur, erosion.y, erosion.z), fxDetailSoftRamp(erosion.w, blur), blur);
 }
 
 struct MediumDetail
@@ -66,24 +84,24 @@ vec3 detailedLight(vec3 light, MediumDetail detail, float power)
     return light * pow(vec3(detail.temperature), power * (580.0 / vec3(611.0, 549.0, 464.0)));
 }
 
-// Whether noise shows where fxDetailPlace is s.
-bool hasLumps(FieldDetail d, float s) { return s > 0.0 && s < 1.5 + d.erosion.w; }
+// Whether noise shows.
+bool hasLumps(DetailPlace place) { return place.s > 0.0 && place.s < 1.5 + place.ramp; }
 
-// @param k [1/m] smooth extinction; p [m] relative to the eye; carried0, carried1 [cell] means of what balls carry
-MediumDetail detailOf(FieldDetail d, float k, vec3 p, vec3 carried0, vec3 carried1, float pixel)
+// @param p [m] relative to the eye; carried0, carried1 [cell] means of what balls carry
+MediumDetail detailOf(FieldDetail d, DetailPlace place, vec3 p, vec3 carried0, vec3 carried1, float pixel)
 {
-    float ramp = d.erosion.w;
-    float s = fxDetailPlace(k, d.erosion.x, d.erosion.y, d.erosion.z);
+    float ramp = place.ramp, s = place.s;
     float h = 0.5, z = 0.0, share = s > 0.0 ? 1.0 : 0.0;
     // a loop without turns is skipped by software renderers too, a branch is not
-    int turns = hasLumps(d, s) ? 1 : 0;
+    int turns = hasLumps(place) ? 1 : 0;
     for (int turn = 0; turn < turns; ++turn) {
         vec3 u0 = vec3(dot(d.rows[0].xyz, p) + d.rows[0].w, dot(d.rows[1].xyz, p) + d.rows[1].w, dot(d.rows[2].xyz, p) + d.rows[2].w);
         vec3 u1 = vec3(dot(d.rows[3].xyz, p) + d.rows[3].w, dot(d.rows[4].xyz, p) + d.rows[4].w, dot(d.rows[5].xyz, p) + d.rows[5].w);
         int octaves = int(d.lumps.w);
+        float gain = fxDetailSoftGain(d.noise.x, place.blur);
         float faded0, faded1;
-        float z0 = lumpOctaves(u0 + carried0, d.lumps.x, pixel, d.noise.x, octaves, faded0);
-        float z1 = lumpOctaves(u1 + carried1, d.lumps.y, pixel, d.noise.x, octaves, faded1);
+        float z0 = lumpOctaves(u0 + carried0, d.lumps.x, pixel, gain, octaves, faded0);
+        float z1 = lumpOctaves(u1 + carried1, d.lumps.y, pixel, gain, octaves, faded1);
         z = fxBlendGenerations(z0, z1, d.noise.y);
         h = fxDetailThreshold(z);
         share = fxDetailShareOver(s, z, fxBlendFaded(faded0, faded1, d.noise.y), ramp);

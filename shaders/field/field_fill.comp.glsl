@@ -18,7 +18,8 @@ layout(rgba16f, binding = 2) uniform writeonly image3D shares; // see field_samp
 #if FX_DETAIL
 // Coordinates of two generations times extinction over the field's largest; a of the first: see field_detail.glsl
 layout(rgba16f, binding = 3) uniform writeonly image3D material0;
-layout(rgba16f, binding = 4) uniform writeonly image3D material1;
+layout(rgba16f, binding = 4) uniform writeonly image3D material1; // a thinning, likewise
+layout(r32f, binding = 6) uniform writeonly image3D change;      // of the extinction by detail, likewise
 #include "field/field_detail.glsl"
 struct BlobMaterial
 {
@@ -27,7 +28,7 @@ struct BlobMaterial
 layout(std430, binding = 4) readonly buffer Materials { BlobMaterial materials[]; };
 #endif
 
-shared uint most; // bits of the largest extinction of a sample [1/m], regardless of its sign
+shared uint most; // bits of the largest extinction of a sample that is seen [1/m], regardless of its sign
 
 void main()
 {
@@ -41,7 +42,7 @@ void main()
 #endif
 #if FX_DETAIL
     vec3 carriedSums0[kBrickSamples], carriedSums1[kBrickSamples];
-    vec2 powerSums[kBrickSamples]; // of light times its power of temperature; of light
+    vec3 powerSums[kBrickSamples]; // of light times its power of temperature; of light; of extinction times thinning
 #endif
     for (int z = 0; z < kBrickSamples; ++z) {
         places[z] = placeOfSample(field, brick, first + ivec3(0, 0, z));
@@ -51,9 +52,13 @@ void main()
 #endif
 #if FX_DETAIL
         carriedSums0[z] = carriedSums1[z] = vec3(0.0);
-        powerSums[z] = vec2(0.0);
+        powerSums[z] = vec3(0.0);
 #endif
     }
+#if FX_DETAIL
+    bool isDetailed = field.limits.z > 0.5;
+    FieldDetail numbers = fieldDetail(int(isDetailed ? field.limits.z : 0.0));
+#endif
     if (gl_LocalInvocationIndex == 0u)
         most = 0u;
     barrier();
@@ -76,6 +81,7 @@ void main()
 #if FX_DETAIL
         vec3 carried0 = materials[number].carried[0].xyz, carried1 = materials[number].carried[1].xyz;
         float power = blobs[number].emission.w, bright = emitted.r + emitted.g + emitted.b;
+        float thinning = isDetailed ? fxDetailThinning(peak * numbers.erosion.x, numbers.erosion.y, numbers.erosion.z) : 0.0;
 #endif
         for (int z = 0; z < kBrickSamples; ++z) {
             vec3 d = places[z] - ball.xyz;
@@ -88,13 +94,20 @@ void main()
 #if FX_DETAIL
             carriedSums0[z] += extinction * carried0;
             carriedSums1[z] += extinction * carried1;
-            powerSums[z] += max(extinction, 0.0) * bright * vec2(power, 1.0);
+            powerSums[z] += vec3(max(extinction, 0.0) * bright * vec2(power, 1.0), extinction * thinning);
 #endif
         }
     }
     float largest = 0.0;
-    for (int z = 0; z < kBrickSamples; ++z)
-        largest = max(largest, abs(mediumSums[z].a));
+    for (int z = 0; z < kBrickSamples; ++z) {
+        float seen = abs(mediumSums[z].a);
+#if FX_DETAIL
+        // what is thinner than detail leaves of anything is not seen
+        float place = detailPlace(numbers.erosion, numbers.soft, seen, powerSums[z].z / max(mediumSums[z].a, 1e-20)).s;
+        seen = isDetailed && place <= 0.0 ? 0.0 : seen;
+#endif
+        largest = max(largest, seen);
+    }
     atomicMax(most, floatBitsToUint(largest));
     ivec3 texel = brickTexel(int(gl_WorkGroupID.x)) + first;
     for (int z = 0; z < kBrickSamples; ++z) {
@@ -107,16 +120,17 @@ void main()
 #endif
 #if FX_DETAIL
         float held = 1.0 / field.limits.y;
-        // what detail changes of the extinction between samples, for light
-        float change = 0.0;
-        int detailed = field.limits.z > 0.5 && extinction > 0.0 ? 1 : 0;
+        float changed = 0.0; // between samples, for light
+        int detailed = isDetailed && extinction > 0.0 ? 1 : 0;
         for (int once = 0; once < detailed; ++once) {
-            MediumDetail detail = detailOf(fieldDetail(int(field.limits.z)), extinction, places[z], carriedSums0[z] / extinction,
-                                           carriedSums1[z] / extinction, 0.5 * field.corner.w);
-            change = (detail.share - 1.0) * extinction * held;
+            DetailPlace place = detailPlace(numbers.erosion, numbers.soft, extinction, powerSums[z].z / extinction);
+            MediumDetail detail = detailOf(numbers, place, places[z], carriedSums0[z] / extinction, carriedSums1[z] / extinction,
+                                           0.5 * field.corner.w);
+            changed = (detail.share - 1.0) * extinction * held;
         }
         imageStore(material0, texel + ivec3(0, 0, z), vec4(carriedSums0[z] * held, powerSums[z].x / max(powerSums[z].y, 1e-30)));
-        imageStore(material1, texel + ivec3(0, 0, z), vec4(carriedSums1[z] * held, change));
+        imageStore(material1, texel + ivec3(0, 0, z), vec4(carriedSums1[z] * held, powerSums[z].z * held));
+        imageStore(change, texel + ivec3(0, 0, z), vec4(changed));
 #endif
     }
     barrier();
@@ -124,12 +138,6 @@ void main()
         return;
     float seen = uintBitsToFloat(most);
     bool isSeen = seen > 0.0;
-#if FX_DETAIL
-    if (field.limits.z > 0.5) { // thinner than what detail leaves of anything
-        vec4 erosion = fieldTexel(int(field.limits.z) + 6);
-        isSeen = fxDetailPlace(seen, erosion.x, erosion.y, erosion.z) > 0.0;
-    }
-#endif
     float number = float(gl_WorkGroupID.x) + 1.0;
     imageStore(brickTable, tableTexel(tableEntry(field, placeOfBrick(brick))), vec4(isSeen ? number : -number));
 }

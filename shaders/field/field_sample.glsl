@@ -7,7 +7,7 @@ layout(binding = 2) uniform sampler3D fieldScatter; // rgb scattered light over 
 #endif
 #if FX_DETAIL
 layout(binding = 4) uniform sampler3D fieldMaterial0; // rgb, as field_fill.comp.glsl; a power of temperature of what is emitted
-layout(binding = 5) uniform sampler3D fieldMaterial1;
+layout(binding = 5) uniform sampler3D fieldMaterial1; // a thinning
 #endif
 #if FX_LAYERS
 layout(binding = 3) uniform sampler3D fieldShares;  // extinction seen as fire, as dust; of balls of fire, of dust; likewise
@@ -60,20 +60,6 @@ FieldPlace placeInField(VoxelField field, vec3 p, vec3 perDirection)
     return place;
 }
 
-#if FX_DETAIL
-// fxDetailPlace of an extinction in a field; 1 without detail, where there is any
-float detailPlace(VoxelField field, float extinction)
-{
-    float place = extinction != 0.0 ? 1.0 : 0.0;
-    int turns = field.limits.z > 0.5 ? 1 : 0;
-    for (int turn = 0; turn < turns; ++turn) {
-        vec4 erosion = fieldTexel(int(field.limits.z) + 6);
-        place = fxDetailPlace(max(extinction, 0.0), erosion.x, erosion.y, erosion.z);
-    }
-    return place;
-}
-#endif
-
 // @param t [m] along the ray; tile first texel of the list of fields, and how many; width of a pixel: pixel.x [1] t + pixel.y [m]
 FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, vec2 pixel)
 {
@@ -99,20 +85,26 @@ FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, vec2 
             float kept = medium.a != 0.0 ? 1.0 : 0.0;
             float voxels = kVoxelsPerStep;
 #if FX_DETAIL
-            float place = detailPlace(field, medium.a);
-            kept = place > 0.0 ? 1.0 : 0.0; // rims that are below 0 are eroded
-            int detailed = field.limits.z > 0.5 && place > 0.0 ? 1 : 0;
+            int detailed = field.limits.z > 0.5 ? 1 : 0;
+            kept = detailed > 0 && medium.a <= 0.0 ? 0.0 : kept; // rims that are below 0 are eroded
+            DetailPlace at;
+            float perMedium = field.limits.y / medium.a;
+            vec4 material1;
+            detailed = kept == 0.0 ? 0 : detailed;
+            for (int once = 0; once < detailed; ++once) {
+                material1 = perMedium * textureLod(fieldMaterial1, uv, 0.0);
+                int first = int(field.limits.z);
+                at = detailPlace(fieldTexel(first + 6), fieldTexel(first + 9), medium.a, material1.a);
+                kept = at.s > 0.0 ? 1.0 : 0.0;
+            }
+            detailed = kept == 0.0 ? 0 : detailed;
             for (int once = 0; once < detailed; ++once) {
                 FieldDetail numbers = fieldDetail(int(field.limits.z));
                 vec4 material0 = vec4(0.0);
-                vec3 material1 = vec3(0.0);
-                int lumpy = hasLumps(numbers, place) ? 1 : 0;
-                for (int lump = 0; lump < lumpy; ++lump) {
+                int lumpy = hasLumps(at) ? 1 : 0;
+                for (int lump = 0; lump < lumpy; ++lump)
                     material0 = textureLod(fieldMaterial0, uv, 0.0);
-                    material1 = textureLod(fieldMaterial1, uv, 0.0).rgb;
-                }
-                float perMedium = field.limits.y / medium.a;
-                MediumDetail detail = detailOf(numbers, medium.a, p, material0.rgb * perMedium, material1 * perMedium, pixel.x * t + pixel.y);
+                MediumDetail detail = detailOf(numbers, at, p, material0.rgb * perMedium, material1.rgb, pixel.x * t + pixel.y);
                 kept = detail.share;
                 voxels = detail.isLumpy ? kVoxelsPerLumpyStep : kVoxelsPerStep;
                 medium.rgb = detailedLight(medium.rgb, detail, material0.a);

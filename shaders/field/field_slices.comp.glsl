@@ -6,7 +6,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 1) readonly buffer Stacks { SliceStack stacks[]; };
 layout(binding = 12) uniform sampler2D brickTable;
-layout(binding = 1) uniform sampler3D fieldMaterial1; // a: change of extinction over the field's largest
+layout(binding = 1) uniform sampler3D fieldChange; // r change of extinction over the field's largest
 layout(rg32f, binding = 0) uniform image2D slices;    // r optical depth up to a plane; g from it to the next
 layout(std140, binding = 0) uniform FieldSliceBlock { ivec4 fieldCount; };
 
@@ -27,7 +27,7 @@ float changeAt(vec3 p)
         int turns = number > 0.0 ? 1 : 0;
         for (int turn = 0; turn < turns; ++turn) {
             vec3 texel = vec3(brickTexel(int(number) - 1)) + 0.5 + local - vec3(kBrickCells * brick);
-            sum += field.limits.y * textureLod(fieldMaterial1, texel / vec3(textureSize(fieldMaterial1, 0)), 0.0).a;
+            sum += field.limits.y * textureLod(fieldChange, texel / vec3(textureSize(fieldChange, 0)), 0.0).r;
         }
     }
     return sum;

@@ -43,10 +43,11 @@ void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 med
         int detailed = field.limits.z > 0.5 && own.a > 0.0 ? 1 : 0;
         for (int once = 0; once < detailed; ++once) {
             vec4 material0 = textureLod(fieldMaterial0, uv, 0.0);
-            vec3 material1 = textureLod(fieldMaterial1, uv, 0.0).rgb;
             float perMedium = field.limits.y / own.a;
-            MediumDetail detail = detailOf(fieldDetail(int(field.limits.z)), own.a, p, material0.rgb * perMedium,
-                                           material1 * perMedium, pixel);
+            vec4 material1 = perMedium * textureLod(fieldMaterial1, uv, 0.0);
+            FieldDetail numbers = fieldDetail(int(field.limits.z));
+            DetailPlace place = detailPlace(numbers.erosion, numbers.soft, own.a, material1.a);
+            MediumDetail detail = detailOf(numbers, place, p, material0.rgb * perMedium, material1.rgb, pixel);
             kept = detail.share;
             own.rgb = detailedLight(own.rgb, detail, material0.a);
         }

@@ -14,6 +14,9 @@
 ///   m        1      mean of g over h
 ///   n        1      factor that keeps the mean, at most 6
 ///   u        1      variance of octaves that have faded out, 0..1; z is the sum of the others
+///   q        1      optical depth of a lump of one ball by itself: its extinction in the middle times l
+///   v        1      thinning of a medium: mean over its balls, by their extinction
+///   a        1      v times the preset's softening
 ///   T        K      temperature; c its loss at the surface of lumps, b its gain per deviation of the noise
 /// @derivation
 ///   Extinctions of a gas span four decades, so the threshold is on the logarithm:
@@ -35,10 +38,19 @@
 ///   Gas at the surface of a lump has mixed with air, and creases are deep in it:
 ///       T' = T (1 - c (1 - sat(2 (s - h))) + b (1 - sat(2 (s - 1 - w))) clamp(z, -1.5, 1.5))    (6)
 ///   so that T' = T, as k, does not depend on the noise for s >= 3/2 + w: none is needed there.
+///   Medium that spreads is mixed with air between its lumps too, first where lumps are small. How far that has
+///   gone follows from the depth of the balls, which grow as they take in air:
+///       v = max(0, ln(sqrt(t0 t1) / q))                                                       (8)
+///   The depths t0 and t1 fall by exp(-a), the edges and the noise soften:
+///       s' = s + a / ln(t1 / t0)                                                              (9)
+///       w' = 1 - (1 - w) exp(-0.3 a)                                                          (10)
+///       G' = G exp(-0.15 a), G being the amplitude of an octave over that of the one before   (11)
+///   take the place of s, w and G in all of the above. In the middle of a ball s does not change with its
+///   size for a = v: lumps keep their form. For a > v it grows up to where the noise is no more: haze.
 /// @source    own; (1)-(5) measured by a prototype on the library's explosion
 /// @deviation none
 /// @valid     k >= 0, 0 < t0 < t1, 0 < w <= 1; k = 0 gives s = -1e3
-/// @accuracy  float within 1e-5 of double for s, h, g, m, and within 1e-4 relative for n and T'; GLSL likewise
+/// @accuracy  float within 1e-5 of double for s, h, g, m, w', G', within 1e-5 relative for v, and within 1e-4 relative for n and T'; GLSL likewise
 /// @tests     tests/rendering/core/test_field_detail_formulas.cpp
 FX_FORMULA(fxDetailPlace)(FX_REAL k, FX_REAL l, FX_REAL t0, FX_REAL t1)
 {
@@ -98,4 +110,24 @@ FX_FORMULA(fxDetailTemperature)
     FX_REAL inner = clamp(FX_REAL(2.0) * (s - h), FX_REAL(0.0), one);
     FX_REAL outer = one - clamp(FX_REAL(2.0) * (s - one - w), FX_REAL(0.0), one);
     return T * (one - c * (one - inner) + b * outer * clamp(z, FX_REAL(-1.5), FX_REAL(1.5))); // (6)
+}
+
+FX_FORMULA(fxDetailThinning)(FX_REAL q, FX_REAL t0, FX_REAL t1)
+{
+    return max(FX_REAL(0.5) * log(t0 * t1) - log(max(q, FX_REAL(1e-12))), FX_REAL(0.0)); // (8)
+}
+
+FX_FORMULA(fxDetailSoftPlace)(FX_REAL s, FX_REAL a, FX_REAL t0, FX_REAL t1)
+{
+    return s + a / log(t1 / t0); // (9)
+}
+
+FX_FORMULA(fxDetailSoftRamp)(FX_REAL w, FX_REAL a)
+{
+    return FX_REAL(1.0) - (FX_REAL(1.0) - w) * exp(FX_REAL(-0.3) * a); // (10)
+}
+
+FX_FORMULA(fxDetailSoftGain)(FX_REAL G, FX_REAL a)
+{
+    return G * exp(FX_REAL(-0.15) * a); // (11)
 }

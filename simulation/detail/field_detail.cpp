@@ -60,6 +60,7 @@ base::SnapshotGroup& addMaterial(const FieldDetail& detail, const DetailGenerati
     constants[constant::Gain] = 0.35f + 0.4f * detail.raggedness;
     constants[constant::Cooling] = numbers.cooling;
     constants[constant::Glow] = numbers.glow;
+    constants[constant::Softening] = detail.softening;
     return group;
 }
 

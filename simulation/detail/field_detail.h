@@ -26,6 +26,7 @@ struct FieldDetail
     float billowSize = 1.0f; ///< [1] largest lumps over 1.1 median radii, 0.1 .. 10
     float crispness = 0.5f;  ///< [1] 0 .. 1, of the edges of lumps
     float raggedness = 0.5f; ///< [1] 0 .. 1, strength of small lumps on large ones
+    float softening = 1.5f;  ///< [1] 0 .. 4, how soon lumps become haze as the medium thins
     float liveliness = 1.0f; ///< [1] 0.1 .. 10, rate at which the pattern is renewed, over that of the flow
 };
 

@@ -90,7 +90,7 @@ double movedShare(double away, double at, bool isRelative)
     pixel.constant = 1e-3;
     const render::DetailedMedium medium(details, render::BallTree(), eye, pixel);
     const glm::dvec3 seen = origin + place - eye;
-    return double(medium.at(0, 8.0, {}, isRelative ? seen : glm::dvec3(glm::vec3(seen))).share);
+    return double(medium.at(0, 8.0, {}, 0.0, isRelative ? seen : glm::dvec3(glm::vec3(seen))).share);
 }
 
 std::vector<StabilitySweep> places(bool isQuick)

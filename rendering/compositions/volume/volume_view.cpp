@@ -16,8 +16,8 @@ constexpr size_t kBricksOfALayer = size_t(kBrickColumns) * kBrickColumns;
 constexpr std::string_view kListNames[] = {"fields",      "field bricks",      "field balls",
                                            "field list",  "field tiles",       "field materials",
                                            "field blobs", "field light stacks"};
-constexpr std::string_view kTextureNames[] = {"field medium", "field scatter", "field shares",
-                                              "field material 0", "field material 1"};
+constexpr std::string_view kTextureNames[] = {"field medium",     "field scatter",    "field shares",
+                                              "field material 0", "field material 1", "field change"};
 
 constexpr int kCoarseVoxels = 96; ///< fields of fewer voxels have kCoarseOctaves of detail
 constexpr int kCoarseOctaves = 3;
@@ -37,6 +37,7 @@ FieldDetailBlock blockOf(const GroupDetail& detail, int octaves)
         return detail.scale * numbers.generations[g].length / numbers.generations[g].growth;
     };
     block.lumps = {size(0), size(1), detail.factor, float(octaves)};
+    block.soft = {numbers.softening, 0.0f, 0.0f, 0.0f};
     return block;
 }
 
@@ -185,7 +186,8 @@ void VolumeView::importAll(FrameGraph& graph, bool layers)
                        texture(1),
                        texture(2),
                        texels(table_, Format::R32F, "field table"),
-                       {texture(3), texture(4)}};
+                       {texture(3), texture(4)},
+                       texture(5)};
     march_.fieldTexels = texels(texelTexture_, Format::RGBA32F, "field texels");
     glow_.importAll(graph, plan_.glows());
     march_.lumpTile = {};
@@ -277,9 +279,9 @@ LightBindings VolumeView::addLightPasses(FrameGraph& graph, const LightBindings&
     fill(graph, ids_[Blobs]);
     filledFor_ = &graph;
     corrected_ = lights.filled;
-    return FieldSlicesPass::addTo(
-        graph, {march_.fieldTexels, march_.textures.table, march_.textures.material[1], ids_[Stacks], lights,
-                uint32_t(plan_.fields().size()), uint32_t(stacks_.size() / sizeof(SliceStackBlock))});
+    return FieldSlicesPass::addTo(graph, {march_.fieldTexels, march_.textures.table, march_.textures.change,
+                                          ids_[Stacks], lights, uint32_t(plan_.fields().size()),
+                                          uint32_t(stacks_.size() / sizeof(SliceStackBlock))});
 }
 
 void VolumeView::fill(FrameGraph& graph, ResourceId blobs)

@@ -257,7 +257,10 @@ void LightList::addPoints(const LightListInputs& in)
         const glm::vec3 place(point.position - in.eye);
         SliceLightBlock light{};
         const LightOrigin& origin = sorted.points[i].origin;
-        const bool isOfMedium = origin.kind == LightKind::Effect && in.effects[origin.index].isOfMedium;
+        const bool isEffect = origin.kind == LightKind::Effect;
+        const bool isOfMedium = isEffect && in.effects[origin.index].isOfMedium;
+        const float begin =
+            std::max(point.radius, isEffect ? in.effects[origin.index].ownReach : 0.0f); // of its shadow
         light.color = glm::vec4(point.intensity * exposure, isOfMedium ? 2.0f : 1.0f);
         light.place = glm::vec4(place, point.radius);
         light.cone = coneOf(point);
@@ -265,7 +268,7 @@ void LightList::addPoints(const LightListInputs& in)
             addStacks(
                 [&](const SliceFit& fit, SliceStack& outStack) {
                     const bool isThere =
-                        fitPointSlices(place, point.radius, in.casters, in.eye,
+                        fitPointSlices(place, begin, in.casters, in.eye,
                                        partOf(in.settings->slices.resolution, 2), outStack, fit);
                     outStack.corner = point.position; // not by way of floats: it must not follow the eye
                     return isThere;

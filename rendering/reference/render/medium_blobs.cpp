@@ -40,7 +40,12 @@ public:
 
     void appendTo(MediumList& out)
     {
-        group_ = detail_.isGiven() ? int32_t(out.details.groups.size()) : -1;
+        if (detail_.isGiven()) {
+            base::Placement here = place_; // relative to its own origin, from where floats are exact enough
+            here.position = glm::dvec3(0.0);
+            groupDetail_ = detail_.groupDetail(here);
+            group_ = int32_t(out.details.groups.size());
+        }
         size_t j = 0;
         for (size_t i = 0; i < newer_.count(); ++i) {
             const size_t old = oldPlaceOf(i, j);
@@ -48,8 +53,10 @@ public:
                 continue; // not yet born
             append(i, old, out);
         }
-        if (detail_.isGiven())
-            appendGroup(out);
+        if (detail_.isGiven()) {
+            groupDetail_.factor = conservationFactor(groupDetail_, casters_);
+            out.details.groups.push_back({groupDetail_, place_.position});
+        }
     }
 
 private:
@@ -74,16 +81,6 @@ private:
     glm::dvec3 vector(size_t c, size_t i, size_t old) const
     {
         return {value(c, i, old), value(c + 1, i, old), value(c + 2, i, old)};
-    }
-
-    /// Relative to its own origin, from where floats are exact enough.
-    void appendGroup(MediumList& out) const
-    {
-        base::Placement here = place_;
-        here.position = glm::dvec3(0.0);
-        GroupDetail detail = detail_.groupDetail(here);
-        detail.factor = conservationFactor(detail, casters_);
-        out.details.groups.push_back({detail, place_.position});
     }
 
     void append(size_t i, size_t old, MediumList& out)
@@ -117,9 +114,11 @@ private:
         if (!(blob.crossSection > 0.0 && blob.radius > 0.0))
             return;
         appendStreak(blob, streak, out);
-        MediumDetails::Ball ball{group_, {}, temperature};
+        MediumDetails::Ball ball{group_, {}, temperature, 0.0f};
         if (detail_.isGiven()) {
             ball.carried = detail_.carried(i, old, old != kNone, glm::vec3(position));
+            const MediumBlob& piece = out.blobs.back();
+            ball.thinning = thinningOf(groupDetail_, float(piece.crossSection), float(piece.radius));
             casters_.push_back(
                 {glm::vec3(blob.center - place_.position), float(blob.radius), float(blob.crossSection)});
         }
@@ -169,6 +168,7 @@ private:
     double t_;
     double stepSeconds_;
     const BlobDetail& detail_;
+    GroupDetail groupDetail_;
     int32_t group_ = -1; ///< number of the detail
     std::vector<MediumCaster> casters_;
     base::Placement place_;

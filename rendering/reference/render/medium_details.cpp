@@ -55,13 +55,14 @@ double DetailedMedium::lumpSize(size_t group) const
 }
 
 MediumDetail DetailedMedium::at(size_t group, double extinction, const std::array<glm::dvec3, 2>& carried,
-                                const glm::dvec3& point) const
+                                double thinning, const glm::dvec3& point) const
 {
     const GroupDetail& detail = groups_[group].detail;
     const double scale = double(detail.scale);
     const glm::vec3 local(point - groups_[group].origin);
     SmoothMedium smooth;
     smooth.extinction = float(extinction * scale);
+    smooth.thinning = float(thinning);
     for (size_t g = 0; g < 2; ++g) {
         const FieldDetailNumbers::Generation& own = detail.numbers.generations[g];
         const glm::vec3 cells = detail.toCells[g] * local + detail.first[g] + glm::vec3(carried[g]);
@@ -96,6 +97,7 @@ void DetailMix::clear()
     for (Sum& sum : sums_) {
         sum.extinction = 0.0;
         sum.carried = {};
+        sum.thinning = 0.0;
     }
 }
 
@@ -109,6 +111,7 @@ void DetailMix::add(uint32_t place, double extinction)
     const MediumDetails::Ball& ball = medium_.ball(place);
     Sum& sum = sums_[size_t(group)];
     sum.extinction += extinction;
+    sum.thinning += extinction * double(ball.thinning);
     for (size_t g = 0; g < 2; ++g)
         sum.carried[g] += extinction * glm::dvec3(ball.carried[g]);
 }
@@ -122,7 +125,7 @@ void DetailMix::finish(const glm::dvec3& point)
             continue;
         for (glm::dvec3& carried : sum.carried)
             carried /= sum.extinction;
-        sum.detail = medium_.at(group, sum.extinction, sum.carried, point);
+        sum.detail = medium_.at(group, sum.extinction, sum.carried, sum.thinning / sum.extinction, point);
     }
 }
 

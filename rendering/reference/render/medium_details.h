@@ -29,6 +29,7 @@ struct MediumDetails
         int32_t group = -1;                 ///< number in `groups`; -1: it stays smooth
         std::array<glm::vec3, 2> carried{}; ///< [cell] coordinates of both generations, see BlobDetail
         float temperature = 0.0f;           ///< [K]
+        float thinning = 0.0f;              ///< [1] v of field-detail
     };
     std::vector<Group> groups;
     std::vector<Ball> balls;         ///< one for each of the list, or none at all
@@ -66,9 +67,9 @@ public:
     double lumpSize(size_t group) const;
 
     /// What detail makes of a group at a point.
-    /// @param extinction [1/m] > 0, sum of its balls  @param carried [cell] mean of what its balls carry
+    /// @param extinction [1/m] > 0, sum of its balls  @param carried [cell], thinning [1] means of its balls
     MediumDetail at(size_t group, double extinction, const std::array<glm::dvec3, 2>& carried,
-                    const glm::dvec3& point) const;
+                    double thinning, const glm::dvec3& point) const;
     /// [cd/m2] black body of a ball's temperature.
     const glm::vec3& thermal(uint32_t place) const { return thermal_[place]; }
     /// [1/m] what is left of a smooth extinction of at most `most` is no more.
@@ -123,6 +124,7 @@ private:
     {
         double extinction = 0.0;
         std::array<glm::dvec3, 2> carried{};
+        double thinning = 0.0;
         MediumDetail detail;
     };
     const DetailedMedium& medium_;

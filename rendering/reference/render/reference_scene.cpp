@@ -88,7 +88,7 @@ void addDetails(KeyHash& hash, const MediumDetails& details)
             hash.add(double(n.generations[g].growth));
         }
         for (const float number : {n.fade, n.thinnest, n.densest, n.ramp, n.gain, n.cooling, n.glow,
-                                   group.detail.scale, group.detail.factor})
+                                   n.softening, group.detail.scale, group.detail.factor})
             hash.add(double(number));
     }
     for (const MediumDetails::Ball& ball : details.balls) {
@@ -96,6 +96,7 @@ void addDetails(KeyHash& hash, const MediumDetails& details)
         add(hash, ball.carried[0]);
         add(hash, ball.carried[1]);
         hash.add(double(ball.temperature));
+        hash.add(double(ball.thinning));
     }
 }
 

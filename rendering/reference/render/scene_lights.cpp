@@ -80,9 +80,11 @@ void SceneLights::build(const OpaqueScene& scene, const glm::dvec3& eye, int sky
                           glm::normalize(glm::dvec3(light.direction)),
                           light.isSpot() ? std::cos(double(light.innerAngle)) : kAllDirections,
                           light.isSpot() ? std::cos(double(light.outerAngle)) : kAllDirections});
-    for (const EffectLight& fire : scene.lights)
+    for (const EffectLight& fire : scene.lights) {
         lamps_.push_back({fire.position - eye, glm::dvec3(fire.intensity), double(fire.radius), true,
                           glm::dvec3(0.0, 1.0, 0.0), kAllDirections, kAllDirections});
+        lamps_.back().ownReach = double(fire.ownReach);
+    }
 }
 
 void SceneLights::appendLamp(size_t index, const glm::dvec3& point, double turn,
@@ -98,7 +100,7 @@ void SceneLights::appendLamp(size_t index, const glm::dvec3& point, double turn,
     ArrivingLight light;
     const double distance = std::sqrt(distance2);
     light.direction = way / distance;
-    light.distance = std::max(0.0, distance - lamp.radius);
+    light.distance = std::max(0.0, distance - std::max(lamp.radius, lamp.ownReach));
     const double share = spotFalloff(-glm::dot(light.direction, lamp.axis), lamp.inner, lamp.outer);
     light.illuminance = lamp.intensity * (share / (distance2 + lamp.radius * lamp.radius));
     if (share > 0.0)

@@ -108,6 +108,7 @@ private:
         bool isGroup;        ///< a glowing group
         glm::dvec3 axis;     ///< unit, of a spot
         double inner, outer; ///< [1] cosines of a spot's angles; -2 and below: light in all directions
+        double ownReach = 0; ///< [m] see EffectLight
     };
     void appendBall(const Lamp& lamp, const glm::dvec3& point, double turn,
                     std::vector<ArrivingLight>& out) const;

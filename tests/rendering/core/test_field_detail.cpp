@@ -141,6 +141,32 @@ TEST(FieldDetail, keepsTheMeanWhereAThinnerPartIsLeft)
     }
 }
 
+// Medium that spreads: its mean stays, and what noise changes of it dies away.
+TEST(FieldDetail, thinMediumBecomesHazeOfTheSameMean)
+{
+    FieldDetailNumbers numbers = fireball();
+    numbers.softening = 1.5f;
+    double before = 10.0;
+    for (const float thinning : {0.0f, 1.0f, 2.0f, 4.0f, 8.0f}) {
+        SmoothMedium medium = mediumAt(8.0f * std::exp(-thinning), {});
+        medium.thinning = thinning;
+        double sum = 0, squares = 0;
+        const int count = 20000;
+        for (int i = 0; i < count; ++i) {
+            medium.place.fill(anywhere(uint64_t(i), 300.0f));
+            const double share = double(detailAt(numbers, tile(), medium, 1e-3f, 5).share);
+            sum += share;
+            squares += share * share;
+        }
+        const double deviation = std::sqrt(squares / count - sum / count * sum / count);
+        EXPECT_NEAR(sum / count, 1.0, 0.04) << thinning;
+        EXPECT_NEAR(meanErodedShare(numbers, medium.extinction, thinning), 1.0f, 1e-5f);
+        EXPECT_LT(deviation, 0.9 * before) << thinning;
+        before = deviation;
+    }
+    EXPECT_LT(before, 0.3);
+}
+
 // However far away: what fades out leaves the mean over it.
 TEST(FieldDetail, keepsTheMeanHoweverMuchOfTheNoiseHasFadedOut)
 {
@@ -197,6 +223,12 @@ TEST(FieldDetail, whatIsLeftStaysBelowItsBound)
         const MediumDetail detail =
             detailAt(fireball(), tile(), mediumAt(extinction, anywhere(i, 300.0f)), 1e-3f, 5);
         EXPECT_LE(extinction * detail.share, maxErodedExtinction(fireball(), extinction));
+        FieldDetailNumbers soft = fireball();
+        soft.softening = 1.5f;
+        SmoothMedium medium = mediumAt(extinction * extinction * 0.01f, anywhere(i, 300.0f));
+        medium.thinning = 5.0f * anywhere(i, 1.0f, 5).x;
+        EXPECT_LE(medium.extinction * detailAt(soft, tile(), medium, 1e-3f, 5).share,
+                  maxErodedExtinction(soft, medium.extinction));
     }
 }
 
@@ -270,8 +302,10 @@ TEST(FieldDetail, swellsWithItsBalls)
 // What is left of a whole cloud, on against off.
 TEST(FieldDetail, keepsTheWholeExtinctionOfACloud)
 {
-    for (const float crossSection : {3.0f, 20.0f}) {
-        DetailedField field(cloud(crossSection), fireball(), tile());
+    for (const float crossSection : {0.3f, 3.0f, 20.0f}) {
+        FieldDetailNumbers numbers = fireball();
+        numbers.softening = crossSection < 3.0f ? 1.5f : 0.0f;
+        DetailedField field(cloud(crossSection), numbers, tile());
         field.conserveIntegral(0.25f);
         double smooth = 0, detailed = 0;
         const float spacing = 0.1f;

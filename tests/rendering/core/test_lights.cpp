@@ -1,13 +1,18 @@
+#include "foundation/random/philox.h"
 #include "foundation/snapshot/blob_kind.h"
 #include "foundation/snapshot/particle_kind.h"
 #include "rendering/optics/black_body.h"
 #include "rendering/techniques/draw_techniques.h"
+#include "shaders/formulas/formula.h"
 
 #include <gtest/gtest.h>
+
+#include <glm/vec3.hpp>
 
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 using namespace fx::render;
 namespace column = fx::base::blob_column;
@@ -72,19 +77,61 @@ TEST(EffectLights, liesAtTheCenterOfTheEmission)
     EXPECT_GT(lights[0].radius, 30.0f);
 }
 
-TEST(EffectLights, thickGasShowsOnlyItsFace)
+// The integral over all rays past the middle of the ball.
+TEST(EffectLights, aBallShowsItsFaceWhateverItsDepth)
 {
-    // One ball of optical depth t sends B s (1 - exp(-t)) / t, seen through the mean depth of its group, s
-    // over its face.
     const auto schema = blobSchema();
-    const float s = 20.0f;
-    const auto snapshot = glowingLine(schema, 1, s, 1500.0f);
-    std::array<EffectLight, 1> lights;
-    ASSERT_EQ(effectLights(snapshot, lights), 1u);
-    const auto escape = [](float t) { return (1.0f - std::exp(-t)) / t; };
-    const float pi = std::numbers::pi_v<float>;
-    const float expected = s * blackBodyLuminance(1500.0f).x * escape(3.5f * s / pi) * escape(s / pi);
-    EXPECT_NEAR(lights[0].intensity.x / expected, 1.0f, 0.01f);
+    for (const float s : {0.01f, 0.3f, 3.0f, 20.0f, 200.0f}) {
+        const auto snapshot = glowingLine(schema, 1, s, 1500.0f);
+        std::array<EffectLight, 1> lights;
+        ASSERT_EQ(effectLights(snapshot, lights), 1u);
+        double area = 0;
+        const int rays = 4000;
+        for (int i = 0; i < rays; ++i) {
+            const double b = (i + 0.5) / rays;
+            const double depth = fx::formula64::fxKernelOpticalDepth(double(s), 1.0, b, 0.0, -2.0, 2.0);
+            area += (1.0 - std::exp(-depth)) * 2.0 * std::numbers::pi * b / rays;
+        }
+        const double expected = area * double(blackBodyLuminance(1500.0f).x);
+        EXPECT_NEAR(double(lights[0].intensity.x) / expected, 1.0, 0.02) << s;
+    }
+}
+
+// Against rays through all balls of a cloud of even temperature, in three directions.
+TEST(EffectLights, aCloudOfBallsSendsWhatItsFaceShows)
+{
+    const auto schema = blobSchema();
+    for (const float s : {0.02f, 0.3f, 2.0f}) {
+        const uint32_t count = 300;
+        auto snapshot = glowingLine(schema, count, s, 1500.0f);
+        auto& group = snapshot.editGroup(0);
+        std::vector<glm::dvec3> places;
+        for (uint32_t i = 0; i < count; ++i) {
+            const auto r = fx::base::randomUnit4(7, 0, i, fx::base::RandomPurpose::Attributes);
+            const double z = 2.0 * double(r[0]) - 1.0, turn = 2.0 * std::numbers::pi * double(r[1]);
+            const double out = 3.0 * std::cbrt(double(r[2])), across = std::sqrt(1.0 - z * z);
+            places.push_back(out * glm::dvec3(across * std::cos(turn), across * std::sin(turn), z));
+            for (int a = 0; a < 3; ++a)
+                group.editColumn(column::PositionX + size_t(a))[i] = float(places.back()[a]);
+        }
+        std::array<EffectLight, 1> lights;
+        ASSERT_EQ(effectLights(snapshot, lights), 1u);
+        double area = 0;
+        const double step = 0.1;
+        for (int axis = 0; axis < 3; ++axis)
+            for (double x = -4.0; x < 4.0; x += step)
+                for (double y = -4.0; y < 4.0; y += step) {
+                    double depth = 0;
+                    for (const glm::dvec3& p : places) {
+                        const double b = std::hypot(p[axis] - x, p[(axis + 1) % 3] - y);
+                        depth += fx::formula64::fxKernelOpticalDepth(double(s), 1.0, b, 0.0, -2.0, 2.0);
+                    }
+                    area += (1.0 - std::exp(-depth)) * step * step / 3.0;
+                }
+        const double expected = area * double(blackBodyLuminance(1500.0f).x);
+        EXPECT_NEAR(double(lights[0].intensity.x) / expected, 1.0, 0.25) << s;
+        EXPECT_NEAR(lights[0].ownReach, 3.1f, 0.3f);
+    }
 }
 
 TEST(EffectLights, aListOfParticleLightsShinesAsOneLightInItsMiddle)

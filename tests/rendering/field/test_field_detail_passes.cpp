@@ -32,6 +32,7 @@ FieldDetailNumbers numbers()
     n.fade = 0.35f;
     n.thinnest = 0.3f;
     n.densest = 20.0f;
+    n.softening = 1.5f;
     return n;
 }
 
@@ -51,6 +52,7 @@ FieldDetailBlock blockOf(const FieldDetailNumbers& n)
     block.noise = {n.gain, n.fade, n.cooling, n.glow};
     block.lumps.z = 1.0f;
     block.lumps.w = float(kMaxDetailOctaves);
+    block.soft.x = n.softening;
     return block;
 }
 
@@ -96,7 +98,7 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
         balls.push_back(
             {.center = {r * std::cos(a), r * std::sin(a), -4.0f - 0.3f * std::sin(1.7f * float(i))},
              .radius = 0.45f,
-             .crossSection = 0.25f});
+             .crossSection = i % 3 == 0 ? 0.03f : 0.25f});
     }
     const CameraView camera = perspectiveView({{0, 0, 0}, {0, 0, -4}}, 0.8f, 1.5f, 0.05f);
     FieldScene scene(balls, camera);
@@ -114,13 +116,14 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
     const GlTexture tile = volume(kLumpTileTexels, kLumpTileTexels, Format::R32F);
     const int depth = int(plan.bricks().size() + 255) / 256 * kBrickSamples;
     std::vector<GlTexture> volumes;
-    for (const size_t f : {0, 1, 3, 4})
+    for (const size_t f : {0, 1, 3, 4, 5})
         volumes.push_back(volume(kSide, depth, kFieldFormats[f]));
     FieldTextures textures;
     textures.medium = import(volumes[0], kFieldFormats[0]);
     textures.scatter = import(volumes[1], kFieldFormats[1]);
     textures.material[0] = import(volumes[2], kFieldFormats[3]);
     textures.material[1] = import(volumes[3], kFieldFormats[4]);
+    textures.change = import(volumes[4], kFieldFormats[5]);
     const FieldDetailBlock block = blockOf(numbers());
     FieldTexels listed(memory_);
     listed.build(plan, {&block, 1});
@@ -140,15 +143,17 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
                                               uint32_t(plan.bricks().size()),
                                               importBytes(std::as_bytes(std::span(materials))), lumps})
                    .textures;
-    for (const ResourceId id : {textures.scatter, textures.table, textures.material[0], textures.material[1]})
+    for (const ResourceId id :
+         {textures.scatter, textures.table, textures.material[0], textures.material[1], textures.change})
         graph_->keep(id);
     execute(textures.medium);
 
     const std::vector<float> medium = texels(volumes[0], 4), first = texels(volumes[2], 4),
-                             second = texels(volumes[3], 4);
+                             second = texels(volumes[3], 4), changes = texels(volumes[4], 1);
     const FieldBlock& field = plan.fields()[0];
     const LumpTile wanted(kLumpTileTexels);
     double most = 0, sum = 0;
+    float mostThinning = 0;
     size_t count = 0, eroded = 0;
     for (size_t b = 0; b < plan.bricks().size(); ++b)
         for (int k = 0; k < kBrickSamples * kBrickSamples * kBrickSamples; ++k) {
@@ -163,7 +168,8 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
             const glm::vec3 p =
                 glm::vec3(field.corner) +
                 field.corner.w * glm::vec3(8 * glm::ivec3(place & 1023, place >> 10 & 1023, place >> 20) + s);
-            SmoothMedium smooth{extinction, {}};
+            SmoothMedium smooth{extinction, {}, second[at + 3] * field.limits.y / extinction};
+            mostThinning = std::max(mostThinning, smooth.thinning);
             for (size_t g = 0; g < 2; ++g) {
                 const FieldDetailNumbers::Generation own = numbers().generations[g];
                 const float* const carried = (g == 0 ? first : second).data() + at;
@@ -173,7 +179,7 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
             const float share =
                 detailAt(numbers(), wanted, smooth, 0.5f * field.corner.w, kMaxDetailOctaves).share;
             const double error =
-                std::abs(double(second[at + 3] * field.limits.y - (share - 1.0f) * extinction));
+                std::abs(double(changes[at / 4] * field.limits.y - (share - 1.0f) * extinction));
             most = std::max(most, error / double(field.limits.y));
             sum += error / double(field.limits.y);
             eroded += share < 1.0f ? 1 : 0;
@@ -182,15 +188,15 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
     size_t unseen = 0; // bricks that rays skip: detail leaves nothing of any sample
     const std::vector<float> numbered = readTexture(*device_, table.name(), table.width(), table.height(), 1);
     for (size_t b = 0; b < plan.bricks().size(); ++b) {
-        float most_ = 0.0f;
-        for (int k = 0; k < kBrickSamples * kBrickSamples * kBrickSamples; ++k)
-            most_ = std::max(
-                most_, medium[4 * (size_t(int(b) % 16 * 9 + k % 9) +
+        bool isSeen = false;
+        for (int k = 0; k < kBrickSamples * kBrickSamples * kBrickSamples; ++k) {
+            const size_t at = 4 * (size_t(int(b) % 16 * 9 + k % 9) +
                                    size_t(kSide) * (size_t(int(b) / 16 % 16 * 9 + k / 9 % 9) +
-                                                    size_t(kSide) * size_t(int(b) / 256 * 9 + k / 81))) +
-                              3]);
-        const bool isSeen =
-            formula::fxDetailPlace(most_, block.erosion.x, block.erosion.y, block.erosion.z) > 0.0f;
+                                                    size_t(kSide) * size_t(int(b) / 256 * 9 + k / 81)));
+            const float extinction = std::max(medium[at + 3], 1e-20f);
+            isSeen |=
+                meanErodedShare(numbers(), extinction, second[at + 3] * field.limits.y / extinction) > 0.0f;
+        }
         const uint32_t place = plan.bricks()[b].place;
         const size_t entry =
             size_t(field.bricks.w) + (place & 1023) +
@@ -200,6 +206,7 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
         unseen += isSeen ? 0 : 1;
     }
     EXPECT_GT(unseen, 0u);
+    EXPECT_GT(mostThinning, 1.0f);
     ASSERT_GT(count, 1000u);
     EXPECT_GT(eroded, count / 4);
     EXPECT_LT(sum / double(count), 2e-3); // places are half floats
