@@ -41,12 +41,12 @@ enum : size_t
     Length1,    ///< [m] length of the generation of Place1
     Growth0,    ///< [1] radii of balls at the birth of that generation over their radii now
     Growth1,
-    Thinnest, ///< [1] optical depth of a lump up to which the medium is eroded away
-    Densest,  ///< [1] optical depth of a lump above which it is not eroded
-    Ramp,     ///< [1] width of the threshold: small is crisp
-    Gain,     ///< [1] amplitude of each octave of the noise over that of the one before
-    Cooling,  ///< [1] share of the temperature that is lost at the surface of lumps
-    Glow,     ///< [1] by how much a lump of unit deviation is hotter
+    Thinnest,  ///< [1] optical depth of a lump up to which the medium is eroded away
+    Densest,   ///< [1] optical depth of a lump above which it is not eroded
+    Ramp,      ///< [1] width of the threshold: small is crisp
+    Gain,      ///< [1] amplitude of each octave of the noise over that of the one before
+    Cooling,   ///< [1] share of the temperature that is lost at the surface of lumps
+    Glow,      ///< [1] by how much a lump of unit deviation is hotter
     Softening, ///< [1] how soon lumps become haze as the medium thins: 0 never, 1 they keep their form
     Count
 };
@@ -60,10 +60,9 @@ inline constexpr ColumnDesc kMaterialColumns[material_column::Count] = {
 };
 
 inline constexpr ColumnDesc kMaterialConstants[material_constant::Count] = {
-    {"generation", "1"}, {"fade", "1"},    {"length0", "m"},  {"length1", "m"},
-    {"growth0", "1"},    {"growth1", "1"}, {"thinnest", "1"}, {"densest", "1"},
-    {"ramp", "1"},       {"gain", "1"},    {"cooling", "1"},  {"glow", "1"},
-    {"softening", "1"},
+    {"generation", "1"}, {"fade", "1"},     {"length0", "m"},   {"length1", "m"}, {"growth0", "1"},
+    {"growth1", "1"},    {"thinnest", "1"}, {"densest", "1"},   {"ramp", "1"},    {"gain", "1"},
+    {"cooling", "1"},    {"glow", "1"},     {"softening", "1"},
 };
 
 inline constexpr KindDesc kMaterialKind{"material", kMaterialColumns, kMaterialConstants};

@@ -17,10 +17,10 @@ struct FieldTextures
     ResourceId shares = {}; ///< RGBA16F of the layers in the extinction; invalid without layers
     ResourceId table = {};  ///< R32F bricks, see shaders/field/field_blocks.glsl
     std::array<ResourceId, 2> material = {}; ///< RGBA16F what media carry; invalid without detail
-    ResourceId change = {}; ///< R32F change of the extinction by detail; likewise
+    ResourceId change = {};                  ///< R32F change of the extinction by detail; likewise
 };
 
-constexpr Format kFieldFormats[] = {Format::RGBA32F, Format::RGBA16F, Format::RGBA16F, Format::RGBA16F,
-                                    Format::RGBA16F, Format::R32F};
+constexpr Format kFieldFormats[] = {Format::RGBA32F, Format::RGBA16F, Format::RGBA16F,
+                                    Format::RGBA16F, Format::RGBA16F, Format::R32F};
 
 } // namespace fx::render

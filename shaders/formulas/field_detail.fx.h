@@ -40,10 +40,10 @@
 ///   so that T' = T, as k, does not depend on the noise for s >= 3/2 + w: none is needed there.
 ///   Medium that spreads is mixed with air between its lumps too, first where lumps are small. How far that has
 ///   gone follows from the depth of the balls, which grow as they take in air:
-///       v = max(0, ln(sqrt(t0 t1) / q))                                                       (8)
+///       v = max(0, ln(t0^(3/4) t1^(1/4) / q))                                                 (8)
 ///   The depths t0 and t1 fall by exp(-a), the edges and the noise soften:
 ///       s' = s + a / ln(t1 / t0)                                                              (9)
-///       w' = 1 - (1 - w) exp(-0.3 a)                                                          (10)
+///       w' = 1 - (1 - w) exp(-0.25 a)                                                         (10)
 ///       G' = G exp(-0.15 a), G being the amplitude of an octave over that of the one before   (11)
 ///   take the place of s, w and G in all of the above. In the middle of a ball s does not change with its
 ///   size for a = v: lumps keep their form. For a > v it grows up to where the noise is no more: haze.
@@ -114,7 +114,8 @@ FX_FORMULA(fxDetailTemperature)
 
 FX_FORMULA(fxDetailThinning)(FX_REAL q, FX_REAL t0, FX_REAL t1)
 {
-    return max(FX_REAL(0.5) * log(t0 * t1) - log(max(q, FX_REAL(1e-12))), FX_REAL(0.0)); // (8)
+    FX_REAL least = FX_REAL(0.75) * log(t0) + FX_REAL(0.25) * log(t1);
+    return max(least - log(max(q, FX_REAL(1e-12))), FX_REAL(0.0)); // (8)
 }
 
 FX_FORMULA(fxDetailSoftPlace)(FX_REAL s, FX_REAL a, FX_REAL t0, FX_REAL t1)
@@ -124,7 +125,7 @@ FX_FORMULA(fxDetailSoftPlace)(FX_REAL s, FX_REAL a, FX_REAL t0, FX_REAL t1)
 
 FX_FORMULA(fxDetailSoftRamp)(FX_REAL w, FX_REAL a)
 {
-    return FX_REAL(1.0) - (FX_REAL(1.0) - w) * exp(FX_REAL(-0.3) * a); // (10)
+    return FX_REAL(1.0) - (FX_REAL(1.0) - w) * exp(FX_REAL(-0.25) * a); // (10)
 }
 
 FX_FORMULA(fxDetailSoftGain)(FX_REAL G, FX_REAL a)

@@ -76,11 +76,13 @@ TEST(FieldDetailFormulas, creasesAreColderAndNothingChangesDeepInside)
             }
 }
 
-TEST(FieldDetailFormulas, thinningIsCountedFromTheMiddleOfTheTwoDepths)
+TEST(FieldDetailFormulas, thinningIsCountedFromAQuarterOfTheWayBetweenTheTwoDepths)
 {
-    EXPECT_EQ(fx::formula::fxDetailThinning(std::sqrt(0.6f * 40.0f) * 1.001f, 0.6f, 40.0f), 0.0f);
+    EXPECT_EQ(
+        fx::formula::fxDetailThinning(std::pow(0.6f, 0.75f) * std::pow(40.0f, 0.25f) * 1.001f, 0.6f, 40.0f),
+        0.0f);
     for (const double v : {0.1, 1.0, 5.0}) {
-        const double q = std::sqrt(0.6 * 40.0) * std::exp(-v);
+        const double q = std::pow(0.6, 0.75) * std::pow(40.0, 0.25) * std::exp(-v);
         EXPECT_NEAR(fx::formula64::fxDetailThinning(q, 0.6, 40.0), v, 1e-12);
         EXPECT_NEAR(fx::formula::fxDetailThinning(float(q), 0.6f, 40.0f), v, 1e-5 * v + 1e-6);
     }
@@ -90,26 +92,27 @@ TEST(FieldDetailFormulas, thinningIsCountedFromTheMiddleOfTheTwoDepths)
 TEST(FieldDetailFormulas, aBallThatSwellsKeepsItsLumpsForASofteningOfOneAndLosesThemAbove)
 {
     for (const double softening : {1.0, 1.5}) {
-        double before = 0.5;
-        for (double swollen = 1.0; swollen < 20.0; swollen *= 1.3) { // the depth of a lump falls by its square
-            const double depth = std::sqrt(0.2 * 18.0) / (swollen * swollen);
+        double before = 0.25;
+        for (double swollen = 1.0; swollen < 20.0; swollen *= 1.3)
+        { // the depth of a lump falls by its square
+            const double depth = std::pow(0.2, 0.75) * std::pow(18.0, 0.25) / (swollen * swollen);
             const double a = softening * fx::formula64::fxDetailThinning(depth, 0.2, 18.0);
-            const double s = fx::formula64::fxDetailSoftPlace(fx::formula64::fxDetailPlace(depth, 1.0, 0.2, 18.0),
-                                                              a, 0.2, 18.0);
+            const double s = fx::formula64::fxDetailSoftPlace(
+                fx::formula64::fxDetailPlace(depth, 1.0, 0.2, 18.0), a, 0.2, 18.0);
             if (softening == 1.0)
-                EXPECT_NEAR(s, 0.5, 1e-12);
+                EXPECT_NEAR(s, 0.25, 1e-12);
             else
                 EXPECT_GE(s, before);
             before = s;
         }
-        EXPECT_EQ(before > 1.0, softening > 1.0);
+        EXPECT_EQ(before > 0.8, softening > 1.0);
     }
 }
 
 TEST(FieldDetailFormulas, edgesAndNoiseSoftenByThinning)
 {
     EXPECT_NEAR(fx::formula::fxDetailSoftRamp(0.2f, 0.0f), 0.2f, 1e-7f);
-    EXPECT_NEAR(fx::formula::fxDetailSoftRamp(0.2f, 2.0f), 1.0 - 0.8 * std::exp(-0.6), 1e-6);
+    EXPECT_NEAR(fx::formula::fxDetailSoftRamp(0.2f, 2.0f), 1.0 - 0.8 * std::exp(-0.5), 1e-6);
     EXPECT_LE(fx::formula::fxDetailSoftRamp(0.2f, 40.0f), 1.0f);
     EXPECT_NEAR(fx::formula::fxDetailSoftGain(0.5f, 2.0f), 0.5 * std::exp(-0.3), 1e-6);
 }
