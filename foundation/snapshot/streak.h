@@ -1,6 +1,6 @@
 /// @file streak.h
-/// Motion blur of a moving ball: balls at equal distances along its path, each with an equal share of the
-/// medium, close enough to look like a line.
+/// Motion blur of a moving ball: balls at equal distances along its path, each with its share of the medium,
+/// close enough to look like a line that runs out behind the ball.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,13 @@ struct Streak
 {
     int count;   ///< 1 .. kMaxStreakPieces
     Real radius; ///< of each
+
+    /// [1] of the medium that is in ball k; falls evenly, and is 1 over all balls.
+    Real shareOf(int k) const { return Real(2 * (count - k)) / Real(count * (count + 1)); }
 };
 
-/// Neighbors are at most a radius apart. Where kMaxStreakPieces balls of `radius` would leave gaps, they are
-/// as wide as the distance between them.
+/// Neighbors are at most a radius apart. Where kMaxStreakPieces balls of `radius` would leave
+/// gaps, they are as wide as the distance between them.
 /// @param length of the way while the shutter is open, >= 0 and finite
 /// @param radius of the ball, > 0, in the same unit
 template <typename Real>

@@ -237,12 +237,13 @@ private:
         const float grown = std::min({blob.radius / std::sqrt(level_.ramp.mean()), level_.grownPixels * pixel,
                                       blob.radius + level_.swollenPixels * pixel});
         blob.radius = std::max({blob.radius, grown, kMinPixels * pixel});
-        const auto [pieces, radius] = base::streakOf(glm::length(streak), blob.radius);
-        blob.radius = radius;
-        blob.crossSection /= float(pieces);
+        const base::Streak<float> line = base::streakOf(glm::length(streak), blob.radius);
         const glm::vec3 head = blob.center;
-        for (int k = 0; k < pieces; ++k) {
-            blob.center = head - streak * (float(k) / float(pieces));
+        const float section = blob.crossSection;
+        blob.radius = line.radius;
+        for (int k = 0; k < line.count; ++k) {
+            blob.center = head - streak * (float(k) / float(line.count));
+            blob.crossSection = section * line.shareOf(k);
             if (!isCulled_ || volume_.touches(blob.center, blob.radius))
                 visible_.push_back(blob);
             else

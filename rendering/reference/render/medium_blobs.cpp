@@ -154,12 +154,12 @@ private:
     /// A moving blob is seen along its way while the shutter is open.
     static void appendStreak(const MediumBlob& blob, const glm::dvec3& streak, MediumList& out)
     {
-        const auto [pieces, radius] = base::streakOf(glm::length(streak), blob.radius);
-        for (int k = 0; k < pieces; ++k) {
+        const base::Streak<double> line = base::streakOf(glm::length(streak), blob.radius);
+        for (int k = 0; k < line.count; ++k) {
             out.blobs.push_back(blob);
-            out.blobs.back().radius = radius;
-            out.blobs.back().crossSection /= pieces;
-            out.blobs.back().center -= streak * (double(k) / pieces);
+            out.blobs.back().radius = line.radius;
+            out.blobs.back().crossSection *= line.shareOf(k);
+            out.blobs.back().center -= streak * (double(k) / line.count);
         }
     }
 
