@@ -52,7 +52,9 @@ base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, 
     options.seed = arguments.seed;
     options.stepsPerSecond = io.stepsPerSecond;
     options.quality = io.simulationQuality;
-    if (base::Status status = frameEffect(*scene, io.frames.back().tick, options); !status)
+    if (base::Status status =
+            frameEffect(*scene, io.frames.back().tick, options, double(io.width) / double(io.height));
+        !status)
         return status;
     return scene;
 }

@@ -1,0 +1,134 @@
+#include "fxsdk/cli/scene/effect_framing.h"
+
+#include "foundation/snapshot/blob_kind.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace fx::cli {
+
+namespace {
+
+constexpr double kLeftOut = 0.02;        ///< [1] share of a moment's weight that may lie beyond each side
+constexpr double kSeenRadius = 0.7;      ///< [1] of a blob's radius: its profile fades towards the rim
+constexpr double kMargin = 1.08;         ///< [1]
+constexpr double kNearest = 0.3;         ///< [m] smallest half height of what is framed
+constexpr double kFarthest = 200.0;      ///< [m] largest
+const glm::dvec3 kView(0.25, 0.12, 1.0); ///< from the effect to the camera
+
+/// The value below which `share` of the weight lies.
+double quantile(std::vector<std::pair<double, double>>& values, double share)
+{
+    std::sort(values.begin(), values.end());
+    double total = 0;
+    for (const auto& [value, weight] : values)
+        total += weight;
+    double sum = 0;
+    for (const auto& [value, weight] : values) {
+        sum += weight;
+        if (sum >= share * total)
+            return value;
+    }
+    return values.back().first;
+}
+
+} // namespace
+
+void EffectFraming::add(const base::FrameSnapshot& snapshot)
+{
+    const base::KindId blobs = snapshot.schema().find(base::kBlobKind.name);
+    for (size_t g = 0; g < snapshot.groupCount(); ++g)
+        if (snapshot.group(g).info().kind == blobs)
+            addGroup(snapshot.group(g));
+}
+
+void EffectFraming::add(const std::vector<glm::vec4>& places)
+{
+    for (const glm::vec4& place : places) {
+        const double radius = double(place.w);
+        addBall({glm::dvec3(place), radius, std::numbers::pi * radius * radius});
+    }
+}
+
+void EffectFraming::addGroup(const base::SnapshotGroup& group)
+{
+    namespace column = base::blob_column;
+    const base::Placement& placement = group.info().placement;
+    for (size_t i = 0; i < group.count(); ++i) {
+        const glm::vec3 local(group.column(column::PositionX)[i], group.column(column::PositionY)[i],
+                              group.column(column::PositionZ)[i]);
+        const double radius = double(group.column(column::Radius)[i] * placement.scale);
+        const double covered = std::numbers::pi * radius * radius; // what a dense blob hides is its disc
+        const double section =
+            double(group.column(column::CrossSection)[i]) * double(placement.scale) * double(placement.scale);
+        addBall({placement.position + glm::dvec3(placement.rotation * (placement.scale * local)),
+                 kSeenRadius * radius, std::min(section, covered)});
+    }
+}
+
+void EffectFraming::addBall(const Ball& ball)
+{
+    if (std::isfinite(ball.weight * (glm::dot(ball.center, ball.center) + ball.radius)) && ball.weight > 0.0)
+        moments_.back().push_back(ball);
+}
+
+bool EffectFraming::isEmpty() const
+{
+    return std::all_of(moments_.begin(), moments_.end(), [](const auto& balls) { return balls.empty(); });
+}
+
+/// What all moments need.
+EffectFraming::Span EffectFraming::spanAlong(const glm::dvec3& axis) const
+{
+    Span span{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+    std::vector<std::pair<double, double>> low, high;
+    for (const std::vector<Ball>& balls : moments_) {
+        low.clear();
+        high.clear();
+        for (const Ball& ball : balls) {
+            low.emplace_back(glm::dot(ball.center, axis) - ball.radius, ball.weight);
+            high.emplace_back(glm::dot(ball.center, axis) + ball.radius, ball.weight);
+        }
+        if (balls.empty())
+            continue;
+        span.low = std::min(span.low, quantile(low, kLeftOut));
+        span.high = std::max(span.high, quantile(high, 1.0 - kLeftOut));
+    }
+    return span;
+}
+
+void EffectFraming::place(scene_file::CameraPath& camera, double aspect) const
+{
+    const glm::dvec3 back = glm::normalize(kView);
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back));
+    const glm::dvec3 up = glm::cross(back, right);
+    const Span across = spanAlong(right), along = spanAlong(up), deep = spanAlong(back);
+    const glm::dvec3 target = right * across.middle() + up * along.middle() + back * deep.middle();
+    const double tangent = std::tan(double(camera.fovYDegrees) * std::numbers::pi / 360.0);
+
+    std::vector<std::pair<double, double>> wanted; // distances from which a ball is inside of the picture
+    double distance = kNearest / tangent;
+    for (const std::vector<Ball>& balls : moments_) {
+        wanted.clear();
+        for (const Ball& ball : balls) {
+            const glm::dvec3 way = ball.center - target;
+            const double beside = (std::abs(glm::dot(way, right)) + ball.radius) / (tangent * aspect);
+            const double above = (std::abs(glm::dot(way, up)) + ball.radius) / tangent;
+            wanted.emplace_back(glm::dot(way, back) + std::max(beside, above), ball.weight);
+        }
+        if (!wanted.empty())
+            distance = std::max(distance, quantile(wanted, 1.0 - kLeftOut));
+    }
+    distance = kMargin * std::min(distance, kFarthest / tangent);
+    camera.target = target;
+    camera.position = target + distance * back;
+    camera.position.y = std::max(camera.position.y, 0.1 * distance * tangent); // above the ground
+    camera.nearPlane = float(std::min(0.1, 0.01 * distance));
+}
+
+} // namespace fx::cli
