@@ -50,6 +50,7 @@ struct EmitterDef final : SolverDef, EmitterSettings
     Influence influence() const override;
     bool collides() const override;
     bool dependsOnPlacement() const override { return inWorld; }
+    bool followsThermals() const override { return forces.updraft > 0.0f; }
     /// Analytic when the state is a pure function of time: closed motion, no events, no trails, no moves.
     CatchUp catchUp() const override
     {

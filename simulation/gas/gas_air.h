@@ -6,7 +6,7 @@
 #include "simulation/combustion/charge_plan.h"
 #include "simulation/combustion/fire_parcel.h"
 #include "simulation/gas/gas_def.h"
-#include "simulation/gas/thermal_flow.h"
+#include "simulation/gas/gas_thermal.h"
 #include "simulation/motion/curl_noise.h"
 #include "simulation/solver/solver.h"
 #include "simulation/sph/dynamics/gas_dynamics.h"

@@ -215,7 +215,7 @@ double GasSolver::exchange(const StepContext& context, double longest, double sh
 {
     gas_.shift(kShift, kLongestShift, *context.tasks);
     const GasView<float> view = gas_.view();
-    const GasAir air(def_, context, measureThermal(view, context.gravity, context.wind));
+    const GasAir air(def_, context, thermal(context.gravity, context.wind));
     const FlowSpeeds speeds = speedsOf(context, air.thermal());
     const double crossing = double(air.thermal().radius) / (3.0 * (speeds.flow + speeds.reducedSound));
     const double slice = std::min(std::max(crossing, shortest), longest);
@@ -227,6 +227,11 @@ double GasSolver::exchange(const StepContext& context, double longest, double sh
     const double reduction = speeds.reducedSound / speeds.sound;
     takeIn(reduction * reduction, *context.tasks);
     return slice;
+}
+
+ThermalFlow GasSolver::thermal(const glm::vec3& gravity, const glm::vec3& wind) const
+{
+    return begun_ && !done_ ? measureThermal(gas_.view(), gravity, wind) : ThermalFlow{};
 }
 
 /// Lets the gas go on from what the air has made of it.

@@ -6,6 +6,7 @@
 #include "simulation/gas/gas_def.h"
 #include "simulation/gas/gas_detail.h"
 #include "simulation/gas/gas_parcels.h"
+#include "simulation/solver/air_mover.h"
 #include "simulation/solver/budgeted_solver.h"
 #include "simulation/sph/dynamics/gas_dynamics.h"
 
@@ -30,7 +31,7 @@ double evenSupport(double radius, uint32_t particles, double neighbors);
 
 /// Gas dynamics between exchanges with the air, which come as often as the cloud moves a third of its size,
 /// and in every step.
-class GasSolver final : public Solver, public BudgetedSolver
+class GasSolver final : public Solver, public BudgetedSolver, public AirMover
 {
 public:
     /// @param def outlives the solver
@@ -59,6 +60,8 @@ public:
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
     BudgetedSolver* budgeted() override { return this; }
+    const AirMover* airMover() const override { return this; }
+    ThermalFlow thermal(const glm::vec3& gravity, const glm::vec3& wind) const override;
 
 private:
     /// State of a step that is computed over several calls of proceed().

@@ -91,6 +91,8 @@ std::string_view obstacleOfModules(const EmitterSettings& def)
         return "its shape is a mesh, a spline or a volume";
     if (changesRate(def.emission))
         return "its rate of births changes";
+    if (def.forces.updraft > 0.0f)
+        return "it follows the air around the effect's gas";
     return def.isBallistic() ? "" : obstacleOfSteps(def);
 }
 

@@ -112,6 +112,29 @@ private:
     EmitterForces forces_;
 };
 
+/// Air that the gases of the effect move.
+class UpdraftOp final : public TileOp
+{
+public:
+    explicit UpdraftOp(float share) : share_(share) {}
+
+    TilePhase phase() const override { return TilePhase::Force; }
+    void run(const TileContext& context, const void*, Tile& tile) const override
+    {
+        for (const ThermalFlow& thermal : context.step.thermals)
+            for (uint32_t i = 0; i < tile.count; ++i) {
+                const glm::vec3 air =
+                    thermal.velocityAbove(context.step.groundHeight, {tile.x[i], tile.y[i], tile.z[i]});
+                tile.ux[i] += share_ * air.x;
+                tile.uy[i] += share_ * air.y;
+                tile.uz[i] += share_ * air.z;
+            }
+    }
+
+private:
+    float share_;
+};
+
 /// The ground plane and the host's geometry.
 class GroundOp final : public TileOp, public GpuModuleSource
 {
@@ -212,6 +235,8 @@ void addBuiltinOps(const EmitterSettings& def, std::vector<std::shared_ptr<const
     ops.push_back(std::make_shared<AirOp>(def));
     if (def.forces.curlStrength > 0.0f)
         ops.push_back(std::make_shared<CurlOp>(def.forces));
+    if (def.forces.updraft > 0.0f)
+        ops.push_back(std::make_shared<UpdraftOp>(def.forces.updraft));
     if (def.forces.bounce >= 0.0f)
         ops.push_back(std::make_shared<GroundOp>(def.forces));
 }

@@ -64,6 +64,7 @@ struct EmitterForces
     float bounce = -1.0f;      ///< [1] restitution at the ground and at the host's geometry, 0..1; negative:
                                ///< particles pass
     float friction = 0.0f;     ///< [1] tangential velocity lost at a bounce, 0..1
+    float updraft = 0.0f;      ///< [1] share of the air's velocity around the gases of the effect, 0..4
     uint32_t curlOctaves = 1;  ///< each next one has half the strength and scale and twice the rate, 1..8
 };
 
@@ -131,7 +132,7 @@ struct EmitterSettings
     bool isBallistic() const
     {
         return modules.empty() && forces.buoyancy == 0.0f && !(forces.curlStrength > 0.0f) &&
-               forces.bounce < 0.0f;
+               !(forces.updraft > 0.0f) && forces.bounce < 0.0f;
     }
 };
 

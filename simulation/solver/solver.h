@@ -12,6 +12,7 @@
 #include "foundation/tasks/task_runner.h"
 #include "foundation/time/ticks.h"
 #include "simulation/collision/collider.h"
+#include "simulation/motion/thermal_flow.h"
 #include "simulation/solver/catch_up.h"
 #include "simulation/solver/quality.h"
 #include "simulation/state/state_reader.h"
@@ -130,11 +131,13 @@ struct StepContext
     glm::vec3 worldGravity{0.0f}; ///< [m/s2] world
     glm::vec3 worldWind{0.0f};    ///< [m/s] world, the host's share of `wind`; 0 unless placement matters
     glm::vec3 effectWind{0.0f};   ///< [m/s] local, the preset's share of `wind`
-    bool gpuParticles = false;    ///< emitters that may be computed on the GPU are not needed as rows
+    std::span<const ThermalFlow> thermals{}; ///< of the effect's gases, for solvers that follow them
+    bool gpuParticles = false; ///< emitters that may be computed on the GPU are not needed as rows
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }
 };
 
+class AirMover;
 class BudgetedSolver;
 class FiniteMemorySolver;
 class PooledEmitter;
@@ -173,6 +176,7 @@ public:
 
     // Optional interfaces; null if the solver lacks one.
 
+    virtual const AirMover* airMover() const { return nullptr; }
     virtual BudgetedSolver* budgeted() { return nullptr; }
     virtual SeekableSolver* seekable() { return nullptr; }
     virtual FiniteMemorySolver* finiteMemory() { return nullptr; }
@@ -250,6 +254,8 @@ public:
     virtual bool collides() const { return false; }
     /// True when its solvers depend on StepContext::placement.
     virtual bool dependsOnPlacement() const { return false; }
+    /// True when its solvers depend on StepContext::thermals.
+    virtual bool followsThermals() const { return false; }
     /// Catch-up policy of hidden instances, unless the preset has one.
     virtual CatchUp catchUp() const { return CatchUp::Replay; }
     /// [m] distance from the instance's origin that no element passes within `seconds` after the start, with

@@ -1,11 +1,34 @@
 // Events between the solvers of an effect, and of the host.
 #include "simulation/emitters/events/event_board.h"
+#include "simulation/solver/air_mover.h"
 #include "simulation/world/world.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 namespace fx::sim {
+
+namespace {
+
+/// The air that the gases of the simulation move now.
+/// @return as many of `room` as there are
+std::span<const ThermalFlow> thermalsOf(const SharedSimulation& simulation, const StepContext& context,
+                                        std::span<ThermalFlow> room)
+{
+    size_t count = 0;
+    for (const std::unique_ptr<Solver>& solver : simulation.solvers) {
+        const AirMover* const mover = solver->airMover();
+        if (!mover || count == room.size())
+            continue;
+        const ThermalFlow flow = mover->thermal(context.gravity, context.wind);
+        if (flow.active())
+            room[count++] = flow;
+    }
+    return room.first(count);
+}
+
+} // namespace
 
 /// The solvers that are not through yet. Those that tell each other of events share the scratch memory of the
 /// sub-step, causes before effects.
@@ -25,6 +48,10 @@ bool World::stepSolvers(SharedSimulation& simulation, StepContext& context,
         if (simulation.stepped > 0 && work.isSpent())
             return false;
         context.solverIndex = isLinked ? order[simulation.stepped] : simulation.stepped;
+        std::array<ThermalFlow, kMaxThermals> room;
+        context.thermals = {};
+        if (simulation.effect->solvers[context.solverIndex]->followsThermals())
+            context.thermals = thermalsOf(simulation, context, room);
         if (!stepWithin(*simulation.solvers[context.solverIndex], context, work))
             return false;
         ++simulation.stepped; // whatever fails from here on
@@ -32,6 +59,7 @@ bool World::stepSolvers(SharedSimulation& simulation, StepContext& context,
             context.scratch->reset();
     }
     context.board = nullptr;
+    context.thermals = {};
     ioBoard.reset();
     context.scratch->reset();
     return true;

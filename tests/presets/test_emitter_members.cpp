@@ -13,9 +13,9 @@ namespace {
 
 void addForces(Fields& fields, const fx::sim::EmitterForces& forces)
 {
-    fields.insert(fields.end(),
-                  {forces.gravity, forces.drag, forces.buoyancy, forces.curlStrength, forces.curlScale,
-                   forces.curlRate, forces.bounce, forces.friction, double(forces.curlOctaves)});
+    fields.insert(fields.end(), {forces.gravity, forces.drag, forces.buoyancy, forces.curlStrength,
+                                 forces.curlScale, forces.curlRate, forces.bounce, forces.friction,
+                                 double(forces.curlOctaves), forces.updraft});
     add(fields, forces.wind);
 }
 

@@ -1,10 +1,11 @@
-#include "simulation/gas/thermal_flow.h"
+#include "simulation/gas/gas_thermal.h"
 
 #include "foundation/random/philox.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 using namespace fx;
@@ -40,9 +41,9 @@ struct Ball
             ++i;
         }
     }
-    GasView<float> view()
+    GasView<const float> view()
     {
-        GasView<float> view{};
+        GasView<const float> view{};
         view.count = uint32_t(x.size());
         view.x = x.data();
         view.y = y.data();
@@ -96,6 +97,25 @@ TEST(ThermalFlow, hasNoDivergenceInsideOrOutside)
         }
         ASSERT_NEAR(divergence, 0.0f, 5e-3f) << i;
     }
+}
+
+TEST(ThermalFlow, noAirPassesTheGround)
+{
+    ThermalFlow flow = rising(2.0f, 3.0f);
+    flow.center = {1.0f, 1.5f, -2.0f}; // the sphere reaches below the ground
+    for (float x = -6.0f; x < 6.0f; x += 0.25f)
+        EXPECT_EQ(flow.velocityAbove(0.25f, {x, 0.25f, -2.0f}).y, 0.0f) << x;
+    EXPECT_LT(flow.velocityAbove(0.25f, {2.5f, 0.25f, -2.0f}).x, 0.0f) << "it blows in over the ground";
+    EXPECT_GT(flow.velocityAbove(0.25f, {1.0f, 0.75f, -2.0f}).y, 0.0f) << "and up from there";
+}
+
+TEST(ThermalFlow, farGroundAndNoneAreTheSame)
+{
+    const ThermalFlow flow = rising(2.0f, 3.0f);
+    const glm::vec3 place(1.0f, 0.5f, 0.0f);
+    const float none = -std::numeric_limits<float>::infinity();
+    EXPECT_EQ(flow.velocityAbove(none, place), flow.velocity(place));
+    EXPECT_LT(glm::length(flow.velocityAbove(-1000.0f, place) - flow.velocity(place)), 1e-6f);
 }
 
 TEST(ThermalFlow, measuresTheBallThatTheGasFills)

@@ -201,6 +201,7 @@ void readEmitterForces(const PresetValue& element, sim::EmitterDef& emitter)
     forces.read("curlScale", out.curlScale);
     forces.read("curlRate", out.curlRate);
     forces.read("curlOctaves", out.curlOctaves);
+    forces.read("updraft", out.updraft);
     forces.read("bounce", out.bounce);
     forces.read("friction", out.friction);
     readAir(forces, emitter.modules);

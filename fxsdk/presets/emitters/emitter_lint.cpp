@@ -50,7 +50,7 @@ void lintAir(const PresetValue& forces)
 {
     if (isSet(forces, "drag") || isSet(forces, "quadraticDrag"))
         return;
-    for (const char* member : {"wind", "gust", "curlStrength"})
+    for (const char* member : {"wind", "gust", "curlStrength", "updraft"})
         if (isSet(forces, member))
             forces.warning(member, "has no effect; " + std::string(kNeedsDrag));
     for (size_t i = 0; i < forces.size("vortices"); ++i) {
@@ -98,6 +98,16 @@ void lintCompute(const PresetValue& element, const sim::EmitterDef& emitter)
     if (canAny && emitter.compute == sim::ComputeOn::Gpu && !why.empty())
         element.warning("compute", "found \"gpu\", but the CPU computes this emitter: " + std::string(why) +
                                        "; change that, or leave \"compute\" out");
+}
+
+void lintUpdraft(const PresetValue& root)
+{
+    for (size_t i = 0; root.size("gas") == 0 && i < root.size("emitters"); ++i) {
+        const PresetValue forces = root.element("emitters", i).child("forces");
+        if (isSet(forces, "updraft"))
+            forces.warning("updraft", "has no effect without \"gas\" in the preset; add a gas, or take "
+                                      "\"updraft\" out");
+    }
 }
 
 void lintWind(const PresetValue& root, const sim::EffectDef& effect)
@@ -152,6 +162,7 @@ void lintEmitters(const PresetValue& root, const sim::EffectDef& effect)
                          "ever seen; add one of them, or another kind");
     }
     lintWind(root, effect);
+    lintUpdraft(root);
     lintCapacity(root, effect);
 }
 

@@ -46,6 +46,8 @@ FlightBound flightOf(const EmitterSettings& def, const ReachConditions& conditio
         bound.acceleration += double(conditions.gravity) * double(std::abs(forces.buoyancy)) *
                               double(hottest / kAirTemperature);
     }
+    if (forces.updraft > 0.0f) // how fast gases rise is unknown
+        bound.acceleration = std::numeric_limits<double>::infinity();
     bound.drag = double(std::max(forces.drag, 0.0f));
     for (const auto& module : def.modules) {
         const TileBound more = module->bound();

@@ -1,4 +1,4 @@
-#include "simulation/gas/thermal_flow.h"
+#include "simulation/gas/gas_thermal.h"
 
 #include <glm/geometric.hpp>
 
@@ -9,29 +9,14 @@ namespace fx::sim {
 
 namespace {
 
-glm::dvec3 positionOf(const GasView<float>& gas, uint32_t i)
+glm::dvec3 positionOf(const GasView<const float>& gas, uint32_t i)
 {
     return {gas.x[i], gas.y[i], gas.z[i]};
 }
 
 } // namespace
 
-glm::vec3 ThermalFlow::velocity(const glm::vec3& position) const
-{
-    const glm::vec3 s = position - center;
-    const float z = glm::dot(s, up);
-    const float r2 = glm::dot(s, s);
-    const float a2 = radius * radius;
-    if (r2 < a2) {
-        const float along = 1.0f - (2.0f * r2 - z * z) / a2;
-        return speed * (up + 1.5f * (along * up + (z / a2) * (s - z * up))); // (1)
-    }
-    const float r = std::sqrt(r2);
-    const float ratio = radius / r;
-    return (0.5f * speed * ratio * ratio * ratio) * ((3.0f * z / r2) * s - up); // (2)
-}
-
-ThermalFlow measureThermal(const GasView<float>& gas, const glm::vec3& gravity, const glm::vec3& wind)
+ThermalFlow measureThermal(const GasView<const float>& gas, const glm::vec3& gravity, const glm::vec3& wind)
 {
     ThermalFlow flow;
     const float weight = glm::length(gravity);
@@ -54,7 +39,7 @@ ThermalFlow measureThermal(const GasView<float>& gas, const glm::vec3& gravity, 
         spread += double(gas.mass[i]) * glm::dot(away, away);
     }
     flow.center = glm::vec3(center);
-    flow.radius = std::max(float(std::sqrt(spread / mass * (5.0 / 3.0))), 1e-3f); // (3)
+    flow.radius = std::max(float(std::sqrt(spread / mass * (5.0 / 3.0))), 1e-3f); // (1)
     if (!(weight > 0.0f))
         return flow;
     flow.up = gravity * (-1.0f / weight);
@@ -65,7 +50,7 @@ ThermalFlow measureThermal(const GasView<float>& gas, const glm::vec3& gravity, 
     glm::dvec3 lift(0.0);
     for (uint32_t i = 0; i < gas.count; ++i)
         lift += double(gas.mass[i]) * glm::dvec3(flow.velocity(glm::vec3(positionOf(gas, i))));
-    flow.mean = glm::vec3(lift / mass); // (4)
+    flow.mean = glm::vec3(lift / mass); // (2)
     return flow;
 }
 

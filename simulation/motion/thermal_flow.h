@@ -11,26 +11,25 @@
 ///   s, r    m      position relative to its center, and its length
 ///   z       m      s along the upward unit vector e
 ///   u       m/s    velocity of the air
+///   p, g    m      position, height of the ground
+///   '              mirrored: p' = (p_x, 2 g - p_y, p_z), u' = (u_x, -u_y, u_z)
 /// @derivation
 ///   Inside, in the frame of the sphere, the stream function -(3 U / 4)(1 - r^2/a^2) (r^2 - z^2) gives
 ///       w = (3 U / 2) [ (1 - (2 r^2 - z^2) / a^2) e + (z / a^2) (s - z e) ],  u = w + U e         (1)
 ///   Outside, the potential flow around a sphere:
 ///       u = (U a^3 / 2) (3 z s / r^5 - e / r^3)                                                   (2)
 ///   Both are free of divergence and meet at r = a.
-///   The cloud's sphere is that of a uniform ball with the same mean square distance q from the center, by
-///   mass:
-///       a^2 = 5/3 q                                                                               (3)
-///   What turns the cloud over must not lift it: the mean of u over its particles is taken off.     (4)
+///   No air passes the ground: the flow and its mirror image together,
+///       u_g(p) = u(p) + u(p')'                                                                    (3)
+///   have u_y - u_y = 0 where p' = p.
 /// @source    [TUR64] Turner, "The flow into an expanding spherical vortex", doi:10.1017/S0022112064000544,
 /// for thermals
-///            as Hill vortices; [BAT67] section 7.2 for (1), (2)
-/// @deviation (4); the sphere's growth is left to the particles; the ground is not mirrored
-/// @valid     a > 0; a cloud that does not rise makes no flow
-/// @accuracy  float rounding; continuous at r = a within 1e-5 U
+///            as Hill vortices; [BAT67] section 7.2 for (1), (2); (3) is the method of images
+/// @deviation the sphere's growth is left to the particles
+/// @valid     a > 0; a cloud that does not rise makes no flow; (3) without ground is u
+/// @accuracy  float rounding; continuous at r = a within 1e-5 U; (3) is exactly 0 along y at the ground
 /// @tests     tests/simulation/test_thermal_flow.cpp
 #pragma once
-
-#include "simulation/sph/dynamics/gas_dynamics.h"
 
 #include <glm/vec3.hpp>
 
@@ -47,12 +46,11 @@ struct ThermalFlow
     bool active() const { return speed != 0.0f; }
     /// [m/s] of the air at `position`.
     glm::vec3 velocity(const glm::vec3& position) const;
+    /// [m/s] of the air above ground.
+    /// @param height [m] of the ground, y; -infinity for none
+    glm::vec3 velocityAbove(float height, const glm::vec3& position) const;
     /// The velocity without the mean lift of the cloud.
     glm::vec3 circulation(const glm::vec3& position) const { return velocity(position) - mean; }
 };
-
-/// The flow that the gas as a whole makes. Sums run over the particles in the order of their places.
-/// @param wind [m/s] in which the cloud drifts
-ThermalFlow measureThermal(const GasView<float>& gas, const glm::vec3& gravity, const glm::vec3& wind);
 
 } // namespace fx::sim
