@@ -148,7 +148,9 @@ struct SinCos
     double cos;
 };
 
-/// @formula sine-cosine-of-turns Sine and cosine of 2 pi times the argument. With the argument in turns, the
+/// @formula sine-cosine-of-turns
+
+/// Sine and cosine of 2 pi times the argument. With the argument in turns, the
 ///          range reduction is exact.
 ///
 /// symbol   unit   meaning

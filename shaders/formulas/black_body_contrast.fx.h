@@ -1,4 +1,5 @@
-/// @formula black-body-contrast Exponent of temperature in the luminance of a black body, so that small
+/// @formula black-body-contrast
+/// Exponent of temperature in the luminance of a black body, so that small
 ///          temperature differences inside a blob can be applied to a color that was computed once for the
 ///          blob.
 ///

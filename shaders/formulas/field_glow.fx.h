@@ -1,5 +1,6 @@
-/// @formula field-glow Mean radiance inside of a medium due to its own emission, from rays along the lines of
-///          a grid of cubes.
+/// @formula field-glow
+/// Mean radiance inside of a medium due to its own emission, from rays along the lines of
+/// a grid of cubes.
 ///
 /// symbol     unit        meaning
 ///   k, j     1/m, ./m    extinction and emission of a cell, even within it

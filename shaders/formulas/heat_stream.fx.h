@@ -95,7 +95,9 @@ FX_FORMULA(fxHeatStreamY)(FX_REAL x, FX_REAL y, FX_REAL phase, FX_REAL seed)
     return fxHeatEddies(x, y, phase, seed) * fxHeatColumnSlope(y, q) + fxHeatColumn(q) * slope; // (3)
 }
 
-/// @formula heat-refraction Refraction by the mean temperature of hot air, relative to that by its eddies.
+/// @formula heat-refraction
+
+/// Refraction by the mean temperature of hot air, relative to that by its eddies.
 ///
 /// symbol    unit   meaning
 ///   heat    K      temperature above that of the surrounding air, T0 = 293.15 K, >= 0

@@ -1,4 +1,5 @@
-/// @formula sensor-law Glare of a sensor as a function of the light above the saturation of its pixels.
+/// @formula sensor-law
+/// Glare of a sensor as a function of the light above the saturation of its pixels.
 ///
 /// symbol    unit   meaning
 ///   over    1      mean overflow per pixel in units of the saturation value, >= 0

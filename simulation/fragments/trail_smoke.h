@@ -1,7 +1,8 @@
 /// @file trail_smoke.h
 /// How the smoke of a fragment is left behind, moves and fades.
 ///
-/// @formula smoke-trail Blobs of smoke at equal distances along the path of a fragment, and their evolution.
+/// @formula smoke-trail
+/// Blobs of smoke at equal distances along the path of a fragment, and their evolution.
 ///
 /// symbol   unit   meaning
 ///   L       m      way of a fragment during a step, at least idle speed times its length

@@ -1,7 +1,8 @@
 /// @file ribbon_store.h
 /// Where particles have been: rings of points, one a row of the particle store.
 ///
-/// @formula ribbon-points Points of a trail, their distance from the birth, and the visible part.
+/// @formula ribbon-points
+/// Points of a trail, their distance from the birth, and the visible part.
 ///
 /// symbol   unit   meaning
 ///   b        tick   birth of the particle

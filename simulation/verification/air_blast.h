@@ -1,5 +1,6 @@
 /// @file air_blast.h
-/// @formula air-blast Measured free-air blast of TNT: peak overpressure, duration, history.
+/// @formula air-blast
+/// Measured free-air blast of TNT: peak overpressure, duration, history.
 ///
 /// symbol    unit        meaning
 ///   Z        m/kg^(1/3)  scaled distance: distance over the cube root of the charge's mass

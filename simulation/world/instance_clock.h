@@ -1,7 +1,8 @@
 /// @file instance_clock.h
 /// From the time of the scene to the time of an instance.
 ///
-/// @formula instance-clock Local time of an instance with its own playback rate.
+/// @formula instance-clock
+/// Local time of an instance with its own playback rate.
 ///
 /// symbol   unit   meaning
 ///   s        tick   scene time

@@ -1,7 +1,8 @@
 /// @file contact_path.h
 /// A particle's way through a step, around all obstacles.
 ///
-/// @formula contact-path Motion in the rest of a step after each contact.
+/// @formula contact-path
+/// Motion in the rest of a step after each contact.
 ///
 /// symbol   unit   meaning
 ///   x0, x1   m      where the step began, and where it would end freely
