@@ -132,9 +132,12 @@ base::Status QualityStage::draw()
     frame.depthTexture = stage_->depthTexture();
     frame.width = width_;
     frame.height = height_;
+    const double wall = wallSeconds(), processor = processSeconds();
     if (base::Status status = toStatus(fxView_Render(view_, &frame)); !status)
         return status;
     device_->gl.Finish();
+    wallMilliseconds_ = 1e3 * (wallSeconds() - wall);
+    processorMilliseconds_ = 1e3 * (processSeconds() - processor);
     view_->quality.collect(view_->renderer);
     times_ = view_->quality.times().value_or(render::GroupTimes{});
     return {};

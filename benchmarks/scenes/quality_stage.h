@@ -53,6 +53,9 @@ public:
 
     /// Of the frame that draw() has finished.
     render::GroupTimes times() const { return times_; }
+    /// [ms] from the call until it had finished, whether or not a clock was set.
+    double wallMilliseconds() const { return wallMilliseconds_; }
+    double processorMilliseconds() const { return processorMilliseconds_; }
     std::vector<float> picture();    ///< RGBA of the frame
     std::vector<float> background(); ///< RGBA of the stage without effects
     FxView& view() { return *view_; }
@@ -75,6 +78,7 @@ private:
     FxView* view_ = nullptr;
     render::CameraView camera_;
     render::GroupTimes times_;
+    double wallMilliseconds_ = 0.0, processorMilliseconds_ = 0.0;
 };
 
 /// Measures of two pictures of media before the same background.
