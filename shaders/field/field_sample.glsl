@@ -146,10 +146,13 @@ vec3[3] layersOf(FieldSample s)
 }
 #endif
 
-// What fields hold between two samples of a ray, [m] apart: extinction and light are linear there.
+// What fields hold between two samples of a ray, [m] apart: extinction and light are linear there. Rims may be below 0, see
+// voxel-kernel; those of very dense balls are cut off, or they would make light.
 SlabSums slabBetween(FieldSample near, FieldSample far, float apart)
 {
+    const float kMaxBelow = 0.02; // [1] optical depth
     float halfApart = near.isEmpty ? 0.0 : 0.5 * apart;
+    halfApart *= min(kMaxBelow / max(-halfApart * (near.medium.a + far.medium.a), kMaxBelow), 1.0);
     const float kMoment = 0.166666666667;
     SlabSums sums;
     sums.depth = halfApart * (near.medium.a + far.medium.a);
