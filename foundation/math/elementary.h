@@ -149,7 +149,6 @@ struct SinCos
 };
 
 /// @formula sine-cosine-of-turns
-
 /// Sine and cosine of 2 pi times the argument. With the argument in turns, the
 ///          range reduction is exact.
 ///

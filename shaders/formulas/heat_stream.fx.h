@@ -96,7 +96,6 @@ FX_FORMULA(fxHeatStreamY)(FX_REAL x, FX_REAL y, FX_REAL phase, FX_REAL seed)
 }
 
 /// @formula heat-refraction
-
 /// Refraction by the mean temperature of hot air, relative to that by its eddies.
 ///
 /// symbol    unit   meaning

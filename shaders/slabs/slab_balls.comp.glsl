@@ -19,7 +19,7 @@ void main()
     float detail = blob.medium.z * forward.w;
     if (rayOrigin.w < 0.5) // one sample of the detail stands for a whole path: from inside it would darken all at once
         detail *= smoothstep(0.3, 1.3, away / blob.centerRadius.w);
-    float depth = 1.11408460164327 * blob.medium.x / (radius * radius); // kernel-optical-depth (3)
+    float depth = 1.11408460164327 * max(blob.medium.x, 0.0) / (radius * radius); // kernel-optical-depth (3)
     imageStore(balls, ballTexel(ball, kPlace), vec4(blob.centerRadius.xyz, radius));
     imageStore(balls, ballTexel(ball, kMedium), vec4(depth, blob.centerRadius.w, blob.layer.x, detail));
     imageStore(balls, ballTexel(ball, kEmitted), blob.emission);

@@ -109,9 +109,10 @@ vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast, out float depth
     vec2 narrow = range;
     for (int k = 1; k < kBins; ++k)
         narrow.x = passed[k] < kMinDepth ? range.x + float(k) * width : narrow.x;
-    for (int k = kBins - 1; k >= 0; --k) { // within the bin as if its medium were even
-        float share = isLast ? (kMaxDepth - passed[k]) / max(passed[k + 1] - passed[k], 1e-6) : 1.0;
-        narrow.y = passed[k + 1] >= kMaxDepth ? range.x + (float(k) + clamp(share, 0.0, 1.0)) * width : narrow.y;
+    for (int k = kBins - 1; k >= 0; --k) { // within the bin as if its medium were even; in the first as at the rim of a ball
+        float share = clamp(isLast ? (kMaxDepth - passed[k]) / max(passed[k + 1] - passed[k], 1e-6) : 1.0, 0.0, 1.0);
+        share = k == 0 ? pow(share, 0.333333333) : share;
+        narrow.y = passed[k + 1] >= kMaxDepth ? range.x + (float(k) + share) * width : narrow.y;
     }
     depth = passed[kBins];
     return narrow;

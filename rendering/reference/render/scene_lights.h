@@ -74,7 +74,6 @@ public:
     void course(size_t lamp, const TraceRay& ray, Course& out) const;
 
     /// @formula sky-quadrature
-
     /// Directions and weights that integrate a function over the sphere, separately
     ///          for each hemisphere.
     ///

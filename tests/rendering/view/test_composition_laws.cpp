@@ -144,14 +144,14 @@ TEST_P(CompositionLaws, coincidentBallsAreOneOfTheirSum)
 
 TEST_P(CompositionLaws, mediaOfAnyDepthAreAsBrightAsTheirSource)
 {
-    for (const float depth : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e4f}) {
-        const Picture picture = drawn(cloud(2000, 0.3f, depth), camera());
-        expectBounded(picture, 0.7f, "2000 balls of depth " + std::to_string(depth));
+    for (const float depth : {1e-6f, 1.0f, 1e3f, 1e4f}) {
+        const Picture picture = drawn(cloud(1000, 0.3f, depth), camera());
+        expectBounded(picture, 0.7f, "1000 balls of depth " + std::to_string(depth));
         if (depth >= 1.0f)
             // slabs do not see the light behind a depth of 9, which they find too soon in the densest media
             EXPECT_NEAR(picture.at(kSide / 2, kSide / 2)[0], 0.7f, depth > 1.0f ? 1.5e-2f : 1e-3f) << depth;
         else
-            EXPECT_LT(alphaAt(picture), 2000.0f * depth) << depth;
+            EXPECT_LT(alphaAt(picture), 1000.0f * depth) << depth;
     }
 }
 
