@@ -39,7 +39,7 @@ TEST(BuiltInCalibration, isReadAndItsLevelsAscend)
 {
     const auto calibration = builtInCalibration();
     ASSERT_TRUE(calibration.ok()) << calibration.status().message();
-    ASSERT_EQ(calibration->techniqueLevels.size(), 3u);
+    ASSERT_EQ(calibration->techniqueLevels.size(), 5u);
     for (const ScalabilityLevels& levels : calibration->techniqueLevels) {
         EXPECT_GE(levels.steps.size(), 2u) << levels.technique;
         for (size_t k = 1; k < levels.steps.size(); ++k) {

@@ -54,6 +54,7 @@ class FxReference(FxTest):
         self.assertNotEqual(smooth, detailed)
         self.assertEqual(picture("sorted", "--composition", "sorted"), smooth)
         self.assertEqual(picture("volume", "--composition", "volume"), detailed)
+        self.assertEqual(picture("preset"), detailed) # the preset asks for volume
 
     def test_threads_do_not_change_a_bit(self):
         self.write("a.blobs.csv", blobs(20))

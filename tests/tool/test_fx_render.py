@@ -120,6 +120,17 @@ class FxRender(FxTest):
         still, frame = ((self.folder / name).read_bytes() for name in ("still.png", "a.12.png"))
         self.assertEqual(still, frame)
 
+    def test_a_preset_is_drawn_in_the_composition_that_it_asks_for(self):
+        def composition(scene, *arguments):
+            self.render("a.png", "--time", "0.1", "--stats", self.folder / "s.json", *arguments, scene=scene)
+            return json.loads((self.folder / "s.json").read_text())["composition"]
+        self.assertEqual(composition("library:dust-burst"), "volume")
+        self.assertEqual(composition("library:dust-burst", "--composition", "slabs"), "slabs")
+        self.assertEqual(composition("library:sparks"), "sorted")
+        scene = {"version": 1, "camera": {"position": [0, 1, 5], "target": [0, 1, 0]}, "instances": [{"preset": "library:dust-burst"}]}
+        for member, expected in (({}, "sorted"), ({"composition": "automatic"}, "volume")):
+            self.assertEqual(composition(self.write("s.scene.json", json.dumps(scene | member))), expected)
+
     def test_a_range_that_begins_late_shows_what_playing_shows_whatever_happens_to_an_instance(self):
         (self.folder / "s.fx.json").write_text("""{"version": 1, "emitters": [
             {"name": "a", "space": "world", "inheritVelocity": 0.5, "radius": 0.2, "lifetime": 1, "emission": {"rate": 60},
