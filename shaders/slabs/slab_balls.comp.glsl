@@ -15,17 +15,18 @@ void main()
     BlobInstance blob = blobs[ball];
     uint first = uint(pass.z) * ball;
     float away = length(blob.centerRadius.xyz);
-    float radius = max(blob.centerRadius.w, pass.x * (rayOrigin.w > 0.5 ? 1.0 : away)); // a large texel must not lose small balls
+    bool isThere = blob.centerRadius.w > 0.0 && away < 1e15;
+    float radius = !isThere ? 1.0 : max(blob.centerRadius.w, pass.x * (rayOrigin.w > 0.5 ? 1.0 : away)); // a large texel must not lose small balls
     float detail = blob.medium.z * forward.w;
     if (rayOrigin.w < 0.5) // one sample of the detail stands for a whole path: from inside it would darken all at once
         detail *= smoothstep(0.3, 1.3, away / blob.centerRadius.w);
-    float depth = 1.11408460164327 * max(blob.medium.x, 0.0) / (radius * radius); // kernel-optical-depth (3)
-    imageStore(balls, ballTexel(ball, kPlace), vec4(blob.centerRadius.xyz, radius));
+    float depth = 1.11408460164327 * (isThere ? max(blob.medium.x, 0.0) : 0.0) / (radius * radius); // kernel-optical-depth (3)
+    imageStore(balls, ballTexel(ball, kPlace), vec4(isThere ? blob.centerRadius.xyz : vec3(0.0), radius));
     imageStore(balls, ballTexel(ball, kMedium), vec4(depth, blob.centerRadius.w, blob.layer.x, detail));
     imageStore(balls, ballTexel(ball, kEmitted), blob.emission);
     imageStore(balls, ballTexel(ball, kScatter), blob.scatter);
     imageStore(balls, ballTexel(ball, kLight), vec4(blobLights[first].rgb, 0.0));
-    imageStore(balls, ballTexel(ball, kSlope), vec4(blobLights[first + 1u].xyz / blob.centerRadius.w, 0.0));
+    imageStore(balls, ballTexel(ball, kSlope), vec4(blobLights[first + 1u].xyz / max(blob.centerRadius.w, 1e-20), 0.0));
     float periods = blob.lit.w < 0.0 ? -1.0 - blob.lit.w : blob.lit.w;
     imageStore(balls, ballTexel(ball, kDetail), vec4(blob.medium.w, periods, 0.0, 0.0));
 }
