@@ -18,8 +18,8 @@ VoxelField fieldOf(int number)
     return VoxelField(fieldTexel(3 * number), ivec4(fieldTexel(3 * number + 1)), fieldTexel(3 * number + 2));
 }
 
-// So is the table of bricks: one texel a brick of each field's box, with the number of the brick + 1, below 0 where no ray
-// sees any of its medium; or 0 where there is none.
+// So is the table of bricks: one texel a brick of each field's box, with the number of the brick + 1 and a fraction of 256 that has one
+// bit for each eighth of it in which rays see medium; below 0 where they see none; or 0 where there is none.
 const int kTableColumns = 1024;
 ivec2 tableTexel(int entry) { return ivec2(entry % kTableColumns, entry / kTableColumns); }
 int tableEntry(VoxelField field, ivec3 place)

@@ -51,30 +51,57 @@ struct MediumDetail
     bool isLumpy;      // noise shows here
 };
 
-// Broad lumps and octaves of one generation, of deviation 1. u in cells; size [m] of its lumps, pixel [m]; faded variance of those that are
-// finer than pixels
-float lumpOctaves(vec3 u, float size, float pixel, float gain, int octaves, out float faded)
+const float kMaxLump = 2.5;   // of lumpTile, which is below it at 99.9 % of its places
+const float kFadedTail = 4.06; // deviations of what has faded out at which fxDetailPassed is 1e-3
+
+// Share of the variance of broad lumps and octaves that shows. size, pixel [m]
+float shownVariance(float size, float pixel, float gain, int octaves)
 {
-    float broad = fxBroadAmplitude(), seen = fxOctaveBand(fxBroadSize() * size, pixel);
-    float amplitude = 1.0, variance = broad * broad, shown = broad * broad * seen * seen;
-    vec3 halfTexel = 0.5 / vec3(textureSize(lumpTile, 0));
-    vec3 place = vec3(fxBroadPlace(u.x), fxBroadPlace(u.y), fxBroadPlace(u.z));
-    float sum = broad * seen * textureLod(lumpTile, place / kLumpCells + halfTexel, 0.0).r;
+    float seen = fxBroadAmplitude() * fxOctaveBand(fxBroadSize() * size, pixel);
+    float sum = seen * seen, amplitude = 1.0;
     for (int k = 0; k < octaves; ++k) {
-        float band = fxOctaveBand(size, pixel);
-        if (band <= 0.0) { // nor any that follows
-            variance += amplitude * amplitude * (1.0 - pow(gain, 2.0 * float(octaves - k))) / (1.0 - gain * gain);
-            break;
-        }
-        sum += amplitude * band * textureLod(lumpTile, u / kLumpCells + halfTexel, 0.0).r;
-        variance += amplitude * amplitude;
-        shown += amplitude * amplitude * band * band;
-        u = vec3(fxNextOctaveX(u.x, u.z), fxNextOctaveY(u.x, u.y, u.z), fxNextOctaveZ(u.x, u.y, u.z));
+        float band = amplitude * fxOctaveBand(size, pixel);
+        sum += band * band;
         amplitude *= gain;
         size *= 1.0 / 2.03;
     }
-    faded = max(1.0 - shown / variance, 0.0);
-    return sum * inversesqrt(variance);
+    return sum;
+}
+
+float lumpAt(vec3 u) { return textureLod(lumpTile, u / kLumpCells + 0.5 / vec3(textureSize(lumpTile, 0)), 0.0).r; }
+vec3 broadPlace(vec3 u) { return vec3(fxBroadPlace(u.x), fxBroadPlace(u.y), fxBroadPlace(u.z)); }
+vec3 nextOctave(vec3 u) { return vec3(fxNextOctaveX(u.x, u.z), fxNextOctaveY(u.x, u.y, u.z), fxNextOctaveZ(u.x, u.y, u.z)); }
+
+// Noise of two generations, of deviation 1. gain of an octave; u0, u1 in cells; pixel [m]; least, most: octaves that cannot bring it back between them are
+// left out; faded variance of those that are finer than pixels
+float blendedLumps(FieldDetail d, float gain, vec3 u0, vec3 u1, float pixel, float least, float most, out float faded)
+{
+    int octaves = int(d.lumps.w);
+    float broad = fxBroadAmplitude();
+    float variance = broad * broad + (1.0 - pow(gain, 2.0 * float(octaves))) / (1.0 - gain * gain);
+    vec2 shown = vec2(shownVariance(d.lumps.x, pixel, gain, octaves), shownVariance(d.lumps.y, pixel, gain, octaves));
+    vec2 unseen = max(1.0 - shown / variance, vec2(0.0));
+    faded = fxBlendFaded(unseen.x, unseen.y, d.noise.y);
+    float tail = kFadedTail * sqrt(faded);
+    vec2 weight = inversesqrt(variance) * vec2(fxBlendGenerations(1.0, 0.0, d.noise.y), fxBlendGenerations(0.0, 1.0, d.noise.y));
+    vec2 size = d.lumps.xy;
+    vec2 now = broad * weight * vec2(fxOctaveBand(fxBroadSize() * size.x, pixel), fxOctaveBand(fxBroadSize() * size.y, pixel));
+    float sum = now.x * lumpAt(broadPlace(u0)) + now.y * lumpAt(broadPlace(u1));
+    float left = (1.0 - pow(gain, float(octaves))) / (1.0 - gain); // of the sum of amplitudes
+    float amplitude = 1.0;
+    for (int k = 0; k < octaves; ++k) {
+        now = amplitude * weight * vec2(fxOctaveBand(size.x, pixel), fxOctaveBand(size.y, pixel));
+        float reach = kMaxLump * left * (weight.x + weight.y) + tail;
+        if (now.x + now.y <= 0.0 || sum + reach < least || sum - reach > most)
+            break; // nor does any that follows
+        sum += now.x * lumpAt(u0) + now.y * lumpAt(u1);
+        left -= amplitude;
+        u0 = nextOctave(u0);
+        u1 = nextOctave(u1);
+        amplitude *= gain;
+        size *= 1.0 / 2.03;
+    }
+    return sum;
 }
 
 // What light of a medium of one temperature becomes by that of the detail. By Wien's law its power grows with the frequency: that of
@@ -84,31 +111,35 @@ vec3 detailedLight(vec3 light, MediumDetail detail, float power)
     return light * pow(vec3(detail.temperature), power * (580.0 / vec3(611.0, 549.0, 464.0)));
 }
 
-// Whether noise shows.
-bool hasLumps(DetailPlace place) { return place.s > 0.0 && place.s < 1.5 + place.ramp; }
+// Whether noise shows. isGlowing: the temperature matters
+bool hasLumps(DetailPlace place, bool isGlowing) { return place.s > 0.0 && place.s < (isGlowing ? 1.5 : 1.0) + place.ramp; }
+
+// The noise at which a threshold is h.
+float noiseOf(float h)
+{
+    float inside = clamp(h, 1e-6, 1.0 - 1e-6);
+    return log(1.0 / inside - 1.0) * (1.0 / 1.702);
+}
 
 // @param p [m] relative to the eye; carried0, carried1 [cell] means of what balls carry
-MediumDetail detailOf(FieldDetail d, DetailPlace place, vec3 p, vec3 carried0, vec3 carried1, float pixel)
+MediumDetail detailOf(FieldDetail d, DetailPlace place, vec3 p, vec3 carried0, vec3 carried1, float pixel, bool isGlowing)
 {
+    const float kNoLump = 1e3;
     float ramp = place.ramp, s = place.s;
     float h = 0.5, z = 0.0, share = s > 0.0 ? 1.0 : 0.0;
-    // a loop without turns is skipped by software renderers too, a branch is not
-    int turns = hasLumps(place) ? 1 : 0;
-    for (int turn = 0; turn < turns; ++turn) {
+    MediumDetail detail;
+    detail.isLumpy = hasLumps(place, isGlowing);
+    if (detail.isLumpy) {
         vec3 u0 = vec3(dot(d.rows[0].xyz, p) + d.rows[0].w, dot(d.rows[1].xyz, p) + d.rows[1].w, dot(d.rows[2].xyz, p) + d.rows[2].w);
         vec3 u1 = vec3(dot(d.rows[3].xyz, p) + d.rows[3].w, dot(d.rows[4].xyz, p) + d.rows[4].w, dot(d.rows[5].xyz, p) + d.rows[5].w);
-        int octaves = int(d.lumps.w);
-        float gain = fxDetailSoftGain(d.noise.x, place.blur);
-        float faded0, faded1;
-        float z0 = lumpOctaves(u0 + carried0, d.lumps.x, pixel, gain, octaves, faded0);
-        float z1 = lumpOctaves(u1 + carried1, d.lumps.y, pixel, gain, octaves, faded1);
-        z = fxBlendGenerations(z0, z1, d.noise.y);
+        float least = s < 1.0 ? noiseOf(s) : -kNoLump; // below it nothing is left
+        float most = s > ramp ? noiseOf(s - ramp) : kNoLump; // above it all is
+        float faded;
+        z = blendedLumps(d, fxDetailSoftGain(d.noise.x, place.blur), u0 + carried0, u1 + carried1, pixel, least, isGlowing ? kNoLump : most, faded);
         h = fxDetailThreshold(z);
-        share = fxDetailShareOver(s, z, fxBlendFaded(faded0, faded1, d.noise.y), ramp);
+        share = fxDetailShareOver(s, z, faded, ramp);
     }
-    MediumDetail detail;
     detail.share = d.lumps.z * share * fxDetailGain(s, ramp);
     detail.temperature = fxDetailTemperature(1.0, s, h, ramp, z, d.noise.z, d.noise.w);
-    detail.isLumpy = turns > 0;
     return detail;
 }

@@ -28,7 +28,7 @@ struct BlobMaterial
 layout(std430, binding = 4) readonly buffer Materials { BlobMaterial materials[]; };
 #endif
 
-shared uint most; // bits of the largest extinction of a sample that is seen [1/m], regardless of its sign
+shared uint most[8]; // bits of the largest extinction of a sample that is seen, in each eighth of the brick [1/m], regardless of its sign
 
 void main()
 {
@@ -59,8 +59,8 @@ void main()
     bool isDetailed = field.limits.z > 0.5;
     FieldDetail numbers = fieldDetail(int(isDetailed ? field.limits.z : 0.0));
 #endif
-    if (gl_LocalInvocationIndex == 0u)
-        most = 0u;
+    if (gl_LocalInvocationIndex < 8u)
+        most[gl_LocalInvocationIndex] = 0u;
     barrier();
     for (uint k = brick.first; k < brick.first + brick.count; ++k) {
         uint number = brickBalls[k];
@@ -98,7 +98,7 @@ void main()
 #endif
         }
     }
-    float largest = 0.0;
+    vec2 largest = vec2(0.0); // below and above the middle, in which samples are in both
     for (int z = 0; z < kBrickSamples; ++z) {
         float seen = abs(mediumSums[z].a);
 #if FX_DETAIL
@@ -106,9 +106,15 @@ void main()
         float place = detailPlace(numbers.erosion, numbers.soft, seen, powerSums[z].z / max(mediumSums[z].a, 1e-20)).s;
         seen = isDetailed && place <= 0.0 ? 0.0 : seen;
 #endif
-        largest = max(largest, seen);
+        largest = max(largest, seen * vec2(z <= kBrickCells / 2, z >= kBrickCells / 2));
     }
-    atomicMax(most, floatBitsToUint(largest));
+    for (int k = 0; k < 8; ++k) {
+        bvec2 isHigh = bvec2(k & 1, k & 2);
+        bvec2 isOf = bvec2(isHigh.x ? first.x >= kBrickCells / 2 : first.x <= kBrickCells / 2,
+                           isHigh.y ? first.y >= kBrickCells / 2 : first.y <= kBrickCells / 2);
+        if (all(isOf))
+            atomicMax(most[k], floatBitsToUint(k < 4 ? largest.x : largest.y));
+    }
     ivec3 texel = brickTexel(int(gl_WorkGroupID.x)) + first;
     for (int z = 0; z < kBrickSamples; ++z) {
         float extinction = mediumSums[z].a; // below 0 at rims, see voxel-kernel
@@ -125,7 +131,7 @@ void main()
         for (int once = 0; once < detailed; ++once) {
             DetailPlace place = detailPlace(numbers.erosion, numbers.soft, extinction, powerSums[z].z / extinction);
             MediumDetail detail = detailOf(numbers, place, places[z], carriedSums0[z] / extinction, carriedSums1[z] / extinction,
-                                           0.5 * field.corner.w);
+                                           0.5 * field.corner.w, false);
             changed = (detail.share - 1.0) * extinction * held;
         }
         imageStore(material0, texel + ivec3(0, 0, z), vec4(carriedSums0[z] * held, powerSums[z].x / max(powerSums[z].y, 1e-30)));
@@ -136,8 +142,9 @@ void main()
     barrier();
     if (gl_LocalInvocationIndex > 0u)
         return;
-    float seen = uintBitsToFloat(most);
-    bool isSeen = seen > 0.0;
+    float seen = 0.0;
+    for (int k = 0; k < 8; ++k)
+        seen += most[k] > 0u ? exp2(float(k - 8)) : 0.0;
     float number = float(gl_WorkGroupID.x) + 1.0;
-    imageStore(brickTable, tableTexel(tableEntry(field, placeOfBrick(brick))), vec4(isSeen ? number : -number));
+    imageStore(brickTable, tableTexel(tableEntry(field, placeOfBrick(brick))), vec4(seen > 0.0 ? number + seen : -number));
 }

@@ -9,7 +9,7 @@
 #include "field/field_sample.glsl"
 
 // All media along one ray, from the eye on: each step is a slab of the sum of all fields. FX_LOOSE 1 adds what is in no field,
-// balls and cards, to the same slabs, kGroup at a time; it is drawn as slabs.frag.glsl, and pass.z is the largest number of
+// balls and cards, to the same slabs; it is drawn as slabs.frag.glsl, and pass.z is the largest number of
 // slabs that what is loose is divided into. A ray ends where nothing more is seen.
 #if FX_LOOSE
 #include "formulas/kernel_moment.fx.h"
@@ -20,14 +20,14 @@
 #include "shared/light_slices.glsl"
 #include "slabs/slab_balls.glsl"
 #include "slabs/slab_window.glsl"
-const int kGroup = 4;
+const int kGroup = 1;
 #include "slabs/slab_fill.glsl"
 layout(std430, binding = 3) readonly buffer FieldTiles { FieldTile fieldTiles[]; };
 #else
 flat in uvec2 tileRange;
 #endif
 
-const int kMaxSteps = 4096;
+const int kMaxDepthSamples = 16384;
 const float kMaxStretch = 3.0;   // of steps behind what hides
 const float kSlabsPerDepth = 8.0; // slabs across what is loose: where it is thin, what hides what hardly matters
 
@@ -46,11 +46,11 @@ LooseSlabs looseSlabs(SlabRay ray)
     loose.range = rangeOf(ray);
     loose.window = loose.range;
     float depth = 0.0;
-    int turns = loose.range.y > loose.range.x ? 1 : 0; // a loop without turns is skipped by software renderers too
-    for (int turn = 0; turn < turns; ++turn)
+    bool isThere = loose.range.y > loose.range.x;
+    if (isThere)
         loose.window = windowOf(ray, loose.range, depth);
     float slabs = clamp(ceil(kSlabsPerDepth * depth), 1.0, pass.z);
-    loose.width = turns > 0 ? max((loose.window.y - loose.window.x) / slabs, 1e-6 * loose.range.y) : 1.0;
+    loose.width = isThere ? max((loose.window.y - loose.window.x) / slabs, 1e-6 * loose.range.y) : 1.0;
     return loose;
 }
 
@@ -74,6 +74,25 @@ uvec2 fieldsOfTexel()
 }
 #endif
 
+// Puts what lies between two samples of a ray behind the picture.
+#if FX_LOOSE
+void putBetween(inout SlabPicture picture, SlabRay ray, LooseSlabs loose, FieldSample near, FieldSample far, float from, float to)
+#else
+void putBetween(inout SlabPicture picture, FieldSample near, FieldSample far, float from, float to)
+#endif
+{
+    SlabSums sums[1] = SlabSums[1](slabBetween(near, far, to - from));
+#if FX_LOOSE
+    float edges[2] = float[2](from, to);
+    float behind;
+    if (to > loose.range.x && from < loose.range.y)
+        addLoose(ray, edges, loose.range.y, sums, behind);
+#endif
+    putBehind(picture, sums[0], from, to);
+}
+
+// Neighboring rays look for medium, each at its own pace, and then all of them evaluate it together: what is done together costs as
+// little as what is done once. Conditions are branches: software renderers run the body of a loop once more than it has turns.
 void main()
 {
     SlabRay ray = slabRay();
@@ -85,38 +104,48 @@ void main()
     LooseSlabs loose = looseSlabs(ray);
     float last = loose.range.y;
 #else
-    const int kGroup = 1;
     const float last = -1.0;
 #endif
     SlabPicture picture = emptyPicture();
-    float t = ray.t0;
-    FieldSample before = sampleFields(ray.origin, ray.direction, t, tileRange, pixel);
-    for (int i = 0; i < kMaxSteps && t < ray.t1 && (before.room < kNever || t < last) && picture.through > kMinTransmittance;
-         i += kGroup) {
-        float edges[kGroup + 1];
-        SlabSums sums[kGroup];
-        edges[0] = t;
-        float stretch = min(inversesqrt(sqrt(max(picture.through, 1e-8))), kMaxStretch); // less is seen of what follows
-        for (int k = 0; k < kGroup; ++k) {
-            float next = t + before.room * (before.isEmpty ? 1.0 : stretch);
+    FieldRay fields = fieldRay(ray.origin, ray.direction, tileRange, pixel);
+    FieldSample before = emptySample(), now = emptySample();
+    float t = ray.t0, next = ray.t0; // [m] of the two
+    uint number = 0u;                // of the field that is looked at
+    bool isOver = false;
+    int looks = 0;
+    while (!isOver && looks < kMaxDepthSamples) {
+        FieldFind find;
+        find.isMedium = false;
+        while (!find.isMedium && !isOver && looks < kMaxDepthSamples) {
+            ++looks;
+            if (number >= tileRange.y) { // all fields have been looked at
 #if FX_LOOSE
-            next = min(next, nextFace(loose, t));
+                putBetween(picture, ray, loose, before, now, t, next);
+#else
+                putBetween(picture, before, now, t, next);
 #endif
-            next = min(next, ray.t1);
-            next = next < kNever ? next : t;
-            FieldSample now = sampleFields(ray.origin, ray.direction, next, tileRange, pixel);
-            sums[k] = slabBetween(before, now, next - t);
-            edges[k + 1] = t = next;
-            before = now;
+                before = now;
+                t = next;
+                isOver = !(t < ray.t1 && (before.room < kNever || t < last) && picture.through > kMinTransmittance);
+                float stretch = min(inversesqrt(sqrt(max(picture.through, 1e-8))), kMaxStretch); // less is seen of what follows
+                next = t + before.room * (before.isEmpty ? 1.0 : stretch);
+#if FX_LOOSE
+                next = min(next, nextFace(loose, t));
+#endif
+                next = min(next, ray.t1);
+                next = next < kNever ? next : t;
+                now = emptySample();
+                number = nextField(fields, 0u, next, now);
+            }
+            if (number < tileRange.y && !isOver) {
+                find = lookAt(fields, number, next, now);
+                number = find.isMedium ? number : nextField(fields, number + 1u, next, now);
+            }
         }
-#if FX_LOOSE
-        float behind;
-        int meets = edges[kGroup] > loose.range.x && edges[0] < loose.range.y ? 1 : 0;
-        for (int turn = 0; turn < meets; ++turn)
-            addLoose(ray, edges, loose.range.y, sums, behind);
-#endif
-        for (int k = 0; k < kGroup; ++k)
-            putBehind(picture, sums[k], edges[k], edges[k + 1]);
+        if (find.isMedium) {
+            addFind(fields, find, next, now);
+            number = nextField(fields, number + 1u, next, now);
+        }
     }
     writePicture(picture);
 }

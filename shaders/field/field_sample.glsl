@@ -36,7 +36,7 @@ struct FieldPlace
     vec3 local;  // from the first sample
     ivec3 brick;
     int number;  // of the brick + 1, or 0 where no ray sees any medium
-    float room;  // [voxel] up to where a brick may begin, if there is none
+    float room;  // [voxel] up to where a brick or an eighth of one may begin, if there is none
 };
 
 FieldPlace placeInField(VoxelField field, vec3 p, vec3 perDirection)
@@ -46,9 +46,13 @@ FieldPlace placeInField(VoxelField field, vec3 p, vec3 perDirection)
     vec3 size = vec3(kBrickCells * field.bricks.xyz);
     bool isInside = all(greaterThanEqual(place.local, vec3(0.0))) && all(lessThan(place.local, size));
     place.brick = clamp(ivec3(floor(place.local / float(kBrickCells))), ivec3(0), field.bricks.xyz - 1);
-    place.number = isInside ? max(int(texelFetch(brickTable, tableTexel(tableEntry(field, place.brick)), 0).r), 0) : 0;
+    float entry = isInside ? texelFetch(brickTable, tableTexel(tableEntry(field, place.brick)), 0).r : 0.0;
     vec3 low = isInside ? vec3(kBrickCells * place.brick) : vec3(0.0);
-    vec3 high = isInside ? low + float(kBrickCells) : size;
+    vec3 eighth = step(low + float(kBrickCells / 2), place.local);
+    int seen = int(256.0 * fract(entry)) >> int(dot(eighth, vec3(1.0, 2.0, 4.0))) & 1;
+    place.number = entry > 0.0 ? seen * int(entry) : 0;
+    low += entry > 0.0 ? float(kBrickCells / 2) * eighth : vec3(0.0);
+    vec3 high = isInside ? low + float(entry > 0.0 ? kBrickCells / 2 : kBrickCells) : size;
     vec3 a = (low - place.local) * perDirection;
     vec3 b = (high - place.local) * perDirection;
     vec3 enter = min(a, b);
@@ -60,8 +64,52 @@ FieldPlace placeInField(VoxelField field, vec3 p, vec3 perDirection)
     return place;
 }
 
-// @param t [m] along the ray; tile first texel of the list of fields, and how many; width of a pixel: pixel.x [1] t + pixel.y [m]
-FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, vec2 pixel)
+const float kRounding = 3e-7; // of a distance along a ray
+const uint kKnownFields = 4u; // of a tile, whose numbers a ray keeps
+
+// A ray through the fields of a tile.
+struct FieldRay
+{
+    vec3 origin;       // [m]
+    vec3 direction;    // unit
+    vec3 perDirection; // 1 / direction, finite
+    uvec2 tile;        // first texel of the list of fields, and how many
+    vec2 pixel;        // its width: pixel.x [1] t + pixel.y [m]
+    vec4 rests;        // [m] up to where the known fields have no medium; they are not looked at before
+    vec4 known[3 * int(kKnownFields)]; // texels of the known fields
+};
+
+FieldRay fieldRay(vec3 origin, vec3 direction, uvec2 tile, vec2 pixel)
+{
+    FieldRay ray;
+    vec3 safe = mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
+    ray.origin = origin;
+    ray.direction = direction;
+    ray.perDirection = 1.0 / safe;
+    ray.tile = tile;
+    ray.pixel = pixel;
+    ray.rests = vec4(-kNever);
+    for (uint k = 0u; k < kKnownFields; ++k) {
+        int number = tile.y > 0u ? int(fieldTexel(int(tile.x + min(k, tile.y - 1u))).x) : 0;
+        for (int i = 0; i < 3; ++i)
+            ray.known[3u * k + uint(i)] = fieldTexel(3 * number + i);
+    }
+    return ray;
+}
+
+// One of the fields of the tile. It is chosen from the known ones, as software renderers look up texels more slowly.
+VoxelField fieldOfRay(FieldRay ray, uint k)
+{
+    vec4 texels[3];
+    for (int i = 0; i < 3; ++i)
+        texels[i] = k < 2u ? (k < 1u ? ray.known[i] : ray.known[3 + i]) : (k < 3u ? ray.known[6 + i] : ray.known[9 + i]);
+    VoxelField field = VoxelField(texels[0], ivec4(texels[1]), texels[2]);
+    if (k >= kKnownFields)
+        field = fieldOf(int(fieldTexel(int(ray.tile.x + k)).x));
+    return field;
+}
+
+FieldSample emptySample()
 {
     FieldSample sum;
     sum.medium = vec4(0.0);
@@ -71,68 +119,114 @@ FieldSample sampleFields(vec3 origin, vec3 direction, float t, uvec2 tile, vec2 
 #endif
     sum.isEmpty = true;
     sum.room = kNever;
-    vec3 safe = mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
-    vec3 p = origin + t * direction;
-    for (uint k = tile.x; k < tile.x + tile.y; ++k) {
-        VoxelField field = fieldOf(int(fieldTexel(int(k)).x));
-        FieldPlace place = placeInField(field, p, 1.0 / safe);
-        // a loop without turns is skipped by software renderers too, a branch is not
-        int turns = place.number > 0 ? 1 : 0;
-        for (int turn = 0; turn < turns; ++turn) {
-            vec3 texel = vec3(brickTexel(place.number - 1)) + 0.5 + place.local - vec3(kBrickCells * place.brick);
-            vec3 uv = texel / vec3(textureSize(fieldMedium, 0));
-            vec4 medium = textureLod(fieldMedium, uv, 0.0);
-            float kept = medium.a != 0.0 ? 1.0 : 0.0;
-            float voxels = kVoxelsPerStep;
+    return sum;
+}
+
+// The first field of the tile from number `first` on that may have medium at t [m]; their count where none has.
+uint nextField(FieldRay ray, uint first, float t, inout FieldSample sum)
+{
+    for (uint k = 0u; k < kKnownFields; ++k) {
+        bool rests = k == first && k < ray.tile.y && t < ray.rests[k];
+        sum.room = rests && ray.rests[k] < kNever ? min(sum.room, ray.rests[k] - t + kRounding * abs(t)) : sum.room;
+        first += rests ? 1u : 0u;
+    }
+    return first;
+}
+
+// What a field has at a place, before its detail.
+struct FieldFind
+{
+    bool isMedium;  // that detail may leave
+    vec3 uv;        // of the textures of bricks
+    vec4 medium;    // see fieldMedium
+    float voxel;    // [m]
+    float largest;  // [1/m] no extinction of the field is larger
+    float detail;   // first texel of its detail, or 0
 #if FX_DETAIL
-            int detailed = field.limits.z > 0.5 ? 1 : 0;
-            kept = detailed > 0 && medium.a <= 0.0 ? 0.0 : kept; // rims that are below 0 are eroded
-            DetailPlace at;
-            float perMedium = field.limits.y / medium.a;
-            vec4 material1;
-            detailed = kept == 0.0 ? 0 : detailed;
-            for (int once = 0; once < detailed; ++once) {
-                material1 = perMedium * textureLod(fieldMaterial1, uv, 0.0);
-                int first = int(field.limits.z);
-                at = detailPlace(fieldTexel(first + 6), fieldTexel(first + 9), medium.a, material1.a);
-                kept = at.s > 0.0 ? 1.0 : 0.0;
-            }
-            detailed = kept == 0.0 ? 0 : detailed;
-            for (int once = 0; once < detailed; ++once) {
-                FieldDetail numbers = fieldDetail(int(field.limits.z));
-                vec4 material0 = vec4(0.0);
-                int lumpy = hasLumps(at) ? 1 : 0;
-                for (int lump = 0; lump < lumpy; ++lump)
-                    material0 = textureLod(fieldMaterial0, uv, 0.0);
-                MediumDetail detail = detailOf(numbers, at, p, material0.rgb * perMedium, material1.rgb, pixel.x * t + pixel.y);
-                kept = detail.share;
-                voxels = detail.isLumpy ? kVoxelsPerLumpyStep : kVoxelsPerStep;
-                medium.rgb = detailedLight(medium.rgb, detail, material0.a);
-            }
+    DetailPlace place;
+    vec4 material1; // of the medium, see fieldMaterial1
+#endif
+};
+
+// Looks at one field of a tile at t [m], which must not fall from call to call.
+FieldFind lookAt(inout FieldRay ray, uint number, float t, inout FieldSample sum)
+{
+    VoxelField field = fieldOfRay(ray, number);
+    FieldPlace place = placeInField(field, ray.origin + t * ray.direction, ray.perDirection);
+    FieldFind find;
+    find.isMedium = false;
+    find.uv = vec3(0.0);
+    find.medium = vec4(0.0);
+    find.voxel = field.corner.w;
+    find.largest = field.limits.y;
+    find.detail = field.limits.z;
+#if FX_DETAIL
+    find.place = DetailPlace(1.0, 1.0, 0.0);
+    find.material1 = vec4(0.0);
+#endif
+    bool isInBrick = place.number > 0;
+    if (isInBrick) {
+        vec3 texel = vec3(brickTexel(place.number - 1)) + 0.5 + place.local - vec3(kBrickCells * place.brick);
+        find.uv = texel / vec3(textureSize(fieldMedium, 0));
+        find.medium = textureLod(fieldMedium, find.uv, 0.0);
+        find.isMedium = find.medium.a != 0.0;
+    }
+#if FX_DETAIL
+    if (find.isMedium && field.limits.z > 0.5) {
+        find.isMedium = find.medium.a > 0.0; // rims that are below 0 are eroded
+        if (find.isMedium) {
+            int first = int(field.limits.z);
+            find.material1 = field.limits.y / find.medium.a * textureLod(fieldMaterial1, find.uv, 0.0);
+            find.place = detailPlace(fieldTexel(first + 6), fieldTexel(first + 9), find.medium.a, find.material1.a);
+            find.isMedium = find.place.s > 0.0;
+        }
+    }
+#endif
+    float rest = isInBrick ? -kNever : place.room < kNever ? t + field.corner.w * place.room : kNever;
+    ray.rests = mix(ray.rests, vec4(rest), equal(uvec4(number), uvec4(0, 1, 2, 3)));
+    sum.isEmpty = sum.isEmpty && !isInBrick;
+    float step = isInBrick ? field.corner.w * kVoxelsPerStep : rest < kNever ? rest - t + kRounding * abs(t) : kNever;
+    sum.room = find.isMedium ? sum.room : min(sum.room, step);
+    return find;
+}
+
+// Adds what has been found at t [m] to the sum of all fields.
+void addFind(FieldRay ray, FieldFind find, float t, inout FieldSample sum)
+{
+    vec4 medium = find.medium;
+    float kept = 1.0;
+    float voxels = kVoxelsPerStep;
+#if FX_DETAIL
+    if (find.detail > 0.5) {
+        FieldDetail numbers = fieldDetail(int(find.detail));
+        vec4 material0 = vec4(0.0);
+        bool isGlowing = medium.r + medium.g + medium.b > 0.0;
+        if (hasLumps(find.place, isGlowing))
+            material0 = textureLod(fieldMaterial0, find.uv, 0.0);
+        float perMedium = find.largest / medium.a;
+        MediumDetail detail = detailOf(numbers, find.place, ray.origin + t * ray.direction, material0.rgb * perMedium,
+                                       find.material1.rgb, ray.pixel.x * t + ray.pixel.y, isGlowing);
+        kept = detail.share;
+        voxels = detail.isLumpy ? kVoxelsPerLumpyStep : kVoxelsPerStep;
+        medium.rgb = detailedLight(medium.rgb, detail, material0.a);
+    }
 #endif
 #if FX_LAYERS || FX_DETAIL
-            vec3 scattered = vec3(0.0);
-            int scatters = kept != 0.0 ? 1 : 0;
-            for (int once = 0; once < scatters; ++once)
-                scattered = field.limits.y * textureLod(fieldScatter, uv, 0.0).rgb;
+    vec3 scattered = vec3(0.0);
+    if (kept != 0.0)
+        scattered = find.largest * textureLod(fieldScatter, find.uv, 0.0).rgb;
 #endif
 #if FX_LAYERS
-            sum.scattered += kept * scattered;
-            vec4 shares = vec4(0.0);
-            for (int once = 0; once < scatters; ++once)
-                shares = field.limits.y * textureLod(fieldShares, uv, 0.0);
-            sum.shares += kept * shares;
+    sum.scattered += kept * scattered;
+    vec4 shares = vec4(0.0);
+    if (kept != 0.0)
+        shares = find.largest * textureLod(fieldShares, find.uv, 0.0);
+    sum.shares += kept * shares;
 #elif FX_DETAIL
-            medium.rgb += scattered;
+    medium.rgb += scattered;
 #endif
-            sum.medium += kept * medium;
-            sum.room = min(sum.room, field.corner.w * clamp(kDepthPerStep / (field.corner.w * max(kept * medium.a, 1e-20)), kMinVoxelsPerStep, voxels));
-        }
-        sum.isEmpty = sum.isEmpty && turns == 0;
-        if (turns == 0)
-            sum.room = min(sum.room, place.room < kNever ? field.corner.w * place.room : kNever);
-    }
-    return sum;
+    sum.medium += kept * medium;
+    sum.room = min(sum.room, find.voxel * clamp(kDepthPerStep / (find.voxel * max(kept * medium.a, 1e-20)), kMinVoxelsPerStep, voxels));
 }
 
 #if FX_LAYERS

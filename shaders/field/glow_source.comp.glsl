@@ -47,7 +47,8 @@ void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 med
             vec4 material1 = perMedium * textureLod(fieldMaterial1, uv, 0.0);
             FieldDetail numbers = fieldDetail(int(field.limits.z));
             DetailPlace place = detailPlace(numbers.erosion, numbers.soft, own.a, material1.a);
-            MediumDetail detail = detailOf(numbers, place, p, material0.rgb * perMedium, material1.rgb, pixel);
+            MediumDetail detail = detailOf(numbers, place, p, material0.rgb * perMedium, material1.rgb, pixel,
+                                           own.r + own.g + own.b > 0.0);
             kept = detail.share;
             own.rgb = detailedLight(own.rgb, detail, material0.a);
         }
