@@ -128,7 +128,7 @@ void main()
         float held = 1.0 / field.limits.y;
         float changed = 0.0; // between samples, for light
         int detailed = isDetailed && extinction > 0.0 ? 1 : 0;
-        for (int once = 0; once < detailed; ++once) {
+        if (detailed > 0) {
             DetailPlace place = detailPlace(numbers.erosion, numbers.soft, extinction, powerSums[z].z / extinction);
             MediumDetail detail = detailOf(numbers, place, places[z], carriedSums0[z] / extinction, carriedSums1[z] / extinction,
                                            0.5 * field.corner.w, false);

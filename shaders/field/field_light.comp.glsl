@@ -42,15 +42,14 @@ void main()
         ivec3 s = sampleOfBrick(i);
         vec4 before = imageLoad(medium, corner + s);
         vec4 own = imageLoad(scatter, corner + s);
-        // a loop without turns is skipped by software renderers too, a branch is not
         int turns = before.a != 0.0 && own.r + own.g + own.b > 0.0 ? 1 : 0;
         vec3 source = vec3(0.0);
-        for (int turn = 0; turn < turns; ++turn) {
+        if (turns > 0) {
             vec3 p = placeOfSample(field, brick, s);
             vec3 toEye = viewAxis.w > 0.5 ? -viewAxis.xyz : -p / max(length(p), 1e-20);
             GlowBox box = kNoGlowBox;
             int glowing = field.limits.w > 0.5 ? 1 : 0;
-            for (int once = 0; once < glowing; ++once)
+            if (glowing > 0)
                 source += own.rgb * glowAt(int(field.limits.w) - 1, p, box);
             source += skySource(p, toEye, own.rgb, own.a) + scatteredLight(p, toEye, own.rgb, own.a, box);
         }

@@ -23,9 +23,8 @@ float changeAt(vec3 p)
         bool isInside = field.limits.z > 0.5 && all(greaterThanEqual(local, vec3(0.0))) && all(lessThan(local, size));
         ivec3 brick = clamp(ivec3(floor(local / float(kBrickCells))), ivec3(0), field.bricks.xyz - 1);
         float number = isInside ? abs(texelFetch(brickTable, tableTexel(tableEntry(field, brick)), 0).r) : 0.0;
-        // a loop without turns is skipped by software renderers too, a branch is not
         int turns = number > 0.0 ? 1 : 0;
-        for (int turn = 0; turn < turns; ++turn) {
+        if (turns > 0) {
             vec3 texel = vec3(brickTexel(int(number) - 1)) + 0.5 + local - vec3(kBrickCells * brick);
             sum += field.limits.y * textureLod(fieldChange, texel / vec3(textureSize(fieldChange, 0)), 0.0).r;
         }

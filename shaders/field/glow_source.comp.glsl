@@ -32,16 +32,15 @@ void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 med
     bool isInside = all(greaterThanEqual(local, vec3(0.0))) && all(lessThan(local, size));
     ivec3 brick = clamp(ivec3(floor(local / float(kBrickCells))), ivec3(0), field.bricks.xyz - 1);
     float number = isInside ? abs(texelFetch(brickTable, tableTexel(tableEntry(field, brick)), 0).r) : 0.0;
-    // a loop without turns is skipped by software renderers too, a branch is not
     int turns = number > 0.0 ? 1 : 0;
-    for (int turn = 0; turn < turns; ++turn) {
+    if (turns > 0) {
         vec3 texel = vec3(brickTexel(int(number) - 1)) + 0.5 + local - vec3(kBrickCells * brick);
         vec3 uv = texel / vec3(textureSize(fieldMedium, 0));
         vec4 own = textureLod(fieldMedium, uv, 0.0);
         float kept = own.a > 0.0 ? 1.0 : 0.0;
 #if FX_DETAIL
         int detailed = field.limits.z > 0.5 && own.a > 0.0 ? 1 : 0;
-        for (int once = 0; once < detailed; ++once) {
+        if (detailed > 0) {
             vec4 material0 = textureLod(fieldMaterial0, uv, 0.0);
             float perMedium = field.limits.y / own.a;
             vec4 material1 = perMedium * textureLod(fieldMaterial1, uv, 0.0);
