@@ -252,11 +252,12 @@ void print(const Json& report)
                     entry["exists"].get<bool>() ? "exists" : "absent", entry["passes"].dump().c_str(),
                     entry["called_by"].dump().c_str());
     for (const Json& entry : report["lights"])
-        std::printf("%s %u: %s, %u planes, %.1f KiB, %llu rays when they are filled, %.3f ms in the frames after\n",
-                    entry["light"].get<std::string>().c_str(), entry["index"].get<unsigned>(),
-                    entry["casts_shadows"].get<bool>() ? "media cast shadows" : "added without shadows",
-                    entry["planes"].get<unsigned>(), entry["bytes"].get<double>() / 1024.0,
-                    entry["rays"].get<unsigned long long>(), entry["ms"].get<double>());
+        std::printf(
+            "%s %u: %s, %u planes, %.1f KiB, %llu rays when they are filled, %.3f ms in the frames after\n",
+            entry["light"].get<std::string>().c_str(), entry["index"].get<unsigned>(),
+            entry["casts_shadows"].get<bool>() ? "media cast shadows" : "added without shadows",
+            entry["planes"].get<unsigned>(), entry["bytes"].get<double>() / 1024.0,
+            entry["rays"].get<unsigned long long>(), entry["ms"].get<double>());
     std::printf("passes %s\nlevel of detail %s\n", report["passes"].dump().c_str(),
                 report["level_of_detail"].dump().c_str());
     std::printf(

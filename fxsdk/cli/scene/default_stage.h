@@ -19,8 +19,8 @@ namespace fx::cli {
 base::Result<scene_file::SceneFile> sceneOfPreset(const std::string& input,
                                                   scene_file::Preview* outPreview = nullptr);
 
-/// Simulates the effect and places the camera so that the picture holds it at all moments between the start and
-/// `until`. Does nothing without elements.
+/// Simulates the effect and places the camera so that the picture holds it at all moments between the start
+/// and `until`. Does nothing without elements.
 /// @param aspect width of the picture over its height
 base::Status frameEffect(scene_file::SceneFile& scene, base::Ticks until, const EffectSceneOptions& options,
                          double aspect = 16.0 / 9.0);

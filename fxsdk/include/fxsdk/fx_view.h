@@ -60,9 +60,9 @@ enum
     /// Balls of an effect summed in voxels, which are ray-marched; the result does not depend on their order.
     FX_COMPOSITION_VOLUME = 2,
 
-    /// The composition that the presets of the scene's instances name by their member `composition`, until the
-    /// instances end: FX_COMPOSITION_VOLUME if one does, otherwise FX_COMPOSITION_SLABS if one does, otherwise
-    /// FX_COMPOSITION_SORTED. It applies to all media of the frame.
+    /// The composition that the presets of the scene's instances name by their member `composition`, until
+    /// the instances end: FX_COMPOSITION_VOLUME if one does, otherwise FX_COMPOSITION_SLABS if one does,
+    /// otherwise FX_COMPOSITION_SORTED. It applies to all media of the frame.
     FX_COMPOSITION_AUTOMATIC = 3
 };
 

@@ -8,9 +8,8 @@ namespace fx::render {
 
 namespace {
 
-constexpr TimedPass kPasses[] = {{"light list", {}},
-                                 {"light slice casters", kLightSliceGroup},
-                                 {"light slices", kLightSliceGroup}};
+constexpr TimedPass kPasses[] = {
+    {"light list", {}}, {"light slice casters", kLightSliceGroup}, {"light slices", kLightSliceGroup}};
 
 constexpr int kTexelsOfAPlane = 4; ///< texels along a side for each plane
 
