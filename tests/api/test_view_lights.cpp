@@ -260,8 +260,9 @@ TEST_F(ViewLights, timedFramesSayHowLongPlanesTakeWhetherTheyWerePreparedOrNot)
     for (const bool prepares : {false, true}) {
         update(60);
         const FxFrameDef def = frame();
-        if (prepares)
+        if (prepares) {
             ASSERT_EQ(fxView_PrepareLights(view_, &def), FX_OK);
+        }
         ASSERT_EQ(fxView_Render(view_, &def), FX_OK);
         uint32_t count = 0;
         ASSERT_EQ(fxView_GetLightCostCount(view_, &count), FX_OK);
