@@ -298,7 +298,7 @@ constexpr GlTouchedState kTable[] = {
      restoreTexture},
     {"GL_TEXTURE_BINDING_3D (units 0 to 12)", GL_TEXTURE_BINDING_3D, 13, saveUnit, restoreTexture},
     {"GL_SAMPLER_BINDING (units 0 to 12)", GL_SAMPLER_BINDING, 13, saveUnit, restoreSampler},
-    {"GL_IMAGE_BINDING_* (units 0 to 5)", 0, 6, saveImage, restoreImage},
+    {"GL_IMAGE_BINDING_* (units 0 to 6)", 0, 7, saveImage, restoreImage},
     {"GL_UNIFORM_BUFFER_BINDING, _START, _SIZE (bindings 0 and 1)", GL_UNIFORM_BUFFER, 2, saveIndexedBuffer,
      restoreIndexedBuffer},
     {"GL_SHADER_STORAGE_BUFFER_BINDING, _START, _SIZE (bindings 0 to 7)", GL_SHADER_STORAGE_BUFFER, 8,

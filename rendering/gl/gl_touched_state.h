@@ -29,7 +29,7 @@ struct GlTouchedState
 /// restored comes first.
 std::span<const GlTouchedState> glTouchedStates();
 
-constexpr uint32_t kGlSavedStates = 139; ///< sum of the counts
+constexpr uint32_t kGlSavedStates = 140; ///< sum of the counts
 constexpr uint32_t kGlTouchedStates = 43;
 
 } // namespace fx::render

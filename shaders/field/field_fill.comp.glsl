@@ -104,7 +104,7 @@ void main()
 #if FX_DETAIL
         // what is thinner than detail leaves of anything is not seen
         float place = detailPlace(numbers.erosion, numbers.soft, seen, powerSums[z].z / max(mediumSums[z].a, 1e-20)).s;
-        seen = isDetailed && place <= 0.0 ? 0.0 : seen;
+        seen = isDetailed && (mediumSums[z].a <= 0.0 || place <= 0.0) ? 0.0 : seen;
 #endif
         largest = max(largest, seen * vec2(z <= kBrickCells / 2, z >= kBrickCells / 2));
     }

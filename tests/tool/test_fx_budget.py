@@ -17,7 +17,7 @@ class FxBudget(FxTest):
         outcome = fx("calibrate", "-o", target, "--repeat", "1", "--size", "48x32", "--json")
         self.assertEqual(outcome.code, 0, outcome.err)
         lines = [json.loads(line) for line in outcome.out.strip().split("\n")]
-        self.assertEqual({line["technique"] for line in lines}, {"media", "light slices", "shimmer", "dazzle"})
+        self.assertEqual({line["technique"] for line in lines}, {"media", "media slabs", "media volume", "light slices", "shimmer", "dazzle"})
         file = json.loads(target.read_text())
         self.assertIn("fx ", file["origin"])
         for technique in file["techniques"]:

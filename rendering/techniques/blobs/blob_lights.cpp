@@ -101,7 +101,7 @@ bool lightOf(const base::FrameSnapshot&, const base::SnapshotGroup& g, EffectLig
     for (size_t i = 0; i < g.count(); ++i) {
         const float radius = g.column(column::Radius)[i];
         const float crossSection = g.column(column::CrossSection)[i];
-        if (!(crossSection > 0.0f && radius > 0.0f))
+        if (!(crossSection > 0.0f && base::isFinite(crossSection) && radius > 0.0f))
             continue;
         const glm::vec3 position(g.column(column::PositionX)[i], g.column(column::PositionY)[i],
                                  g.column(column::PositionZ)[i]);

@@ -195,9 +195,10 @@ TEST_F(FieldDetailPasses, whatDetailChangesIsWhatTheProcessorFinds)
             const size_t texel = 4 * (size_t(int(b) % 16 * 9 + at.x) +
                                       size_t(kSide) * (size_t(int(b) / 16 % 16 * 9 + at.y) +
                                                        size_t(kSide) * size_t(int(b) / 256 * 9 + at.z)));
-            const float extinction = std::max(medium[texel + 3], 1e-20f);
-            if (!(meanErodedShare(numbers(), extinction, second[texel + 3] * field.limits.y / extinction) >
-                  0.0f))
+            const float extinction = medium[texel + 3];
+            if (!(extinction > 0.0f &&
+                  meanErodedShare(numbers(), extinction, second[texel + 3] * field.limits.y / extinction) >
+                      0.0f))
                 continue;
             for (int e = 0; e < 8; ++e)
                 if ((e & 1 ? at.x >= 4 : at.x <= 4) && (e & 2 ? at.y >= 4 : at.y <= 4) &&
