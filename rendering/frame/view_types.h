@@ -58,7 +58,7 @@ inline Composition resolved(Composition asked, Composition preferred)
     return asked == Composition::Automatic ? preferred : asked;
 }
 
-/// Pictures for those who need ground truth; bits of ViewSettings::outputs.
+/// Bits of ViewSettings::outputs. Each adds a picture of reference data, such as motion or depth.
 namespace view_output {
 enum : uint32_t
 {

@@ -92,27 +92,6 @@ void addSeen(inout Seen seen, SlabRay ray, float share, float distance, vec3 vel
 
 const int kRounds = 4; // of kBins each, that find where the depth passes kSeenDepth
 
-// Optical depth from `start` to the ends of kBins bins of a range.
-void passedIn(SlabRay ray, float start, vec2 range, out float passed[kBins + 1])
-{
-    float width = (range.y - range.x) / float(kBins);
-    for (int k = 0; k <= kBins; ++k)
-        passed[k] = 0.0;
-    for (int i = 0; i < tileList.y; ++i) {
-        Chord chord = chordOfTile(ray, i);
-        float begin = fxKernelPassed(placeOn(chord, start));
-        for (int k = 0; k <= kBins; ++k)
-            passed[k] += chord.depth * (fxKernelPassed(placeOn(chord, range.x + float(k) * width)) - begin);
-    }
-    for (uint card = ray.cards; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
-        vec4 body = cardNodes[card - 1u].body;
-        vec2 interval = intervalOf(ray, body);
-        float perLength = 1.0 / (interval.y - interval.x);
-        for (int k = 0; k <= kBins; ++k)
-            passed[k] += body.y * clamp((range.x + float(k) * width - interval.x) * perLength, 0.0, 1.0);
-    }
-}
-
 // Where the depth passes kSeenDepth, which it does within the range.
 float firstIn(SlabRay ray, vec2 range)
 {

@@ -85,11 +85,9 @@ vec2 rangeOf(SlabRay ray)
     return range;
 }
 
-// Narrows a range to the bins from that in which the depth passes kMinDepth to that in which it passes kMaxDepth.
-// start: where the depth is counted from. depth: up to the end of the range
-vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast, out float depth)
+// Optical depth from `start` to the ends of kBins bins of a range.
+void passedIn(SlabRay ray, float start, vec2 range, out float passed[kBins + 1])
 {
-    float passed[kBins + 1];
     float width = (range.y - range.x) / float(kBins);
     for (int k = 0; k <= kBins; ++k)
         passed[k] = 0.0;
@@ -106,6 +104,15 @@ vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast, out float depth
         for (int k = 0; k <= kBins; ++k)
             passed[k] += body.y * clamp((range.x + float(k) * width - interval.x) * perLength, 0.0, 1.0);
     }
+}
+
+// Narrows a range to the bins from that in which the depth passes kMinDepth to that in which it passes kMaxDepth.
+// start: where the depth is counted from. depth: up to the end of the range
+vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast, out float depth)
+{
+    float passed[kBins + 1];
+    passedIn(ray, start, range, passed);
+    float width = (range.y - range.x) / float(kBins);
     vec2 narrow = range;
     for (int k = 1; k < kBins; ++k)
         narrow.x = passed[k] < kMinDepth ? range.x + float(k) * width : narrow.x;

@@ -66,7 +66,7 @@ enum
     FX_COMPOSITION_AUTOMATIC = 3
 };
 
-/// Bits of FxViewSettings::outputs: pictures for those who need ground truth, see docs/howto/outputs.md.
+/// Bits of FxViewSettings::outputs. Each adds a picture of reference data, see docs/howto/outputs.md.
 enum
 {
     FX_OUTPUT_INSTANCE_ID = 1,   ///< instance with the largest share of the pixel
