@@ -3,6 +3,7 @@
 #include "foundation/math/hash.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace fx::base {
@@ -25,16 +26,23 @@ uint64_t hashGroup(uint64_t h, const SnapshotGroup& group, std::span<const Colum
     return h;
 }
 
+uint64_t nextSerial()
+{
+    static std::atomic<uint64_t> last = 0;
+    return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
 } // namespace
 
 FrameSnapshot::FrameSnapshot(const SnapshotSchema* schema, std::pmr::memory_resource* memory)
-    : schema_(schema), memory_(memory), groups_(memory), ends_(memory), places_(memory)
+    : schema_(schema), memory_(memory), serial_(nextSerial()), groups_(memory), ends_(memory), places_(memory)
 {}
 
 void FrameSnapshot::begin(Ticks tick, uint64_t sequence, Ticks step)
 {
     tick_ = tick;
     sequence_ = sequence;
+    serial_ = nextSerial();
     step_ = step;
     groupCount_ = 0;
     poolCount_ = 0;

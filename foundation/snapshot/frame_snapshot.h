@@ -46,6 +46,9 @@ public:
     std::pmr::memory_resource* memory() const { return memory_; }
     Ticks tick() const { return tick_; }
     uint64_t sequence() const { return sequence_; } ///< 1 for the first published, then rising by 1; 0: never
+    /// Of this content: no other snapshot of the process has it, wherever it lies in memory and whichever
+    /// scene it is of. begin() draws a new one.
+    uint64_t serial() const { return serial_; }
     /// [s] length of the step that ended with this snapshot; 0 if no step did. Particles that were born
     /// within the step are drawn from their birth on.
     float secondsBack() const { return float(toSeconds(step_)); }
@@ -124,6 +127,7 @@ private:
     std::pmr::memory_resource* memory_;
     Ticks tick_ = 0;
     uint64_t sequence_ = 0;
+    uint64_t serial_;
     Ticks step_ = 0;
     size_t groupCount_ = 0;
     std::pmr::vector<SnapshotGroup>

@@ -90,8 +90,7 @@ SnapshotRowRevisions SnapshotRevisions::rowsOf(const base::FrameSnapshot& snapsh
 const SnapshotRevisions::Known* SnapshotRevisions::find(const base::FrameSnapshot& snapshot) const
 {
     for (const Known& known : known_)
-        if (known.snapshot == &snapshot && known.sequence == snapshot.sequence() &&
-            known.tick == snapshot.tick())
+        if (known.snapshot == snapshot.serial())
             return &known;
     return nullptr;
 }
@@ -107,9 +106,7 @@ void SnapshotRevisions::remember(const base::FrameSnapshot& snapshot, const base
     for (const base::KindDesc* kind : rowKinds_)
         rowIds_.push_back(snapshot.schema().find(kind->name));
     known.rows.build(snapshot, older, before, rowIds_, lastRows_);
-    known.snapshot = &snapshot;
-    known.sequence = snapshot.sequence();
-    known.tick = snapshot.tick();
+    known.snapshot = snapshot.serial();
     known.revision = revision;
     next_ = (next_ + 1) % known_.size();
 }

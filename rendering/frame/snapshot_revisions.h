@@ -45,14 +45,11 @@ public:
     SnapshotRowRevisions rowsOf(const base::FrameSnapshot& snapshot) const;
 
 private:
-    /// Names a snapshot: those of one ring differ in their number, those of two in their address.
     struct Known
     {
         explicit Known(std::pmr::memory_resource* memory) : rows(memory) {}
 
-        const base::FrameSnapshot* snapshot = nullptr; ///< never followed; null: none
-        uint64_t sequence = 0;
-        base::Ticks tick = 0;
+        uint64_t snapshot = 0; ///< serial; 0: none
         uint64_t revision = 0;
         RowRevisions rows;
     };

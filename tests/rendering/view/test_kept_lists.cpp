@@ -3,6 +3,7 @@
 #include "rendering/frame/snapshot_revisions.h"
 
 #include <functional>
+#include <optional>
 
 using namespace fx;
 using test::TestBlob;
@@ -126,6 +127,20 @@ TEST_F(KeptLists, otherContentIsNeverMistakenForTheSame)
     EXPECT_GT(test::maxDifference(first, second), 0.01);
     (void)show(after, &before, 0.5);
     EXPECT_FALSE(isKept()) << "another moment between two that differ";
+}
+
+TEST_F(KeptLists, contentAtTheAddressOfAnotherSceneIsNew)
+{
+    std::optional<base::FrameSnapshot> place(scene(1.0));
+    const test::Picture first = show(*place);
+    const uint64_t sequence = sequence_;
+    place.reset(); // with its scene; the next scene begins to count anew
+    sequence_ = sequence - 1;
+    place.emplace(scene(1.0, 0.5f));
+    ASSERT_EQ(place->sequence(), sequence);
+    const test::Picture second = show(*place);
+    EXPECT_FALSE(isKept());
+    EXPECT_GT(test::maxDifference(first, second), 0.01);
 }
 
 TEST_F(KeptLists, aSceneThatRestsKeepsThemWhateverItPublishes)
