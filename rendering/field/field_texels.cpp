@@ -15,7 +15,6 @@ int rowsOfTexels(size_t count, int columns)
 
 void FieldTexels::build(const FieldPlan& plan, std::span<const FieldDetailBlock> details)
 {
-    constexpr size_t kDetailTexels = sizeof(FieldDetailBlock) / sizeof(glm::vec4);
     const size_t firstDetail = sizeof(FieldBlock) / sizeof(glm::vec4) * plan.fields().size();
     texels_.clear();
     for (const FieldBlock& field : plan.fields()) {
@@ -39,7 +38,10 @@ ResourceId FieldTexelPass::addTo(FrameGraph& graph, ResourceId list, size_t coun
     ResourceId written;
     graph.addPass("field texels", [&](FrameGraph::Builder& builder) {
         builder.read(list);
-        written = builder.write(texture);
+        written = builder.write(texture.valid()
+                                    ? texture
+                                    : builder.create({"texels of a list", kFieldColumns,
+                                                      rowsOfTexels(count, kFieldColumns), Format::RGBA32F}));
         return [list, count, written](Backend& backend) {
             const BufferBinding buffers[] = {{0, list}};
             const ImageBinding images[] = {{0, written}};

@@ -10,6 +10,7 @@ namespace fx::render {
 
 constexpr int kFieldColumns = 1024; ///< texels in a row; also in shaders/field/field_blocks.glsl
 constexpr int kTableColumns = 1024; ///< of the table of bricks; also in the shader
+constexpr size_t kDetailTexels = sizeof(FieldDetailBlock) / sizeof(glm::vec4); ///< also in the shaders
 constexpr uint32_t kFieldTexelUnit = 11, kBrickTableUnit = 12; ///< texture units; also in the shader
 
 /// Rows of a texture that holds so many texels, a power of two so that it is seldom made anew.
@@ -36,7 +37,8 @@ private:
 
 extern const ProgramDesc kFieldTexelProgram;
 
-/// reads   list     buffer of vec4 writes  texture  RGBA32F of kFieldColumns
+/// reads   list     buffer of vec4
+/// writes  texture  RGBA32F of kFieldColumns; invalid: a new one
 class FieldTexelPass
 {
 public:

@@ -76,8 +76,8 @@ void FrameBuilder::shade(const ViewSettings& settings, const CameraGeometry& cam
         for (size_t i = run.visibleBegin; i < run.visibleEnd; ++i) {
             shade(gathered_[i], instances_[run.instance], exposure, camera);
             if (shaded_.size() > materials_.size())
-                materials_.push_back(
-                    {{glm::vec4(gathered_[i].carried[0], 0.0f), glm::vec4(gathered_[i].carried[1], 0.0f)}});
+                materials_.push_back({{glm::vec4(gathered_[i].carried[0], float(run.detail + 1)),
+                                       glm::vec4(gathered_[i].carried[1], 0.0f)}});
         }
         if (shaded_.size() > begin)
             addEffect(run, begin);

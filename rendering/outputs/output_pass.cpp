@@ -49,7 +49,7 @@ std::span<const ProgramDesc* const> outputPrograms()
     static const auto all = [] {
         constexpr size_t kOwn = 5, kShapes = size_t(BatchShape::Count);
         std::array<const ProgramDesc*, kOwn + 2 * kShapes> list{&kOutputWholeProgram, &kOutputMediaProgram,
-                                                                &kSlabCardsProgram, &kSlabBallsProgram,
+                                                                &kSlabCardsProgram, &slabBallsProgram(false),
                                                                 &kSlabTilesProgram};
         for (size_t i = 0; i < kShapes; ++i) {
             list[kOwn + i] = &markedCardProgram(BatchShape(i));

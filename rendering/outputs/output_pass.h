@@ -13,7 +13,8 @@ namespace fx::render {
 inline constexpr ProgramDesc kOutputWholeProgram{"outputs (nothing)", "shared/fullscreen.vert.glsl",
                                                  "outputs/outputs.frag.glsl", nullptr, "FX_MEDIA=0"};
 inline constexpr ProgramDesc kOutputMediaProgram{"outputs", "outputs/outputs.vert.glsl",
-                                                 "outputs/outputs.frag.glsl", nullptr, "FX_MEDIA=1"};
+                                                 "outputs/outputs.frag.glsl", nullptr,
+                                                 "FX_MEDIA=1 FX_FIELD_DETAIL=0"};
 /// All programs that outputs need; nothing else compiles them.
 std::span<const ProgramDesc* const> outputPrograms();
 

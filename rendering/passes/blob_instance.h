@@ -26,7 +26,8 @@ static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
 /// Noise coordinates of a ball, for the detail of its field.
 struct BlobMaterial
 {
-    glm::vec4 carried[2]; ///< xyz [cell] coordinates of both generations
+    glm::vec4 carried[2]; ///< xyz [cell] coordinates of both generations; w of the first: number of the
+                          ///< detail of the ball's effect + 1, or 0
 };
 static_assert(sizeof(BlobMaterial) == 32);
 

@@ -14,6 +14,8 @@ struct FieldDetail
 layout(binding = 10) uniform sampler3D lumpTile;
 
 const float kLumpCells = 8.0;
+const int kDetailTexels = 10; // of FieldDetail
+const int kErosionTexel = 6;  // of them
 
 // first: texel of field/field_blocks.glsl
 FieldDetail fieldDetail(int first)
@@ -21,7 +23,7 @@ FieldDetail fieldDetail(int first)
     FieldDetail d;
     for (int i = 0; i < 6; ++i)
         d.rows[i] = fieldTexel(first + i);
-    d.erosion = fieldTexel(first + 6);
+    d.erosion = fieldTexel(first + kErosionTexel);
     d.noise = fieldTexel(first + 7);
     d.lumps = fieldTexel(first + 8);
     d.soft = fieldTexel(first + 9);

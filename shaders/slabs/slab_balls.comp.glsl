@@ -1,6 +1,16 @@
 #include "shared/view_block.glsl"
 #include "shared/blob_instance.glsl"
 #include "slabs/slab_balls.glsl"
+#if FX_FIELD_DETAIL
+#include "formulas/kernel_optical_depth.fx.h"
+#include "field/field_blocks.glsl"
+#include "field/field_detail.glsl"
+struct BlobMaterial
+{
+    vec4 carried[2]; // as BlobMaterial of rendering/passes/blob_instance.h
+};
+layout(std430, binding = 4) readonly buffer Materials { BlobMaterial materials[]; };
+#endif
 
 // Balls to texels, with what of them is the same along all rays.
 layout(local_size_x = 64) in;
@@ -21,6 +31,16 @@ void main()
     if (rayOrigin.w < 0.5) // one sample of the detail stands for a whole path: from inside it would darken all at once
         detail *= smoothstep(0.3, 1.3, away / blob.centerRadius.w);
     float depth = 1.11408460164327 * (isThere ? max(blob.medium.x, 0.0) : 0.0) / (radius * radius); // kernel-optical-depth (3)
+#if FX_FIELD_DETAIL
+    vec4 carried0 = materials[ball].carried[0];
+    float texel = carried0.w > 0.5 ? float(kDetailTexels) * (carried0.w - 1.0) : -1.0;
+    vec3 erosion = fieldTexel(int(max(texel, 0.0)) + kErosionTexel).xyz;
+    float lumpDepth = fxKernelPeak(isThere ? max(blob.medium.x, 0.0) : 0.0, radius) * erosion.x;
+    float thinning = texel < 0.0 ? 0.0 : fxDetailThinning(lumpDepth, erosion.y, erosion.z);
+    detail = texel < 0.0 ? detail : 0.0; // of the field instead
+    imageStore(balls, ballTexel(ball, kCarried0), vec4(carried0.xyz, texel + 1.0));
+    imageStore(balls, ballTexel(ball, kCarried1), vec4(materials[ball].carried[1].xyz, thinning));
+#endif
     imageStore(balls, ballTexel(ball, kPlace), vec4(isThere ? blob.centerRadius.xyz : vec3(0.0), radius));
     imageStore(balls, ballTexel(ball, kMedium), vec4(depth, blob.centerRadius.w, blob.layer.x, detail));
     imageStore(balls, ballTexel(ball, kEmitted), blob.emission);

@@ -1,7 +1,7 @@
 // Balls of medium as texels, which software renderers read several times faster than buffers. A ball has kBallTexels of them,
 // one below the other; kBallColumns balls stand in a row. Written by slabs/slab_balls.comp.glsl.
 const int kBallColumns = 1024;
-const int kBallTexels = 7;
+const int kBallTexels = 9;
 const int kPlace = 0;   // xyz [m] center relative to the eye; w radius [m], of what is no smaller than a texel
 const int kMedium = 1;  // x optical depth of the chord through the middle; y radius [m]; z layer * 2 + share of fire; w detail [1]
 const int kEmitted = 2; // rgb [exposed]; w power of temperature by which it follows the detail
@@ -9,6 +9,9 @@ const int kScatter = 3; // rgb albedo; w mean cosine of the phase function
 const int kLight = 4;   // rgb light that changes little within the ball [exposed]
 const int kSlope = 5;   // xyz relative change of it [1/m]
 const int kDetail = 6;  // x seed [0, 1); y noise periods across the radius
+// Only where fields have detail:
+const int kCarried0 = 7; // xyz [cell] coordinates of the first generation; w first texel of the detail of the field + 1, or 0
+const int kCarried1 = 8; // xyz of the second; w thinning of the ball by itself
 
 ivec2 ballTexel(uint ball, int texel)
 {

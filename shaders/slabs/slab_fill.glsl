@@ -1,6 +1,7 @@
 // Adds balls and cards to the sums of neighboring slabs of a ray, kGroup at a time. Needs shared/light_slices.glsl,
 // formulas/kernel_moment.fx.h, formulas/henyey_greenstein.fx.h, slabs/slab_sums.glsl and slabs/slab_window.glsl.
-// FX_BALL_DETAIL 1: some balls have procedural detail.
+// FX_BALL_DETAIL 1: some balls have procedural detail. FX_FIELD_DETAIL 1: some belong to fields with detail; needs
+// slabs/slab_detail.glsl.
 
 // What a ball sends along a ray, where it is thin.
 struct BallLight
@@ -110,6 +111,13 @@ void addDetail(SlabRay ray, uint ball, vec4 medium, inout Chord chord, inout Bal
 }
 #endif
 
+#if FX_FIELD_DETAIL
+#include "slabs/slab_detail.glsl"
+const int kAfterBalls = 1; // turns of a loop over balls
+#else
+const int kAfterBalls = 0;
+#endif
+
 // @param edges kGroup + 1, of the slabs [m], which do not fall; behind: optical depth from the last edge to `end`
 void addLoose(SlabRay ray, float edges[kGroup + 1], float end, inout SlabSums sums[kGroup], out float behind)
 {
@@ -117,10 +125,33 @@ void addLoose(SlabRay ray, float edges[kGroup + 1], float end, inout SlabSums su
     float sun[kGroup + 1];
     for (int k = 0; k <= kGroup; ++k)
         sun[k] = sunAt(ray, edges[k]);
-    for (int i = 0; i < tileList.y; ++i) {
+#if FX_FIELD_DETAIL
+    DetailedSlab detailed[kGroup]; // of the balls of one field, which come one after the other
+    for (int k = 0; k < kGroup; ++k)
+        detailed[k] = emptyDetailedSlab();
+    float texel = 0.0; // of its detail, as in kCarried0
+#endif
+    for (int i = 0; i < tileList.y + kAfterBalls; ++i) {
         uint ball = ballOfTile(i);
         vec4 medium = texelFetch(balls, ballTexel(ball, kMedium), 0);
         Chord chord = chordOf(ray, texelFetch(balls, ballTexel(ball, kPlace), 0), medium);
+#if FX_FIELD_DETAIL
+        bool isEnd = i == tileList.y; // one more turn, for the last field
+        bool isMet = chord.depth > 0.0 && chord.tc - chord.w < edges[kGroup] && chord.tc + chord.w > edges[0];
+        if (!isMet && !isEnd) { // most balls are in few slabs
+            behind += chord.depth * (fxKernelPassed(placeOn(chord, end)) - fxKernelPassed(placeOn(chord, edges[kGroup])));
+            continue;
+        }
+        vec4 carried0 = texelFetch(balls, ballTexel(ball, kCarried0), 0);
+        float next = isEnd ? 0.0 : carried0.w;
+        if (next != texel && texel > 0.5)
+            addEroded(ray, edges, int(texel) - 1, detailed, sums);
+        texel = next;
+        if (isEnd)
+            break;
+        vec4 carried1 = texelFetch(balls, ballTexel(ball, kCarried1), 0);
+        float power = texelFetch(balls, ballTexel(ball, kEmitted), 0).w;
+#endif
         BallLight light = lightOf(ray, chord, ball);
 #if FX_BALL_DETAIL
         addDetail(ray, ball, medium, chord, light);
@@ -139,6 +170,11 @@ void addLoose(SlabRay ray, float edges[kGroup + 1], float end, inout SlabSums su
             float along = clamp(middle - chord.tc, -chord.w, chord.w);
             vec3 scattered = light.smoothly * max(light.base + light.slope * along, 0.0) +
                              light.sun * (0.5 * (sun[k] + sun[k + 1]));
+#if FX_FIELD_DETAIL
+            if (texel > 0.5)
+                addDetailedBall(detailed[k], light, medium.z, depth, moment, scattered, carried0.xyz, carried1, power);
+            else
+#endif
             addBall(sums[k], light, medium.z, depth, moment, scattered);
         }
         behind += chord.depth * (fxKernelPassed(placeOn(chord, end)) - passed);

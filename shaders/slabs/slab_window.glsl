@@ -5,7 +5,11 @@ layout(binding = 9) uniform usampler2D lists;
 flat in ivec2 tileList; // first entry and entries
 
 const float kMinDepth = 0.002; // [1] before the window
+#if FX_FIELD_DETAIL
+const float kMaxDepth = 36.0;   // [1] up to its end: there are gaps in what is eroded
+#else
 const float kMaxDepth = 9.0;    // [1] up to its end: glow behind it may be a thousand times as bright as what hides it
+#endif
 const int kBins = 8;             // of each of the two passes that find it
 
 // The first of the cards of the texel. pass.y: 1 when there are cards

@@ -10,10 +10,14 @@
 #include "slabs/slab_ray.glsl"
 #include "slabs/slab_sums.glsl"
 #include "slabs/slab_window.glsl"
+#if FX_FIELD_DETAIL
+#include "field/field_blocks.glsl"
+#include "field/field_detail.glsl"
+#endif
 
 // All media along one ray, summed up in FX_SLABS slabs and put together front to back, premultiplied. kGroup slabs are filled
 // at a time: fewer take fewer registers, but each group reads all balls again.
-#if FX_LAYERS && !FX_BALL_DETAIL
+#if FX_FIELD_DETAIL || FX_LAYERS && !FX_BALL_DETAIL
 const int kGroup = FX_SLABS == 6 ? 3 : 4;
 #else
 const int kGroup = FX_SLABS;
@@ -33,7 +37,12 @@ void main()
 
     SlabPicture picture = emptyPicture();
     float behind = 0.0; // [1] optical depth behind the window: it hides, and its light is not seen
-    for (int first = 0; first < FX_SLABS && picture.through > kMinTransmittance; first += kGroup) {
+#if FX_FIELD_DETAIL
+    int slabs = tileList.y >= 0 ? FX_SLABS : 0; // not unrolled
+#else
+    const int slabs = FX_SLABS;
+#endif
+    for (int first = 0; first < slabs && picture.through > kMinTransmittance; first += kGroup) {
         float edges[kGroup + 1];
         for (int k = 0; k <= kGroup; ++k) {
             int edge = first + k;

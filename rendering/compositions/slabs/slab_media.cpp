@@ -64,17 +64,20 @@ uint64_t SlabMedia::cardCapacity(const MediaPass::Inputs& in) const
 }
 
 SlabMedia::Lists SlabMedia::list(FrameGraph& graph, const MediaPass::Inputs& in, ResourceId fieldTiles,
-                                 bool marks)
+                                 bool marks, const BallDetails& details)
 {
     const BallList balls = ballSource_ ? *ballSource_->balls() : BallList();
     const uint64_t entries = findTiles(balls.instances, in.view, rects_);
     capacity_ = cardCapacity(in);
     Lists out{};
-    out.detail = balls.detail;
+    out.fieldDetail = SlabDetailPass::addTo(graph, balls.instances.empty() ? BallDetails() : details);
+    out.detail = out.fieldDetail.texels.valid() ? SlabDetail::OfFields
+                 : balls.detail                 ? SlabDetail::OfBalls
+                                                : SlabDetail::None;
     out.cards = SlabCardPass::addTo(graph, {cards_, &in, capacity_, marks});
     out.tiles = SlabTilePass::addTo(
         graph, {rects_, entries, in.width, in.height, in.view.rayOriginY.w, out.cards, fieldTiles});
-    out.balls = SlabBallPass::addTo(graph, balls, in.view);
+    out.balls = SlabBallPass::addTo(graph, balls, out.fieldDetail, in.view);
     if (counts_) {
         tiles_ = out.tiles.tiles;
         heads_ = out.cards.heads;

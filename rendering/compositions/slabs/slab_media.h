@@ -31,18 +31,19 @@ public:
     {
         SlabTilePass::Outputs tiles;
         ResourceId balls; ///< as texels; invalid: none
-        bool detail;      ///< some of them have procedural detail, and it is drawn
+        SlabDetail detail;
+        SlabDetailPass::Outputs fieldDetail;
         CardLists cards;
 
         SlabPass::Inputs inSlabs(const MediaPass::Inputs& media, int slabs) const
         {
-            return {&media, balls, detail, tiles, cards, slabs};
+            return {&media, balls, detail, fieldDetail, tiles, cards, slabs};
         }
     };
     /// Adds the passes that list balls and cards. A frame calls it once or twice.
     /// @param fieldTiles as SlabTilePass  @param marks cards are gathered with what outputs need
     [[nodiscard]] Lists list(FrameGraph& graph, const MediaPass::Inputs& in, ResourceId fieldTiles = {},
-                             bool marks = false);
+                             bool marks = false, const BallDetails& details = {});
 
     void forget() { tiles_ = heads_ = {}; }
     void readBack(const GlBackend& backend, FrameStatistics& statistics);

@@ -1,5 +1,6 @@
 #include "rendering/compositions/slabs/slab_passes.h"
 
+#include "rendering/field/field_texels.h"
 #include "rendering/passes/blob_light_pass.h"
 #include "rendering/passes/output_marks.h"
 
@@ -15,18 +16,33 @@ constexpr ProgramDesc program(const char* defines)
     return {"slabs", "slabs/slabs.vert.glsl", "slabs/slabs.frag.glsl", nullptr, defines};
 }
 
-// index = (16 slabs) * 4 + detail * 2 + layers
+// index = (16 slabs) * 6 + SlabDetail * 2 + layers
 constexpr ProgramDesc kPrograms[kSlabPrograms] = {
-    program("FX_SLABS=6 FX_BALL_DETAIL=0 FX_LAYERS=0"),  program("FX_SLABS=6 FX_BALL_DETAIL=0 FX_LAYERS=1"),
-    program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_LAYERS=0"),  program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_LAYERS=1"),
-    program("FX_SLABS=16 FX_BALL_DETAIL=0 FX_LAYERS=0"), program("FX_SLABS=16 FX_BALL_DETAIL=0 FX_LAYERS=1"),
-    program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_LAYERS=0"), program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_LAYERS=1"),
+    program("FX_SLABS=6 FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=0"),
+    program("FX_SLABS=6 FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=1"),
+    program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=0"),
+    program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=1"),
+    program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=0"),
+    program("FX_SLABS=6 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=1"),
+    program("FX_SLABS=16 FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=0"),
+    program("FX_SLABS=16 FX_BALL_DETAIL=0 FX_FIELD_DETAIL=0 FX_LAYERS=1"),
+    program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=0"),
+    program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=0 FX_LAYERS=1"),
+    program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=0"),
+    program("FX_SLABS=16 FX_BALL_DETAIL=1 FX_FIELD_DETAIL=1 FX_LAYERS=1"),
 };
 
+constexpr ProgramDesc kBallPrograms[] = {
+    {"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl", "FX_FIELD_DETAIL=0"},
+    {"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl", "FX_FIELD_DETAIL=1"},
+};
+
+constexpr uint32_t kLumpUnit = 10;       ///< as in shaders/field/field_detail.glsl
+constexpr uint32_t kMaterialBinding = 4; ///< as in shaders/slabs/slab_balls.comp.glsl
 constexpr size_t kCardBytes = 32;
 constexpr size_t kTileBytes = 16;
 constexpr uint32_t kBallColumns = 1024; ///< as in shaders/slabs/slab_balls.glsl
-constexpr int kBallTexels = 7;          ///< likewise
+constexpr int kBallTexels = 9;          ///< likewise
 constexpr uint32_t kListColumns = 4096; ///< likewise
 
 int tilesAlong(int texels)
@@ -46,9 +62,14 @@ ResourceId makeBuffer(FrameGraph::Builder& builder, std::string_view name, size_
 
 } // namespace
 
-const ProgramDesc& slabProgram(int slabs, bool detail, bool layers)
+const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers)
 {
-    return kPrograms[(slabs > 6 ? 4 : 0) + (detail ? 2 : 0) + (layers ? 1 : 0)];
+    return kPrograms[(slabs > 6 ? 6 : 0) + 2 * size_t(detail) + (layers ? 1 : 0)];
+}
+
+const ProgramDesc& slabBallsProgram(bool detail)
+{
+    return kBallPrograms[detail ? 1 : 0];
 }
 
 const ProgramDesc& slabProgramAt(size_t index)
@@ -93,7 +114,26 @@ CardLists SlabCardPass::addTo(FrameGraph& graph, const Inputs& in)
     return cards;
 }
 
-ResourceId SlabBallPass::addTo(FrameGraph& graph, const BallList& list, const ViewBlock& view)
+SlabDetailPass::Outputs SlabDetailPass::addTo(FrameGraph& graph, const BallDetails& in)
+{
+    if (in.materials.empty())
+        return {};
+    Outputs out{{}, {}, in.lumpTile};
+    ResourceId list;
+    graph.addPass("slab detail upload", [&](FrameGraph::Builder& builder) {
+        list = makeBuffer(builder, "slab details", in.details.size_bytes());
+        out.materials = makeBuffer(builder, "slab materials", in.materials.size_bytes());
+        return [list, in, materials = out.materials](Backend& backend) {
+            backend.upload(list, std::as_bytes(in.details));
+            backend.upload(materials, std::as_bytes(in.materials));
+        };
+    });
+    out.texels = FieldTexelPass::addTo(graph, list, in.details.size() * kDetailTexels, {});
+    return out;
+}
+
+ResourceId SlabBallPass::addTo(FrameGraph& graph, const BallList& list, const SlabDetailPass::Outputs& detail,
+                               const ViewBlock& view)
 {
     ResourceId texture;
     if (list.instances.empty())
@@ -101,6 +141,9 @@ ResourceId SlabBallPass::addTo(FrameGraph& graph, const BallList& list, const Vi
     graph.addPass("slab balls", [&](FrameGraph::Builder& builder) {
         builder.read(list.balls);
         builder.read(list.lights);
+        for (const ResourceId id : {detail.texels, detail.materials})
+            if (id.valid())
+                builder.read(id);
         const uint32_t count = uint32_t(list.instances.size());
         const int rows = int(std::bit_ceil((count + kBallColumns - 1) / kBallColumns)) * kBallTexels;
         texture =
@@ -108,12 +151,16 @@ ResourceId SlabBallPass::addTo(FrameGraph& graph, const BallList& list, const Vi
         ViewBlock block = view;
         block.pass.y = float(count); // exact up to 2^24
         block.pass.z = float(kBlobLightBytes / sizeof(glm::vec4));
-        return [block, texture, count, given = list.balls, lights = list.lights](Backend& backend) {
-            const BufferBinding buffers[] = {{0, given}, {kBlobLightBinding, lights}};
+        return [block, texture, count, detail, given = list.balls, lights = list.lights](Backend& backend) {
+            const bool hasDetail = detail.texels.valid();
+            const BufferBinding buffers[] = {
+                {0, given}, {kBlobLightBinding, lights}, {kMaterialBinding, detail.materials}};
             const ImageBinding images[] = {{0, texture}};
+            const TextureBinding textures[] = {{kFieldTexelUnit, detail.texels}};
             DispatchCall call;
-            call.program = &kSlabBallsProgram;
-            call.buffers = buffers;
+            call.program = &slabBallsProgram(hasDetail);
+            call.buffers = std::span(buffers).first(hasDetail ? 3 : 2);
+            call.textures = std::span(textures).first(hasDetail ? 1 : 0);
             call.images = images;
             call.uniforms = asUniforms(block);
             call.groups[0] = (count + 63) / 64;
@@ -180,7 +227,8 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
     MediaPass::Outputs out = under;
     graph.addPass("slabs", [&](FrameGraph::Builder& builder) {
         const MediaPass::Inputs& media = *in.media;
-        for (const ResourceId id : {in.balls, in.cards.heads, in.cards.nodes})
+        for (const ResourceId id :
+             {in.balls, in.cards.heads, in.cards.nodes, in.fieldDetail.texels, in.fieldDetail.lumpTile})
             if (id.valid())
                 builder.read(id);
         builder.read(in.tiles.tiles);
@@ -190,12 +238,12 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
         const MediaTargets targets(builder, media, under);
         out = targets.outputs();
         return [view = media.view, distance = media.distance, lights = media.lights, balls = in.balls,
-                cards = in.cards, tiles = in.tiles, program = &slabProgram(in.slabs, in.detail, media.layers),
-                targets](Backend& backend) {
+                cards = in.cards, tiles = in.tiles, detail = in.fieldDetail,
+                program = &slabProgram(in.slabs, in.detail, media.layers), targets](Backend& backend) {
             targets.clear(backend);
             ViewBlock block = view;
             block.pass.y = cards.valid() ? 1.0f : 0.0f;
-            TextureBinding textures[5] = {{0, distance}, {9, tiles.lists}};
+            TextureBinding textures[7] = {{0, distance}, {9, tiles.lists}};
             size_t textureCount = 2;
             if (balls.valid())
                 textures[textureCount++] = {8, balls};
@@ -203,6 +251,10 @@ MediaPass::Outputs SlabPass::addTo(FrameGraph& graph, const Inputs& in, const Me
                 textures[textureCount++] = lights.textureBinding();
             if (lights.hostShadow.valid())
                 textures[textureCount++] = lights.hostShadowBinding();
+            if (detail.texels.valid()) {
+                textures[textureCount++] = {kFieldTexelUnit, detail.texels};
+                textures[textureCount++] = {kLumpUnit, detail.lumpTile, Sampling::LinearRepeat};
+            }
             const auto orTiles = [&](ResourceId id) { return id.valid() ? id : tiles.tiles; }; // never read
             BufferBinding buffers[4] = {{2, tiles.tiles},
                                         {kCardHeadBinding, orTiles(cards.heads)},

@@ -3,19 +3,28 @@
 #pragma once
 
 #include "rendering/compositions/slabs/slab_tiles.h"
+#include "rendering/field/field_blocks.h"
 #include "rendering/passes/media_pass.h"
 
 namespace fx::render {
 
-constexpr size_t kSlabPrograms = 2 * 2 * 2;
+/// Detail that slabs draw.
+enum class SlabDetail : uint8_t
+{
+    None,
+    OfBalls,  ///< noise of each ball by itself
+    OfFields, ///< and of fields
+};
+
+constexpr size_t kSlabPrograms = 2 * 3 * 2;
 /// @param slabs 6 or 16
-const ProgramDesc& slabProgram(int slabs, bool detail, bool layers);
+const ProgramDesc& slabProgram(int slabs, SlabDetail detail, bool layers);
 const ProgramDesc& slabProgramAt(size_t index);
 
 inline constexpr ProgramDesc kSlabCardsProgram{"slab cards", nullptr, nullptr, "slabs/slab_cards.comp.glsl",
                                                nullptr};
-inline constexpr ProgramDesc kSlabBallsProgram{"slab balls", nullptr, nullptr, "slabs/slab_balls.comp.glsl",
-                                               nullptr};
+/// @param detail of fields
+const ProgramDesc& slabBallsProgram(bool detail);
 inline constexpr ProgramDesc kSlabTilesProgram{"slab tiles", nullptr, nullptr, "slabs/slab_tiles.comp.glsl",
                                                nullptr};
 
@@ -40,14 +49,38 @@ public:
     [[nodiscard]] static CardLists addTo(FrameGraph& graph, const Inputs& in);
 };
 
+/// Detail of the fields that balls belong to; both lists must stay until the graph has executed.
+struct BallDetails
+{
+    std::span<const BlobMaterial> materials{}; ///< one a ball; empty: no field has detail
+    std::span<const FieldDetailBlock> details{};
+    ResourceId lumpTile{}; ///< of LumpTileTexture
+};
+
+/// Details of fields as texels, and what balls have of them.
+///
+/// writes  texels     RGBA32F of kFieldColumns, layout of shaders/field/field_detail.glsl
+///         materials  buffer of BlobMaterial
+class SlabDetailPass
+{
+public:
+    struct Outputs
+    {
+        ResourceId texels, materials, lumpTile; ///< invalid: no field has detail
+    };
+    [[nodiscard]] static Outputs addTo(FrameGraph& graph, const BallDetails& in);
+};
+
 /// Balls and their lights as texels.
 ///
-/// reads   list     balls, and what BlobLightPass has written for them writes  texture  RGBA32F, layout of
-/// shaders/slabs/slab_balls.glsl; invalid without balls
+/// reads   list     balls, and what BlobLightPass has written for them
+///         detail   of the fields that they belong to
+/// writes  texture  RGBA32F, layout of shaders/slabs/slab_balls.glsl; invalid without balls
 class SlabBallPass
 {
 public:
-    [[nodiscard]] static ResourceId addTo(FrameGraph& graph, const BallList& list, const ViewBlock& view);
+    [[nodiscard]] static ResourceId addTo(FrameGraph& graph, const BallList& list,
+                                          const SlabDetailPass::Outputs& detail, const ViewBlock& view);
 };
 
 /// Lists the balls of each tile of 16 x 16 texels, in their order, and the tiles that show something.
@@ -88,8 +121,8 @@ static_assert(sizeof(SlabTileCounts) == 32);
 ///
 /// reads   what SlabBallPass, SlabTilePass and SlabCardPass have written
 ///         distance  [m] along the ray to opaque geometry
-/// writes  media     as the media pass, drawn over `under` Tiles without balls and cards cost nothing. Keeps
-/// no state.
+/// writes  media     as the media pass, drawn over `under`
+/// Tiles without balls and cards cost nothing. Keeps no state.
 class SlabPass
 {
 public:
@@ -97,7 +130,8 @@ public:
     {
         const MediaPass::Inputs* media;
         ResourceId balls; ///< invalid without any
-        bool detail;      ///< some of them have procedural detail, and it is drawn
+        SlabDetail detail;
+        SlabDetailPass::Outputs fieldDetail;
         SlabTilePass::Outputs tiles;
         CardLists cards;
         int slabs; ///< 6 or 16

@@ -2,6 +2,7 @@
 /// State of a view whose media are drawn in slabs.
 #pragma once
 
+#include "rendering/compositions/detail_resources.h"
 #include "rendering/compositions/media_composition.h"
 #include "rendering/compositions/slabs/slab_media.h"
 
@@ -10,22 +11,32 @@ namespace fx::render {
 class SlabView final : public CompositionView
 {
 public:
-    explicit SlabView(const TechniqueSetup& setup) : media_(setup) {}
+    explicit SlabView(const TechniqueSetup& setup)
+        : device_(*setup.device), media_(setup), details_(setup.memory)
+    {}
 
     base::Status gather(const GatherInputs& in, GatheredFrame& io) override;
     bool hasMedia() const override { return !media_.isEmpty(); }
     void addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame) override;
     [[nodiscard]] MediaPass::Outputs compose(FrameGraph& graph, const MediaPass::Inputs& in,
                                              const MediaPass::Outputs& under) override;
-    void forget() override { media_.forget(); }
-    void rest() override { media_.forget(); }
+    void forget() override;
+    void endFrame(bool succeeded) override;
+    void rest() override;
+    uint64_t bytes() const override { return lumpTile_.bytes(); }
     void readBack(const GlBackend& backend, FrameStatistics& statistics) override
     {
         media_.readBack(backend, statistics);
     }
 
 private:
+    GlDevice& device_;
     SlabMedia media_;
+    std::pmr::vector<FieldDetailBlock> details_; ///< of the frame
+    std::span<const BlobMaterial> materials_;    ///< likewise; empty without details_
+    LumpTileTexture lumpTile_;                   ///< nothing before detail is seen
+    ResourceId lumps_;                           ///< of the frame
+    uint32_t unused_ = 0;                        ///< frames without detail, one after the other
     int slabs_ = 16;
 };
 

@@ -19,9 +19,9 @@ std::span<const ProgramDesc* const> programs()
     static const auto all = [] {
         const std::span<const ProgramDesc* const> ofSlabs = kSlabComposition.programs(); // the loose
         std::vector<const ProgramDesc*> list(ofSlabs.begin(), ofSlabs.end());
-        list.insert(list.end(), {&kLumpTileProgram, &kFieldSlicesProgram, &kFieldTexelProgram,
-                                 &kGlowSourceAgainProgram, &kGlowRaysProgram, &glowSourceProgram(false),
-                                 &glowSourceProgram(true), &glowSumProgram(false), &glowSumProgram(true)});
+        list.insert(list.end(), {&kFieldSlicesProgram, &kGlowSourceAgainProgram, &kGlowRaysProgram,
+                                 &glowSourceProgram(false), &glowSourceProgram(true), &glowSumProgram(false),
+                                 &glowSumProgram(true)});
         for (const bool detail : {false, true})
             for (const bool layers : {false, true})
                 for (const ProgramDesc* program :

@@ -20,26 +20,6 @@ constexpr std::string_view kTextureNames[] = {"field medium",     "field scatter
                                               "field material 0", "field material 1", "field change"};
 
 constexpr int kCoarseVoxels = 96; ///< fields of fewer voxels have kCoarseOctaves of detail
-constexpr int kCoarseOctaves = 3;
-
-/// What the GPU gets of the detail of a group.
-FieldDetailBlock blockOf(const GroupDetail& detail, int octaves)
-{
-    const FieldDetailNumbers& numbers = detail.numbers;
-    FieldDetailBlock block;
-    for (int g = 0; g < 2; ++g)
-        for (int row = 0; row < 3; ++row)
-            block.rows[3 * g + row] = {detail.toCells[g][0][row], detail.toCells[g][1][row],
-                                       detail.toCells[g][2][row], detail.first[g][row]};
-    block.erosion = {numbers.length() * detail.scale, numbers.thinnest, numbers.densest, numbers.ramp};
-    block.noise = {numbers.gain, numbers.fade, numbers.cooling, numbers.glow};
-    const auto size = [&](size_t g) {
-        return detail.scale * numbers.generations[g].length / numbers.generations[g].growth;
-    };
-    block.lumps = {size(0), size(1), detail.factor, float(octaves)};
-    block.soft = {numbers.softening, 0.0f, 0.0f, 0.0f};
-    return block;
-}
 
 } // namespace
 
@@ -58,7 +38,7 @@ base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
     details_.clear();
     const int octaves = in.settings->voxels < kCoarseVoxels ? kCoarseOctaves : kMaxDetailOctaves;
     for (const GroupDetail& detail : io.details)
-        details_.push_back(blockOf(detail, octaves));
+        details_.push_back(detailBlock(detail, octaves));
     materials_ = details_.empty() ? std::span<const BlobMaterial>() : io.materials;
     blobs_ = details_.empty() ? std::span<const BlobInstance>() : io.blobs;
     plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0,
@@ -112,7 +92,7 @@ base::Status VolumeView::makeRoom(bool layers)
                             "field texels");
     if (status && !plan_.isEmpty())
         status = makeTexels(table_, plan_.table().size(), kTableColumns, Format::R32F, "field table");
-    return status && !details_.empty() ? makeLumpTile() : status;
+    return status && !details_.empty() ? lumpTile_.makeRoom(device_) : status;
 }
 
 base::Status VolumeView::makeTexels(GlTexture& io, size_t count, int columns, Format format, const char* name)
@@ -153,19 +133,6 @@ base::Status VolumeView::makeTexture(size_t i)
     return {};
 }
 
-base::Status VolumeView::makeLumpTile()
-{
-    if (lumpTile_.name() != 0)
-        return {};
-    auto created = GlTexture::createVolume(device_, kLumpTileTexels, kLumpTileTexels, kLumpTileTexels,
-                                           glInternalFormat(Format::R32F), "lump tile");
-    if (!created)
-        return created.status();
-    lumpTile_ = std::move(*created);
-    hasLumps_ = false;
-    return {};
-}
-
 void VolumeView::importAll(FrameGraph& graph, bool layers)
 {
     const auto sizes = lists();
@@ -190,14 +157,7 @@ void VolumeView::importAll(FrameGraph& graph, bool layers)
                        texture(5)};
     march_.fieldTexels = texels(texelTexture_, Format::RGBA32F, "field texels");
     glow_.importAll(graph, plan_.glows());
-    march_.lumpTile = {};
-    if (details_.empty())
-        return;
-    march_.lumpTile =
-        graph.importTexture({"lump tile", kLumpTileTexels, kLumpTileTexels, Format::R32F}, lumpTile_.name());
-    if (!hasLumps_)
-        march_.lumpTile = LumpTilePass::addTo(graph, march_.lumpTile);
-    hasLumps_ = true;
+    march_.lumpTile = details_.empty() ? ResourceId() : lumpTile_.addTo(graph);
 }
 
 void VolumeView::upload(FrameGraph& graph)
@@ -328,7 +288,7 @@ void VolumeView::addFields(FrameGraph& graph, PassFrame& frame)
 /// What the frame was to write once is not there.
 void VolumeView::forget()
 {
-    hasLumps_ = false;
+    lumpTile_.forget();
     corrected_ = 0;
     filledFor_ = nullptr;
     loose_.forget();
@@ -358,19 +318,19 @@ void VolumeView::release()
     textures_ = {};
     texelTexture_ = {};
     table_ = {};
-    lumpTile_ = {};
+    lumpTile_.release();
     glow_.release();
 }
 
 uint64_t VolumeView::bytes() const
 {
-    uint64_t sum = looseBuffer_.bytes() + looseLights_.bytes() + glow_.bytes();
+    uint64_t sum = looseBuffer_.bytes() + looseLights_.bytes() + glow_.bytes() + lumpTile_.bytes();
     for (const GlBuffer& buffer : buffers_)
         sum += buffer.bytes();
     const auto add = [&](const GlTexture& texture) { sum += texture.name() != 0 ? texture.bytes() : 0; };
     for (const GlTexture& texture : textures_)
         add(texture);
-    for (const GlTexture* texture : {&texelTexture_, &table_, &lumpTile_})
+    for (const GlTexture* texture : {&texelTexture_, &table_})
         add(*texture);
     return sum;
 }

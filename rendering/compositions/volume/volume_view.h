@@ -2,6 +2,7 @@
 /// State of a view whose balls of medium are drawn as voxel fields.
 #pragma once
 
+#include "rendering/compositions/detail_resources.h"
 #include "rendering/compositions/media_composition.h"
 #include "rendering/compositions/slabs/slab_media.h"
 #include "rendering/compositions/volume/volume_glow.h"
@@ -11,7 +12,6 @@
 #include "rendering/field/field_plan.h"
 #include "rendering/field/field_slices_pass.h"
 #include "rendering/field/field_texels.h"
-#include "rendering/field/lump_tile_pass.h"
 #include "rendering/gl/gl_buffer.h"
 #include "rendering/gl/gl_texture.h"
 #include "rendering/passes/blob_source.h"
@@ -64,7 +64,6 @@ private:
     bool isUsed(size_t texture, bool layers) const;
     base::Status makeTexture(size_t i);
     base::Status makeTexels(GlTexture& io, size_t count, int columns, Format format, const char* name);
-    base::Status makeLumpTile();
     void release();
     void importAll(FrameGraph& graph, bool layers);
     void upload(FrameGraph& graph);
@@ -85,8 +84,7 @@ private:
     bool layers_ = false;                   ///< the frame has layer outputs
     const FrameGraph* filledFor_ = nullptr; ///< textures hold fields before light, by passes of this graph
     GlTexture texelTexture_, table_;        ///< of FieldTexels, and of bricks
-    GlTexture lumpTile_;                    ///< nothing before detail is seen
-    bool hasLumps_ = false;                 ///< it is filled
+    LumpTileTexture lumpTile_;              ///< nothing before detail is seen
     SlabMedia loose_;                       ///< cards, and balls of `looseSource_`
     BlobSource looseSource_;                ///< of balls that are too small for voxels
     std::pmr::vector<BlobInstance> looseBlobs_;

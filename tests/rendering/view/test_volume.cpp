@@ -288,6 +288,36 @@ TEST_F(Volume, aMediumOfOneLuminanceShowsItWhateverItsDetail)
     EXPECT_GT(change, 0.1) << "the detail is seen";
 }
 
+TEST_F(Volume, slabsHaveTheDetailOfVoxels)
+{
+    std::vector<TestBlob> blobs = cloud(120, 0.45f, 0.8f);
+    for (TestBlob& blob : blobs)
+        blob.emission = 1.0f;
+    const Picture voxels = detailed(blobs, camera());
+    const auto apartFrom = [&](const Picture& picture) {
+        double squares = 0.0, worst = 0.0;
+        for (size_t i = 0; i < picture.texels.size(); i += 4) {
+            const double apart = double(picture.texels[i + 3] - voxels.texels[i + 3]);
+            squares += apart * apart;
+            worst = std::max(worst, double(std::abs(picture.texels[i] - picture.texels[i + 3])));
+        }
+        EXPECT_LT(worst, 5e-3) << "Kirchhoff: light is luminance times opacity";
+        return std::sqrt(squares / double(picture.texels.size() / 4));
+    };
+    view_->settings().composition = render::Composition::Slabs;
+    const double smooth = apartFrom(detailed(blobs, camera(), false));
+    for (const int slabs : {6, 16}) {
+        view_->settings().slabs = slabs;
+        const Picture picture = detailed(blobs, camera());
+        const double apart = apartFrom(picture);
+        EXPECT_LT(apart, (slabs == 6 ? 0.6 : 0.4) * smooth) << slabs << " slabs, of " << smooth;
+        std::vector<TestBlob> shuffled = blobs;
+        std::mt19937 random(3);
+        std::shuffle(shuffled.begin(), shuffled.end(), random);
+        EXPECT_LT(maxDifference(detailed(shuffled, camera()), picture), 1.0 / 1023.0);
+    }
+}
+
 TEST_F(Volume, detailInAParallelViewDoesNotDependOnTheDistance)
 {
     std::vector<TestBlob> blobs = cloud(120, 0.45f, 0.8f);
