@@ -131,11 +131,12 @@ TEST_F(KeptLists, otherContentIsNeverMistakenForTheSame)
 
 TEST_F(KeptLists, contentAtTheAddressOfAnotherSceneIsNew)
 {
+    const uint64_t before = sequence_;
     std::optional<base::FrameSnapshot> place(scene(1.0));
     const test::Picture first = show(*place);
-    const uint64_t sequence = sequence_;
+    const uint64_t sequence = place->sequence();
     place.reset(); // with its scene; the next scene begins to count anew
-    sequence_ = sequence - 1;
+    sequence_ = before;
     place.emplace(scene(1.0, 0.5f));
     ASSERT_EQ(place->sequence(), sequence);
     const test::Picture second = show(*place);
