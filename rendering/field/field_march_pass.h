@@ -46,6 +46,8 @@ public:
         ResourceId lumpTile = {}; ///< of LumpTilePass; invalid: no field has detail
         LooseMedia loose = {};
     };
+    /// Of SlabTilePass: each step of a ray reads all of them.
+    static constexpr uint32_t kMaxLooseOfTile = 256;
     [[nodiscard]] static MediaPass::Outputs addTo(FrameGraph& graph, const Inputs& in,
                                                   const MediaPass::Outputs& under);
 };

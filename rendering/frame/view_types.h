@@ -290,7 +290,7 @@ struct FrameStatistics
     uint64_t estimatedFragments = 0; ///< of the rectangles of blobs and particles, at the layers' scale
     int layerDivisor = 1;            ///< of this frame: that of the settings, or more to keep the budget
     uint64_t listedBalls = 0;  ///< in lists of tiles, one for each tile; with countOverdraw, as the next two
-    uint64_t spilledBalls = 0; ///< left out of them because they were full
+    uint64_t spilledBalls = 0; ///< not in them because they were full; others stand for them
     /// Fragments of sprites, ribbons and impostors that were left out because lists were full.
     uint64_t spilledCards = 0;
     Composition composition = Composition::Sorted;

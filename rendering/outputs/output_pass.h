@@ -94,6 +94,7 @@ public:
         const CameraView* camera;
         PastFrame past;
     };
+    static constexpr uint32_t kMaxOfTile = kMaxLoopTurns / 12; ///< of SlabTilePass
     [[nodiscard]] static OutputTextures addTo(FrameGraph& graph, const Inputs& in);
 };
 

@@ -36,7 +36,8 @@ OutputTextures OutputView::addTo(FrameGraph& graph, const PassFrame& frame, Reso
     const MediaPass::Inputs media{{}, frame.distance, frame.width, frame.height, frame.view, false};
     const SolidMarks marks =
         SolidMarkPass::addTo(graph, {solids, hostDistance, frame.width, frame.height, frame.view});
-    return OutputPass::addTo(graph, {frame.settings->outputs, media_.list(graph, media, {}, true),
+    return OutputPass::addTo(graph, {frame.settings->outputs,
+                                     media_.list(graph, media, {OutputPass::kMaxOfTile, {}, true}),
                                      markBuffer_, marks, frame.distance, frame.width, frame.height,
                                      frame.view, &frame.request->camera, past});
 }

@@ -17,6 +17,7 @@
 #include "formulas/detail_noise.fx.h"
 #include "formulas/henyey_greenstein.fx.h"
 #include "shared/card_nodes.glsl"
+#include "shared/unrolled.glsl"
 #include "shared/light_slices.glsl"
 #include "slabs/slab_balls.glsl"
 #include "slabs/slab_window.glsl"

@@ -6,6 +6,7 @@
 #include "outputs/output_block.glsl"
 #include "shared/view_block.glsl"
 #include "shared/card_nodes.glsl"
+#include "shared/unrolled.glsl"
 #include "shared/output_marks.glsl"
 #include "slabs/slab_balls.glsl"
 #include "slabs/slab_ray.glsl"
@@ -66,18 +67,17 @@ vec2 motionOf(SlabRay ray, float distance, vec3 velocity)
 void addName(inout Seen seen, uvec2 name, float share)
 {
     int found = -1, least = 0;
-    for (int k = 0; k < kNames; ++k) {
-        if (seen.names[k] == name && found < 0)
-            found = k;
-        if (seen.shares[k] < seen.shares[least])
-            least = k;
-    }
+    float leastShare = seen.shares[0];
+#define FX_FIND_NAME(k)                                     \
+    found = seen.names[k] == name && found < 0 ? k : found; \
+    least = seen.shares[k] < leastShare ? k : least;        \
+    leastShare = min(leastShare, seen.shares[k]);
+    FX_EACH_8(FX_FIND_NAME)
     int at = found >= 0 ? found : least;
-    for (int k = 0; k < kNames; ++k)
-        if (k == at) {
-            seen.names[k] = name;
-            seen.shares[k] += share;
-        }
+#define FX_ADD_SHARE(k)                                \
+    seen.names[k] = k == at ? name : seen.names[k];    \
+    seen.shares[k] += k == at ? share : 0.0;
+    FX_EACH_8(FX_ADD_SHARE)
 }
 
 void addSeen(inout Seen seen, SlabRay ray, float share, float distance, vec3 velocity, uvec2 name)
@@ -142,15 +142,17 @@ void findParts(SlabRay ray, vec2 range, vec2 window, out Parts parts, inout Seen
         Chord chord = chordOfTile(ray, i);
         float u = placeOn(chord, parts.edges[0]);
         float passed = fxKernelPassed(u), moved = fxKernelMoment(u);
-        for (int k = 0; k < kParts; ++k) {
-            u = placeOn(chord, parts.edges[k + 1]);
-            float nextPassed = fxKernelPassed(u), nextMoved = fxKernelMoment(u);
-            float own = chord.depth * (nextPassed - passed);
-            depth[k] += own;
-            moment[k] += (chord.tc - parts.edges[k]) * own + chord.w * chord.depth * (nextMoved - moved);
-            passed = nextPassed;
-            moved = nextMoved;
-        }
+        float nextPassed, nextMoved, own;
+#define FX_ADD_PART(k)                                                                            \
+    u = placeOn(chord, parts.edges[k + 1]);                                                       \
+    nextPassed = fxKernelPassed(u);                                                               \
+    nextMoved = fxKernelMoment(u);                                                                \
+    own = chord.depth * (nextPassed - passed);                                                    \
+    depth[k] += own;                                                                              \
+    moment[k] += (chord.tc - parts.edges[k]) * own + chord.w * chord.depth * (nextMoved - moved); \
+    passed = nextPassed;                                                                          \
+    moved = nextMoved;
+        FX_EACH_16(FX_ADD_PART)
     }
     for (uint card = ray.cards; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
         vec4 body = cardNodes[card - 1u].body;
@@ -201,13 +203,14 @@ void addMedia(SlabRay ray, Parts parts, inout Seen seen)
         uint ball = ballOfTile(i);
         Chord chord = chordOfTile(ray, i);
         float passed = fxKernelPassed(placeOn(chord, parts.edges[0]));
-        for (int k = 0; k < kParts; ++k) {
-            float next = fxKernelPassed(placeOn(chord, parts.edges[k + 1]));
-            own[k] = chord.depth * (next - passed);
-            passed = next;
-        }
-        float share = 0.0, moment = 0.0;
-        shareOf(parts, own, share, moment);
+        float share = 0.0, moment = 0.0, next, part;
+#define FX_ADD_SEEN(k)                                             \
+    next = fxKernelPassed(placeOn(chord, parts.edges[k + 1]));     \
+    part = parts.weight[k] * chord.depth * (next - passed);        \
+    share += part;                                                 \
+    moment += part * 0.5 * (parts.edges[k] + parts.edges[k + 1]);  \
+    passed = next;
+        FX_EACH_16(FX_ADD_SEEN)
         if (share > 0.0)
             addSeen(seen, ray, share, moment / share, blobMarks[ball].velocity.xyz, blobMarks[ball].instance.xy);
     }

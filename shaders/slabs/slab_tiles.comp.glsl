@@ -3,7 +3,8 @@
 #include "field/field_blocks.glsl"
 
 // Lists of balls, one for each tile of 16 x 16 texels, in the order of the balls; and the tiles that have a ball, a card or a
-// field, as a draw of one square each. A workgroup is a tile. Layouts are those of rendering/compositions/slabs/slab_passes.h.
+// field, as a draw of one square each. Where a tile has more balls than its list may have, those of the list are an even choice and
+// stand for all of them. A workgroup is a tile. Layouts are those of rendering/compositions/slabs/slab_passes.h.
 layout(local_size_x = 64) in;
 layout(std140, binding = 0) uniform TileBlock
 {
@@ -15,12 +16,21 @@ layout(std430, binding = 1) readonly buffer TileRects { uvec2 rects[]; }; // fir
 layout(std430, binding = 2) buffer SlabTiles
 {
     uint drawVertices, drawTiles, drawReserved[2]; // arguments of the draw
-    uint listed, spilled, slabReserved[2];         // entries of all lists, and what was left out
-    uvec4 tiles[];                                 // x number of the tile; y first entry of its list; z entries
+    uint listed, spilled, slabReserved[2];         // entries of all lists, and balls that are not in them
+    uvec4 tiles[];                                 // x number of the tile; y first entry of its list; z entries; w balls an entry (float)
 };
 layout(r32ui, binding = 0) uniform writeonly uimage2D lists; // numbers of balls
 
-shared uint total, first, entries, met[2];
+shared uint total, first, entries, share, met[2];
+
+// Place in the list of the ball that has `rank` balls of the tile before it. Where it is that of the next one too, the ball is left out.
+uint placeOf(uint rank)
+{
+    uint place = rank, unused;
+    if (entries < total)
+        umulExtended(rank, share, place, unused);
+    return place;
+}
 
 bool meets(int ball, uvec2 tile)
 {
@@ -63,6 +73,8 @@ void main()
     barrier();
     if (lane == 0) {
         entries = min(total, uint(counts.z));
+        share = uint(float(entries) / float(max(total, 1u)) * 4.29496e9); // of 2^32
+        entries = placeOf(total);
         first = entries > 0u ? atomicAdd(listed, entries) : 0u;
         if (entries < total)
             atomicAdd(spilled, total - entries);
@@ -72,11 +84,11 @@ void main()
         if (window.w > 0.5)
             isSeen = isSeen || hasFields(tile);
         if (isSeen)
-            tiles[atomicAdd(drawTiles, 1u)] = uvec4(number, first, entries, 0u);
+            tiles[atomicAdd(drawTiles, 1u)] = uvec4(number, first, entries, floatBitsToUint(float(total) / float(max(entries, 1u))));
     }
     barrier();
     uint before = 0u;
-    for (int batch = 0; batch < counts.x && before < entries; batch += 64) {
+    for (int batch = 0; batch < counts.x && before < total; batch += 64) {
         if (lane < 2)
             met[lane] = 0u;
         barrier();
@@ -87,8 +99,9 @@ void main()
         uint rank = before + uint(bitCount(met[lane >> 5] & ((1u << (lane & 31)) - 1u)));
         if (lane >= 32)
             rank += uint(bitCount(met[0]));
-        if (isMet && rank < entries)
-            imageStore(lists, listTexel(int(first + rank)), uvec4(batch + lane));
+        uint place = placeOf(rank);
+        if (isMet && place != placeOf(rank + 1u))
+            imageStore(lists, listTexel(int(first + place)), uvec4(batch + lane));
         before += uint(bitCount(met[0]) + bitCount(met[1]));
         barrier();
     }

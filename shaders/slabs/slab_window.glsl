@@ -1,8 +1,9 @@
-// What a ray meets, and which part of it matters. Needs shared/view_block.glsl, shared/card_nodes.glsl, slabs/slab_balls.glsl,
-// slabs/slab_ray.glsl and formulas/kernel_quantile.fx.h.
+// What a ray meets, and which part of it matters. Needs shared/view_block.glsl, shared/card_nodes.glsl, shared/unrolled.glsl,
+// slabs/slab_balls.glsl, slabs/slab_ray.glsl and formulas/kernel_quantile.fx.h.
 layout(binding = 8) uniform sampler2D balls;
 layout(binding = 9) uniform usampler2D lists;
-flat in ivec2 tileList; // first entry and entries
+flat in ivec2 tileList;    // first entry and entries
+flat in float tileWeight; // [1] balls of the tile over entries: each stands for as many
 
 const float kMinDepth = 0.002; // [1] before the window
 #if FX_FIELD_DETAIL
@@ -46,7 +47,7 @@ Chord chordOf(SlabRay ray, vec4 place, vec4 medium)
     float q = sqrt(q2);
     chord.w = place.w * max(q, 1e-6);
     chord.perHalf = 1.0 / chord.w;
-    chord.depth = medium.x * q2 * q2 * q;
+    chord.depth = tileWeight * medium.x * q2 * q2 * q;
     return chord;
 }
 
@@ -98,8 +99,9 @@ void passedIn(SlabRay ray, float start, vec2 range, out float passed[kBins + 1])
     for (int i = 0; i < tileList.y; ++i) {
         Chord chord = chordOfTile(ray, i);
         float begin = fxKernelPassed(placeOn(chord, start));
-        for (int k = 0; k <= kBins; ++k)
-            passed[k] += chord.depth * (fxKernelPassed(placeOn(chord, range.x + float(k) * width)) - begin);
+#define FX_ADD_BIN(k) passed[k] += chord.depth * (fxKernelPassed(placeOn(chord, range.x + float(k) * width)) - begin);
+        FX_EACH_8(FX_ADD_BIN)
+        FX_ADD_BIN(kBins)
     }
     for (uint card = ray.cards; card != 0u; card = floatBitsToUint(cardNodes[card - 1u].body.w)) {
         vec4 body = cardNodes[card - 1u].body;

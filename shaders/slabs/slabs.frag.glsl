@@ -5,6 +5,7 @@
 #include "formulas/slab_light.fx.h"
 #include "shared/view_block.glsl"
 #include "shared/card_nodes.glsl"
+#include "shared/unrolled.glsl"
 #include "shared/light_slices.glsl"
 #include "slabs/slab_balls.glsl"
 #include "slabs/slab_ray.glsl"

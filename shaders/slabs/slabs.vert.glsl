@@ -4,9 +4,10 @@
 layout(std430, binding = 2) readonly buffer SlabTiles
 {
     uvec4 tileCounts[2];
-    uvec4 tiles[]; // x number of the tile; y first entry of its list; z entries
+    uvec4 tiles[]; // as in slabs/slab_tiles.comp.glsl
 };
-flat out ivec2 tileList; // first entry and entries
+flat out ivec2 tileList;   // first entry and entries
+flat out float tileWeight; // as in slabs/slab_window.glsl
 
 void main()
 {
@@ -18,5 +19,6 @@ void main()
     ivec2 texel = 16 * (ivec2(int(tile.x) % columns, int(tile.x) / columns) + corner);
     vec2 window = vec2(min(texel, size)) / vec2(size) * 2.0 - 1.0;
     tileList = ivec2(tile.yz);
+    tileWeight = uintBitsToFloat(tile.w);
     gl_Position = vec4(window.x, rayOriginY.w * window.y, 0.5, 1.0);
 }

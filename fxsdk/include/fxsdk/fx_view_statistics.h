@@ -119,7 +119,8 @@ typedef struct FxViewStatistics
     /// FX_COMPOSITION_SLABS with countOverdraw.
     uint64_t listedBlobs;
 
-    /// Entries of these lists that were left out because the lists were full: the picture lacks them.
+    /// Blobs that are not in these lists because the lists were full. Those that are stand for them, so that
+    /// the picture is as dense, and coarser.
     uint64_t spilledBlobs;
 
     /// Fragments of sprites, meshes, ribbons and impostors that were left out because the lists were full.

@@ -63,20 +63,19 @@ uint64_t SlabMedia::cardCapacity(const MediaPass::Inputs& in) const
     return std::min(std::bit_ceil(wanted), kMaxCards);
 }
 
-SlabMedia::Lists SlabMedia::list(FrameGraph& graph, const MediaPass::Inputs& in, ResourceId fieldTiles,
-                                 bool marks, const BallDetails& details)
+SlabMedia::Lists SlabMedia::list(FrameGraph& graph, const MediaPass::Inputs& in, const ListUse& use)
 {
     const BallList balls = ballSource_ ? *ballSource_->balls() : BallList();
     const uint64_t entries = findTiles(balls.instances, in.view, rects_);
     capacity_ = cardCapacity(in);
     Lists out{};
-    out.fieldDetail = SlabDetailPass::addTo(graph, balls.instances.empty() ? BallDetails() : details);
+    out.fieldDetail = SlabDetailPass::addTo(graph, balls.instances.empty() ? BallDetails() : use.details);
     out.detail = out.fieldDetail.texels.valid() ? SlabDetail::OfFields
                  : balls.detail                 ? SlabDetail::OfBalls
                                                 : SlabDetail::None;
-    out.cards = SlabCardPass::addTo(graph, {cards_, &in, capacity_, marks});
-    out.tiles = SlabTilePass::addTo(
-        graph, {rects_, entries, in.width, in.height, in.view.rayOriginY.w, out.cards, fieldTiles});
+    out.cards = SlabCardPass::addTo(graph, {cards_, &in, capacity_, use.marks});
+    out.tiles = SlabTilePass::addTo(graph, {rects_, entries, in.width, in.height, use.maxOfTile,
+                                            in.view.rayOriginY.w, out.cards, use.fieldTiles});
     out.balls = SlabBallPass::addTo(graph, balls, out.fieldDetail, in.view);
     if (counts_) {
         tiles_ = out.tiles.tiles;

@@ -40,10 +40,16 @@ public:
             return {&media, balls, detail, fieldDetail, tiles, cards, slabs};
         }
     };
+    /// What list() makes.
+    struct ListUse
+    {
+        uint32_t maxOfTile;         ///< as SlabTilePass
+        ResourceId fieldTiles = {}; ///< likewise
+        bool marks = false;         ///< cards are gathered with what outputs need
+        BallDetails details = {};
+    };
     /// Adds the passes that list balls and cards. A frame calls it once or twice.
-    /// @param fieldTiles as SlabTilePass  @param marks cards are gathered with what outputs need
-    [[nodiscard]] Lists list(FrameGraph& graph, const MediaPass::Inputs& in, ResourceId fieldTiles = {},
-                             bool marks = false, const BallDetails& details = {});
+    [[nodiscard]] Lists list(FrameGraph& graph, const MediaPass::Inputs& in, const ListUse& use);
 
     void forget() { tiles_ = heads_ = {}; }
     void readBack(const GlBackend& backend, FrameStatistics& statistics);

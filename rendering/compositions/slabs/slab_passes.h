@@ -83,7 +83,13 @@ public:
                                           const SlabDetailPass::Outputs& detail, const ViewBlock& view);
 };
 
+/// Turns of loops that a program may take in one invocation. Mesa's software renderers end all loops after
+/// 65,535.
+constexpr uint32_t kMaxLoopTurns = 60000;
+
 /// Lists the balls of each tile of 16 x 16 texels, in their order, and the tiles that show something.
+/// A tile with more than `maxOfTile` lists an even choice of its balls, of which each stands for
+/// (balls of the tile) / (entries) of them.
 ///
 /// reads   rects  which tiles each ball may cover
 ///         cards, fieldTiles
@@ -97,6 +103,7 @@ public:
         std::span<const TileRect> rects; ///< must stay until the graph has executed
         uint64_t entries;                ///< tiles of all of them
         int width, height;               ///< [texel]
+        uint32_t maxOfTile;              ///< entries, >= 2
         float flip;                      ///< of window y against clip y, 1 or -1
         CardLists cards;
         ResourceId fieldTiles = {}; ///< buffer of FieldTileBlock: their tiles show something as well
@@ -136,6 +143,8 @@ public:
         CardLists cards;
         int slabs; ///< 6 or 16
     };
+    /// Entries of a tile that its programs read within kMaxLoopTurns.
+    static constexpr uint32_t maxOfTile(int slabs) { return kMaxLoopTurns / (slabs > 6 ? 28 : 14); }
     [[nodiscard]] static MediaPass::Outputs addTo(FrameGraph& graph, const Inputs& in,
                                                   const MediaPass::Outputs& under);
 };

@@ -31,7 +31,8 @@ void SlabView::addPasses(PassStage stage, FrameGraph& graph, PassFrame& frame)
 MediaPass::Outputs SlabView::compose(FrameGraph& graph, const MediaPass::Inputs& in,
                                      const MediaPass::Outputs& under)
 {
-    const SlabMedia::Lists lists = media_.list(graph, in, {}, false, {materials_, details_, lumps_});
+    const SlabMedia::Lists lists =
+        media_.list(graph, in, {SlabPass::maxOfTile(slabs_), {}, false, {materials_, details_, lumps_}});
     return SlabPass::addTo(graph, lists.inSlabs(in, slabs_), under);
 }
 

@@ -191,9 +191,10 @@ MediaPass::Outputs VolumeView::compose(FrameGraph& graph, const MediaPass::Input
     FieldMarchPass::Inputs march = march_;
     march.media = &in;
     if (plan_.isEmpty())
-        return SlabPass::addTo(graph, loose_.list(graph, in).inSlabs(in, slabs_), under);
+        return SlabPass::addTo(
+            graph, loose_.list(graph, in, {SlabPass::maxOfTile(slabs_)}).inSlabs(in, slabs_), under);
     if (!loose_.isEmpty()) {
-        const SlabMedia::Lists lists = loose_.list(graph, in, march.tiles);
+        const SlabMedia::Lists lists = loose_.list(graph, in, {FieldMarchPass::kMaxLooseOfTile, march.tiles});
         march.loose = {lists.tiles.tiles, lists.tiles.lists, lists.balls, lists.cards, slabs_};
     }
     return FieldMarchPass::addTo(graph, march, under);

@@ -201,6 +201,28 @@ TEST_F(Outputs, manyInstancesOfOneCloudAreTold)
                {4e-3, 1e-2, 0.05, 1e-4, 0.05});
 }
 
+TEST_F(Outputs, thousandsOfBallsInOneTileAreTheOneBall)
+{
+    const MovingBall whole{{0.0, 0.0, -12.0}, 0.5, 2.0, {1.5, -0.7, 2.0}, 7};
+    MovingBall part = whole;
+    constexpr size_t kParts = 4500;
+    part.depth /= double(kParts);
+    const auto now = camera(), past = camera({0.1, -0.05, 6.2}, {0.05, 0.0, 0.0});
+    const Seen one = seen({whole}, now, past, render::Composition::Sorted);
+    const Seen many = seen(std::vector<MovingBall>(kParts, part), now, past, render::Composition::Sorted);
+    size_t met = 0;
+    for (size_t i = 0; i < size_t(kWidth) * kHeight; ++i) {
+        met += one.id(i) == 7 ? 1 : 0;
+        ASSERT_EQ(one.id(i), many.id(i)) << i;
+        if (one.id(i) != 7)
+            continue;
+        ASSERT_NEAR(one.depth[i], many.depth[i], 1e-3) << i;
+        ASSERT_NEAR(one.mean[i], many.mean[i], 1e-2) << i;
+        ASSERT_NEAR(one.motion[2 * i], many.motion[2 * i], 1e-3) << i;
+    }
+    EXPECT_GT(met, 5u);
+}
+
 TEST_F(Outputs, aParallelViewMovesByMetres)
 {
     const auto now =

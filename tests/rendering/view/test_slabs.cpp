@@ -275,6 +275,26 @@ TEST_F(Slabs, smallLayersAreThoseOfOneBall)
     }
 }
 
+TEST_F(Slabs, thousandsOfBallsInOneTileAreTheOneBall)
+{
+    makeTargets(16, 16);
+    TestBlob whole = kBall;
+    whole.center = glm::vec3(0.0f);
+    for (const bool layers : {false, true})
+        for (const int slabs : {6, 16}) {
+            view_->settings().slabs = slabs;
+            view_->settings().layerOutputs = layers;
+            const Picture alone = drawn({whole}, camera());
+            ASSERT_GT(*std::max_element(alone.texels.begin(), alone.texels.end()), 0.5f);
+            for (const size_t count : {3000u, 30000u}) {
+                TestBlob part = whole;
+                part.crossSection /= float(count);
+                EXPECT_LT(maxDifference(drawn(std::vector<TestBlob>(count, part), camera()), alone), 2e-3)
+                    << count << " balls, " << slabs << " slabs, layers " << layers;
+            }
+        }
+}
+
 TEST_F(Slabs, picturesRepeatBitForBit)
 {
     const std::vector<TestBlob> blobs = cloud(100, 0.4f, 0.3f);

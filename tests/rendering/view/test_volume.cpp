@@ -173,6 +173,25 @@ TEST_F(Volume, noOrderOfBallsIsSeen)
     EXPECT_LT(most, double(brightest(first)) / 1023.0);
 }
 
+TEST_F(Volume, thousandsOfBallsThatAreTooSmallForVoxelsAreTheOneBall)
+{
+    // one before a cloud and one behind it, so that rays go from one to the other through its field
+    constexpr size_t kParts = 3000;
+    const TestBlob behind{{0.0f, 0.0f, -2.0f}, 0.1f, 0.005f, 1.0f},
+        before{{0.0f, 0.0f, 2.0f}, 0.1f, 0.002f, 1.0f};
+    const auto pictureOf = [&](size_t parts) {
+        std::vector<TestBlob> blobs = cloud(60, 0.4f, 0.01f);
+        for (TestBlob blob : {behind, before}) {
+            blob.crossSection /= float(parts);
+            blobs.insert(blobs.end(), parts, blob);
+        }
+        return drawn(blobs, camera());
+    };
+    const Picture one = pictureOf(1), many = pictureOf(kParts);
+    EXPECT_GT(brightest(one), 0.2f);
+    EXPECT_LT(maxDifference(one, many), 0.01);
+}
+
 TEST_F(Volume, ballsThatAreTooSmallForVoxelsAreExact)
 {
     // one among many that it does not touch: where it is alone, it is drawn as in slabs
