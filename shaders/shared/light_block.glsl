@@ -3,7 +3,7 @@ struct SliceLight
 {
     vec4 right; // parallel light: texel x = dot(right.xyz, p) + right.w
     vec4 up;    // texel y likewise
-    vec4 along; // plane likewise; of a point: w planes per metre of distance, x what is taken from it
+    vec4 along; // plane likewise; of a point: w planes per metre of distance, x what is taken from it, y radius of the shadowless ball around it [m]
     vec4 tiles; // xy texel of the first plane in the atlas; z texels along a side; w planes, 0: media cast no shadow
     vec4 color; // rgb exposed illuminance of parallel light, exposed intensity of a point; w 0 parallel, 1 point, 2 point that stands for glowing medium
     vec4 place; // xyz unit vector towards parallel light, or the point [m] relative to the eye; w its radius [m], or that of the ball of finer planes

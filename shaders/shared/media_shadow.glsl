@@ -7,7 +7,7 @@ struct FxMediaShadow
 {
     vec4 right[3]; // parallel light: texel x = dot(right.xyz, p) + right.w
     vec4 up[3];    // texel y likewise
-    vec4 along[3]; // plane likewise; of a point: w times the distance - x
+    vec4 along[3]; // plane likewise; of a point: w times the distance - x; y radius of the glowing ball that it stands for [m]
     vec4 tiles[3]; // xy texel of the first plane in the texture; z texels along a side; w planes, 0: there is no such level
     vec4 place;    // of a point: xyz [m] relative to the frame's origin; w 0 parallel light, 1 a point
 };
@@ -29,6 +29,36 @@ float fxMediaDepth(sampler2D planes, vec4 tiles, vec3 place)
     return depth.x + (plane - float(lower)) * depth.y;
 }
 
+// Where a direction from a light at a point lies among `texels` of a plane along a side: an octahedral map.
+vec2 fxMediaTexel(vec3 d, float texels)
+{
+    vec3 unit = d / max(abs(d.x) + abs(d.y) + abs(d.z), 1e-12);
+    vec2 folded = (1.0 - abs(unit.yx)) * vec2(unit.x >= 0.0 ? 1.0 : -1.0, unit.y >= 0.0 ? 1.0 : -1.0);
+    return 1.0 + (0.5 + 0.5 * (unit.z < 0.0 ? folded : unit.xy)) * (texels - 2.0);
+}
+
+// Mean transmittance from a glowing ball to p: of 16 places of it, seen through what stands next to it.
+float fxMediaPenumbra(sampler2D planes, FxMediaShadow shadow, vec3 p)
+{
+    vec3 d = p - shadow.place.xyz;
+    float away = length(d);
+    float caster = max(1.2 * shadow.along[0].y, shadow.along[0].x / max(shadow.along[0].w, 1e-12)); // [m] the first shell is at the nearest
+    float reach = max(shadow.along[0].y * (1.0 / max(caster, 1e-12) - 1.0 / max(away, 1e-12)), 0.0); // of directions from the middle
+    vec3 towards = d / max(away, 1e-12);
+    vec3 right = normalize(cross(towards, abs(towards.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
+    vec3 up = cross(right, towards);
+    float plane = away * shadow.along[0].w - shadow.along[0].x;
+    int places = reach > 0.0 ? 16 : 1;
+    float sum = 0.0;
+    for (int i = 0; i < places; ++i) {
+        float r = places > 1 ? reach * sqrt((float(i) + 0.5) / 16.0) : 0.0;
+        float turn = 2.39996323 * float(i); // the golden angle
+        vec2 texel = fxMediaTexel(towards + r * (cos(turn) * right + sin(turn) * up), shadow.tiles[0].z);
+        sum += exp(-fxMediaDepth(planes, shadow.tiles[0], vec3(texel, plane)));
+    }
+    return sum / float(places);
+}
+
 // Share of the light that reaches p through media, per color. planes: filters linearly. p [m]: relative to the frame's origin.
 vec3 fxMediaTransmittance(sampler2D planes, FxMediaShadow shadow, vec3 p)
 {
@@ -37,13 +67,8 @@ vec3 fxMediaTransmittance(sampler2D planes, FxMediaShadow shadow, vec3 p)
         return vec3(1.0);
     vec3 place = vec3(dot(shadow.right[0].xyz, p) + shadow.right[0].w, dot(shadow.up[0].xyz, p) + shadow.up[0].w,
                       dot(shadow.along[0].xyz, p) + shadow.along[0].w);
-    if (shadow.place.w > 0.5) {
-        vec3 d = p - shadow.place.xyz;
-        vec3 unit = d / max(abs(d.x) + abs(d.y) + abs(d.z), 1e-12);
-        vec2 folded = (1.0 - abs(unit.yx)) * vec2(unit.x >= 0.0 ? 1.0 : -1.0, unit.y >= 0.0 ? 1.0 : -1.0);
-        vec2 direction = unit.z < 0.0 ? folded : unit.xy; // octahedral map
-        place = vec3(1.0 + (0.5 + 0.5 * direction) * (tiles.z - 2.0), length(d) * shadow.along[0].w - shadow.along[0].x);
-    }
+    if (shadow.place.w > 0.5)
+        return vec3(fxMediaPenumbra(planes, shadow, p));
     for (int i = 1; i < 3 && shadow.tiles[i].w > 0.5; ++i) {
         vec3 finer = vec3(dot(shadow.right[i].xyz, p) + shadow.right[i].w, dot(shadow.up[i].xyz, p) + shadow.up[i].w,
                           dot(shadow.along[i].xyz, p) + shadow.along[i].w);

@@ -337,7 +337,7 @@ void LightList::addStack(const SliceStack& stack, size_t entry)
         ioLight.up = glm::vec4(up, -glm::dot(up, stack.origin));
         ioLight.along = glm::vec4(along, -glm::dot(along, stack.origin));
     } else {
-        ioLight.along = {stack.first / stack.spacing, 0.0f, 0.0f, 1.0f / stack.spacing};
+        ioLight.along = {stack.first / stack.spacing, stack.begin, 0.0f, 1.0f / stack.spacing};
     }
     stacks_.push_back(stack);
     stackLights_.push_back(entry);
