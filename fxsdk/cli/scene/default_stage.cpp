@@ -12,35 +12,49 @@
 namespace fx::cli {
 namespace {
 
-constexpr int kTiles = 24;           // a side
-constexpr float kTileSize = 2.5f;    // [m]
+constexpr int kTiles = 48;          // a side
+constexpr float kTileSize = 2.5f;   // [m]
+constexpr float kClear = 20.0f;     // [m] from the middle, up to where tiles differ fully
+constexpr float kHorizon = 2000.0f; // [m] half of the ground's side
+constexpr glm::vec3 kGround(0.22f, 0.2075f, 0.185f);
+constexpr glm::vec3 kTileContrast(0.02f, 0.0175f, 0.015f);
 constexpr int kFramingMoments = 12;  // looked at between the start and the end
 constexpr double kFramingLimit = 20; // [s] longest time simulated only to place the camera
 
-void addTile(render::StageMesh& mesh, int i, int j)
+void addRectangle(render::StageMesh& mesh, const glm::vec2& low, const glm::vec2& high,
+                  const glm::vec3& color)
 {
-    const float x0 = float(i - kTiles / 2) * kTileSize;
-    const float z0 = float(j - kTiles / 2) * kTileSize;
-    const float x1 = x0 + kTileSize;
-    const float z1 = z0 + kTileSize;
-    const glm::vec3 color =
-        (i + j) % 2 == 0 ? glm::vec3(0.24f, 0.225f, 0.20f) : glm::vec3(0.20f, 0.19f, 0.17f);
-    for (const glm::vec3& corner : {glm::vec3(x0, 0, z1), glm::vec3(x1, 0, z1), glm::vec3(x1, 0, z0),
-                                    glm::vec3(x0, 0, z1), glm::vec3(x1, 0, z0), glm::vec3(x0, 0, z0)})
-    {
-        mesh.positions.push_back(corner);
+    const glm::vec3 corners[] = {
+        {low.x, 0, high.y}, {high.x, 0, high.y}, {high.x, 0, low.y}, {low.x, 0, low.y}};
+    for (const size_t i : {0, 1, 2, 0, 2, 3}) {
+        mesh.positions.push_back(corners[i]);
         mesh.normals.emplace_back(0.0f, 1.0f, 0.0f);
         mesh.colors.push_back(color);
     }
 }
 
-/// A checkered ground and late afternoon light.
+/// Tiles give a scale; away from the middle they fade into the ground, which reaches to the horizon.
+void addGround(render::StageMesh& mesh)
+{
+    constexpr float kSide = 0.5f * float(kTiles) * kTileSize;
+    for (int i = 0; i < kTiles; ++i)
+        for (int j = 0; j < kTiles; ++j) {
+            const glm::vec2 low = glm::vec2(i, j) * kTileSize - kSide;
+            const float away = glm::length(low + 0.5f * kTileSize);
+            const float share = std::clamp((kSide - away) / (kSide - kClear), 0.0f, 1.0f);
+            const float sign = (i + j) % 2 == 0 ? 1.0f : -1.0f;
+            addRectangle(mesh, low, low + kTileSize, kGround + sign * share * kTileContrast);
+        }
+    addRectangle(mesh, {-kHorizon, -kHorizon}, {kHorizon, -kSide}, kGround);
+    addRectangle(mesh, {-kHorizon, kSide}, {kHorizon, kHorizon}, kGround);
+    addRectangle(mesh, {-kHorizon, -kSide}, {-kSide, kSide}, kGround);
+    addRectangle(mesh, {kSide, -kSide}, {kHorizon, kSide}, kGround);
+}
+
+/// Ground and late afternoon light.
 void addDefaultStage(scene_file::SceneFile& scene)
 {
-    for (int i = 0; i < kTiles; ++i) {
-        for (int j = 0; j < kTiles; ++j)
-            addTile(scene.mesh, i, j);
-    }
+    addGround(scene.mesh);
     scene.background.luminance = {1500.0f, 1900.0f, 2500.0f};
     scene.background.horizon = {2600.0f, 2700.0f, 2700.0f};
     scene.view.lighting.sunDirection = glm::normalize(glm::vec3(0.55f, 0.5f, 0.45f));
