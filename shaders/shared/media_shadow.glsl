@@ -42,8 +42,9 @@ float fxMediaPenumbra(sampler2D planes, FxMediaShadow shadow, vec3 p)
 {
     vec3 d = p - shadow.place.xyz;
     float away = length(d);
-    float caster = max(1.2 * shadow.along[0].y, shadow.along[0].x / max(shadow.along[0].w, 1e-12)); // [m] the first shell is at the nearest
-    float reach = max(shadow.along[0].y * (1.0 / max(caster, 1e-12) - 1.0 / max(away, 1e-12)), 0.0); // of directions from the middle
+    float nearest = shadow.along[0].x / max(shadow.along[0].w, 1e-12); // [m] the first shell
+    float caster = max(min(max(1.2 * shadow.along[0].y, nearest), away / 1.3), 1e-12);
+    float reach = max(shadow.along[0].y * (1.0 / caster - 1.0 / max(away, 1e-12)), 0.0); // of directions from the middle
     vec3 towards = d / max(away, 1e-12);
     vec3 right = normalize(cross(towards, abs(towards.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
     vec3 up = cross(right, towards);
