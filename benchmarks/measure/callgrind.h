@@ -9,7 +9,8 @@
 
 namespace fx::cli {
 
-/// Whether the valgrind program is found in PATH.
+/// Whether the valgrind program is found in PATH and can run this program, which it cannot on processors
+/// whose instructions it does not know. Tried once, in about a second.
 bool hasCallgrind();
 
 /// Runs this program again under callgrind with other arguments.

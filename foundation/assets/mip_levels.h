@@ -8,10 +8,11 @@
 
 namespace fx::base {
 
-/// How many levels a picture of that size has, down to one texel.
+/// Number of mip levels of a picture of that size, down to one texel.
 int mipLevelCount(int width, int height);
 
-/// One level smaller: sides are halved, rounded down, at least 1; each texel is the mean of those it covers.
+/// Computes the next smaller level: side lengths are halved, rounded down, at least 1; each texel is the mean
+/// of the texels that it covers.
 /// @param rgba width * height * 4 bytes @param isSrgb color is averaged in light, weighted by opacity;
 ///         otherwise all four channels are averaged without conversion
 void halveImage(std::span<const uint8_t> rgba, int width, int height, bool isSrgb, std::vector<uint8_t>& out);

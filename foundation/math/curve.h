@@ -54,7 +54,7 @@ extern template class Curve<3>;
 using ScalarCurve = Curve<1>;
 using ColorCurve = Curve<3>;
 
-/// A number, or a range of which each particle draws its own.
+/// A constant, or a range from which each particle draws a random value.
 struct Range
 {
     float min = 0;

@@ -8,7 +8,7 @@
 
 namespace fx::base {
 
-/// Zeros of both signs differ, and so may padding. No elements may have a null pointer.
+/// +0 and -0 differ, and padding bytes may differ. Pointers may be null when there are no elements.
 template <class T>
 bool sameBytes(std::span<const T> a, std::span<const T> b)
 {

@@ -9,9 +9,9 @@
 
 namespace fx::base {
 
-/// The least number of letters to insert, delete, replace, or exchange with the next one, that turns `a` into
-/// `b`. Letter case is ignored (restricted Damerau-Levenshtein distance). Of longer names only the first 64
-/// bytes count.
+/// The edit distance of `a` and `b`: the smallest number of insertions, deletions, substitutions and
+/// transpositions of adjacent letters that convert `a` into `b`. Letter case is ignored (restricted
+/// Damerau-Levenshtein distance). Of longer names only the first 64 bytes count.
 size_t editDistance(std::string_view a, std::string_view b);
 
 /// The closest of `known`, or nothing when all differ by more than a third of their letters.

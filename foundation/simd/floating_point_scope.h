@@ -8,9 +8,9 @@
 
 namespace fx::base {
 
-/// While it lives: round to nearest, denormals flushed to zero, exceptions masked. Afterwards the host's mode
-/// again. Denormal operands cost ninety times as much as normal ones on current processors, and gases cool
-/// into them.
+/// During the lifetime of this object the thread rounds to nearest, flushes denormals to zero and masks
+/// floating-point exceptions. The destructor restores the host's mode. Denormal operands cost ninety times as
+/// much as normal ones on current processors, and gases cool into them.
 class FloatingPointScope
 {
 public:

@@ -3,7 +3,8 @@
 ///
 /// Kernels are compiled once for each instruction set with Highway and chosen at run time. Call
 /// applyInstructionSetLimit() before HWY_DYNAMIC_DISPATCH: the first call of the process reads FXSDK_SIMD.
-/// The limit belongs to Highway as the process has loaded it: a host that uses the same library shares it.
+/// Highway stores the limit once per loaded copy of its library: a host that uses the same copy shares the
+/// limit.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ enum class InstructionSet : uint8_t
     Avx512
 };
 
-/// As FXSDK_SIMD spells it: scalar, sse4, avx2, avx512.
+/// Name of an instruction set as in FXSDK_SIMD: scalar, sse4, avx2, avx512.
 std::string_view instructionSetName(InstructionSet set);
 std::optional<InstructionSet> instructionSetOf(std::string_view name);
 
@@ -31,7 +32,7 @@ void applyInstructionSetLimit();
 /// Warning about the environment variable FXSDK_SIMD; empty if it is unset or valid.
 std::string_view instructionSetNote();
 
-/// The one in use: the widest that both the processor and the limit allow.
+/// The instruction set in use: the widest that both the processor and the limit allow.
 InstructionSet instructionSet();
 
 /// Replaces the limit, for tests and benchmarks. Not while kernels run.

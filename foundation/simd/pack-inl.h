@@ -16,7 +16,7 @@ namespace fx::base::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As many numbers as the instruction set has, at most kMax. Never fuses, never approximates.
+/// A vector with as many lanes as the instruction set has, at most kMax. Never fuses, never approximates.
 template <class T, uint32_t kMax>
 struct Pack
 {

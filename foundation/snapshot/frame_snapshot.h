@@ -21,7 +21,7 @@
 
 namespace fx::base {
 
-/// Whose a group is: the same in each snapshot of a scene.
+/// Identifies the instance and solver that published a group; equal in all snapshots of a scene.
 struct GroupName
 {
     uint64_t instance = 0;
@@ -46,8 +46,8 @@ public:
     std::pmr::memory_resource* memory() const { return memory_; }
     Ticks tick() const { return tick_; }
     uint64_t sequence() const { return sequence_; } ///< 1 for the first published, then rising by 1; 0: never
-    /// Of this content: no other snapshot of the process has it, wherever it lies in memory and whichever
-    /// scene it is of. begin() draws a new one.
+    /// Serial number of this content: no other snapshot of the process has the same number, whatever its
+    /// address and its scene. begin() assigns a new number.
     uint64_t serial() const { return serial_; }
     /// [s] length of the step that ended with this snapshot; 0 if no step did. Particles that were born
     /// within the step are drawn from their birth on.
@@ -83,8 +83,8 @@ public:
     // ---- for the writer, before publication ----
     /// @param step [tick] length of the step that ends at `tick`; 0: none does
     void begin(Ticks tick, uint64_t sequence, Ticks step = 0);
-    /// A group with room for `capacity` elements; fill it and set its info (count, bounds). The memory of a
-    /// group of an earlier snapshot is reused when one is large enough, whatever its position was.
+    /// A group with room for `capacity` elements; fill it and set its info (count, bounds). If a group of an
+    /// earlier snapshot has enough memory, that memory is reused, whatever the position of that group was.
     /// @param present columns of the kind that the group is to have
     SnapshotGroup& addGroup(KindId kind, size_t capacity, ColumnSet present = kAllColumns)
     {

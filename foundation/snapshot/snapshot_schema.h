@@ -30,7 +30,7 @@ struct ColumnDesc
     ColumnType type = ColumnType::F32;
 };
 
-/// A kind of element: what each element has, and what all elements of one group share.
+/// A kind of element: the columns of each element, and the constants that all elements of a group share.
 struct KindDesc
 {
     std::string_view name;

@@ -21,7 +21,7 @@ struct Ball
     double radius = 0;      ///< [m] infinite when unknown
 };
 
-/// Why something is out of sight.
+/// Reason for which an instance is out of sight.
 enum class Sight : uint8_t
 {
     Seen,
@@ -72,7 +72,8 @@ public:
     void add(const Frustum& frustum) { frusta_.push_back(frustum); }
     bool everything() const { return frusta_.empty(); }
 
-    /// Seen if any camera sees the ball; otherwise the reason of the camera that comes closest to seeing it.
+    /// Seen if the sphere is inside the view of any camera; otherwise the greatest reason (in the order of
+    /// Sight) among the cameras.
     /// @param isSeen it was in sight before
     Sight judge(const Ball& ball, double sight, bool isSeen) const;
     /// [pixel] largest radius on the picture of any camera; 1 without cameras.

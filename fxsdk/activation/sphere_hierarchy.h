@@ -28,7 +28,7 @@ public:
     void remove(Leaf leaf); ///< allocates nothing
     uint32_t size() const { return leaves_; }
 
-    /// Calls found(key) for each leaf that `focus` sees. @return nodes visited
+    /// Calls found(key) for each leaf in the view of `focus`. @return nodes visited
     template <class F>
     uint32_t query(const FocusSet& focus, F&& found)
     {

@@ -78,7 +78,7 @@ public:
         closed_.store(true, std::memory_order_relaxed);
         busy_.store(true, std::memory_order_relaxed);
     }
-    /// For functions that may be called while others are inside.
+    /// Whether the object is closed. For functions that may run while another call is in progress.
     bool isClosed() const { return closed_.load(std::memory_order_relaxed); }
 
 private:

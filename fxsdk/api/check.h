@@ -28,7 +28,7 @@ public:
             status_ = invalid(std::string(name) + " is null");
     }
 
-    /// Not finite fails like out of range.
+    /// A value that is not finite fails as a value outside of the range does.
     template <class T>
     void range(T value, T least, T most, const char* name)
     {
@@ -65,7 +65,7 @@ private:
     base::Status status_;
 };
 
-/// Unit within 1e-3, in the order x, y, z, w. Not finite is not unit.
+/// Unit within 1e-3, in the order x, y, z, w. False for components that are not finite.
 bool isUnitQuaternion(const float* xyzw);
 /// The rotation of a unit quaternion, normalized.
 glm::quat toRotation(const float* xyzw);

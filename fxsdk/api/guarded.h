@@ -18,14 +18,15 @@ constexpr FxResult toResult(base::Code code)
     return FxResult(int(code));
 }
 
-/// Keeps "function: message" for fxGetLastErrorMessage() on this thread, cut to 2 KiB; allocates nothing.
+/// Stores "function: message", truncated to 2 KiB, for fxGetLastErrorMessage() on this thread; does not
+/// allocate.
 void rememberError(std::string_view function, std::string_view message) noexcept;
 const char* lastError() noexcept;
 
 /// Writes the error stored by rememberError() to the host's log, if the host has one.
 void logLastError(const FxLog& log, FxResult code) noexcept;
 
-/// Runs the body of a C function. Nothing leaves it but a code.
+/// Runs the body of a C function. No exception leaves the function; it returns a code.
 /// @param log  where failures are reported besides the message of the thread; may be null
 /// @param body callable that returns base::Status
 template <class F>

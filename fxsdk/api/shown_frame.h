@@ -14,7 +14,7 @@ namespace fx::api {
 static_assert(int(render::Composition::Volume) + 1 == int(sim::PreferredComposition::Volume));
 static_assert(int(render::Composition::Slabs) + 1 == int(sim::PreferredComposition::Slabs));
 
-/// What FX_COMPOSITION_AUTOMATIC is where effects prefer `preferred`.
+/// The composition to which FX_COMPOSITION_AUTOMATIC resolves when effects prefer `preferred`.
 inline render::Composition automaticComposition(sim::PreferredComposition preferred)
 {
     return preferred == sim::PreferredComposition::None ? render::Composition::Sorted
@@ -44,7 +44,7 @@ public:
     ShownFrame& operator=(const ShownFrame&) = delete;
 
     const scene::Presentation& shown() const { return shown_; }
-    /// Whether both show the same, as far as gathering is concerned.
+    /// Whether `frame` has the same inputs of gathering, so that gathered data can be reused.
     bool isSameAs(const FxFrameDef& frame) const;
 
     const FxFrameDef def;

@@ -1,6 +1,6 @@
 /// @file obj_reader.h
 /// Wavefront OBJ files: the lines of one, and from them meshes for particles and triangles for the
-/// simulation. Curves, lines and smoothing groups are left aside.
+/// simulation. Curves, lines and smoothing groups are ignored.
 #pragma once
 
 #include "foundation/assets/asset_table.h"

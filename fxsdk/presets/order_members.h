@@ -22,10 +22,10 @@ struct OrderMember
 /// @param preset valid
 std::vector<OrderMember> orderMembers(const nlohmann::json& preset);
 
-/// What such a member is found to be; without a remedy.
+/// Text of the warning about such a member, without a remedy.
 std::string orderWarning(const OrderMember& member);
 
-/// Whether media that prefer `composition` are summed up.
+/// Whether `composition` sums media, so that their order has no effect.
 inline bool sumsUp(sim::PreferredComposition composition)
 {
     return composition > sim::PreferredComposition::Sorted;

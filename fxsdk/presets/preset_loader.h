@@ -32,7 +32,7 @@ std::span<const base::EmbeddedText> presetLibrary();
 /// The same, followed by their assets: the library of a resolver.
 std::span<const base::EmbeddedText> libraryFiles();
 
-/// Where images and meshes that presets name go to.
+/// Table to which images and meshes of presets are added.
 struct PresetAssets
 {
     base::AssetTable* table = nullptr; ///< null: assets are read and checked, but not stored

@@ -57,7 +57,8 @@ struct ScalabilityLevels
     std::string technique;
     std::vector<ScalabilityLevel> steps; ///< 1 to kMaxSteps
 
-    /// Of views that ask for this one; nothing: of all views for whose composition there are no others.
+    /// Composition of the views to which these levels apply; empty: all views whose composition has no levels
+    /// of its own.
     std::optional<render::Composition> composition = {};
 };
 

@@ -22,16 +22,16 @@ struct BudgetOptions
 class ViewQuality
 {
 public:
-    /// Without a calibration so far takes the built-in one.
+    /// Sets the options of the budget. If no calibration was set, the built-in one is used.
     base::Status setOptions(const BudgetOptions& options);
     const BudgetOptions& options() const { return options_; }
     /// Replaces the scalability levels and resets the cost model. Strong guarantee.
     void setCalibration(Calibration calibration);
 
-    /// For measurements: forces this setting. Frames are timed, and the cost model does not change.
+    /// Forces a setting, for measurements. Frames are timed, and the cost model does not change.
     void force(const std::optional<Knobs>& knobs) { forced_ = knobs; }
 
-    /// Lowers the renderer's settings for one frame, which follows; end() gives them back.
+    /// Lowers the renderer's settings for the next frame; end() restores them.
     void begin(render::ViewRenderer& renderer, double deltaTime, bool hold);
     void end(render::ViewRenderer& renderer);
     /// Collects the available frame times; begin() and end() do so too.
@@ -44,8 +44,8 @@ public:
     {
         return hasCalibration() && !forced_ && clock_ && *clock_ != render::TimingClock::Off;
     }
-    /// For the composition of the last frame. Null before a calibration. Its last element represents passes
-    /// that no technique can lower.
+    /// The controller for the composition of the last frame, null before a calibration is set. Its last
+    /// element represents passes whose cost no technique can lower.
     const BudgetController* controller() const
     {
         return hasCalibration() ? &*controllers_[active_] : nullptr;

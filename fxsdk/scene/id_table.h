@@ -78,7 +78,7 @@ public:
         firstFree_ = index;
     }
 
-    /// Null when the id names nothing here. Valid until the next add() or remove().
+    /// Null when the id names no object of this table. Valid until the next add() or remove().
     T* find(LocalId id)
     {
         const uint32_t index = indexOf(id);
@@ -87,7 +87,7 @@ public:
         return &values_[slots_[index].link];
     }
 
-    /// The id must name something. Allocates nothing.
+    /// The id must name an object of this table. Allocates nothing.
     void remove(LocalId id)
     {
         const uint32_t index = indexOf(id);

@@ -64,7 +64,7 @@ struct SceneFile
     std::vector<preset::Diagnostic> warnings;
 };
 
-/// What the presets of the instances prefer; the greatest value counts.
+/// Composition that the presets of the instances prefer; the greatest value is used.
 sim::PreferredComposition preferredComposition(const SceneFile& scene);
 
 /// Largest scene, mesh and image that are read [byte].

@@ -49,7 +49,7 @@ void addPlane(ExrImage& image, const std::string& name, std::span<const float> v
               ExrPrecision precision);
 
 /// The file. Primaries are written as Rec. 709. NaN and infinities are kept.
-/// @param threads at most so many work on it, 0: as many as the machine has
+/// @param threads maximum number of threads; 0: all hardware threads
 /// @return InvalidArgument (size, a channel that is too short, a repeated name), OutOfMemory, Internal
 base::Result<std::string> encodeExr(const ExrImage& image, uint32_t threads = 0);
 

@@ -23,7 +23,7 @@ struct RowRevision
     bool operator==(const RowRevision&) const = default;
 };
 
-/// Of all groups of a snapshot.
+/// Revisions of the rows of all groups of a snapshot.
 struct SnapshotRowRevisions
 {
     std::span<const RowRevision> parts; ///< of all groups, one after the other
@@ -43,12 +43,12 @@ struct SnapshotRowRevisions
 bool haveSameRows(const base::SnapshotGroup& a, const base::SnapshotGroup& b,
                   std::span<const base::ColumnDesc> columns);
 
-/// Whether two pools that were written one after the other hold the same in all rows, those of the dead among
-/// them; false also where a comparison would be expensive.
+/// Whether two pools that were written one after the other have equal data in all rows, including rows of
+/// dead particles. Also false where a comparison would be expensive.
 bool haveSameRows(const base::PooledRows& a, const base::PooledRows& b,
                   std::span<const base::ColumnDesc> columns);
 
-/// Whether the rows of two groups, which are in pools, are those of pools with the same rows.
+/// Whether two groups are in pools with equal rows.
 class SamePools
 {
 public:

@@ -12,9 +12,9 @@
 
 namespace fx::render {
 
-/// Whether every group, id, column, constant and placement is the same, bit for bit. Ends at the first
-/// difference: comparing snapshots of something that moves costs next to nothing. Rows of pools are compared
-/// where they lie; the same groups in another order of rows count as different.
+/// Whether every group, id, column, constant and placement is the same, bit for bit. The comparison ends at
+/// the first difference, so it is cheap for snapshots of moving particles. Rows of pools are compared where
+/// they lie; the same groups in another order of rows count as different.
 bool holdSame(const base::FrameSnapshot& a, const base::FrameSnapshot& b);
 
 /// Revisions of the two snapshots of a frame; 0: no snapshot.

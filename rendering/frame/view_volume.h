@@ -15,7 +15,7 @@ class ViewVolume
 public:
     explicit ViewVolume(const CameraGeometry& camera) : camera_(camera) {}
 
-    /// Whether something of a ball may be seen.
+    /// Whether a part of a sphere may be inside the view volume.
     /// @param center [m] relative to the eye, world axes
     bool touches(const glm::vec3& center, float radius) const
     {

@@ -36,7 +36,7 @@ struct BufferDesc
     size_t bytes = 0;      ///< > 0
 };
 
-/// Where a resource lives for one frame, as a plan that a backend realises.
+/// The physical resource that a virtual resource occupies during one frame; a backend creates it.
 struct PhysicalTexture
 {
     int width, height;
@@ -101,7 +101,8 @@ public:
     void compile();
     void execute(Backend& backend);
 
-    /// The first misuse since begin(): Internal, naming pass and resource. compile() adds nothing to it.
+    /// The first misuse since begin(): Internal, naming pass and resource. compile() does not change this
+    /// status.
     const base::Status& status() const { return status_; }
 
     // ---- results of compile(), for backends, statistics and tests ----

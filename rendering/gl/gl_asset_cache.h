@@ -1,8 +1,8 @@
 /// @file gl_asset_cache.h
 /// Images and meshes of an asset table as GL objects, made when a frame first draws with them.
 ///
-/// An image becomes a texture array with one layer a frame of its atlas and all smaller levels, so that
-/// neither filtering nor distance lets a frame bleed into its neighbor. Threads: [GL thread].
+/// An image becomes a texture array with one layer for each frame of its atlas and with all mip levels, so
+/// that neither filtering nor minification mixes neighboring frames. Threads: [GL thread].
 #pragma once
 
 #include "foundation/assets/asset_table.h"

@@ -58,13 +58,13 @@ public:
     std::pmr::memory_resource* memory() const { return memory_; }
     uint64_t callCount() const { return gl.monitor.calls; } ///< GL calls since creation
 
-    /// Warm-up: compiles `desc` unless that has happened. `desc` has static storage; programs are known by
-    /// its address.
+    /// Compiles the program `desc` in advance unless it is compiled already. `desc` has static storage;
+    /// programs are identified by the address of their description.
     /// @return GlFailed with stage, file and the driver's log; NotFound when a source does not exist
     base::Status compile(const ProgramDesc& desc);
 
-    /// A program whose macro definitions are only known at run time: `like` with `defines`. The same for the
-    /// same, as long as the device lives.
+    /// A program whose macro definitions are only known at run time: `like` with `defines`. Equal arguments
+    /// give the same object during the lifetime of the device.
     const ProgramDesc& generated(const ProgramDesc& like, std::string_view defines);
 
     /// GL name of the program, which is compiled and counted now if it was not warmed up. 0 when it does not

@@ -42,7 +42,8 @@ class GlPassTimer
 {
 public:
     static constexpr size_t kFrames = 6; ///< frames whose results may be pending
-    /// Of one frame; further changes of the group are added to the last stamp.
+    /// Maximum number of timestamps of one frame; further changes of the group are added to the last
+    /// timestamp.
     static constexpr size_t kStamps = 12;
 
     GlPassTimer(GlDevice& device, PassGroups groups) : device_(device), groups_(std::move(groups)) {}
@@ -52,10 +53,10 @@ public:
 
     const PassGroups& groups() const { return groups_; }
 
-    /// Whether GL counts time: with 0 bits it does not, and its times would all be 0.
+    /// Whether GL measures time: with a counter of 0 bits all times would be 0.
     bool hasGpuClock();
 
-    /// @param tag comes back with the result
+    /// @param tag returned with the result
     void beginFrame(TimingClock clock, uint64_t tag);
     void beginPasses(); ///< the commands of the frame begin
     void beginPass(std::string_view name);

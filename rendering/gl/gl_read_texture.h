@@ -10,7 +10,7 @@ namespace fx::render {
 class GlDevice;
 
 /// The first `channels` (1 to 4) of each texel as floats, row by row from texture coordinate 0 (GL's bottom)
-/// upwards; normalized formats give [0, 1]. GL's pixel-pack state is left as it was.
+/// upwards; normalized formats give [0, 1]. GL's pixel-pack state is restored.
 std::vector<float> readTexture(GlDevice& device, uint32_t texture, int width, int height, int channels);
 
 /// Depth values in [0, 1] of a depth texture, in the same order.

@@ -25,8 +25,8 @@ struct GlTouchedState
     void (*restore)(const GlFunctions& gl, GLenum what, uint32_t index, const GlSavedState& saved);
 };
 
-/// States are saved in this order and restored in reverse. A state that is changed while others are saved or
-/// restored comes first.
+/// States are saved in this order and restored in reverse. States that are changed while other states are
+/// saved or restored are at the beginning of the table.
 std::span<const GlTouchedState> glTouchedStates();
 
 constexpr uint32_t kGlSavedStates = 140; ///< sum of the counts

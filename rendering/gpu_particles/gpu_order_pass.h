@@ -24,8 +24,8 @@ struct GpuOrderJob
     float offset = 0; ///< [m]
 };
 
-/// From so many rows on the order is found by a radix sort instead of a bitonic one. With a software renderer
-/// they cost the same at 8,000 rows; the radix sort has more dispatches, which count elsewhere.
+/// Number of rows from which a radix sort is used instead of a bitonic sort. With a software renderer they
+/// cost the same at 8,000 rows; the radix sort has more dispatches, which count elsewhere.
 constexpr uint32_t kRadixOrderRows = 16'384;
 
 /// Orders the rows of computed batches, and writes how many live into the arguments of their draws. The order

@@ -33,12 +33,12 @@ public:
                bool castsShadows = true, bool isSorted = true);
 
     std::span<const BlobInstance> blobs() const { return sorted_; } ///< farthest first, unless not sorted
-    /// Of blobs(); none where they are sorted.
+    /// Effects of blobs(); empty when blobs are sorted.
     std::span<const BlobEffect> effects() const { return effects_; }
     /// Materials of blobs() for the detail of their fields; empty if they are sorted.
     std::span<const BlobMaterial> materials() const { return materials_; }
     std::span<const GroupDetail> details() const { return fields_.details; }
-    /// Of blobs(), with ViewSettings::outputs; otherwise none.
+    /// Marks of blobs(); empty without ViewSettings::outputs.
     std::span<const BlobMark> marks() const { return sortedMarks_; }
     bool anyHeat() const { return anyHeat_; }     ///< some blob bends light
     bool anyDetail() const { return anyDetail_; } ///< some blob has procedural detail

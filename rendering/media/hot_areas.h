@@ -27,7 +27,7 @@ public:
     void find(std::span<const BlobInstance> blobs, const CameraView& camera, int width, int height);
     void clear() { areas_.clear(); }
 
-    /// Those of the last find().
+    /// Areas of the last find().
     std::span<const HotArea> areas() const { return areas_; }
 
 private:

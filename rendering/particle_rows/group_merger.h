@@ -35,7 +35,7 @@ public:
     GroupMerger(std::span<const RowTechnique* const> techniques, const base::SnapshotSchema* schema,
                 std::pmr::memory_resource* memory);
 
-    /// @param of the snapshots: nothing is done again while they stay
+    /// @param of the snapshots: while they are equal, the previous result is reused
     /// @param newerRows, olderRows  revisions of their groups; without parts: not known
     void build(const base::SnapshotPair& snapshots, const RevisionPair& of,
                const SnapshotRowRevisions& newerRows = {}, const SnapshotRowRevisions& olderRows = {});
@@ -91,7 +91,7 @@ private:
                            const SnapshotRowRevisions& rows) const;
     void listRevisions(bool isOlder, const SnapshotRowRevisions& rows);
     void listParts();
-    /// Calls f(set) for each that becomes a group.
+    /// Calls f(set) for each set that becomes a group.
     template <class F>
     void forEachSet(F&& f)
     {

@@ -54,7 +54,7 @@ public:
     /// @return OutOfMemory, GlFailed, TooLarge (a group is larger than the context's storage buffers)
     base::Status prepare(const base::SnapshotPair& snapshots, const UploadRevisions& revisions,
                          ParticleFrame& frame, const base::AssetTable* assets);
-    /// Instead of prepare(): the frame draws what the last one has drawn.
+    /// Called instead of prepare(): the frame draws the rows of the last frame.
     void keep(const ParticleFrame& frame);
     /// A frame without particles; after many in a row everything is deleted, until the next prepare().
     void idle();

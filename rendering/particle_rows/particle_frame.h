@@ -84,7 +84,8 @@ public:
     /// Batches that do not hide, for DrawBatcher.
     std::span<const DrawStream> streams() const { return streams_; }
     const DrawnCounts& drawn() const { return drawn_; }
-    /// Rows have to be there of both snapshots, and each group keeps its own: outputs tell how they move.
+    /// Rows of both snapshots are required, and groups are not merged, because outputs contain the motion of
+    /// each group.
     bool keepsSnapshots() const { return keepsSnapshots_; }
     uint64_t orderedRows() const { return orderedRows_; } ///< in orders
     uint64_t thinnedRows() const { return thinnedRows_; } ///< left to others by the level of detail

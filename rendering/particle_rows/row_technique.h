@@ -53,7 +53,7 @@ struct RowTechnique
     bool (*isThere)(const base::SnapshotGroup& group); ///< whether a group has something to draw
     BatchShape (*shape)(const base::SnapshotGroup& group);
     uint32_t (*rows)(const base::SnapshotGroup& group);
-    /// For estimates, of a row that is not the last of a strip's group.
+    /// Size of a row's card, to estimate fragments; the row is not the last of a strip's group.
     RowCard (*card)(const base::SnapshotGroup& group, size_t row);
     base::Bounds (*bounds)(const base::SnapshotGroup& group); ///< of rows whose writer has given none
     /// Places are the first three columns. Null: groups of the kind are not merged.

@@ -10,7 +10,7 @@ inline constexpr ProgramDesc kCompositeBlendProgram{"composite (blend)", "shared
 inline constexpr ProgramDesc kCompositeProgram{"composite", "shared/fullscreen.vert.glsl",
                                                "frame/composite.frag.glsl", nullptr, "FX_BLEND=0"};
 
-/// Puts the media over the host's picture: result = media + (1 - media alpha) * picture.
+/// Blends the media over the host's picture: result = media + (1 - media alpha) * picture.
 ///
 /// reads   media    RGBA32F premultiplied
 ///         picture  the host's opaque picture, exposed radiance

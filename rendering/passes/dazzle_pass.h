@@ -39,8 +39,8 @@ DazzleScale dazzleScale(float white);
 /// [1] Values above this many times `white` are cut, so that integer sums of a tile stay below 2^63.
 inline constexpr float kDazzleLargest = 0x1p30f;
 
-/// Share of the old adaptation that remains after `deltaTime` [s]: exp(-dt / tau), however the time is cut. A
-/// dt that is zero, negative or NaN keeps everything; tau 0 keeps nothing.
+/// Share of the old adaptation that remains after `deltaTime` [s]: exp(-dt / tau), however the time is cut.
+/// If dt is zero, negative or NaN, the history is kept completely; if tau is 0, it is discarded.
 double dazzleKeep(double deltaTime, double timeConstant);
 
 /// Checks the settings: white in [1e-6, 1e9], times not negative, and a sensor law that never gives less

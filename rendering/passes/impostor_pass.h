@@ -46,8 +46,8 @@ inline constexpr ProgramDesc kImpostorCardProgram{"impostor cards", "blobs/impos
 inline constexpr ProgramDesc kImpostorKeepProgram{"impostor keep", "blobs/impostor_keep.vert.glsl",
                                                   "blobs/impostor_keep.frag.glsl", nullptr, nullptr};
 
-/// The camera of all pictures that are taken in one frame: orthographic, with the axes of the view, one unit
-/// a texel. `place` moves a blob, given relative to the eye, to where its picture is.
+/// The camera of all impostors that are rendered in one frame: orthographic, with the axes of the view, one
+/// unit per texel. `place` moves a blob, given relative to the eye, to where its picture is.
 CameraView takingCamera(const CameraGeometry& view);
 glm::vec3 placeInTaking(const ImpostorTaking& taking, uint32_t slot, const CameraGeometry& view,
                         const glm::vec3& blob, float& outScale);

@@ -57,10 +57,10 @@ TextureDesc mediaTargetDesc(bool layers, size_t target, int width, int height);
 class MediaTargets
 {
 public:
-    /// Declares that the pass writes them; makes those of `under` that are invalid.
+    /// Declares that the pass writes the targets, and creates the targets of `under` that are invalid.
     MediaTargets(FrameGraph::Builder& builder, const MediaPass::Inputs& in, const MediaPass::Outputs& under);
 
-    /// Those that the pass has made are empty. Call it before drawing.
+    /// Clears the targets that the pass has created. Call it before drawing.
     void clear(Backend& backend) const;
     std::span<const ResourceId> all() const { return {targets_.data(), layers_ ? targets_.size() : 1}; }
     MediaPass::Outputs outputs() const;

@@ -9,7 +9,7 @@
 
 namespace fx::render {
 
-/// Of a ball; layout of shaders/shared/output_marks.glsl.
+/// Velocity and instance of a blob, in the layout of shaders/shared/output_marks.glsl.
 struct BlobMark
 {
     glm::vec4 velocity;  ///< xyz [m/s] relative to the world
@@ -17,7 +17,8 @@ struct BlobMark
 };
 static_assert(sizeof(BlobMark) == 32 && offsetof(BlobMark, instance) == 16);
 
-/// Of a fragment of a card, written on the GPU; layout likewise.
+/// [byte] Size of the mark of a fragment of a card, which is written on the GPU, in the layout of the same
+/// file.
 constexpr size_t kCardMarkBytes = 32;
 
 inline glm::uvec4 instanceWords(uint64_t id)

@@ -33,7 +33,7 @@ struct ParticleBlock
 };
 static_assert(sizeof(ParticleBlock) == sizeof(ViewBlock) + 8 * 16 + 9 * 16);
 
-/// The same for programs that write marks, see output_marks.h.
+/// ParticleBlock for programs that write marks, see output_marks.h.
 struct MarkedParticleBlock
 {
     ParticleBlock particles;
@@ -86,7 +86,8 @@ const ProgramDesc& particleProgramAt(size_t index);
 /// The program that gathers fragments, see CardLists.
 const ProgramDesc& cardProgram(BatchShape shape);
 
-/// The same with marks, and that which marks solid ones, see output_marks.h.
+/// The program that gathers fragments with marks, and the program that marks opaque particles, see
+/// output_marks.h.
 const ProgramDesc& markedCardProgram(BatchShape shape);
 const ProgramDesc& markedSolidProgram(BatchShape shape);
 

@@ -1,6 +1,6 @@
 /// @file gl_context.h
-/// A current OpenGL 4.5 core context for tools and tests; a game brings its own. The renderer is the same
-/// over all of them: it only sees the loader.
+/// A current OpenGL 4.5 core context for tools and tests; a game brings its own. The renderer does not depend
+/// on the platform: it uses the loader only.
 ///
 /// Threads: a context belongs to the thread on which it is current.
 #pragma once

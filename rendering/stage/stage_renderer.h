@@ -75,8 +75,8 @@ public:
     base::Status setMesh(const StageMesh& mesh);
     base::Status setBackground(const StageBackground& background);
 
-    /// Draws into textures of its own, valid until the next call: RGBA32F color [cd/m2 times exposure] and a
-    /// 32-bit float depth texture.
+    /// Draws into textures of the stage, which are valid until the next call: RGBA32F color [cd/m2 times
+    /// exposure] and a 32-bit float depth texture.
     base::Status render(const CameraView& camera, const Lighting& lighting,
                         std::span<const EffectLight> lights, float exposureEv100, int width, int height);
     base::Status render(const CameraView& camera, const StageLighting& lighting, float exposureEv100,

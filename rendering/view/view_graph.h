@@ -19,8 +19,8 @@ struct ViewGraphInputs
 {
     const FrameRequest* request;
     const ViewSettings* settings;
-    /// In the order of their list; they have gathered. Must stay until the graph has executed, as must
-    /// the next two.
+    /// Techniques in the order of their list, after gather(). This span and the next two must stay valid
+    /// until the graph has executed.
     std::span<const std::unique_ptr<TechniqueView>> techniques;
     std::span<const DrawBatch> batches;         ///< of media and transparent particles
     std::span<const MediaSource* const> solids; ///< of opaque particles

@@ -63,7 +63,7 @@ struct ChargePlan
 ChargePlan planCharge(const Material& material, double energy, double pressureRatio = 40.0,
                       const AmbientAir& air = {});
 
-/// [J] of so many kilograms of TNT.
+/// [J] Energy of a mass of TNT in kilograms.
 constexpr double energyOfTnt(double kilograms)
 {
     return kTntEquivalent * kilograms;

@@ -26,7 +26,7 @@ constexpr uint64_t kGasExchangeWork = 80;
 constexpr uint64_t kGasShownWork = 12;
 constexpr uint64_t kGasBytes = 1500; ///< [byte] of each particle, about, lists of neighbors included
 
-/// [m] Support of particles with so many neighbors that fill a ball of `radius` evenly.
+/// [m] Support radius of particles that fill a ball of `radius` evenly and have `neighbors` neighbors each.
 double evenSupport(double radius, uint32_t particles, double neighbors);
 
 /// Gas dynamics between exchanges with the air, which come as often as the cloud moves a third of its size,

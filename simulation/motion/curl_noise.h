@@ -44,7 +44,7 @@ public:
     /// @param seed chooses the field
     /// @param strength [m/s] root mean square speed, 0 switches off
     /// @param scale [m] length of one period, > 0
-    /// @param turns how many periods of its change in time have passed
+    /// @param turns number of elapsed periods of the noise's variation in time
     CurlNoise(uint32_t seed, float strength, float scale, double turns);
 
     bool active() const { return strength_ > 0.0f; }

@@ -1,6 +1,6 @@
 /// @file thermal_flow.h
-/// The air in and around a rising cloud: up through the middle, down along the rim, in at the foot. It is
-/// what turns a rising fireball into a mushroom.
+/// The air in and around a rising cloud: up through the middle, down along the rim, in at the foot. This
+/// circulation gives a rising fireball the shape of a mushroom.
 ///
 /// @formula hill-vortex
 /// Hill's spherical vortex in the frame of the ground.

@@ -28,7 +28,7 @@ enum class EmitterShape : uint8_t
     Cone,   ///< on the disc of radius size.x, moving within `angle` of the axis +Y
 };
 
-/// So many births at one moment, or at several with the same time between them.
+/// A burst: a number of births at one moment, or at several moments at equal intervals.
 struct Burst
 {
     float time = 0; ///< [s] after the start, >= 0

@@ -13,7 +13,7 @@ constexpr uint32_t kMaxEventAges = 256; ///< of one emitter, repetitions include
 /// of 13 mm.
 constexpr float kUsualContactSpeed = 0.5f;
 
-/// Something that happens to particles of one emitter gives birth to particles of another one.
+/// An event of a particle of one emitter causes births of particles in another emitter.
 struct EventRule
 {
     EventKind on = EventKind::Death;

@@ -16,8 +16,8 @@ struct PreparedOp
     const void* scratch;
 };
 
-/// Sees each tile after its modules have run and before it is stored, and contacts while they run. Called by
-/// several threads at once.
+/// Called for each tile after its modules have run and before the tile is stored, and for each contact while
+/// the modules run. Called by several threads at once.
 class TileWatch : public ContactListener
 {
 public:

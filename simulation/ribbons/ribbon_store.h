@@ -50,7 +50,7 @@ class RibbonStore
 public:
     RibbonStore(const RibbonDef& def, uint32_t rows, std::pmr::memory_resource* memory);
 
-    /// [byte] that a store of so many rows takes.
+    /// [byte] memory of a store with `rows` rows.
     static size_t bytesOf(const RibbonDef& def, uint32_t rows)
     {
         return size_t(rows) * (sizeof(Trail) + size_t(def.maxPoints) * sizeof(Point));

@@ -44,7 +44,7 @@ public:
     float& constant(size_t index) { return group_.editConstants()[index]; }
     void copy(size_t index, const float* values) { copy(index, values, 0, count_); }
     void fill(size_t index, float value) { fill(index, value, 0, count_); }
-    /// The same in the rows [begin, end).
+    /// Writes the rows [begin, end) only.
     void copy(size_t index, const float* values, uint32_t begin, uint32_t end)
     {
         std::copy(values + begin, values + end, column(index) + begin);

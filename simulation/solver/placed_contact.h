@@ -23,7 +23,7 @@ public:
     PlacedContact& operator=(const PlacedContact&) = delete;
 
     const ContactHook& hook() const { return hook_; }
-    /// The same for another placement; valid as long as this one.
+    /// This contact for another placement; valid as long as this object.
     const base::Placement& placement() const { return placement_; }
     const HostContact& host() const { return host_; }
     std::atomic<uint64_t>& faults() const { return faults_; }

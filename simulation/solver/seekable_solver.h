@@ -18,7 +18,7 @@ public:
     /// ignored.
     virtual void seek(const StepContext& context, base::Ticks tick) = 0;
 
-    /// Local time, at least `tick`, up to which steps from `tick` on change nothing that is seen. canSeek()
+    /// Local time, at least `tick`, up to which steps from `tick` on change no visible element. canSeek()
     /// holds for any tick up to it.
     virtual base::Ticks restsUntil(base::Ticks tick) const = 0;
 

@@ -26,7 +26,7 @@ public:
         if (!condition && status_.ok())
             status_ = {base::Code::Parse, what};
     }
-    /// Takes over a failure of something that this state is part of.
+    /// Adopts the failure of a larger state that contains this one.
     void fail(const base::Status& status)
     {
         if (status_.ok())

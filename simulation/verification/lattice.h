@@ -35,7 +35,8 @@ uint32_t evenSide(uint32_t particles, uint32_t least);
 /// Rounds up to an even number.
 uint32_t evenAbove(double value);
 
-/// [1] support over spacing of a lattice for so many neighbors: 4/3 pi n H^3 = neighbors.
+/// [1] ratio of support to spacing of a lattice at which particles have `neighbors` neighbors: 4/3 pi n H^3 =
+/// neighbors.
 double supportInSpacings(double neighbors);
 
 } // namespace fx::sim

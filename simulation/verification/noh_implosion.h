@@ -1,6 +1,6 @@
 /// @file noh_implosion.h
-/// @formula noh-implosion
-/// Cold gas that falls on a center from everywhere with the same speed, and comes to rest behind a shock.
+/// @formula noh-implosion Cold gas that flows towards a center from all directions with the same speed, and
+/// comes to rest behind a shock.
 ///
 /// symbol     unit    meaning
 ///   rho0      kg/m3   density at t = 0

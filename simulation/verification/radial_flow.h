@@ -1,8 +1,7 @@
 /// @file radial_flow.h
-/// @formula radial-flow
-/// Gas dynamics in one dimension, planar or spherical, on cells that move with the gas: the reference for
-/// cases without an exact solution. Shares nothing with the particles: another method, another
-/// discretization.
+/// @formula radial-flow Gas dynamics in one dimension, planar or spherical, on cells that move with the gas:
+/// the reference for cases without an exact solution. The reference is independent of the particle code: it
+/// uses another method and another discretization.
 ///
 /// symbol     unit        meaning
 ///   m_i       kg/sr       mass of cell i (planar: kg/m2), constant
@@ -55,7 +54,7 @@ public:
     /// Steps to `time` [s].
     void advanceTo(double time);
     double time() const { return time_; }
-    /// Outside of the gas everything is zero.
+    /// Outside of the gas all values are zero.
     FlowState at(double radius) const;
     double radius() const { return faces_.back(); } ///< [m] of the outermost face
     double energy() const;                          ///< [J], of the whole sphere or of 1 m2

@@ -9,7 +9,7 @@
 
 namespace fx::cli {
 
-/// Of --view or --camera, or none.
+/// The camera chosen by --view or --camera, or none.
 class CameraChoice
 {
 public:

@@ -37,7 +37,7 @@ struct FrameLayers
     std::array<Picture, 3> media; ///< RGBA of fire, smoke, dust
     Picture depth;                ///< 1 channel [m]
     Picture opticalDepth;         ///< 1 channel
-    /// Of settings.outputs; pictures without pixels are not there.
+    /// Pictures that settings.outputs requests; a picture that is not requested has no pixels.
     struct Outputs
     {
         Picture instance;     ///< 1 channel: number in the scene, from 1; 0: none

@@ -40,7 +40,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// The camera as views take it, relative to its eye. Nothing nearer than a millimetre is seen.
+/// The camera as views take it, relative to its eye. The near plane is at a distance of one millimetre.
 render::CameraView viewOf(const render::ReferenceCamera& camera, double aspect);
 
 } // namespace fx::cli

@@ -12,12 +12,12 @@
 
 namespace fx::cli {
 
-/// Balls that a picture is to show, with what they weigh in it, moment by moment. At each moment all but a
-/// few percent of the weight is inside of the picture, so that single sparks do not decide.
+/// Bounding spheres that a picture should contain, with their weights, for each moment. At each moment all
+/// but a few percent of the weight is inside of the picture, so that single sparks do not decide.
 class EffectFraming
 {
 public:
-    /// What is added from here on belongs to the next moment.
+    /// Begins the next moment: spheres that are added after this call belong to it.
     void nextMoment() { moments_.emplace_back(); }
     /// All media of the snapshot.
     void add(const base::FrameSnapshot& snapshot);
@@ -25,7 +25,7 @@ public:
     void add(const std::vector<glm::vec4>& places);
     bool isEmpty() const;
 
-    /// Puts the camera where it sees all moments, at its own field of view.
+    /// Places the camera so that all moments are in view, at the camera's own field of view.
     /// @param aspect width of the picture over its height
     void place(scene_file::CameraPath& camera, double aspect) const;
 

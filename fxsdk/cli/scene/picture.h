@@ -18,7 +18,7 @@ struct Picture
     std::vector<float> pixels;
 };
 
-/// From GL's order, rows from the bottom.
+/// Converts pixels from the row order of GL, bottom row first.
 inline Picture fromBottomUp(int width, int height, int channels, std::vector<float> pixels)
 {
     const size_t row = size_t(width) * size_t(channels);

@@ -12,10 +12,11 @@
 
 namespace fx::cli {
 
-/// A temporary name beside `target` that no other process uses; keeps the suffix, since programs go by it.
+/// A temporary name in the folder of `target` that no other process uses. It keeps the suffix, by which
+/// programs recognize the format.
 std::filesystem::path temporaryNameFor(const std::filesystem::path& target);
 
-/// Opens, takes any number of writes, and puts the file in place with commit(). Without commit() nothing
+/// A file that appears under its name only at commit(), after any number of writes. Without commit() nothing
 /// remains. A target that exists and is not a regular file (a pipe, /dev/null) is written directly.
 class AtomicFile
 {

@@ -15,7 +15,7 @@ nlohmann::json withMachine(nlohmann::json object, const Machine& machine);
 /// Prints `object` and a line break. Bytes that are not UTF-8 are replaced.
 void printJsonLine(const nlohmann::json& object);
 
-/// Flushes standard output. @return Io when it could not take everything, such as on a full disk
+/// Flushes standard output. @return Io when a part could not be written, such as on a full disk
 base::Status finishStandardOutput();
 
 } // namespace fx::cli

@@ -58,8 +58,8 @@ static inline FxCollisionMesh fxDefaultCollisionMesh(void)
 /// every machine. When hidden instances are replayed, the callback receives paths of the past.
 /// @param user FxContactHook::user
 /// @param from, to [m] world, a straight path of at most one step
-/// @param outShare  [1] 0..1, free share of the path
-/// @param outNormal normal of the surface at the contact, world, of any length above 0, against the path
+/// @param outShare  [1] 0..1, share of the path before the contact
+/// @param outNormal surface normal at the contact in world space, of any length above 0, opposed to the path
 /// @return 0 when the path is free, then the outputs are ignored; otherwise 1
 typedef int (*FxContactFunction)(void* user, const double from[3], const double to[3], float* outShare,
                                  float outNormal[3]);
@@ -88,7 +88,7 @@ static inline FxContactHook fxDefaultContactHook(void)
 /// through. This call converts the mesh to a signed distance field on the threads of the context. That takes
 /// seconds for a large mesh, 4 bytes per cell (at most 64 MiB) and, during the call, 300 bytes per triangle.
 /// Steps then cost a few samples per particle and allocate nothing. With geometry, colliding instances share
-/// a simulation only at equal placements. A saved state does not contain the mesh, only a hash of it. [scene
+/// a simulation only at equal placements. A saved state contains a hash of the mesh, not the mesh. [scene
 /// thread]
 /// @param mesh not kept; null: no geometry
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, not finite or out of range; an index beyond the vertices;

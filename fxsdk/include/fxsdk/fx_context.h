@@ -40,12 +40,12 @@ typedef struct FxParallelFor
     void* user;
 
     /// Must call body so that every index in [0, count) is covered exactly once, by ranges of at least
-    /// minBatch indices (the last may be shorter), and return when all of these calls have returned. How the
-    /// range is cut and on how many threads never changes a result.
+    /// minBatch indices (the last may be shorter), and return when all of these calls have returned. Results
+    /// depend neither on how the range is divided nor on the number of threads.
     void (*run)(void* user, uint32_t count, uint32_t minBatch, FxLoopBody body, void* argument);
 } FxParallelFor;
 
-/// How much a log message matters.
+/// Severity of a log message.
 typedef enum FxLogLevel
 {
     FX_LOG_INFO = 0,                   ///< information such as the name of the GL renderer
@@ -92,8 +92,8 @@ typedef struct FxAssetHook
 /// Options of a context.
 typedef enum FxContextFlag
 {
-    /// An image or mesh of a preset that is missing or damaged is a warning, and a magenta checkerboard or a
-    /// tetrahedron stands in; without it, an error.
+    /// A missing or damaged image or mesh of a preset causes a warning, and a magenta checkerboard or a
+    /// tetrahedron replaces it. Without this flag, loading such a preset fails.
     FX_CONTEXT_PLACEHOLDERS = 1
 } FxContextFlag;
 
@@ -121,8 +121,8 @@ typedef struct FxContextDef
     /// Default: the file system.
     FxAssetHook assets;
 
-    /// Most threads to use without parallelFor, 0..256, and never more than the machine has; 0 (default): as
-    /// many as it has.
+    /// Maximum number of threads without parallelFor, 0..256, limited to the hardware threads of the machine;
+    /// 0 (default): all hardware threads.
     uint32_t workers;
 
     /// FxContextFlag, added up; default 0.

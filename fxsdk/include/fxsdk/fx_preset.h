@@ -21,23 +21,23 @@ typedef struct FxPresetInfo
     /// Emitters and gases.
     uint32_t solverCount;
 
-    /// [tick] length of the effect's life; 0: until its last particle is gone.
+    /// [tick] lifetime of the effect; 0: the effect ends when its last particle has died.
     int64_t durationTicks;
 
-    /// Most particles alive at once in one instance.
+    /// Maximum number of particles that are alive at once in one instance.
     uint64_t capacity;
 
     /// UTF-8, zero-terminated; longer names are cut.
     char name[64];
 
     // The members below are estimates for one instance at medium quality.
-    /// [byte] at full capacity, snapshots included.
+    /// [byte] memory at full capacity, snapshots included.
     uint64_t memoryBytes;
 
-    /// Work units of its most expensive step of 1/60 s, see FxSceneDef::workBudget.
+    /// Work units of the most expensive step of 1/60 s, see FxSceneDef::workBudget.
     uint64_t stepWork;
 
-    /// Work units of its prewarm.
+    /// Work units of the prewarm.
     uint64_t startWork;
 } FxPresetInfo;
 

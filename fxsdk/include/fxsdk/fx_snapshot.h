@@ -38,7 +38,7 @@ typedef struct FxSnapshotInfo
     /// Reserved; 0.
     uint32_t reserved;
 
-    /// [tick] end of the newer step; that of an earlier step while no instance is visible.
+    /// [tick] end of the newer step; while no instance is visible, the end of an earlier step.
     int64_t tickNewer;
 
     /// [tick] end of the older step.
@@ -76,20 +76,21 @@ typedef struct FxSnapshotColumn
     /// Elements.
     uint32_t count;
 
-    /// Such as "radius"; constant string.
+    /// Name, such as "radius"; constant string.
     const char* name;
 
     /// SI unit such as "m", "1" for none; constant string.
     const char* unit;
 
-    /// Count values; null when the column is one of 64 bits, or absent (count is 0).
+    /// `count` floats; null when the column has 64-bit values or does not exist (count is 0).
     const float* values;
 
-    /// Count values of 64 bits; null when the column holds floats, or is absent.
+    /// `count` 64-bit values; null when the column has floats or does not exist.
     const uint64_t* values64;
 } FxSnapshotColumn;
 
-/// Acquires the newest two steps of a scene. Release it soon: every held snapshot keeps its memory. [any]
+/// Acquires a snapshot of the newest two steps of a scene. Release it soon: a held snapshot occupies memory.
+/// [any]
 /// @param outSnapshot receives the id; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_CAPACITY (16 are held)
 FX_API FxResult fxScene_AcquireSnapshot(FxScene* scene, FxSnapshotId* outSnapshot);

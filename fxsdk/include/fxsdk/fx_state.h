@@ -11,11 +11,12 @@
 extern "C" {
 #endif
 
-/// Hashes every particle of the last step and the time at which it ended, bit for bit: equal states at equal
-/// times give equal hashes on any machine, any number of threads, and however the updates were cut, also when
-/// no particle is left. Later changes by fxScene_SeekInstance() are included. Reads all particles: for tests
-/// and replays, not for every frame. Particles of emitters whose member "compute" allows the GPU are cosmetic
-/// and excluded, wherever they are computed. [scene thread]
+/// Hashes the bits of every particle of the last step, and the time at which that step ended. Equal states at
+/// equal times give equal hashes on any machine, with any number of threads and any division of time into
+/// updates. This holds also when no particle is left. Later changes by fxScene_SeekInstance() are included.
+/// The function reads all particles, so it is meant for tests and replays, not for every frame. Particles of
+/// emitters whose member "compute" allows the GPU are cosmetic and excluded, wherever they are computed.
+/// [scene thread]
 /// @param outHash receives the hash; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT,
 ///         FX_ERROR_OUT_OF_MEMORY (after a seek)
@@ -42,9 +43,10 @@ FX_API FxResult fxScene_SaveState(FxScene* scene, void* buffer, size_t capacity,
 
 /// Restores a saved state; the scene continues from there bit for bit. The scene must have the step, gravity,
 /// ground and collision mesh of the one that was saved, and the presets of the saved instances must be loaded
-/// in its context or be in use in the scene. The instances of the state replace all instances. In the scene
-/// that was saved, the ids of that time are valid again; another scene gets its ids with
-/// fxScene_GetInstances. Views show the restored step; held snapshots do not change. [scene thread]
+/// in its context or be in use in the scene. The instances of the state replace all instances. When the state
+/// is restored into the scene that was saved, the instance ids of that time are valid again. For another
+/// scene, fxScene_GetInstances returns the ids. Views show the restored step; held snapshots do not change.
+/// [scene thread]
 /// @param state the bytes of fxScene_SaveState; not kept
 /// @param size  [byte]
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, or another step, gravity, ground or collision mesh),

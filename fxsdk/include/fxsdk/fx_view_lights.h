@@ -26,8 +26,8 @@ enum
     FX_LIGHT_SKY = 3     ///< sky and ground; index 0, only in FxLightCost
 };
 
-/// A point, a ball or a spot. Fill with fxDefaultLight(), then set position and intensity.
-/// Illuminance at distance d in the direction of the light: intensity / (d^2 + radius^2).
+/// A point light, a spherical light or a spotlight. Fill with fxDefaultLight(), then set position and
+/// intensity. Illuminance at distance d in the direction of the light: intensity / (d^2 + radius^2).
 typedef struct FxLight
 {
     /// Set by fxDefaultLight(); do not touch.
@@ -39,7 +39,7 @@ typedef struct FxLight
     /// [m] world position, each within +-1e9; default 0.
     double position[3];
 
-    /// [cd] 0..1e9 in the direction in which it is largest, linear Rec. 709; default 0.
+    /// [cd] 0..1e9, luminous intensity in the direction of its maximum, linear Rec. 709; default 0.
     float intensity[3];
 
     /// The direction in which a spot shines, unit (length within 1e-3 of 1); default 0, -1, 0.
@@ -48,8 +48,8 @@ typedef struct FxLight
     /// [rad] 0..pi, angle to the axis up to which a spot has its full intensity; default pi.
     float innerConeAngle;
 
-    /// [rad] innerConeAngle..pi, angle from which on it has none, with a smooth step between the two; pi
-    /// (default): light in all directions.
+    /// [rad] innerConeAngle..pi, angle to the axis beyond which a spot emits no light, with a smooth step
+    /// between the two angles; pi (default): light in all directions.
     float outerConeAngle;
 } FxLight;
 
@@ -66,7 +66,7 @@ static inline FxLight fxDefaultLight(void)
 
 /// Parameters by which a shader computes the shadow of media in one light. Fill structSize with sizeof before
 /// the call. The members from `right` on are a std140 uniform block of 13 vec4 for the GLSL of
-/// fxGetMediaShadowGlsl(), which explains each. Places are relative to FxFrameDef::origin.
+/// fxGetMediaShadowGlsl(), which explains each. Positions are relative to FxFrameDef::origin.
 typedef struct FxMediaShadow
 {
     /// Set by the caller.
@@ -88,7 +88,7 @@ typedef struct FxMediaShadow
     /// [texel] where the planes lie in the texture.
     float tiles[3][4];
 
-    /// Place of a light that is not the sun.
+    /// Position of a light that is not the sun.
     float place[4];
 } FxMediaShadow;
 
@@ -121,8 +121,8 @@ typedef struct FxLightCost
     uint32_t reserved; ///< 0
 } FxLightCost;
 
-/// Replaces the host's lights that light media, from the next frame on. Those that light the media most cast
-/// shadows through them (FxViewSettings::castingLights), the others do not. [GL thread]
+/// Replaces the host's lights that light media, from the next frame on. The lights that illuminate the media
+/// most cast shadows through them (FxViewSettings::castingLights); the other lights do not. [GL thread]
 /// @param lights `count` lights one after the other; may be null when count is 0: there are none
 /// @param count  0..FX_MOST_LIGHTS
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (the message names the member, the value and the remedy),
@@ -130,11 +130,12 @@ typedef struct FxLightCost
 ///         nothing.
 FX_API FxResult fxView_SetLights(FxView* view, const FxLight* lights, uint32_t count);
 
-/// Gathers a frame and fills the planes of its lights, before the host draws its level: call it, then
-/// fxView_GetMediaShadow(), draw the level, then fxView_Render() with the same frame, which does no work
-/// twice and shows the same moment although the scene may have been updated in between. The target members of
-/// the frame may be 0 here; a frame with another camera or size is gathered again. Scenes without effects in
-/// them make no GL call. The time of this call is not part of FxViewSettings::budgetMilliseconds. [GL thread]
+/// Gathers a frame and fills the planes of its lights, before the host draws its level. Call this function
+/// and fxView_GetMediaShadow(), draw the level, then call fxView_Render() with the same frame.
+/// fxView_Render() then reuses the prepared work and shows the same moment, even if the scene was updated in
+/// between. The target members of the frame may be 0 here; a frame with another camera or size is gathered
+/// again. For a scene without effects, the function makes no GL call. The time of this call is not part of
+/// FxViewSettings::budgetMilliseconds. [GL thread]
 /// @return as fxView_Render(). A failure changes nothing, and the next frame is drawn without preparation.
 FX_API FxResult fxView_PrepareLights(FxView* view, const FxFrameDef* frame);
 

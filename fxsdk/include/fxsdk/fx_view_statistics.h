@@ -1,7 +1,7 @@
 /// @file fx_view_statistics.h
 /// Counters of a view, read by fxView_GetStatistics(). fx_view.h includes this.
 ///
-/// Threads: plain data. Ownership: the caller's.
+/// Threads: plain data. Ownership: the caller owns the struct.
 #ifndef FXSDK_FX_VIEW_STATISTICS_H
 #define FXSDK_FX_VIEW_STATISTICS_H
 
@@ -62,8 +62,8 @@ typedef struct FxViewStatistics
     /// [1] layerScale in use: that of the settings, or less to keep fragmentBudget.
     float layerScale;
 
-    /// 1: camera, settings and scene are as in the last frame, and its gathered, sorted and uploaded data are
-    /// reused; 0: not.
+    /// 1: camera, settings and scene equal those of the last frame, whose gathered, sorted and uploaded data
+    /// are reused; 0: they differ.
     uint32_t keptLists;
 
     /// [byte] of particles, written to the GPU for the frame.
@@ -75,7 +75,7 @@ typedef struct FxViewStatistics
     /// [byte] of the textures and buffers of the frame's passes without sharing of memory.
     uint64_t unsharedBytes;
 
-    /// [byte] of the same with sharing between resources of disjoint lifetimes.
+    /// [byte] of the same textures and buffers when resources of disjoint lifetimes share memory.
     uint64_t sharedBytes;
 
     /// Particles of media that lodBias left out.
@@ -119,19 +119,19 @@ typedef struct FxViewStatistics
     /// FX_COMPOSITION_SLABS with countOverdraw.
     uint64_t listedBlobs;
 
-    /// Blobs that are not in these lists because the lists were full. Those that are stand for them, so that
-    /// the picture is as dense, and coarser.
+    /// Blobs that are missing from these lists because the lists were full. The listed blobs are weighted so
+    /// that the mean density of the picture stays the same; its detail is lower.
     uint64_t spilledBlobs;
 
     /// Fragments of sprites, meshes, ribbons and impostors that were left out because the lists were full.
     uint64_t spilledFragments;
 
-    /// FX_COMPOSITION_... by which the frame was drawn: what FX_COMPOSITION_AUTOMATIC and the budget make of
-    /// the setting.
+    /// FX_COMPOSITION_... with which the frame was drawn. FX_COMPOSITION_AUTOMATIC and the frame budget may
+    /// choose another composition than the setting.
     uint32_t composition;
 
-    /// Slabs along a ray or voxels along 16 radii of balls by which it was drawn; 0 with
-    /// FX_COMPOSITION_SORTED.
+    /// Number of slabs along a ray, or of voxels along 16 particle radii, with which the frame was drawn; 0
+    /// with FX_COMPOSITION_SORTED.
     uint32_t compositionSize;
 } FxViewStatistics;
 

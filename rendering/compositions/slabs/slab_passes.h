@@ -88,7 +88,7 @@ public:
 constexpr uint32_t kMaxLoopTurns = 60000;
 
 /// Lists the balls of each tile of 16 x 16 texels, in their order, and the tiles that show something.
-/// A tile with more than `maxOfTile` lists an even choice of its balls, of which each stands for
+/// A tile with more than `maxOfTile` lists those with the lowest ranks, of which each stands for
 /// (balls of the tile) / (entries) of them.
 ///
 /// reads   rects  which tiles each ball may cover

@@ -10,7 +10,7 @@
 namespace fx::render {
 
 /// Layout of FxMediaShadow in shaders/shared/media_shadow.glsl, where each member is explained. Without
-/// planes everything is 0, and all light passes.
+/// planes all members are 0 and the transmittance is 1.
 struct MediaShadowBlock
 {
     static constexpr size_t kLevels = 3; ///< of the sun, finer ones near the eye; other lights have one

@@ -33,7 +33,8 @@ public:
 
     /// Begins a frame. @param forgets the picture is unrelated to the last frame
     void begin(bool forgets);
-    /// The next stack of the frame; stacks come in the same order in each.
+    /// Returns the fade of the next stack of the frame. Stacks must be passed in the same order in each
+    /// frame.
     /// @param wanted as the casters need it, snapped
     SliceFade next(const SliceStack& wanted);
 

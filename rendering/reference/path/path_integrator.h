@@ -30,8 +30,9 @@ struct PathSettings
     FlightEstimator flight = FlightEstimator::Depth;
     ShadowEstimator shadow = ShadowEstimator::Exact;
 
-    /// So many flights of a path, from the first, collide for certain and carry the share of light that
-    /// collides; the rest reaches the sky. Only flights by depth that end at no surface.
+    /// Number of flights at the beginning of a path in which a collision is forced. Such a flight carries the
+    /// share of light that collides; the remaining light reaches the sky. Only flights by depth that end at
+    /// no surface.
     uint32_t forcedFlights = 1;
 
     /// [1] throughput below which paths end at random, relative to the share of light that forced collisions

@@ -34,7 +34,7 @@ class MediumWalk
 {
 public:
     virtual ~MediumWalk() = default;
-    /// Turns to a new ray. @param end [m] may be infinite
+    /// Begins a new ray. @param end [m] may be infinite
     virtual void start(const TraceRay& ray, double begin, double end) = 0;
     /// The next segment in the order of the ray; between segments there is no medium.
     /// @return false: the ray has left the medium

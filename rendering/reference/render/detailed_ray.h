@@ -48,7 +48,7 @@ public:
     /// @param medium must outlive this and be built
     DetailedRay(const MediumView& medium, Wanted wanted, double tolerance);
 
-    /// Replaces what the following calls tell.
+    /// Replaces the results that the following functions return.
     /// @param hits all blobs of the medium that the ray meets between its parameters `begin` and `end`
     void trace(const TraceRay& ray, const RayHits& hits, double begin, double end);
 
@@ -61,13 +61,13 @@ public:
     /// [m] mean distance of the visible medium, +infinity without medium: formula seen-depth (1).
     double distance() const;
 
-    /// Makes share() what is left of each blob at a parameter of the ray.
+    /// Evaluates the share that detail leaves of each blob at a ray parameter; share() returns it.
     void look(double parameter);
     /// @param hit number in `hits`
     double share(size_t hit) const { return mix_.share(hits_->place[hit]); }
 
 private:
-    /// What is sent out: by a metre of the ray, or by all of it.
+    /// Emitted light: per metre of the ray, or of the whole ray.
     struct Sent
     {
         glm::dvec3 light{0.0}, coverage{0.0};

@@ -17,7 +17,7 @@ namespace fx::render {
 /// The detail of a list of balls. Without groups there is none.
 struct MediumDetails
 {
-    /// What all balls of a group have in common.
+    /// Data that all blobs of a group share.
     struct Group
     {
         GroupDetail detail;     ///< relative to `origin`, world axes

@@ -26,12 +26,12 @@ struct ReferenceScene
     ReferenceCamera camera;
 };
 
-/// Hashes what the picture depends on, number by number: structs have gaps. Four chains in turn, since a
-/// processor waits for each word of one.
+/// Hashes the inputs of the picture number by number, because structs have padding. Words are distributed
+/// over four chains, because each word of a chain depends on the one before it.
 class KeyHash
 {
 public:
-    /// Of the arithmetic: another picture from the same input gets another number.
+    /// Version of the arithmetic: it is increased when equal inputs give another picture.
     static constexpr uint64_t kVersion = 4;
 
     void add(double x) { addWord(std::bit_cast<uint64_t>(x)); }

@@ -30,7 +30,7 @@ public:
         detailed_.trace(ray, hits_, 0.0, distance);
         return std::exp(-detailed_.opticalDepth());
     }
-    /// Of all that stands between a point and `distance`: 0 behind a triangle.
+    /// Transmittance of the media and surfaces between the ray's origin and `distance`; 0 behind a triangle.
     double visibility(const TraceRay& ray, double distance)
     {
         return opaque_.blocks(ray, distance, hits_) ? 0.0 : transmittance(ray, distance);

@@ -49,7 +49,7 @@ struct TileFrustum
     std::array<Plane, kPlanes> planes; ///< left, right, top, bottom, near, far
 };
 
-/// @param farthest [m] ray parameter beyond which nothing is wanted, may be +inf
+/// @param farthest [m] ray parameter beyond which hits are ignored, may be +inf
 TileFrustum frustumOf(const RayGrid& grid, const PixelRect& rect, double farthest);
 
 } // namespace fx::render

@@ -27,7 +27,7 @@ public:
     void addRate(uint64_t first, uint64_t count, base::Ticks begin, WideInt sought, WideInt one,
                  WideInt rate);
     void addBurst(uint64_t first, uint64_t count, base::Ticks tick);
-    /// Nothing is known of births before `next`.
+    /// The log has no entries for births before `next`.
     void clear(uint64_t next);
     /// Removes runs that ended before `tick`, and moves front().
     void forget(base::Ticks tick);

@@ -128,7 +128,7 @@ public:
     /// No births before this local time, as long as the conditions of the last window hold; 0 when unknown.
     /// Windows up to it may be skipped.
     base::Ticks quietUntil() const { return quiet_.until; }
-    /// Windows up to `tick` have been left out; nothing happens when it is not beyond them.
+    /// Skips windows up to `tick`; does nothing when the schedule has passed `tick` already.
     void passTo(base::Ticks tick)
     {
         if (tick > quiet_.to && tick <= quiet_.until)

@@ -38,7 +38,7 @@ class EmitterPool
 {
 public:
     /// @param pull [m/s2] of all members, see AppearanceJob
-    /// @param revision goes up with each member that comes or goes
+    /// @param revision increases whenever a member is added or removed
     EmitterPool(std::shared_ptr<const ParticleProgram> program, const glm::vec3& pull, uint64_t& revision,
                 std::pmr::memory_resource* memory);
 
@@ -46,7 +46,7 @@ public:
     uint32_t members() const { return taken_; }
     bool empty() const { return taken_ == 0; }
     base::Ticks now() const { return now_; }
-    /// So many emitters, this one among them, have wanted to join in step `number`.
+    /// Number of emitters, including this one, that requested to join in step `number`.
     uint32_t offer(uint64_t number)
     {
         offers_ = offered_ == number ? offers_ + 1 : 1;

@@ -30,8 +30,8 @@ public:
     virtual void leavePool() = 0;
     virtual const EmitterPool* pool() const = 0; ///< that computes it now, null for none
     virtual uint32_t member() const = 0;         ///< its number in that pool
-    /// Solver::publish(), but the columns may be filled later by `spawnBatch`. @return false, and nothing
-    /// has happened, when that is not supported
+    /// Solver::publish(), but the columns may be filled later by `spawnBatch`. @return false without any
+    /// change when the emitter does not support it
     virtual bool joinPublication(const base::GroupInfo& base, base::FrameSnapshot& snapshot,
                                  SpawnBatch& spawnBatch) const = 0;
 
@@ -41,7 +41,7 @@ public:
     virtual uint64_t dropped() const = 0;   ///< births that found their row taken
     /// The pool has written the rows of `now`, local time, into the store; the rest of the state follows.
     virtual void takeBack(base::Ticks now, uint32_t highWater, uint64_t dropped) = 0;
-    /// So many births found their row taken.
+    /// Number of births whose row was occupied.
     virtual void refuse(uint64_t births, StepCounters& counters) = 0;
     /// All births of the open step are in their rows.
     virtual void endStep(StepCounters& counters) = 0;

@@ -78,7 +78,8 @@ struct GasDynamicsDef
     glm::dvec3 gravity{0.0};    ///< [m/s2]
     double ambientPressure = 0; ///< [Pa] of air that is not simulated
     bool tension = true; ///< false: gas thinner than the ambient pressure allows is not drawn together; for a
-                         ///< cloud in air that is not simulated, whose surface the density sum sees too thin
+                         ///< cloud in air that is not simulated: the density sum underestimates the density
+                         ///< at its surface
 };
 
 /// Work of sub-steps in units of base::WorkBudget.
@@ -177,7 +178,7 @@ public:
     void injectLater(uint32_t id, double joules, double delay);
     /// Sets the internal energy of particle `id` [J/kg] at its density.
     void setEnergy(uint32_t id, double energy);
-    /// Must be called after anything has been written through view(), unless nudged() is.
+    /// Must be called after a write through view(), unless nudged() is called instead.
     void edited();
     /// Instead of edited() and setPressureScale(), after small changes: pressure, energy and speed of sound
     /// follow at once, densities and rates with the next evaluation. So the first half kick of the next steps
@@ -185,8 +186,8 @@ public:
     /// evaluation before it.
     void nudged(double pressureScale, base::TaskRunner& tasks);
     /// Moves particles that have come too close apart, particle-shifting, by at most `longest` spacings each;
-    /// densities follow with the next evaluation. edited() or nudged() has to follow. Nothing to do
-    /// before initialize(). Pointers of views are not valid afterwards.
+    /// densities follow with the next evaluation. edited() or nudged() has to follow. Does nothing before
+    /// initialize(). Pointers of views are not valid afterwards.
     /// @param strength [1] > 0 @param longest [1] > 0
     void shift(double strength, double longest, base::TaskRunner& tasks);
 

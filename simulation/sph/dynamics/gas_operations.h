@@ -13,8 +13,8 @@ namespace fx::sim {
 
 // Frames from their beginning to their end: frame.cpp.
 
-/// Gives new particles supports, densities and entropies, then evaluates all particles if anything has
-/// changed from outside. Does nothing otherwise.
+/// Computes supports, densities and entropies of new particles, then evaluates all particles if the caller
+/// has changed any. Does nothing otherwise.
 template <class T>
 void prepare(DynamicsState<T>& state, base::TaskRunner& tasks);
 
@@ -36,7 +36,7 @@ void acceptNudge(DynamicsState<T>& state, double pressureScale, base::TaskRunner
 /// Refuses particles outside the ranges that GasDynamics::add states.
 base::Status checkParticle(const GasParticle& particle, const Domain& domain);
 
-/// Puts a particle behind the others; it has no density until prepare().
+/// Appends a particle; it has no density until prepare().
 template <class T>
 void appendParticle(DynamicsState<T>& state, const GasParticle& particle);
 

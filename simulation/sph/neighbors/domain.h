@@ -38,7 +38,7 @@ struct PairImages
     std::array<T, 3> low{-kNone, -kNone, -kNone};
     std::array<T, 3> high{kNone, kNone, kNone};
 
-    /// [m] The wall in which a particle at `x` sees images.
+    /// [m] Position of the wall that mirrors the particles near `x`.
     T nearerWall(uint32_t axis, T x) const
     {
         return x - low[axis] <= high[axis] - x ? low[axis] : high[axis];

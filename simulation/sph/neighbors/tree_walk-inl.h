@@ -29,7 +29,7 @@ struct Query
     T reach2 = 0;          ///< [m2] square of the largest reach of the box's own particles, margin included
 };
 
-/// The box of owners as `image` sees it.
+/// The bounding box of the owners, transformed for `image`.
 template <class T>
 Query<T> seenFrom(const Query<T>& query, const SeenImage<T>& image)
 {
