@@ -240,9 +240,10 @@ void main()
     ray.cards = firstCard();
     vec2 range = rangeOf(ray);
     if (range.y > range.x) {
-        vec2 window = windowOf(ray, range, whole);
+        SlabWindow window = windowOf(ray, range);
+        whole = window.depth;
         Parts parts;
-        findParts(ray, range, window, parts, seen);
+        findParts(ray, range, vec2(window.ends.x, whole < kMaxDepth ? range.y : window.ends.y), parts, seen);
         addMedia(ray, parts, seen);
         if (whole >= kSeenDepth)
             firstDepth = firstIn(ray, range);

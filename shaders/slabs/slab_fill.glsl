@@ -118,13 +118,14 @@ const int kAfterBalls = 1; // turns of a loop over balls
 const int kAfterBalls = 0;
 #endif
 
-// @param edges kGroup + 1, of the slabs [m], which do not fall; behind: optical depth from the last edge to `end`
-void addLoose(SlabRay ray, float edges[kGroup + 1], float end, inout SlabSums sums[kGroup], out float behind)
+// @param edges kGroup + 1, of the slabs [m], which do not fall; lit: interval [m] in which sunlight is looked up;
+// behind: optical depth from the last edge to `end`
+void addLoose(SlabRay ray, float edges[kGroup + 1], vec2 lit, float end, inout SlabSums sums[kGroup], out float behind)
 {
     behind = 0.0;
     float sun[kGroup + 1];
     for (int k = 0; k <= kGroup; ++k)
-        sun[k] = sunAt(ray, edges[k]);
+        sun[k] = sunAt(ray, clamp(edges[k], lit.x, lit.y));
 #if FX_FIELD_DETAIL
     DetailedSlab detailed[kGroup]; // of the balls of one field, which come one after the other
     for (int k = 0; k < kGroup; ++k)

@@ -104,7 +104,8 @@ void putBehind(inout SlabPicture picture, SlabSums sums, float near, float far)
     }
     float opacityPerDepth = isThin ? 1.0 - depth * (0.5 - depth * 0.166666667) : opacity * perDepth;
     picture.covered += picture.through * opacityPerDepth * sums.share;
-    picture.distances += picture.through * (opacity * 0.5 * (near + far) + (far - near) * fxSlabSlopeWeight(depth));
+    float middle = 0.5 * (near + far) + (far - near) * clamp(sums.moment * perDepth, -0.5, 0.5);
+    picture.distances += picture.through * (opacity * middle + (far - near) * fxSlabSlopeWeight(depth));
     picture.depths += depth;
 #else
     vec3 own = sums.light[0], slope = sums.slope[0];

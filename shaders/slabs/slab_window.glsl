@@ -5,12 +5,15 @@ layout(binding = 9) uniform usampler2D lists;
 flat in ivec2 tileList;    // first entry and entries
 flat in float tileWeight; // [1] balls of the tile over entries: each stands for as many
 
-const float kMinDepth = 0.002; // [1] before the window
+const float kMinDepth = 0.002; // [1] before the window, and behind it
+const float kMinShare = 0.05;  // [1] likewise at most, of the depth of the whole ray
 #if FX_FIELD_DETAIL
 const float kMaxDepth = 36.0;   // [1] up to its end: there are gaps in what is eroded
 #else
 const float kMaxDepth = 9.0;    // [1] up to its end: glow behind it may be a thousand times as bright as what hides it
 #endif
+const float kEvenly = 0.4;       // [1] share of the slabs that are spread evenly; the others are where media are seen
+const float kSeenDecay = 0.5;    // [1] a medium counts as seen by exp(-kSeenDecay depth before it): what hides is to be exact too
 const int kBins = 8;             // of each of the two passes that find it
 
 // The first of the cards of the texel. pass.y: 1 when there are cards
@@ -112,29 +115,79 @@ void passedIn(SlabRay ray, float start, vec2 range, out float passed[kBins + 1])
     }
 }
 
-// Narrows a range to the bins from that in which the depth passes kMinDepth to that in which it passes kMaxDepth.
-// start: where the depth is counted from. depth: up to the end of the range
-vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast, out float depth)
+// Part of a bin up to which a depth is passed, as if its medium were even, or as at the rim of a ball.
+float shareOfBin(float depth, float ofBin, bool isRim)
 {
-    float passed[kBins + 1];
+    float share = clamp(depth / max(ofBin, 1e-6 * kMinDepth), 0.0, 1.0);
+    return isRim ? pow(share, 0.333333333) : share;
+}
+
+// Narrows a range to the bins from that in which the depth passes kMinDepth to that in which it passes kMaxDepth, or behind which
+// less than kMinDepth is left. Only the last time the ends lie within bins, so that they move evenly where bins jump, as
+// they do when the ray begins to touch a ball far off.
+// start: where the depth is counted from. whole: depth of the whole ray, found the first time. passed: as of passedIn
+vec2 narrowed(SlabRay ray, float start, vec2 range, bool isLast, inout float whole, out float passed[kBins + 1])
+{
     passedIn(ray, start, range, passed);
+    whole = isLast ? whole : passed[kBins];
+    float least = min(kMinDepth, kMinShare * whole);
     float width = (range.y - range.x) / float(kBins);
     vec2 narrow = range;
-    for (int k = 1; k < kBins; ++k)
-        narrow.x = passed[k] < kMinDepth ? range.x + float(k) * width : narrow.x;
-    for (int k = kBins - 1; k >= 0; --k) { // within the bin as if its medium were even; in the first as at the rim of a ball
-        float share = clamp(isLast ? (kMaxDepth - passed[k]) / max(passed[k + 1] - passed[k], 1e-6) : 1.0, 0.0, 1.0);
-        share = k == 0 ? pow(share, 0.333333333) : share;
-        narrow.y = passed[k + 1] >= kMaxDepth ? range.x + (float(k) + share) * width : narrow.y;
+    for (int k = 0; k < kBins; ++k) {
+        float share = isLast ? shareOfBin(least - passed[k], passed[k + 1] - passed[k], k == 0) : 0.0;
+        narrow.x = passed[k] <= least ? range.x + (float(k) + share) * width : narrow.x;
     }
-    depth = passed[kBins];
+    for (int k = kBins - 1; k >= 0; --k) {
+        float ofBin = passed[k + 1] - passed[k], left = whole - passed[k + 1];
+        float most = isLast ? shareOfBin(kMaxDepth - passed[k], ofBin, k == 0) : 1.0;
+        float rest = isLast ? 1.0 - shareOfBin(least - left, ofBin, k == kBins - 1) : 1.0;
+        narrow.y = passed[k + 1] >= kMaxDepth ? range.x + (float(k) + most) * width : narrow.y;
+        narrow.y = left <= least ? min(narrow.y, range.x + (float(k) + rest) * width) : narrow.y;
+    }
     return narrow;
 }
 
-// The part of a range of things that matters, see kMinDepth and kMaxDepth. depth: of all of the range
-vec2 windowOf(SlabRay ray, vec2 range, out float depth)
+// The part of a range of things that matters, see kMinDepth and kMaxDepth, and how much of what is seen lies where in it.
+struct SlabWindow
 {
-    float ofWindow;
-    vec2 window = narrowed(ray, range.x, range, false, depth);
-    return narrowed(ray, range.x, window, true, ofWindow);
+    vec2 ends;               // [m]
+    float depth;             // [1] of all of the range
+    float places[kBins + 1]; // [m] from end to end
+    float seen[kBins + 1];   // [1] up to these places, 0 to 1
+};
+
+SlabWindow windowOf(SlabRay ray, vec2 range)
+{
+    SlabWindow window;
+    window.depth = 0.0;
+    float passed[kBins + 1];
+    vec2 bins = narrowed(ray, range.x, range, false, window.depth, passed);
+    window.ends = narrowed(ray, range.x, bins, true, window.depth, passed);
+    float width = (bins.y - bins.x) / float(kBins);
+    float perLength = kEvenly / max(window.ends.y - window.ends.x, 1e-20);
+    float seen[kBins];
+    float sum = 0.0;
+    window.places[0] = window.ends.x;
+    for (int k = 0; k < kBins; ++k) {
+        window.places[k + 1] = clamp(bins.x + float(k + 1) * width, window.ends.x, window.ends.y);
+        float share = (window.places[k + 1] - window.places[k]) / max(width, 1e-20);
+        seen[k] = share * max(exp(-kSeenDecay * passed[k]) - exp(-kSeenDecay * passed[k + 1]), 0.0);
+        sum += seen[k];
+    }
+    window.places[kBins] = window.ends.y;
+    window.seen[0] = 0.0;
+    for (int k = 0; k < kBins; ++k)
+        window.seen[k + 1] = window.seen[k] + (1.0 - kEvenly) * seen[k] / max(sum, 1e-20) +
+                             perLength * (window.places[k + 1] - window.places[k]);
+    return window;
+}
+
+// The place up to which a share of what is seen lies.
+float placeAt(SlabWindow window, float share)
+{
+    float place = window.ends.x;
+    for (int k = 0; k < kBins; ++k)
+        place += clamp((share - window.seen[k]) / max(window.seen[k + 1] - window.seen[k], 1e-6), 0.0, 1.0) *
+                 (window.places[k + 1] - window.places[k]);
+    return place;
 }

@@ -32,9 +32,8 @@ void main()
     vec2 range = rangeOf(ray);
     if (!(range.y > range.x))
         discard;
-    float whole;
-    vec2 window = windowOf(ray, range, whole);
-    float width = (window.y - window.x) / float(FX_SLABS);
+    SlabWindow window = windowOf(ray, range);
+    float end = window.depth < kMaxDepth ? range.y : window.ends.y; // the little before and behind the window is of the outer slabs
 
     SlabPicture picture = emptyPicture();
     float behind = 0.0; // [1] optical depth behind the window: it hides, and its light is not seen
@@ -47,12 +46,12 @@ void main()
         float edges[kGroup + 1];
         for (int k = 0; k <= kGroup; ++k) {
             int edge = first + k;
-            edges[k] = edge == 0 ? range.x : edge == FX_SLABS ? window.y : window.x + float(edge) * width;
+            edges[k] = edge == 0 ? range.x : edge == FX_SLABS ? end : placeAt(window, float(edge) / float(FX_SLABS));
         }
         SlabSums sums[kGroup];
         for (int k = 0; k < kGroup; ++k)
             sums[k] = emptySlab();
-        addLoose(ray, edges, range.y, sums, behind);
+        addLoose(ray, edges, window.ends, range.y, sums, behind);
         for (int k = 0; k < kGroup; ++k)
             putBehind(picture, sums[k], edges[k], edges[k + 1]);
     }

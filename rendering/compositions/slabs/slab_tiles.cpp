@@ -31,6 +31,13 @@ std::pair<float, float> windowRange(const ViewBlock& view, int axis, const glm::
     return {std::min(a, b) - kMargin, std::max(a, b) + kMargin};
 }
 
+/// Evenly spread, and the same from frame to frame: from the seed, which follows from the particle.
+uint32_t rankOf(const BlobInstance& ball, size_t number)
+{
+    const float seed = ball.medium.w;
+    return seed > 0.0f && seed < 1.0f ? uint32_t(seed * 0x1.0p24f) << 8 : uint32_t(number) * 0x9E3779B9u;
+}
+
 } // namespace
 
 uint64_t findTiles(std::span<const BlobInstance> balls, const ViewBlock& view,
@@ -52,10 +59,11 @@ uint64_t findTiles(std::span<const BlobInstance> balls, const ViewBlock& view,
             last[axis] = std::min(int(std::floor(high / kSlabTile)), tiles[axis] - 1);
         }
         if (first[0] > last[0] || first[1] > last[1]) {
-            outRects.push_back({1, 0, 1, 0});
+            outRects.push_back({1, 0, 1, 0, 0});
             continue;
         }
-        outRects.push_back({uint16_t(first[0]), uint16_t(last[0]), uint16_t(first[1]), uint16_t(last[1])});
+        outRects.push_back({uint16_t(first[0]), uint16_t(last[0]), uint16_t(first[1]), uint16_t(last[1]),
+                            rankOf(ball, outRects.size())});
         all += uint64_t(last[0] - first[0] + 1) * uint64_t(last[1] - first[1] + 1);
     }
     return all;

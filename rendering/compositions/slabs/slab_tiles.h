@@ -20,8 +20,9 @@ struct TileRect
 {
     uint16_t left, right; ///< columns
     uint16_t low, high;   ///< rows, upwards
+    uint32_t rank;        ///< stays with the ball; of a crowded tile those with the lowest are listed
 };
-static_assert(sizeof(TileRect) == 8);
+static_assert(sizeof(TileRect) == 12);
 
 /// Fills `outRects` with one for each ball. The eye may be inside of balls.
 /// @param view of the layers, whose size [texel] and least radius it has

@@ -157,6 +157,22 @@ TEST_F(Slabs, ballsThatOverlapAreTheIntegralThroughTheirSum)
         << "the control: one over the other is not the integral";
 }
 
+TEST_F(Slabs, aFaintBallFarBehindDoesNotMakeTheOthersCoarse)
+{
+    std::vector<TestBlob> blobs = cloud(40, 0.6f, 0.4f);
+    blobs.push_back({{0.0f, 0.0f, -60.0f}, 2.0f, 0.1f, 0.0f});
+    const std::vector<double> exact = exactLight(blobs);
+    for (const int slabs : {6, 16}) {
+        view_->settings().slabs = slabs;
+        const Picture picture =
+            drawn(blobs, render::orthographicView(kPose, 3.0f, float(kWidth) / kHeight, 0.0f, 100.0f));
+        double largest = 0.0;
+        for (size_t i = 0; i < exact.size(); ++i)
+            largest = std::max(largest, std::abs(double(picture.texels[4 * i]) - exact[i]));
+        EXPECT_LT(largest, slabs == 6 ? 0.06 : 0.02) << slabs;
+    }
+}
+
 TEST_F(Slabs, noOrderOfBallsIsSeen)
 {
     makeTargets(24, 16);
@@ -293,6 +309,21 @@ TEST_F(Slabs, thousandsOfBallsInOneTileAreTheOneBall)
                     << count << " balls, " << slabs << " slabs, layers " << layers;
             }
         }
+}
+
+TEST_F(Slabs, ballsThatAreBornLeaveTheChoiceOfACrowdedTile)
+{
+    makeTargets(16, 16);
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> place(-1.0f, 1.0f), bright(0.0f, 1.0f);
+    std::vector<TestBlob> balls;
+    for (int i = 0; i < 4001; ++i)
+        balls.push_back({{place(random), place(random), place(random)}, 0.2f, 0.004f, bright(random)});
+    view_->settings().slabs = 16;
+    const Picture after = drawn(balls, camera());
+    balls.pop_back();
+    const Picture before = drawn(balls, camera());
+    EXPECT_LT(maxDifference(before, after), 0.01);
 }
 
 TEST_F(Slabs, picturesRepeatBitForBit)
