@@ -3,6 +3,7 @@
 #include "fxsdk/assets/asset_resolver.h"
 #include "fxsdk/assets/read_file.h"
 #include "fxsdk/cli/scene/effect_framing.h"
+#include "fxsdk/cli/scene/preview_ground.h"
 #include "fxsdk/presets/preset_loader.h"
 
 #include <glm/geometric.hpp>
@@ -12,54 +13,18 @@
 namespace fx::cli {
 namespace {
 
-constexpr int kTiles = 48;          // a side
-constexpr float kTileSize = 2.5f;   // [m]
-constexpr float kClear = 20.0f;     // [m] from the middle, up to where tiles differ fully
-constexpr float kHorizon = 2000.0f; // [m] half of the ground's side
-constexpr glm::vec3 kGround(0.22f, 0.2075f, 0.185f);
-constexpr glm::vec3 kTileContrast(0.02f, 0.0175f, 0.015f);
 constexpr int kFramingMoments = 12;  // looked at between the start and the end
 constexpr double kFramingLimit = 20; // [s] longest time simulated only to place the camera
-
-void addRectangle(render::StageMesh& mesh, const glm::vec2& low, const glm::vec2& high,
-                  const glm::vec3& color)
-{
-    const glm::vec3 corners[] = {
-        {low.x, 0, high.y}, {high.x, 0, high.y}, {high.x, 0, low.y}, {low.x, 0, low.y}};
-    for (const size_t i : {0, 1, 2, 0, 2, 3}) {
-        mesh.positions.push_back(corners[i]);
-        mesh.normals.emplace_back(0.0f, 1.0f, 0.0f);
-        mesh.colors.push_back(color);
-    }
-}
-
-/// Tiles give a scale; away from the middle they fade into the ground, which reaches to the horizon.
-void addGround(render::StageMesh& mesh)
-{
-    constexpr float kSide = 0.5f * float(kTiles) * kTileSize;
-    for (int i = 0; i < kTiles; ++i)
-        for (int j = 0; j < kTiles; ++j) {
-            const glm::vec2 low = glm::vec2(i, j) * kTileSize - kSide;
-            const float away = glm::length(low + 0.5f * kTileSize);
-            const float share = std::clamp((kSide - away) / (kSide - kClear), 0.0f, 1.0f);
-            const float sign = (i + j) % 2 == 0 ? 1.0f : -1.0f;
-            addRectangle(mesh, low, low + kTileSize, kGround + sign * share * kTileContrast);
-        }
-    addRectangle(mesh, {-kHorizon, -kHorizon}, {kHorizon, -kSide}, kGround);
-    addRectangle(mesh, {-kHorizon, kSide}, {kHorizon, kHorizon}, kGround);
-    addRectangle(mesh, {-kHorizon, -kSide}, {-kSide, kSide}, kGround);
-    addRectangle(mesh, {kSide, -kSide}, {kHorizon, kSide}, kGround);
-}
 
 /// Ground and late afternoon light.
 void addDefaultStage(scene_file::SceneFile& scene)
 {
-    addGround(scene.mesh);
-    scene.background.luminance = {1500.0f, 1900.0f, 2500.0f};
-    scene.background.horizon = {2600.0f, 2700.0f, 2700.0f};
+    addPreviewGround(scene.mesh);
+    scene.background.luminance = {1600.0f, 2600.0f, 4600.0f};
+    scene.background.horizon = {5200.0f, 5700.0f, 6100.0f};
     scene.view.lighting.sunDirection = glm::normalize(glm::vec3(0.55f, 0.5f, 0.45f));
-    scene.view.lighting.sunIlluminance = {24000.0f, 20500.0f, 16000.0f};
-    scene.view.lighting.skyLuminance = {1500.0f, 1900.0f, 2500.0f};
+    scene.view.lighting.sunIlluminance = {40000.0f, 34500.0f, 27000.0f};
+    scene.view.lighting.skyLuminance = {2500.0f, 3150.0f, 4200.0f};
     scene.view.exposureEv100 = 13.0f;
 }
 

@@ -1,0 +1,14 @@
+/// @file preview_ground.h
+/// Open country for previews of presets: dry soil with patches of several sizes, and wooded hills far
+/// away. The ground is even, so that effects meet it as they meet their own.
+#pragma once
+
+#include "rendering/stage/stage_renderer.h"
+
+namespace fx::cli {
+
+/// Adds the ground, y = 0 around the origin up to the horizon, and hills that hide where it ends.
+/// The mean albedo near the origin is (0.22, 0.2, 0.17).
+void addPreviewGround(render::StageMesh& mesh);
+
+} // namespace fx::cli
