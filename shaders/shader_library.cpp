@@ -1,7 +1,5 @@
 #include "shaders/shader_library.h"
 
-#include "embedded/shaders.h"
-
 #include <algorithm>
 #include <vector>
 
@@ -15,10 +13,13 @@ constexpr std::string_view kPrologue = "#version 450 core\n"
 
 const base::EmbeddedText* find(std::string_view name)
 {
-    const auto texts = embedded::texts();
-    const auto it =
-        std::find_if(texts.begin(), texts.end(), [&](const auto& text) { return text.name == name; });
-    return it == texts.end() ? nullptr : &*it;
+    for (const std::span<const base::EmbeddedText> texts : folders()) {
+        const auto it =
+            std::find_if(texts.begin(), texts.end(), [&](const auto& text) { return text.name == name; });
+        if (it != texts.end())
+            return &*it;
+    }
+    return nullptr;
 }
 
 /// The quoted path of an include line, or nothing.

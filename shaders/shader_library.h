@@ -2,7 +2,10 @@
 /// The GLSL sources of every program, compiled into the library as text.
 #pragma once
 
+#include "foundation/result/embedded_text.h"
+
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,5 +19,8 @@ std::optional<std::string> assemble(std::string_view name, std::string_view defi
 
 /// Text of one file, without expanding includes. Empty when the file does not exist.
 std::string_view text(std::string_view name);
+
+/// The embedded texts of each folder. CMake generates the definition from its list of folders.
+std::span<const std::span<const base::EmbeddedText>> folders();
 
 } // namespace fx::shaders

@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kDepthTolerance = 2e-3; ///< [1] of transmittances
 constexpr double kSlope = 0.29;          ///< tangent of half the field of view
-constexpr std::array<DetailSubject, 3> kSubjects{{{"explosion-0.6", "explosion", 0.6, 3.9, 4.3},
-                                                  {"explosion-1.5", "explosion", 1.5, 7.2, 5.4},
-                                                  {"smoke-column", "smoke-column", 4.0, 5.0, 6.0}}};
+constexpr std::array<DetailSubject, 3> kSubjects{
+    {{"explosion-0.6", "explosion", 0.6, 3.9, 4.3, 0.1, 1.25},
+     {"explosion-1.5", "explosion", 1.5, 7.2, 5.4, 1.25, 4.7},
+     {"smoke-column", "smoke-column", 4.0, 5.0, 6.0, 1.0, 12.5}}};
 
 } // namespace
 
@@ -24,7 +25,7 @@ std::span<const DetailSubject> detailSubjects()
     return kSubjects;
 }
 
-base::Result<std::unique_ptr<DetailScene>> DetailScene::create(const DetailSubject& subject)
+base::Result<std::unique_ptr<DetailScene>> DetailScene::create(const DetailSubject& subject, double time)
 {
     std::unique_ptr<DetailScene> scene(new DetailScene(subject));
     auto file = sceneOfPreset(std::string("library:") + subject.preset);
@@ -35,7 +36,7 @@ base::Result<std::unique_ptr<DetailScene>> DetailScene::create(const DetailSubje
     if (!effects.ok())
         return effects.status();
     scene->effects_ = std::move(*effects);
-    if (base::Status status = scene->show(subject.time); !status)
+    if (base::Status status = scene->show(time); !status)
         return status;
     return scene;
 }

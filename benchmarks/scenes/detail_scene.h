@@ -25,6 +25,7 @@ struct DetailSubject
     double time;        ///< [s]
     double height;      ///< [m] of the middle of the picture above the ground
     double half;        ///< [m] half of the picture's side
+    double first, last; ///< [s] times between which its extinction is followed
 };
 
 /// All subjects.
@@ -33,7 +34,12 @@ std::span<const DetailSubject> detailSubjects();
 class DetailScene
 {
 public:
-    static base::Result<std::unique_ptr<DetailScene>> create(const DetailSubject& subject);
+    static base::Result<std::unique_ptr<DetailScene>> create(const DetailSubject& subject)
+    {
+        return create(subject, subject.time);
+    }
+    /// @param time [s] that is shown first
+    static base::Result<std::unique_ptr<DetailScene>> create(const DetailSubject& subject, double time);
 
     /// Another moment, not before the last one. @param time [s]
     base::Status show(double time);

@@ -15,7 +15,7 @@ enum class Code : int
 {
     Ok = 0,
     InvalidArgument = -1, ///< an argument is null, not finite, or outside its range
-    StaleId = -2,         ///< an id names nothing, something destroyed, or something of another kind
+    StaleId = -2,         ///< the object of an id never existed, was destroyed, or is of another kind
     WrongThread = -3,     ///< called from a thread that the function's rule forbids
     OutOfMemory = -4,     ///< the allocator returned null
     Capacity = -5,        ///< a stated capacity is used up
@@ -30,7 +30,7 @@ enum class Code : int
     ReEntrant = -14,      ///< a callback called back into the object that is calling it
     Io = -15,             ///< the operating system refused to read or write
     Interrupted = -16,    ///< the user stopped it
-    HostAnswer = -17,     ///< a callback of the host gave an answer that is none
+    HostAnswer = -17,     ///< a callback of the host returned an invalid value
     Internal = -99,       ///< a defect of this library
 };
 

@@ -22,7 +22,7 @@ enum class GpuModule : uint32_t
     Gust,
     QuadraticDrag,
     Vortex,
-    HoldingVortex, ///< keeps particles on their circles
+    HoldingVortex, ///< constrains particles to their circles
     Spring,        ///< attractors, by how they change with distance
     Constant,
     Inverse,
@@ -53,7 +53,7 @@ struct GpuModuleUse
 
 constexpr uint32_t kGpuStepHead = 12; ///< words of a step that every emitter has, see GpuStepWords
 
-/// All modules of an emitter in the order in which they run, as they describe themselves.
+/// Descriptions of all modules of an emitter, in the order in which they run.
 class GpuModules
 {
 public:
@@ -69,7 +69,7 @@ public:
     std::vector<float> numbers;
     uint32_t stepWords = 0; ///< besides the head
     bool kills = false;     ///< particles may die before their time
-    bool sticks = false;    ///< particles may stop for good
+    bool sticks = false;    ///< particles may come to rest permanently
     /// It collides with the host's geometry; if a scene has some, the emitter runs on the CPU.
     bool dependsOnHost = false;
 };
@@ -90,9 +90,9 @@ static_assert(sizeof(GpuStepWords) == 4 * kGpuStepHead);
 /// Steps of equal length that follow each other under equal conditions.
 struct GpuStepRun
 {
-    int64_t age;      ///< [tick] since the first of them began
+    int64_t age;      ///< [tick] time since the first of these steps began
     int64_t length;   ///< [tick] of each
-    uint64_t history; ///< hash of everything that has happened until the first of them began
+    uint64_t history; ///< hash of all inputs of the steps before the first of these steps
     uint32_t count;
     float ground;     ///< [m]
     float gravity[3]; ///< [m/s2]
@@ -105,8 +105,9 @@ static_assert(sizeof(GpuStepRun) == 56);
 /// Step up to which an emitter has been computed.
 struct GpuStepMark
 {
-    uint64_t history = 0; ///< of the run of the last step; 0: nothing has been computed
-    int64_t now = 0;      ///< [tick] local time at the end of that step
+    uint64_t history =
+        0;           ///< key of the run of steps that contains the last step; 0: no step has been computed
+    int64_t now = 0; ///< [tick] local time at the end of that step
 };
 
 } // namespace fx::base

@@ -4,9 +4,9 @@
 /// "particle" from it; neither depends on the other.
 ///
 /// A group of this kind has one column of 64-bit words: a GpuParticleMoment, its GpuBirthRuns, its
-/// GpuConditions and its GpuStepRuns, in this order. What never changes is the group's program. Where a row
-/// lies and which particle lives in it is as in the kind "particle" that the same emitter publishes
-/// otherwise; constants are those of base::particle_constant.
+/// GpuConditions and its GpuStepRuns, in this order. The constant data of the emitter are in the group's
+/// program. The order of rows and the particle in each row equal those of the kind "particle", which the same
+/// emitter publishes on the CPU; constants are those of base::particle_constant.
 ///
 /// All structures consist of 4 and 8 byte numbers without gaps, low word first, as
 /// shaders/gpu_particles/gpu_particle_words.glsl reads them.
@@ -48,7 +48,7 @@ namespace fx::base {
 inline constexpr ColumnDesc kGpuParticleColumns[] = {{"word", "1", ColumnType::U64}};
 inline constexpr KindDesc kGpuParticleKind{"gpuParticle", kGpuParticleColumns, kParticleConstants, false};
 
-/// Where particles are born, before they are turned.
+/// Shape of the volume in which particles are born, before its rotation.
 enum class GpuShape : uint32_t
 {
     Point,
@@ -139,18 +139,18 @@ public:
     uint32_t rows = 0;                ///< computed particles
     bool kills = false;               ///< see GpuModules
     bool dependsOnHost = false;       ///< see GpuModules
-    float meanRadius = 0.0f;          ///< [m] about so much, to estimate costs
+    float meanRadius = 0.0f;          ///< [m] approximate radius, to estimate costs
 
     /// Computes the rows of `group` on the calling thread, as the emitter would have published them: adds a
     /// group of the kind "particle" to `out`, whose schema contains it. Any thread; allocates.
     virtual void replay(const SnapshotGroup& group, FrameSnapshot& out) const = 0;
-    /// Appends the words of all steps of `group` that ended after `since`, in order, to `out`. Any thread;
-    /// allocates nothing but in `out`. Only where features.steps.
+    /// Appends the words of all steps of `group` that ended after `since`, in order, to `out`. Callable from
+    /// any thread; allocates memory for `out` only. Only where features.steps.
     /// @param since [tick] local time
     virtual void writeSteps(const SnapshotGroup& group, int64_t since, std::vector<uint32_t>& out) const = 0;
 };
 
-/// Births at equal distances of time, or all at once.
+/// Births at equal intervals of time, or all at the same time.
 struct GpuBirthRun
 {
     uint32_t reach; ///< the first birth of the run is the one with index next - reach
@@ -200,7 +200,7 @@ constexpr size_t kMaxSteppedGpuWords = kMaxGpuWords + kMaxGpuStepRuns * sizeof(G
 /// The moment and the runs of steps in the words of a group.
 GpuParticleMoment gpuMomentOf(const SnapshotGroup& group);
 GpuStepRun gpuStepRunOf(const SnapshotGroup& group, const GpuParticleMoment& moment, uint32_t run);
-/// How many steps of a run ended at or before `tick`, when it is `now`.
+/// Number of steps of a run that had ended at or before `tick`, if the present time is `now`.
 uint32_t gpuStepsBefore(const GpuStepRun& run, int64_t now, int64_t tick);
 /// True when the steps of `group` continue at `mark`.
 bool continuesFrom(const SnapshotGroup& group, const GpuStepMark& mark);

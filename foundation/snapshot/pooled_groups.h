@@ -104,7 +104,7 @@ struct PooledRows
         box.add(extent.high, extent.reach * corner);
         return box;
     }
-    /// A row that shows something.
+    /// A row that contains a visible element.
     void measure(uint32_t row, RowExtent& io) const
     {
         const glm::vec3 at = copier.center(row);
@@ -121,7 +121,7 @@ struct PooledRows
                  uint32_t each);
 
     SnapshotGroup rows;                ///< columns and constants; of its info only the kind counts
-    std::array<Range, 2> used;         ///< rows that may show something
+    std::array<Range, 2> used;         ///< rows that may contain visible elements
     std::pmr::vector<uint32_t> owner;  ///< by row: nameOf() its member and its row in that one's group
     std::pmr::vector<uint32_t> counts; ///< by member: count of its group
     uint32_t groupCapacity = 0;        ///< of each group

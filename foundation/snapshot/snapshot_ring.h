@@ -54,7 +54,8 @@ private:
     FrameSnapshot* writing_ = nullptr;
     FrameSnapshot* newest_ = nullptr;
     FrameSnapshot* previous_ = nullptr;
-    FrameSnapshot* staged_ = nullptr; ///< becomes previous_ with the next publication; null: newest_ does
+    FrameSnapshot* staged_ =
+        nullptr; ///< snapshot that becomes previous_ at the next publication; null: newest_ becomes previous_
     uint64_t sequence_ = 0;
 };
 

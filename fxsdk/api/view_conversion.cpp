@@ -82,7 +82,7 @@ void checkSlices(fx::api::Checks& check, const FxViewSettings& given)
                "settings.lightSliceTexels is not a multiple of 8: round it up");
     check.range(given.castingLights, 0u, 4u, "settings.castingLights");
     check.range(given.lightSamples, 1u, 4u, "settings.lightSamples");
-    check.flag(given.multipleScattering, "settings.multipleScattering");
+    check.range(given.multipleScattering, 0u, 2u, "settings.multipleScattering");
     check.range(given.lightRefreshFrames, 1u, 16u, "settings.lightRefreshFrames");
 }
 
@@ -163,6 +163,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     slices.castingPoints = int(given.castingLights);
     slices.samples = int(given.lightSamples);
     slices.multiple = given.multipleScattering != 0;
+    slices.network = given.multipleScattering == 2;
     slices.refreshFrames = int(given.lightRefreshFrames);
     settings.composition = render::Composition(given.composition);
     settings.slabs = int(given.slabs);

@@ -50,7 +50,8 @@ struct FxView
     fx::render::ViewRenderer renderer;
     fx::quality::ViewQuality quality;
     uint64_t allocations = 0; ///< during the last frame
-    bool sleeps = false; ///< the last frame drew nothing, and neither does the next while the scene is empty
+    bool sleeps =
+        false; ///< the last frame drew no element; the next one draws none either while the scene is empty
     FxFrameDef sleptFrame = fxDefaultFrameDef(); ///< known to be valid; only while the view sleeps
     glm::dvec3 origin{0.0}; ///< [m] FxFrameDef::origin of the frame that was prepared or rendered last
     std::optional<fx::api::ShownFrame> prepared; ///< by fxView_PrepareLights(), until it is rendered
@@ -71,7 +72,7 @@ base::Status convertSettings(const FxViewSettings& given, render::ViewSettings& 
 base::Status convertBudget(const FxViewSettings& given, quality::BudgetOptions& outOptions);
 base::Status convertFrame(const FxFrameDef& given, render::FrameRequest& outRequest);
 
-/// What its outputs call instances: as the C API does.
+/// Ids of instances in the outputs, equal to those of the C API.
 inline render::InstanceNames instanceNames(const FxView& view)
 {
     return {[](const void* scene, uint64_t instance) {

@@ -45,14 +45,14 @@ struct SceneOptions
     uint64_t workBudget = base::kNoWorkLimit; ///< [unit] of base::WorkBudget that an update may spend
 };
 
-/// Where an instance is in its life. Dormant, hidden, resting and finished ones are never visited.
+/// Lifecycle state of an instance. Dormant, hidden, resting and finished ones are never visited.
 enum class InstanceState : uint32_t
 {
     Dormant,  ///< before its start; not in the world
     Active,   ///< stepped and shown
     Finished, ///< after its end; not in the world
     Waking,   ///< in sight again, on its way to the present
-    Resting,  ///< has nothing to show and nothing to do before a known time
+    Resting,  ///< has no particles, and no births before a known time
     Hidden,   ///< out of sight: paused
 };
 
@@ -88,7 +88,7 @@ struct ActivationHints
     bool occluded = false;
 };
 
-/// Of the last update; exact but for the estimate.
+/// Counters of the last update; all but the estimate are exact.
 struct UpdateCounters
 {
     uint32_t judged = 0;   ///< instances and nodes whose place was compared with the focus
@@ -142,7 +142,8 @@ struct Presentation
     base::SnapshotPair snapshots;
     double interpolation = 0; ///< [0, 1), 0 shows the older
     double time = 0;          ///< [s] scene time of the moment shown
-    /// By the instances that have not ended, seen or not, so that it does not change with the camera.
+    /// Composition that the instances prefer. All instances that have not ended count, so that it does not
+    /// depend on the camera.
     sim::PreferredComposition composition = sim::PreferredComposition::None;
 };
 
@@ -161,7 +162,7 @@ public:
 
     // The id must name an instance of this scene.
     void remove(LocalId id);
-    /// In lock-step the instance is caught up first, so that no camera decides the answer.
+    /// In lock-step mode the instance is caught up first, so that the result does not depend on cameras.
     InstanceState state(LocalId id);
     uint32_t particles(LocalId id);
     void setPlacement(LocalId id, const base::Placement& placement);
@@ -252,7 +253,7 @@ public:
 
     /// While enabled, each update() writes a mark of every instance, which visits all instances. [any thread]
     void wantMarks(bool more) { marksWanted_.fetch_add(more ? 1 : -1); }
-    /// Those of the last update(). [any thread]
+    /// Copies the marks of the last update(). [any thread]
     void copyMarks(std::pmr::vector<Mark>& out);
 
     Presentation acquire();
@@ -395,12 +396,13 @@ private:
     bool memoryFailed_ = false;
     bool sought_ = false; ///< seek() has taken an instance to a time that is not published yet
     UpdateCounters update_;
-    /// Empty publications after which the next one changes nothing.
+    /// Number of empty publications after which a further one has no effect.
     static constexpr uint32_t kMaxEmptyPublications = 2;
     uint32_t emptyPublications_ = 0; ///< one after the other, counted up to kMaxEmptyPublications + 1
     uint32_t hidden_ = 0;
     uint32_t resting_ = 0;
-    double measuredNanoseconds_ = 100; ///< [ns] of a particle's step; a guess until something is stepped
+    double measuredNanoseconds_ =
+        100; ///< [ns] time of one particle in one step; an estimate until the first step
     base::SnapshotRing ring_;
     SceneCounters counters_;
     uint64_t nextSerial_ = 0;
@@ -410,7 +412,7 @@ private:
     std::atomic<double> shownTime_{0};     ///< likewise
     std::atomic<bool> showsNothing_{false};
     std::array<uint32_t, size_t(sim::PreferredComposition::Volume) + 1>
-        preferring_{}; ///< instances that have not ended, by what they prefer
+        preferring_{}; ///< number of instances that have not ended, by preferred composition
     std::atomic<sim::PreferredComposition> composition_{sim::PreferredComposition::None};
     std::pmr::vector<Mark> marks_;
     std::pmr::vector<Mark> newMarks_; ///< of the scene thread

@@ -19,6 +19,18 @@ constexpr std::array<std::pair<std::string_view, render::BillboardForm>, 3> kFor
     {"kernel", render::BillboardForm::Kernel},
 }};
 
+enum class Scattering
+{
+    Off,
+    ClosedForm,
+    Network,
+};
+constexpr std::array<std::pair<std::string_view, Scattering>, 3> kScatterings{{
+    {"off", Scattering::Off},
+    {"closed_form", Scattering::ClosedForm},
+    {"network", Scattering::Network},
+}};
+
 enum class LightType
 {
     Point,
@@ -190,6 +202,11 @@ render::ViewSettings readView(const PresetValue& root)
     uint32_t voxels = uint32_t(view.voxels);
     root.read("voxels", voxels);
     view.voxels = int(voxels);
+    Scattering scattering = Scattering::ClosedForm;
+    root.read("scattering", std::span<const std::pair<std::string_view, Scattering>>(kScatterings),
+              scattering);
+    view.slices.multiple = scattering != Scattering::Off;
+    view.slices.network = scattering == Scattering::Network;
     root.read("detail", view.detail);
     root.read("toneMap", view.toneMap);
     return view;

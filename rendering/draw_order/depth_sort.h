@@ -31,7 +31,7 @@ public:
     /// The other way round.
     std::span<const uint32_t> nearestFirst(std::span<const float> distances) { return sort(distances, 0u); }
 
-    void forget() { order_.clear(); } ///< the next order has nothing to do with the last
+    void forget() { order_.clear(); } ///< the next order is unrelated to the last one
     /// Elements that the last call sorted; fewer than it returned when it began with the order before.
     size_t sortedElements() const { return sortedElements_; }
 

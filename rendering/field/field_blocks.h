@@ -41,9 +41,11 @@ constexpr int kGlowRays[2] = {8, 4}; ///< grids beside each other that hold the 
 /// A grid in which the light that media emit is spread; shaders/field/field_glow.glsl reads this layout.
 struct FieldGlowBlock
 {
-    glm::vec4 corner; ///< xyz [m] relative to the eye; w side of a cell [m]
+    glm::vec4 corner;       ///< xyz [m] relative to the eye; w side of a cell [m]
+    glm::vec4 before{0.0f}; ///< the same of the grid whose light it goes on from; w 0: none
+    glm::vec4 number{0.0f}; ///< x of that grid
 };
-static_assert(sizeof(FieldGlowBlock) == 16);
+static_assert(sizeof(FieldGlowBlock) == 48);
 
 /// A brick that holds medium. Its number is its place in the textures.
 struct FieldBrickBlock

@@ -19,11 +19,11 @@ constexpr uint32_t kGroup[3] = {8, 4, 2}; ///< invocations, one a cell
 constexpr uint32_t kLineRows = 8;         ///< of a group of lines
 constexpr uint32_t kNeighbors = 27;       ///< directions, with that of the cell itself
 
-void setGroups(DispatchCall& ioCall, uint32_t grids)
+void setGroups(DispatchCall& ioCall, uint32_t grids, int cells = kGlowCells)
 {
-    ioCall.groups[0] = uint32_t(kGlowCells) / kGroup[0];
-    ioCall.groups[1] = uint32_t(kGlowCells) / kGroup[1];
-    ioCall.groups[2] = grids * uint32_t(kGlowCells) / kGroup[2];
+    ioCall.groups[0] = uint32_t(cells) / kGroup[0];
+    ioCall.groups[1] = uint32_t(cells) / kGroup[1];
+    ioCall.groups[2] = grids * uint32_t(cells) / kGroup[2];
 }
 
 void addSource(FrameGraph& graph, const FieldGlowPass::Inputs& in, GlowTextures& io)
@@ -37,7 +37,7 @@ void addSource(FrameGraph& graph, const FieldGlowPass::Inputs& in, GlowTextures&
         io.cells = builder.write(io.cells);
         io.scatter = builder.write(io.scatter);
         return [in, io](Backend& backend) {
-            const glm::ivec4 counts(int(in.fieldCount), 0, 0, 0);
+            const glm::ivec4 counts(int(in.fieldCount), in.cells, 0, 0);
             const TextureBinding textures[] = {
                 {0, in.field.medium, Sampling::Linear},      {1, in.field.scatter, Sampling::Linear},
                 {kFieldTexelUnit, in.fieldTexels},           {kBrickTableUnit, in.field.table},
@@ -51,7 +51,7 @@ void addSource(FrameGraph& graph, const FieldGlowPass::Inputs& in, GlowTextures&
             call.images = images;
             call.buffers = buffers;
             call.uniforms = asUniforms(counts);
-            setGroups(call, in.gridCount);
+            setGroups(call, in.gridCount, in.cells);
             backend.dispatch(call);
         };
     });
@@ -133,6 +133,13 @@ const ProgramDesc& glowSourceProgram(bool detail)
 const ProgramDesc& glowSumProgram(bool again)
 {
     return kSums[again ? 1 : 0];
+}
+
+GlowTextures FieldGlowPass::addSourcesTo(FrameGraph& graph, const Inputs& in)
+{
+    GlowTextures out = in.glow;
+    addSource(graph, in, out);
+    return out;
 }
 
 FieldGlowPass::Outputs FieldGlowPass::addTo(FrameGraph& graph, const Inputs& in)

@@ -2,6 +2,7 @@
 /// The passes that propagate emitted light through media: fire lights smoke from inside.
 #pragma once
 
+#include "rendering/field/field_blocks.h"
 #include "rendering/field/field_textures.h"
 #include "rendering/passes/light_bindings.h"
 
@@ -13,7 +14,7 @@ namespace fx::render {
 struct GlowTextures
 {
     ResourceId cells = {};   ///< RGBA32F emitted light, extinction
-    ResourceId scatter = {}; ///< RGBA16F extinction times albedo
+    ResourceId scatter = {}; ///< RGBA16F extinction times albedo; mean cosine of the phase function
     ResourceId rays = {};    ///< RGBA16F radiance, of all directions beside each other
     ResourceId first = {};   ///< RGBA16F mean radiance of emitted light
     ResourceId light = {};   ///< RGBA16F mean radiance of emitted and scattered light
@@ -37,14 +38,17 @@ public:
         bool detail;         ///< some field has detail
         ResourceId grids;
         GlowTextures glow;
-        uint32_t fieldCount; ///< > 0
-        uint32_t gridCount;  ///< > 0
+        uint32_t fieldCount;    ///< > 0
+        uint32_t gridCount;     ///< > 0
+        int cells = kGlowCells; ///< along a side of a grid, a multiple of 8; others for addSourcesTo() only
     };
     struct Outputs
     {
         GlowTextures glow;
     };
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
+    /// Only what the cells emit, extinguish and scatter: writes `cells` and `scatter`.
+    [[nodiscard]] static GlowTextures addSourcesTo(FrameGraph& graph, const Inputs& in);
 };
 
 const ProgramDesc& glowSourceProgram(bool detail);

@@ -1,6 +1,7 @@
 #include "rendering/field/field_glow_plan.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -51,31 +52,36 @@ bool FieldGlowPlan::brighter(const Source& a, const Source& b)
     return std::tie(a.emitted, a.low.x, a.low.y, a.low.z) > std::tie(b.emitted, b.low.x, b.low.y, b.low.z);
 }
 
-FieldGlowPlan::FieldGlowPlan(std::pmr::memory_resource* memory) : sources_(memory), grids_(memory) {}
+FieldGlowPlan::FieldGlowPlan(std::pmr::memory_resource* memory)
+    : cells_(kGlowCells), sources_(memory), grids_(memory)
+{}
 
 void FieldGlowPlan::build(std::span<FieldBlock> ioFields, std::span<const float> emitted,
-                          const glm::dvec3& eye)
+                          const glm::dvec3& eye, int networkCells)
 {
     grids_.clear();
+    cells_ = networkCells > 0 ? networkCells : kGlowCells;
     for (FieldBlock& field : ioFields)
         field.limits.w = 0.0f;
-    listSources(ioFields, emitted);
+    listSources(ioFields, emitted, networkCells > 0);
     std::ranges::sort(sources_, brighter);
     sources_.resize(std::min(sources_.size(), kMaxGlowGrids));
     for (const Source& source : sources_)
         placeGrid(source, ioFields, eye);
 }
 
-/// Fields that emit enough to be seen; those that overlap are one.
-void FieldGlowPlan::listSources(std::span<const FieldBlock> fields, std::span<const float> emitted)
+/// Fields that emit enough to be seen, or all; those that overlap are one.
+void FieldGlowPlan::listSources(std::span<const FieldBlock> fields, std::span<const float> emitted, bool all)
 {
     sources_.clear();
     for (size_t f = 0; f < fields.size(); ++f) {
         const Box box = boxOf(fields[f]);
         const float size = sizeOf(box.high - box.low);
-        if (!(emitted[f] > kDarkest * 4.0f * std::numbers::pi_v<float> * size * size))
+        if (!all && !(emitted[f] > kDarkest * 4.0f * std::numbers::pi_v<float> * size * size))
             continue;
-        Source merged{box.low, box.high, emitted[f]};
+        const float away = glm::length(0.5f * (box.low + box.high));
+        const float seen = size * size / std::max(away * away, size * size);
+        Source merged{box.low, box.high, all ? seen : emitted[f]};
         for (size_t s = 0; s < sources_.size();) {
             const Source& other = sources_[s];
             if (!overlap({merged.low, merged.high}, {other.low, other.high})) {
@@ -105,10 +111,10 @@ void FieldGlowPlan::placeGrid(const Source& source, std::span<FieldBlock> ioFiel
     const glm::vec3 margin(kMargin * sizeOf(source.high - source.low));
     all = {glm::max(all.low, source.low - margin), glm::min(all.high, source.high + margin)};
     const glm::vec3 extent = all.high - all.low;
-    const float side = roundedUp(sizeOf(extent) / float(kGlowCells - kSpareCells));
+    const float side = roundedUp(sizeOf(extent) / float(cells_ - kSpareCells));
     FieldGlowBlock grid;
     for (int a = 0; a < 3; ++a) { // in the middle of its cells, at a multiple of them
-        const double first = 0.5 * double(all.low[a] + all.high[a] - float(kGlowCells) * side);
+        const double first = 0.5 * double(all.low[a] + all.high[a] - float(cells_) * side);
         grid.corner[a] = float(std::round((eye[a] + first) / double(side)) * double(side) - eye[a]);
     }
     grid.corner.w = side;

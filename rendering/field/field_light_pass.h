@@ -15,6 +15,7 @@ namespace fx::render {
 ///
 /// reads   fields, bricks  as in FieldFillPass
 ///         lights
+///         network         light that an illumination network carries
 ///         glow, grids     mean radiance of what media emit, of FieldGlowPass, and buffer of FieldGlowBlock
 /// writes  textures        without layers, adds the light to what the medium emits; with them keeps it in
 /// `scatter`,
@@ -31,6 +32,8 @@ public:
         const ViewBlock* view;            ///< of the picture
         uint32_t brickCount;              ///< > 0
         ResourceId glow = {}, grids = {}; ///< invalid: no field has a grid
+        ResourceId network = {};          ///< moments of NetworkPasses for the same grids, in place of `glow`
+        int networkCells = 0;             ///< along a side of those
     };
     struct Outputs
     {
@@ -40,6 +43,6 @@ public:
 };
 
 /// The program with or without layers and detail.
-const ProgramDesc& fieldLightProgram(bool layers, bool detail);
+const ProgramDesc& fieldLightProgram(bool layers, bool detail, bool network = false);
 
 } // namespace fx::render

@@ -119,7 +119,7 @@ void FieldPlan::build(const FieldPlanInputs& in)
     listBalls(in);
     listTiles(in);
     if (in.glows)
-        glow_.build(fields_, emitted_, in.camera->eye);
+        glow_.build(fields_, emitted_, in.camera->eye, in.networkCells);
 }
 
 /// Smooth fields lose less by it than those with detail, whose thresholds depend on extinctions.

@@ -30,6 +30,7 @@ struct FieldPlanInputs
     int resolution = 96;     ///< voxels along 16 radii of an effect's balls, 16..256
     uint32_t mostBricks = 0; ///< of all fields together; 0: of a full cube of that many voxels
     bool glows = true;       ///< fields that emit light the media around them: glows()
+    int networkCells = 0;    ///< along a side of glows(), which then are of all fields; 0: see kGlowCells
 };
 
 /// Keeps its memory from frame to frame. Threads: one at a time.

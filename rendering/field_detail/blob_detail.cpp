@@ -23,54 +23,11 @@ double phaseOf(const base::SnapshotGroup& group)
     return double(group.constants()[constant::Generation]) + double(group.constants()[constant::Fade]);
 }
 
-constexpr size_t kMaxSampledBalls = 128;  ///< balls
-constexpr float kMaxDensityFactor = 4.0f; ///< more would make a solid of what is left of thin medium
-
-/// Gauss's points for the kernel's weight r^2 (1 - r^2)^2 in r^2: moments up to the third are exact.
-struct Shell
-{
-    float corner; ///< [radius] along each axis, of the corners of a tetrahedron
-    float weight; ///< [1] of all four
-};
-constexpr Shell kShells[] = {{0.44424f, 0.37643f}, {-0.24300f, 0.62357f}};
-
-/// n m of all balls at a point.
-float keptAt(const GroupDetail& detail, std::span<const MediumCaster> balls, const glm::vec3& p)
-{
-    float extinction = 0, thinning = 0;
-    for (const MediumCaster& ball : balls) {
-        const glm::vec3 d = p - ball.center;
-        const float own = formula::fxKernelExtinction(ball.crossSection, ball.radius, glm::dot(d, d));
-        if (own > 0.0f)
-            thinning += own * thinningOf(detail, ball.crossSection, ball.radius);
-        extinction += own;
-    }
-    return meanErodedShare(detail.numbers, extinction * detail.scale,
-                           thinning / std::max(extinction, 1e-30f));
-}
-
 } // namespace
 
 float thinningOf(const GroupDetail& detail, float crossSection, float radius)
 {
     return thinningOf(detail.numbers, crossSection * detail.scale, radius);
-}
-
-float conservationFactor(const GroupDetail& detail, std::span<const MediumCaster> balls)
-{
-    constexpr glm::vec3 kCorners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    const size_t stride = std::max<size_t>((balls.size() + kMaxSampledBalls - 1) / kMaxSampledBalls, 1);
-    double before = 0, after = 0;
-    for (size_t i = 0; i < balls.size(); i += stride) {
-        before += double(balls[i].crossSection);
-        for (const Shell& shell : kShells)
-            for (const glm::vec3& corner : kCorners) {
-                const glm::vec3 p = balls[i].center + balls[i].radius * shell.corner * corner;
-                const float kept = keptAt(detail, balls, p);
-                after += double(balls[i].crossSection * 0.25f * shell.weight * kept);
-            }
-    }
-    return after * double(kMaxDensityFactor) > before ? float(before / after) : kMaxDensityFactor;
 }
 
 BlobDetail::BlobDetail(const base::SnapshotPair& snapshots, size_t group, float t)

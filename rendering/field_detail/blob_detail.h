@@ -4,15 +4,12 @@
 
 #include "foundation/snapshot/snapshot_ring.h"
 #include "rendering/field_detail/field_detail_numbers.h"
-#include "rendering/lights/medium_caster.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <span>
 
 namespace fx::render {
 
@@ -31,11 +28,6 @@ struct GroupDetail
 /// [1] v of field-detail of a ball by itself.
 /// @param crossSection [m2], radius [m] in the world
 float thinningOf(const GroupDetail& detail, float crossSection, float radius);
-
-/// GroupDetail::factor for balls of medium: the integral of the summed extinction over the mean integral
-/// after erosion, at most 4. It is evaluated at eight quadrature points of up to 128 balls each.
-/// @param balls all of the group, visible or not
-float conservationFactor(const GroupDetail& detail, std::span<const MediumCaster> balls);
 
 /// Reads the group of the kind "material" that follows a group of blobs.
 class BlobDetail

@@ -144,4 +144,10 @@ float LumpTile::at(const glm::vec3& cells) const
                     t.z);
 }
 
+const LumpTile& sharedLumpTile()
+{
+    static const LumpTile shared;
+    return shared;
+}
+
 } // namespace fx::render

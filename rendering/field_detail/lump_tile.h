@@ -37,4 +37,7 @@ private:
     std::vector<float> values_;
 };
 
+/// The tile that all renderers share. It is filled at the first call. Any thread.
+const LumpTile& sharedLumpTile();
+
 } // namespace fx::render

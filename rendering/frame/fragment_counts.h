@@ -1,5 +1,6 @@
 /// @file fragment_counts.h
-/// Fragments of a frame at each size at which layers can be drawn.
+/// Fragments of a frame at each size at which layers can be drawn, and the share of the picture that they
+/// cover.
 #pragma once
 
 #include <array>
@@ -19,5 +20,12 @@ inline void add(const FragmentCounts& counts, FragmentCounts& ioSum)
     for (size_t i = 0; i < counts.size(); ++i)
         ioSum[i] += counts[i];
 }
+
+/// Shares of the picture that techniques cover, [0, 1): the weights of their errors.
+struct ScreenShare
+{
+    double media = 0; ///< covered by blobs
+    double hot = 0;   ///< covered by blobs with heat
+};
 
 } // namespace fx::render

@@ -48,7 +48,7 @@ enum class Composition : uint8_t
     Sorted,    ///< one ball or card after the other, farthest first
     Slabs,     ///< in slabs across each ray, in which all are summed up: no order is seen
     Volume,    ///< balls of an effect are summed up in voxels, through which rays march: no order is seen
-    Automatic, ///< as the effects shown prefer; whoever renders says which it is
+    Automatic, ///< the composition that the visible effects prefer; the caller of the renderer states it
 };
 constexpr size_t kCompositionCount = size_t(Composition::Automatic);
 
@@ -65,7 +65,7 @@ enum : uint32_t
     InstanceId = 1,   ///< of what has the largest share of the pixel
     Motion = 2,       ///< [pixel] since the frame before
     FirstDepth = 4,   ///< [m] where media begin to be seen
-    MeanDepth = 8,    ///< [m] of what is seen
+    MeanDepth = 8,    ///< [m] mean distance of visible particles
     OpticalDepth = 16 ///< [1] of the media
 };
 constexpr size_t kCount = 5;
@@ -124,7 +124,9 @@ struct SliceSettings
     int castingPoints = 2; ///< 0..4 lights at points that cast shadows through media, those that light most
     int samples = 2;       ///< 1..4 points of a ray through a ball at which light is looked up
     bool multiple = true;  ///< light that is scattered more than once counts
-    int refreshFrames = 1; ///< 1..16 frames after which planes follow media that move
+    bool network = false;  ///< by an illumination network, where media are drawn in voxels; else by a formula
+    uint8_t networkCells = 0; ///< 24..64 along a side of its grids, a multiple of 8; 0: a third of the voxels
+    int refreshFrames = 1;    ///< 1..16 frames after which planes follow media that move
 
     /// Texels and planes are fixed in the world; false: they follow media and eye, to measure the difference.
     bool snapped = true;
@@ -289,8 +291,9 @@ struct FrameStatistics
     uint64_t shadedFragments = 0;    ///< at the layers' scale; with countOverdraw
     uint64_t estimatedFragments = 0; ///< of the rectangles of blobs and particles, at the layers' scale
     int layerDivisor = 1;            ///< of this frame: that of the settings, or more to keep the budget
-    uint64_t listedBalls = 0;  ///< in lists of tiles, one for each tile; with countOverdraw, as the next two
-    uint64_t spilledBalls = 0; ///< not in them because they were full; others stand for them
+    uint64_t listedBalls = 0; ///< in lists of tiles, one for each tile; with countOverdraw, as the next two
+    uint64_t spilledBalls =
+        0; ///< missing from the lists because they were full; the listed ones are weighted to replace them
     /// Fragments of sprites, ribbons and impostors that were left out because lists were full.
     uint64_t spilledCards = 0;
     Composition composition = Composition::Sorted;

@@ -21,7 +21,7 @@ class GlDevice;
 enum class HostUse : uint8_t
 {
     Nothing,
-    ReadColor, ///< the picture comes from it
+    ReadColor, ///< the opaque picture is read from this texture
     DrawColor, ///< and goes back into it
     ReadDepth,
 };
@@ -61,7 +61,7 @@ private:
     std::string formatFault(const HostTexture& facts) const;
 
     GlDevice& device_;
-    std::array<HostTexture, 16> good_{}; ///< the latest ones; hosts take turns with several
+    std::array<HostTexture, 16> good_{}; ///< the textures used last; hosts may alternate between several
     size_t next_ = 0;                    ///< of good_, to be replaced
 };
 

@@ -50,7 +50,7 @@ public:
 
     bool isDark() const; ///< too little to be a light
 
-    glm::dvec3 center() const { return moment_ / weight_; } ///< [m] of what is not dark
+    glm::dvec3 center() const { return moment_ / weight_; } ///< [m] radius of the part that emits light
 
     /// [m] root mean square extent.
     /// @param leastSquare [m2] of the result where the elements are at one place

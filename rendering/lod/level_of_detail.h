@@ -101,7 +101,7 @@ public:
     /// Begins a frame. @param forget ignore the levels of the last frame: the camera has jumped
     void begin(const LodSettings& settings, const CameraGeometry& camera, int height, bool forget);
 
-    /// The level of a group. Called once a frame. Without bias everything is drawn.
+    /// The level of a group. Called once a frame. Without a bias all elements are drawn.
     /// @param place of the group relative to the eye
     LodLevel levelOf(const base::GroupInfo& group, const base::Placement& place);
 
@@ -112,7 +112,7 @@ public:
                          uint32_t wholes);
 
     bool isOn() const { return settings_.bias > 0.0f; }
-    const LodCounts& counts() const { return counts_; } ///< of this frame so far
+    const LodCounts& counts() const { return counts_; } ///< counts of this frame so far
 
 private:
     struct Entry

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "rendering/frame/fragment_counts.h"
-#include "rendering/frame/screen_share.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/passes/blob_instance.h"
 

@@ -140,9 +140,9 @@ public:
     /// Whether what is beside the view is left out.
     void cullToView(bool isCulled) { isCulled_ = isCulled; }
 
-    /// @param detail of the group
+    /// @param detail of the group  @param outDetailed receives its balls if it has detail
     void run(const base::SnapshotGroup& newer, const base::SnapshotGroup* older, float t, float stepSeconds,
-             const BlobDetail& detail)
+             const BlobDetail& detail, std::pmr::vector<DetailedCaster>* outDetailed)
     {
         const base::Placement place = placementAt(newer, older, t, camera_.eye);
         level_ = lod_ ? lod_->levelOf(newer.info(), place) : LodLevel();
@@ -170,8 +170,10 @@ public:
             if (!(blob.crossSection > 0.0f && blob.radius > 0.0f))
                 continue;
             medium_.push_back({blob.center, blob.radius, blob.crossSection * shadowWeight});
-            if (detail.isGiven())
+            if (detail.isGiven()) {
                 blob.carried = reader.carried(detail);
+                outDetailed->push_back({medium_.back(), blob.carried, reader.id()});
+            }
             const float shownWeight = rank < share_ ? weightOf(rank / share_) : 0.0f; // uniform again
             if (shownWeight == 0.0f)
                 continue;
@@ -349,17 +351,19 @@ GatherCounts gatherBlobs(const base::SnapshotPair& snapshots, double interpolati
         const base::SnapshotGroup* older = same == kNoGroup ? nullptr : &snapshots.older->group(same);
         const BlobDetail detail = outFields ? BlobDetail(snapshots, g, t) : BlobDetail();
         const size_t visibleBegin = outVisible.size(), mediumBegin = outMedium.size();
+        if (detail.isGiven())
+            outFields->casters.clear();
         if (plan.blobShare > 0.0f || plan.isTaken)
-            gather.run(group, older, t, stepSeconds, detail);
+            gather.run(group, older, t, stepSeconds, detail, outFields ? &outFields->casters : nullptr);
         else if (castsShadows)
             gather.runFar(group, older, t, stepSeconds, far);
         outInstances.back().visibleEnd = outVisible.size();
         if (!outFields)
             continue;
         if (detail.isGiven()) {
-            outFields->details.push_back(detail.groupDetail(placementAt(group, older, t, camera.eye)));
-            outFields->details.back().factor =
-                conservationFactor(outFields->details.back(), std::span(outMedium).subspan(mediumBegin));
+            GroupDetail made = detail.groupDetail(placementAt(group, older, t, camera.eye));
+            made.factor = outFields->conservation.of(made, outFields->casters);
+            outFields->details.push_back(made);
         }
         addRun({outInstances.size() - 1, detail.isGiven() ? int(outFields->details.size()) - 1 : -1,
                 visibleBegin, outVisible.size(), mediumBegin, outMedium.size()},

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "foundation/snapshot/snapshot_ring.h"
-#include "rendering/field_detail/blob_detail.h"
+#include "rendering/field_detail/conservation_factor.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/lights/medium_caster.h"
 #include "rendering/lod/impostor_field.h"
@@ -59,9 +59,13 @@ struct BlobRun
 /// Further data for fields of blobs.
 struct FieldGather
 {
-    explicit FieldGather(std::pmr::memory_resource* memory) : details(memory), runs(memory) {}
+    explicit FieldGather(std::pmr::memory_resource* memory)
+        : details(memory), runs(memory), casters(memory), conservation(memory)
+    {}
     std::pmr::vector<GroupDetail> details;
     std::pmr::vector<BlobRun> runs;
+    std::pmr::vector<DetailedCaster> casters; ///< of the last group with detail
+    ConservationFactor conservation;
 };
 
 /// Numbers of omitted blobs.

@@ -1,7 +1,8 @@
 #include "rendering/media/frame_builder.h"
 
 #include "rendering/frame/exposure.h"
-#include "rendering/media/blob_shading.h"
+#include "rendering/optics/black_body.h"
+#include "shaders/formulas/formula.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,6 +11,31 @@
 #include <numeric>
 
 namespace fx::render {
+
+namespace {
+
+/// Emitted light of a blob, and its scattered light without shadows of media. The remaining light is computed
+/// when the blob is drawn.
+/// @param exposure [m2/cd] exposed value per luminance
+BlobInstance shadeBlob(const GatheredBlob& blob, float exposure)
+{
+    const glm::vec3 thermal = blackBodyLuminance(blob.temperature);
+    const glm::vec3 emitted = ((1.0f - blob.albedo) * thermal + blob.emission) * exposure;
+
+    BlobInstance instance;
+    instance.centerRadius = {blob.center, blob.radius};
+    instance.medium = {blob.crossSection, blob.heat, blob.detailAmount, blob.seed};
+    instance.scatter = {blob.albedo, blob.anisotropy};
+    instance.layer = {float(blob.layer) * 2.0f + blob.fireShare, 0.0f, 0.0f, 0.0f};
+    const glm::vec3 share = (1.0f - blob.albedo) * thermal * exposure;
+    const float total = emitted.x + emitted.y + emitted.z;
+    const float thermalShare = total > 0.0f ? (share.x + share.y + share.z) / total : 0.0f;
+    instance.emission = {emitted, thermalShare * formula::fxBlackBodyContrast(blob.temperature)};
+    instance.lit = {blob.center, blob.detailScale};
+    return instance;
+}
+
+} // namespace
 
 FrameBuilder::FrameBuilder(std::pmr::memory_resource* memory)
     : gathered_(memory), casters_(memory), instances_(memory), shaded_(memory), fields_(memory),

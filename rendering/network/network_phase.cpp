@@ -1,5 +1,7 @@
 #include "rendering/network/network_phase.h"
 
+#include "shaders/formulas/formula.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -41,7 +43,7 @@ NetworkPhase networkPhase(double anisotropy, int moments)
         return phase;
     }
     if (moments == 4) {
-        withPeak(std::max(g * g, 1.5 * g - 0.5)); // (4)
+        withPeak(formula64::fxNetworkPeak(g)); // (4)
         return phase;
     }
     for (int i = 0; i <= kShares; ++i)

@@ -2,6 +2,7 @@
 
 #include "foundation/math/bits.h"
 #include "foundation/math/elementary.h"
+#include "shaders/formulas/formula.h"
 
 #include <glm/geometric.hpp>
 
@@ -87,11 +88,9 @@ base::Status ScatteringNetwork::setMedium(const NetworkMedium& medium, const Net
             contraction_ = std::max(contraction_, double(scattering_[i]));
         for (int way = 0; way < 3; ++way) {
             const double tau = double(extinction_[i]) * grid_.side * std::sqrt(way + 1.0);
-            const double taken =
-                tau < 1e-3 ? tau * (1.0 - tau * (0.5 - tau / 6.0)) : 1.0 - base::naturalExp(-tau);
-            taken_[size_t(way)][i] = float(taken);
-            mean_[size_t(way)][i] =
-                float(tau < 1e-3 ? tau * (0.5 - tau * (1.0 / 6.0 - tau / 24.0)) : 1.0 - taken / tau);
+            const double passing = base::naturalExp(-tau);
+            taken_[size_t(way)][i] = float(formula64::fxNetworkTaken(tau, passing));
+            mean_[size_t(way)][i] = float(formula64::fxNetworkMean(tau, passing));
         }
     }
     contraction_ = std::min(contraction_, kMaxScattered); // (5)

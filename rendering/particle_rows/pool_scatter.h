@@ -31,7 +31,7 @@ public:
     /// Writes all columns of non-empty rows, with rotated orientations; rows without a source are zero.
     /// @param groups each with count() rows; groups without a source do not change
     void run(const base::FrameSnapshot& snapshot, std::span<base::SnapshotGroup* const> groups);
-    /// Of the rows of an entry whose pool has velocities.
+    /// Extent of the rows of an entry whose pool has velocities.
     const base::RowExtent& extentOf(const base::GroupRoster::Entry& entry) const
     {
         return extents_[first_[entry.pool] + entry.member];
@@ -64,7 +64,7 @@ private:
     std::pmr::vector<Move> moves_;              ///< of one pool, group after group
     std::pmr::vector<uint32_t> begin_;          ///< by group: in moves_
     std::pmr::vector<uint32_t> ends_;           ///< by group: end of its range in moves_
-    std::pmr::vector<uint8_t> isSentTo_;        ///< by group: 1 where something was sent
+    std::pmr::vector<uint8_t> isSentTo_;        ///< by group: 1 where rows were uploaded
 };
 
 } // namespace fx::render

@@ -16,7 +16,7 @@ namespace fx::render {
 struct PlacedRows
 {
     const float* from[3]; ///< columns of a vector
-    const float* radius;  ///< [m]; above 0 where a row shows something
+    const float* radius;  ///< [m]; above 0 where a row contains a visible particle
     float* to[3];
     float* toRadius;
     uint32_t count;

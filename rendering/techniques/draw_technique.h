@@ -79,7 +79,7 @@ struct GatheredFrame
 /// Where in a frame a technique adds its passes. buildViewGraph() has the order of all passes.
 enum class PassStage : uint8_t
 {
-    Pictures, ///< before everything else: impostors that the frame draws later
+    Pictures, ///< before all other passes: impostors that the frame draws later
     Upload,   ///< the distance to the host's surfaces is known: data are uploaded or computed
     Measure,  ///< after the media
     Refract,  ///< the picture has all media: refraction
@@ -97,7 +97,7 @@ struct PassFrame
     int layerWidth, layerHeight;   ///< [texel]
     LightBindings lights = {};     ///< of the view
     bool hasSmallLayers = false;   ///< their texels are larger than pixels
-    bool hasMedia = false;         ///< something is drawn by the media pass or hides
+    bool hasMedia = false;         ///< the media pass draws particles, or particles occlude
     ResourceId distance = {};      ///< [m] to the host's surfaces; from Measure on, also to opaque particles
     ResourceId layerDistance = {}; ///< at the layers' size
     ResourceId picture = {};       ///< from Refract on
@@ -159,7 +159,7 @@ struct TechniqueSetup
     std::span<const DrawTechnique* const> techniques; ///< all of the view
 };
 
-/// What an effect publishes, as far as techniques depend on it.
+/// The published data of an effect on which techniques depend.
 struct EffectContent
 {
     std::span<const base::KindDesc* const> kinds; ///< of its groups

@@ -2,7 +2,7 @@
 /// Scalability of a technique: its adjustable settings, and the levels that they form.
 #pragma once
 
-#include "rendering/frame/screen_share.h"
+#include "rendering/frame/fragment_counts.h"
 #include "rendering/frame/view_types.h"
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 #include "foundation/assets/asset_table.h"
 #include "foundation/result/status.h"
 #include "foundation/snapshot/snapshot_ring.h"
-#include "rendering/frame/screen_share.h"
+#include "rendering/frame/fragment_counts.h"
 #include "rendering/frame/view_types.h"
 #include "rendering/gl/gl_pass_timer.h"
 #include "rendering/lights/effect_lights.h"
@@ -75,17 +75,18 @@ public:
     /// Lights of the frame that was prepared or rendered last; empty without media.
     const LightList& lights() const;
 
-    /// Measures the next frames; Off is the default and costs nothing. With Gpu where GL has no clock nothing
-    /// is measured.
-    /// @param tag comes back with the times of a frame
+    /// Sets the clock by which the next frames are timed; Off, the default, has no cost. With Gpu, frames are
+    /// not timed when GL has no clock.
+    /// @param tag returned with the times of a frame
     void setTiming(TimingClock clock, uint64_t tag);
     bool hasGpuClock();
     void setHostClock(HostClock clock);   ///< of TimingClock::Host
     bool takeTimes(GroupTimes& out);      ///< see GlPassTimer::take
     const PassGroups& passGroups() const; ///< groups of these times
-    /// [ms] in which the last measured frame that filled planes of lights did so; 0: none has.
+    /// [ms] time in which the last timed frame with filled planes of lights filled them; 0: there is no such
+    /// frame.
     double fillMilliseconds() const;
-    /// Of the last frame; only while frames are measured.
+    /// Share of the last frame's pixels that techniques cover; valid only while frames are timed.
     const ScreenShare& covered() const { return covered_; }
     /// Images and meshes that particles name; must outlive the view or the next call. Null: plain particles.
     void setAssets(const base::AssetTable* assets);

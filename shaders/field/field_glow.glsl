@@ -3,6 +3,8 @@
 struct FieldGlow
 {
     vec4 corner; // xyz [m] of the grid relative to the eye; w side of a cell [m]
+    vec4 before; // the same of the grid whose light it goes on from; w 0: none
+    vec4 number; // x of that grid
 };
 layout(std430, binding = 3) readonly buffer FieldGlows { FieldGlow glows[]; };
 

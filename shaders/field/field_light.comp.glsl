@@ -1,10 +1,12 @@
 #include "formulas/henyey_greenstein.fx.h"
 #include "formulas/multiple_scattering.fx.h"
+#include "formulas/network_cell.fx.h"
 #include "shared/light_slices.glsl"
 #include "shared/scattered_light.glsl"
 #include "shared/sky_light.glsl"
 #include "field/field_blocks.glsl"
 #include "field/field_glow.glsl"
+#include "network/network_grid.glsl"
 
 // Light that each sample of the bricks scatters to the eye. FX_LAYERS 0 adds it to what the medium emits, so that a ray
 // looks up one texture; FX_LAYERS 1 and FX_DETAIL 1 keep it apart, in place of albedo and phase function.
@@ -13,12 +15,18 @@ layout(std430, binding = 0) readonly buffer Fields { VoxelField fields[]; };
 layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
 layout(rgba32f, binding = 0) uniform image3D medium;
 layout(rgba16f, binding = 1) uniform image3D scatter;
+#if !FX_NETWORK
 layout(binding = 3) uniform sampler3D glowLight; // rgb mean radiance of what media emit [exposed]
+#endif
 layout(std140, binding = 0) uniform FieldLightBlock
 {
     vec4 viewAxis; // xyz in which the eye looks; w 1 orthographic
+    ivec4 network; // x cells along a side of a grid
 };
 
+#if FX_NETWORK
+#include "network/network_gather.glsl"
+#else
 const float kGlowRim = 2.0; // [cell] from the faces of a grid inwards, where its light gives way to that of points
 
 // Light that media send, in all directions alike, and the box in which it replaces points.
@@ -31,6 +39,30 @@ vec3 glowAt(int grid, vec3 p, out GlowBox box)
     box = GlowBox(glow.corner.xyz, glow.corner.w * float(kGlowCells), 1.0 - inside);
     vec3 texel = clamp(cell, vec3(0.5), vec3(float(kGlowCells) - 0.5)) + vec3(0.0, 0.0, float(kGlowCells * grid));
     return inside * textureLod(glowLight, texel / vec3(textureSize(glowLight, 0)), 0.0).rgb;
+}
+#endif
+
+// Light that is scattered to the eye, per unit of extinction. own: albedo, mean cosine
+vec3 lightOf(VoxelField field, vec3 p, vec3 toEye, vec4 own)
+{
+    GlowBox box = kNoGlowBox;
+    int grid = int(field.limits.w) - 1;
+    int turns = grid >= 0 ? 1 : 0;
+    vec3 source = vec3(0.0);
+#if FX_NETWORK
+    if (turns > 0) {
+        box = GlowBox(glows[grid].corner.xyz, glows[grid].corner.w * float(network.x), 0.0);
+        source = networkScattered(grid, network.x, p, toEye, own.rgb, own.a) +
+                 networkScatteredOnce(p, toEye, own.rgb, own.a, box);
+    }
+    if (turns < 1)
+        source = skySource(p, toEye, own.rgb, own.a) + scatteredLight(p, toEye, own.rgb, own.a, box);
+    return source;
+#else
+    if (turns > 0)
+        source = own.rgb * glowAt(grid, p, box);
+    return source + skySource(p, toEye, own.rgb, own.a) + scatteredLight(p, toEye, own.rgb, own.a, box);
+#endif
 }
 
 void main()
@@ -47,11 +79,7 @@ void main()
         if (turns > 0) {
             vec3 p = placeOfSample(field, brick, s);
             vec3 toEye = viewAxis.w > 0.5 ? -viewAxis.xyz : -p / max(length(p), 1e-20);
-            GlowBox box = kNoGlowBox;
-            int glowing = field.limits.w > 0.5 ? 1 : 0;
-            if (glowing > 0)
-                source += own.rgb * glowAt(int(field.limits.w) - 1, p, box);
-            source += skySource(p, toEye, own.rgb, own.a) + scatteredLight(p, toEye, own.rgb, own.a, box);
+            source = lightOf(field, p, toEye, own);
         }
 #if FX_LAYERS || FX_DETAIL
         imageStore(scatter, corner + s, vec4(source * (before.a / field.limits.y), 0.0));

@@ -48,8 +48,11 @@ LooseSlabs looseSlabs(SlabRay ray)
     loose.window = loose.range;
     float depth = 0.0;
     bool isThere = loose.range.y > loose.range.x;
-    if (isThere)
-        loose.window = windowOf(ray, loose.range, depth);
+    if (isThere) {
+        SlabWindow window = windowOf(ray, loose.range);
+        loose.window = window.ends;
+        depth = window.depth;
+    }
     float slabs = clamp(ceil(kSlabsPerDepth * depth), 1.0, pass.z);
     loose.width = isThere ? max((loose.window.y - loose.window.x) / slabs, 1e-6 * loose.range.y) : 1.0;
     return loose;
@@ -87,7 +90,7 @@ void putBetween(inout SlabPicture picture, FieldSample near, FieldSample far, fl
     float edges[2] = float[2](from, to);
     float behind;
     if (to > loose.range.x && from < loose.range.y)
-        addLoose(ray, edges, loose.range.y, sums, behind);
+        addLoose(ray, edges, vec2(from, to), loose.range.y, sums, behind);
 #endif
     putBehind(picture, sums[0], from, to);
 }

@@ -9,7 +9,7 @@
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 2) in;
 layout(rgba32f, binding = 0) uniform image3D cells; // rgb emitted light [exposed/m]; a extinction [1/m]
 #if FX_AGAIN
-layout(binding = 3) uniform sampler3D glowScatter; // rgb [1/m] extinction times albedo
+layout(binding = 3) uniform sampler3D glowScatter; // rgb [1/m] extinction times albedo; a mean cosine
 layout(binding = 4) uniform sampler3D glowLight;   // rgb mean radiance [exposed]
 #else
 layout(binding = 12) uniform sampler2D brickTable;
@@ -20,12 +20,12 @@ layout(binding = 1) uniform sampler3D fieldScatter;
 layout(binding = 2) uniform sampler3D fieldMaterial0;
 layout(binding = 3) uniform sampler3D fieldMaterial1;
 #endif
-layout(std140, binding = 0) uniform GlowSourceBlock { ivec4 fieldCount; };
+layout(std140, binding = 0) uniform GlowSourceBlock { ivec4 fieldCount; }; // x fields; y cells along a side of a grid
 
 const int kMaxPoints = 3; // along a side of a cell
 
 // Adds a share of one field at a place. @param pixel [m] lumps below twice of it are not seen
-void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 medium, inout vec3 scatter)
+void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 medium, inout vec4 scatter)
 {
     vec3 local = (p - field.corner.xyz) / field.corner.w;
     vec3 size = vec3(kBrickCells * field.bricks.xyz);
@@ -53,7 +53,9 @@ void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 med
         }
 #endif
         medium += share * kept * own;
-        scatter += share * kept * own.a * textureLod(fieldScatter, uv, 0.0).rgb;
+        vec4 scattered = textureLod(fieldScatter, uv, 0.0);
+        float all = scattered.r + scattered.g + scattered.b;
+        scatter += share * kept * own.a * vec4(scattered.rgb, all * scattered.a);
     }
 }
 #endif
@@ -61,16 +63,16 @@ void addField(VoxelField field, vec3 p, float pixel, float share, inout vec4 med
 void main()
 {
     ivec3 id = ivec3(gl_GlobalInvocationID);
-    int grid = id.z / kGlowCells;
 #if FX_AGAIN
     vec4 medium = imageLoad(cells, id);
     medium.rgb = texelFetch(glowScatter, id, 0).rgb * texelFetch(glowLight, id, 0).rgb;
     imageStore(cells, id, medium);
 #else
-    vec3 cell = vec3(id.xy, id.z - kGlowCells * grid);
+    int grid = id.z / fieldCount.y;
+    vec3 cell = vec3(id.xy, id.z - fieldCount.y * grid);
     FieldGlow glow = glows[grid];
     vec4 medium = vec4(0.0);
-    vec3 scatter = vec3(0.0);
+    vec4 scatter = vec4(0.0); // a cosine times the sum of rgb
     for (int f = 0; f < fieldCount.x; ++f) {
         VoxelField field = fieldOf(f);
         bool isOfGrid = int(field.limits.w) == grid + 1;
@@ -83,6 +85,7 @@ void main()
         }
     }
     imageStore(cells, id, max(medium, vec4(0.0)));
-    imageStore(glowScatter, id, vec4(max(scatter, vec3(0.0)), 0.0));
+    vec3 scattered = max(scatter.rgb, vec3(0.0));
+    imageStore(glowScatter, id, vec4(scattered, scatter.a / max(scattered.r + scattered.g + scattered.b, 1e-20)));
 #endif
 }

@@ -97,12 +97,12 @@ public:
     /// Exact but while the GPU computes the particles; then an upper bound.
     uint32_t elementCount() const override;
     bool hasElements() const override;
-    /// Where motion has a closed form; backwards while the host has changed nothing since local time 0.
-    /// Without particles and births, any emitter can.
+    /// Seeks forwards where motion has a closed form. Seeks backwards only if the host has changed no input
+    /// since local time 0. Without particles and births, any emitter can.
     bool canSeek(const StepContext& context, base::Ticks tick) const override;
     void seek(const StepContext& context, base::Ticks tick) override;
-    /// Without particles, up to the next birth. A birth that another emitter's particles cause comes no
-    /// sooner than that emitter's own rest ends.
+    /// Without particles, up to the next birth. A birth that is caused by particles of another emitter
+    /// happens no earlier than the end of that emitter's rest.
     base::Ticks restsUntil(base::Ticks tick) const override;
     void save(StateWriter& writer) const override;
     void restore(StateReader& reader) override;
@@ -325,7 +325,7 @@ private:
     std::optional<GpuEmitter> gpu_;          ///< where the GPU could compute the particles
     BirthKey key_{};                         ///< of the last step
     mutable std::pmr::vector<Light> lights_; ///< room for those that are published
-    uint64_t hostEvents_ = 0;                ///< so many have been answered
+    uint64_t hostEvents_ = 0;                ///< number of events that have been processed
     uint64_t dropped_ = 0;
     base::TaskRunner* tasks_ = nullptr;              ///< of the last step
     mutable std::pmr::vector<uint32_t> rowsByBirth_; ///< scratch for sorting the published rows of a medium

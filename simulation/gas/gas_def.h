@@ -37,7 +37,7 @@ struct GasDef final : SolverDef
     float drag = 0.35f;          ///< [1/s] momentum shared with the air
     float braking = 0.3f;        ///< [1] multiple of the momentum lost to the air that is driven ahead
     float buoyancy = 1.0f;       ///< [1] multiple of Archimedes' force
-    float rolling = 1.0f;        ///< [1] 0 .. 1, how much the rising cloud turns over like a vortex ring
+    float rolling = 1.0f;        ///< [1] 0 .. [1] strength of the vortex-ring circulation of the rising cloud
     float curlStrength = 2.5f;   ///< [m/s] turbulence below the particles' size
     float curlScale = 2.0f;      ///< [m]
     float viscosity = 1.0f;      ///< [1] largest alpha of the artificial viscosity, 0 .. 4

@@ -82,7 +82,7 @@ private:
     BirthLog log_;
     StepLog stepLog_;
     std::pmr::vector<MotionCondition> conditions_; ///< the first one applies to the oldest living particle
-    base::Ticks known_ = 0;                        ///< nothing is missing since then
+    base::Ticks known_ = 0;                        ///< time since which no step is missing
     base::Ticks dropped_ = -1;                     ///< [tick] births were dropped before then; -1: never
     bool on_ = false;
     mutable uint64_t deathsOf_ = ~uint64_t(0); ///< index of the next birth when the next member was found

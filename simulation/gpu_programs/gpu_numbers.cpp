@@ -1,4 +1,4 @@
-#include "simulation/gpu_programs/gpu_numbers.h"
+#include "simulation/gpu_programs/gpu_program.h"
 
 #include "foundation/math/elementary.h"
 #include "simulation/particles/fields/turn.h"

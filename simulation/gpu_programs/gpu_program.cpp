@@ -1,6 +1,5 @@
 #include "simulation/gpu_programs/gpu_program.h"
 
-#include "simulation/gpu_programs/gpu_numbers.h"
 #include "simulation/gpu_programs/gpu_replay.h"
 #include "simulation/particles/builtin_ops.h"
 #include "simulation/particles/gpu_module_source.h"

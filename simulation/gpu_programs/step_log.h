@@ -42,7 +42,7 @@ class StepLog
         base::Ticks begin;
         base::Ticks length;
         uint32_t count;
-        uint64_t history; ///< of everything before it, and of how it begins
+        uint64_t history; ///< hash of all steps before it and of its initial state
         StepConditions conditions;
 
         base::Ticks end() const { return begin + length * base::Ticks(count); }

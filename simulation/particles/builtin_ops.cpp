@@ -3,7 +3,6 @@
 #include "foundation/random/philox.h"
 #include "simulation/motion/curl_noise.h"
 #include "simulation/particles/gpu_module_source.h"
-#include "simulation/particles/ground_lanes.h"
 
 #include <glm/geometric.hpp>
 

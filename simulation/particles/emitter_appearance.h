@@ -14,7 +14,7 @@ enum class AppearanceKind : uint8_t
     Medium, ///< balls of participating medium: the kind "blob"
     Sprite, ///< the kind "particle"
     Mesh,   ///< the kind "particle" with instanced meshes
-    None,   ///< nothing is published: particles that only give birth to others
+    None,   ///< no particles are published: they only cause births of other particles
 };
 
 /// How the frame of a flipbook texture is chosen.

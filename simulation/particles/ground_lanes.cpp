@@ -1,4 +1,4 @@
-#include "simulation/particles/ground_lanes.h"
+#include "simulation/particles/builtin_ops.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simulation/particles/ground_lanes.cpp"

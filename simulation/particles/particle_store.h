@@ -51,7 +51,7 @@ public:
     /// @param capacity rows; 0: the capacity of the definition
     ParticleStore(const ParticleProgram& program, std::pmr::memory_resource* memory, uint32_t capacity = 0);
 
-    /// [byte] that a store of so many rows takes.
+    /// [byte] memory of a store with `capacity` rows.
     static size_t bytesOf(const ParticleProgram& program, uint32_t capacity);
 
     uint32_t capacity() const { return capacity_; }
@@ -100,7 +100,8 @@ public:
             retireFront(now);
     }
     uint32_t countAlive(base::Ticks now) const;
-    /// [tick] up to which those in all rows surely live; only where nothing but age ends lives.
+    /// [tick] time up to which the particles of all rows are alive for certain; valid only where particles
+    /// die of age alone.
     base::Ticks allLiveUntil() const;
     bool isAnyAlive(base::Ticks now) const
     {
@@ -125,7 +126,7 @@ private:
     // Members that every step and publication reads, adjacent for the cache.
     uint64_t front_ = 0; ///< the oldest index that may be alive
     uint64_t next_ = 0;
-    base::Ticks frontUntil_ = 0; ///< until then it surely does, unless something ends its life
+    base::Ticks frontUntil_ = 0; ///< time until which the particle lives, unless an event kills it earlier
     uint32_t capacity_;
     bool brief_;
     bool mortal_;

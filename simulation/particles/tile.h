@@ -29,9 +29,9 @@ namespace tile_flag {
 enum : uint32_t
 {
     Stuck = 1,    ///< at rest permanently
-    Collided = 2, ///< has touched something in its life
+    Collided = 2, ///< the particle has had a contact during its life
     Empty = 4,    ///< no particle lives here
-    Hit = 8,      ///< touches something in this step, at `contact` of its way
+    Hit = 8,      ///< the particle has a contact in this step, at the share `contact` of its path
     Killed = 16,  ///< killed by a module in this step, at `contact` of its path
 };
 }

@@ -8,7 +8,8 @@
 
 namespace fx::sim {
 
-constexpr size_t kMaxThermals = 8; ///< of an effect that others follow; more are left out
+constexpr size_t kMaxThermals =
+    8; ///< maximum number of thermals of an effect that other effects follow; further ones are ignored
 
 /// See Solver::airMover().
 class AirMover

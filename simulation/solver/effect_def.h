@@ -23,8 +23,8 @@ struct EffectCost
     uint64_t memory = 0;  ///< [byte] of solvers and snapshots
 };
 
-/// How the media of an effect are meant to be put together where they overlap. Of several effects in one
-/// picture the one with the greatest value decides.
+/// How the media of an effect are meant to be put together where they overlap. When a picture has several
+/// effects, the greatest value applies.
 enum class PreferredComposition : uint8_t
 {
     None,
@@ -50,7 +50,8 @@ struct EffectDef
     std::vector<uint32_t> order;
     std::vector<std::string> hostEvents; ///< names of the host's events
     EffectCost cost;                     ///< as the preset's loader has estimated it
-    PreferredComposition composition = PreferredComposition::None; ///< for renderers; nothing depends on it
+    PreferredComposition composition =
+        PreferredComposition::None; ///< for renderers; the simulation does not depend on it
 
     /// True when it depends on the host's geometry.
     bool collides() const
@@ -77,7 +78,7 @@ struct EffectDef
         return std::any_of(solvers.begin(), solvers.end(), [](const auto& def) { return def->bendsLight(); });
     }
 
-    /// Of all its solvers, which may cause births in each other.
+    /// Sum of the influence of all solvers, which may cause births in each other.
     Influence influence() const
     {
         Influence sum;
@@ -97,7 +98,7 @@ struct EffectDef
         return most;
     }
 
-    /// [m] local radius about the origin in which everything stays; infinite when unknown.
+    /// [m] radius about the local origin within which all elements stay; infinite when unknown.
     float reach(float gravity, float windSpeed) const
     {
         if (bound > 0)

@@ -13,7 +13,6 @@
 #include "foundation/time/ticks.h"
 #include "simulation/collision/collider.h"
 #include "simulation/motion/thermal_flow.h"
-#include "simulation/solver/catch_up.h"
 #include "simulation/solver/quality.h"
 #include "simulation/state/state_reader.h"
 #include "simulation/state/state_writer.h"
@@ -30,6 +29,24 @@ class GpuParticleProgram;
 }
 
 namespace fx::sim {
+
+/// Policy for a hidden instance: how it reaches the present when it is visible again.
+enum class CatchUp : uint8_t
+{
+    Analytic, ///< not simulated; computed for the present directly, with the bits of an unbroken simulation
+    Replay,   ///< not simulated; takes the missing steps later, some each frame, with the same bits
+    Coarse,   ///< steps of four times the length, on the schedule of ticks. Deterministic, other bits
+    Skip,     ///< not simulated; the missing time is left out: particles grow older where they are
+    Authoritative, ///< always simulated
+};
+
+/// True when a pause leaves no trace in the state.
+constexpr bool isExact(CatchUp policy)
+{
+    return policy == CatchUp::Analytic || policy == CatchUp::Replay || policy == CatchUp::Authoritative;
+}
+
+constexpr int64_t kCoarseSteps = 4; ///< steps of the scene in one step of CatchUp::Coarse
 
 /// Parameters of a running instance.
 struct InstanceParameters
@@ -88,7 +105,7 @@ struct ContactHook
                 float outNormal[3]) = nullptr;
 };
 
-/// The same in world space, as set by the host.
+/// Contact callback in world space, set by the host.
 struct HostContact
 {
     void* user = nullptr;
@@ -158,7 +175,7 @@ public:
     /// element is born.
     virtual void publish(const base::GroupInfo& base, base::FrameSnapshot& snapshot) const = 0;
 
-    /// True when nothing is alive and nothing will ever be born again from local time `tick` on.
+    /// True when no element is alive and none will be born from local time `tick` on.
     virtual bool finished(base::Ticks tick) const = 0;
 
     virtual uint32_t elementCount() const = 0;
@@ -258,14 +275,14 @@ public:
     virtual bool followsThermals() const { return false; }
     /// Catch-up policy of hidden instances, unless the preset has one.
     virtual CatchUp catchUp() const { return CatchUp::Replay; }
-    /// [m] distance from the instance's origin that no element passes within `seconds` after the start, with
-    /// its radius; infinite when unknown.
+    /// [m] upper bound of the distance of elements, radius included, from the instance's origin within
+    /// `seconds` after the start; infinite when unknown.
     /// @param gravity [m/s2] magnitude @param wind [m/s] magnitude
     virtual float reach(float /*gravity*/, float /*wind*/, float /*seconds*/) const
     {
         return std::numeric_limits<float>::infinity();
     }
-    /// The same for solvers with births by events.
+    /// reach() for solvers whose births are caused by events.
     /// @param bounds of births in it @param ioOthers by solver index: extended by births that it causes in
     ///         others
     virtual float reachFrom(const ReachConditions& conditions, const BirthReach& /*births*/,

@@ -21,8 +21,8 @@
 
 namespace fx::sim {
 
-/// Key of a shared simulation: all conditions that its results depend on. It does not contain position and
-/// scale, nor a rotation that does not change local gravity and wind, unless the simulation collides with the
+/// Key of a shared simulation: all conditions that its results depend on. Position, scale, and a rotation
+/// that does not change local gravity and wind are not part of it, unless the simulation collides with the
 /// host's geometry or depends on its placement.
 struct SimulationConditions
 {
@@ -76,7 +76,7 @@ struct SharedSimulation
     std::vector<std::unique_ptr<Solver>> solvers; ///< none while released
     Solver* only = nullptr;                       ///< the solver, if there is only one; otherwise null
     base::Ticks simulated = 0;                    ///< scene time that the state has reached
-    base::Ticks restUntil = 0;                    ///< scene time up to which steps would change nothing
+    base::Ticks restUntil = 0;                    ///< scene time up to which steps would have no effect
     base::Ticks quietUntil =
         0; ///< scene time up to which steps need not be taken, see SeekableSolver::passTo()
     base::Ticks quietOffset = 0; ///< local minus scene time meanwhile
@@ -143,7 +143,7 @@ public:
     uint32_t count() const { return count_; }           ///< simulations in use
     size_t size() const { return simulations_.size(); } ///< one more than the largest index
 
-    // Functions that create solvers may throw std::bad_alloc; then nothing has changed.
+    // Functions that create solvers may throw std::bad_alloc and then leave the pool unchanged.
 
     /// One more instance: joins a fresh simulation that is equal, or starts one.
     /// @param released start it without solvers

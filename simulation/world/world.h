@@ -67,7 +67,7 @@ public:
     /// @param hidden begin out of sight: solvers are created when it becomes visible
     Slot add(std::shared_ptr<const EffectDef> effect, const InstanceStart& start, bool hidden = false);
     void remove(Slot slot);
-    /// The same at the end of an instance's life: its solvers go to the free list.
+    /// Removes an instance at the end of its life, and moves its solvers to the free list.
     void recycle(Slot slot);
 
     // ---- out of sight; hidden slots are not given to step() and publish() ----
@@ -81,7 +81,7 @@ public:
         const SharedSimulation& simulation = simulations_.at(instances_[slot].simulation);
         return simulation.pooled ? pools_.now() : simulation.simulated;
     }
-    /// True when it has so many pending changes that it should be caught up.
+    /// True when the simulation has so many pending changes that catchUp() should apply them.
     bool hasManyChanges(Slot slot) const;
     /// Advances a hidden instance towards the present by `policy`, its prewarm first. Strong guarantee for
     /// each step.
@@ -160,7 +160,8 @@ public:
     /// Answers of the host since the last call that were none.
     uint64_t takeContactFaults() { return contactFaults_ == 0 ? 0 : contactFaults_.exchange(0); }
 
-    // Strong guarantee; both may need memory when the instance no longer comes out like others.
+    // Strong guarantee. Both functions may allocate when the instance no longer gives the results of the
+    // instances that share its simulation.
     void setPlacement(Slot slot, const base::Placement& placement);
     void setParameters(Slot slot, const InstanceParameters& parameters);
     /// Plays an instance at another rate from now on. As setParameters().
@@ -193,7 +194,7 @@ public:
     /// slot whose start lies inside the step begins at its own start tick; one that starts later is left
     /// alone.
     StepCounters step(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
-    /// The same in parts: beginStep() once, then proceed() until it returns true, with the same bits. While a
+    /// step() in parts, with equal bits: call beginStep() once, then proceed() until it returns true. While a
     /// step is open, changes of instances are deferred to its end, see endStep(), and only functions that
     /// change or query an instance may be called.
     void beginStep(std::span<const Slot> active, base::Ticks tick, base::Ticks stepTicks);
@@ -219,8 +220,8 @@ public:
 
     /// Writes the groups of each slot of `active`, in the order of the list.
     void publish(std::span<const Slot> active, base::FrameSnapshot& snapshot);
-    /// The same in parts: beginPublication() once, then proceedPublication() until it returns true, with the
-    /// same bits. Meanwhile the rules of an open step apply, and no other code may write to `snapshot`.
+    /// publish() in parts, with equal bits: call beginPublication() once, then proceedPublication() until it
+    /// returns true. Meanwhile the rules of an open step apply, and no other code may write to `snapshot`.
     void beginPublication(std::span<const Slot> active, base::FrameSnapshot& snapshot);
     /// An exception closes the publication.
     bool proceedPublication(base::WorkBudget& work);
@@ -336,7 +337,7 @@ private:
 
     SimulationConditions conditionsOf(const EffectDef& effect, const InstanceStart& start) const;
     Slot takeSlot(const InstanceStart& start, SimulationIndex simulation);
-    /// The simulation of an instance becomes one that has the conditions of `start`.
+    /// Moves an instance to a simulation with the conditions of `start`.
     void change(Slot slot, const InstanceStart& start);
     SimulationIndex changeLater(SimulationIndex index, const SimulationConditions& wanted);
     bool isLagging(const SharedSimulation& simulation) const
@@ -410,7 +411,7 @@ private:
     std::shared_ptr<base::GroupRoster> roster_;                  ///< of the last publication
     std::vector<uint32_t> ends_;                                 ///< see FrameSnapshot::setRoster()
     uint64_t stepNumber_ = 0;
-    uint64_t boards_ = 0; ///< so many EventBoards have been made
+    uint64_t boards_ = 0; ///< number of EventBoards that have been created
     base::Ticks now_ = 0; ///< end of the last step
     uint32_t resting_ = 0;
     bool mayRest_ = true;

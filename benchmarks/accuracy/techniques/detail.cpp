@@ -4,6 +4,8 @@
 
 #include "benchmarks/accuracy/accuracy_technique.h"
 #include "benchmarks/scenes/detail_motion.h"
+#include "benchmarks/scenes/detail_shrink.h"
+#include "benchmarks/scenes/detail_sweep.h"
 #include "benchmarks/scenes/lit_media.h"
 
 #include <array>
@@ -15,13 +17,14 @@
 namespace fx::cli {
 namespace {
 
-constexpr double kClear = 0.99;   ///< [1] transmittance from which on a pixel is empty
-constexpr double kCovered = 0.01; ///< [1] opacity from which on a pixel is covered
-constexpr int kShrink = 4;        ///< of the small picture
+constexpr double kClear = 0.99; ///< [1] transmittance from which on a pixel is empty
+constexpr int kSweepTimes = 24; ///< of the sweep of extinctions
+constexpr int kSweepRays = 64;  ///< [ray] along a side of a picture of the sweep
 
 enum class Question
 {
     Extinction, ///< of all medium, with against without detail
+    Sweep,      ///< the same at times of the effect's life, and the factor in frames that follow each other
     Picture,    ///< transmittance by OpenGL against that of the integral
     Small,      ///< a small picture against the mean of the pixels of a large one
     Motion      ///< pictures that follow each other
@@ -36,8 +39,9 @@ struct DetailSetting
     int voxels;
     double limit; ///< [1] of the error
 };
-constexpr std::array<DetailSetting, 6> kSettings{
+constexpr std::array<DetailSetting, 7> kSettings{
     {{"extinction", "", Question::Extinction, render::Composition::Volume, 128, 0.02},
+     {"sweep", "", Question::Sweep, render::Composition::Volume, 128, 0.02},
      {"volume-64", "low", Question::Picture, render::Composition::Volume, 64, 0.02},
      {"volume-128", "default", Question::Picture, render::Composition::Volume, 128, 0.02},
      {"slabs-16", "", Question::Picture, render::Composition::Slabs, 128, 0.02},
@@ -61,7 +65,8 @@ class DetailAccuracy final : public AccuracyTechnique
 {
 public:
     DetailAccuracy(const std::string& scene, bool isSmall)
-        : scene_(scene), subject_(detailSubjects()[0]), side_(isSmall ? 24 : 64), frames_(isSmall ? 3 : 12)
+        : scene_(scene), subject_(detailSubjects()[0]), isSmall_(isSmall), side_(isSmall ? 24 : 64),
+          frames_(isSmall ? 3 : 12)
     {
         for (const DetailSubject& subject : detailSubjects())
             if (scene.starts_with(subject.name))
@@ -81,12 +86,14 @@ private:
     /// RGBA by OpenGL.
     base::Result<Picture> drawn(const DetailSetting& setting, int side, AccuracySample& io);
     base::Status measureExtinction(AccuracySample& out);
+    base::Status measureSweep(const Stop& stop, AccuracySample& out);
     base::Status measurePicture(const DetailSetting& setting, AccuracySample& out);
     base::Status measureSmall(const DetailSetting& setting, AccuracySample& out);
     base::Status measureMotion(const Stop& stop, AccuracySample& out);
 
     std::string scene_;
     DetailSubject subject_;
+    bool isSmall_;
     int side_, frames_;
     std::vector<AccuracySetting> settings_;
     std::unique_ptr<DetailScene> still_;
@@ -162,6 +169,41 @@ base::Status DetailAccuracy::measureExtinction(AccuracySample& out)
     return {};
 }
 
+base::Status DetailAccuracy::measureSweep(const Stop& stop, AccuracySample& out)
+{
+    const auto sweep =
+        sweepExtinction(subject_, isSmall_ ? 3 : kSweepTimes, isSmall_ ? side_ : kSweepRays, stop);
+    if (!sweep.ok())
+        return sweep.status();
+    const auto factors = factorsOfFrames(subject_, 2 * frames_, stop);
+    if (!factors.ok())
+        return factors.status();
+    std::vector<double> errors;
+    double worst = 0.0, step = 0.0, bend = 0.0;
+    for (const double ratio : sweep->ratios) {
+        errors.push_back(ratio - 1.0);
+        worst = std::abs(ratio - 1.0) > std::abs(worst) ? ratio - 1.0 : worst;
+    }
+    for (size_t i = 1; i < factors->size(); ++i) {
+        const double change = (*factors)[i] / (*factors)[i - 1] - 1.0;
+        const double before = i > 1 ? (*factors)[i - 1] / (*factors)[i - 2] - 1.0 : change;
+        step = std::max(step, std::abs(change));
+        bend = std::max(bend, std::abs(change - before));
+    }
+    storeErrors(std::move(errors), out);
+    out.items = double(sweep->ratios.size());
+    out.work = {{"times", sweep->times},
+                {"extinction_ratios", sweep->ratios},
+                {"factors", *factors},
+                {"factor_step_worst", step},
+                {"factor_step_change_worst", bend}};
+    char note[128];
+    std::snprintf(note, sizeof note, "worst %+.2f %% of %zu times; factor %.3f, by at most %.3f %% a frame",
+                  1e2 * worst, sweep->ratios.size(), factors->front(), 1e2 * step);
+    out.note = note;
+    return {};
+}
+
 base::Status DetailAccuracy::measurePicture(const DetailSetting& setting, AccuracySample& out)
 {
     const std::vector<float>& depths = truth(octavesOf(setting.voxels), false);
@@ -193,41 +235,28 @@ base::Status DetailAccuracy::measurePicture(const DetailSetting& setting, Accura
 
 base::Status DetailAccuracy::measureSmall(const DetailSetting& setting, AccuracySample& out)
 {
-    const auto large = drawn(setting, kShrink * side_, out);
-    if (!large.ok())
-        return large.status();
-    const auto small = drawn(setting, side_, out);
-    if (!small.ok())
-        return small.status();
-    std::vector<double> errors;
-    double squares = 0.0, light = 0.0;
-    for (int y = 0; y < side_; ++y)
-        for (int x = 0; x < side_; ++x) {
-            const float* const own = &small->pixels[4 * (size_t(y) * size_t(side_) + size_t(x))];
-            std::array<double, 4> mean{};
-            for (int k = 0; k < kShrink * kShrink; ++k) {
-                const size_t i = size_t(kShrink * y + k / kShrink) * size_t(kShrink * side_) +
-                                 size_t(kShrink * x + k % kShrink);
-                for (size_t c = 0; c < 4; ++c)
-                    mean[c] += double(large->pixels[4 * i + c]) / (kShrink * kShrink);
-            }
-            if (mean[3] < kCovered)
-                continue;
-            for (size_t c = 0; c < 3; ++c) {
-                errors.push_back(double(own[c]) - mean[c]);
-                squares += errors.back() * errors.back();
-                light += mean[c] * mean[c];
-            }
-        }
-    const double relative = std::sqrt(squares / std::max(light, 1e-30));
-    const double scale = std::sqrt(std::max(light, 1e-30) / double(std::max<size_t>(errors.size(), 1)));
-    for (double& error : errors)
-        error /= scale;
-    storeErrors(std::move(errors), out);
-    out.work = {{"error_rms", relative}};
-    char note[96];
-    std::snprintf(note, sizeof note, "RMSE %.2f %% of the RMS, limit %.0f %%", 1e2 * relative,
-                  1e2 * setting.limit);
+    render::ViewSettings view = detailViewSettings();
+    view.composition = setting.composition;
+    view.voxels = setting.voxels;
+    auto errors = shrinkErrors(*still_, view, side_, out.seconds);
+    if (!errors.ok())
+        return errors.status();
+    storeErrors(std::move(errors->values), out);
+    out.items = double((1 + kShrink * kShrink) * side_ * side_);
+    out.work = {{"error_rms", errors->light},
+                {"bias_of_light", errors->bias},
+                {"error_rms_transmittance", errors->transmittance},
+                {"error_rms_emission", errors->emission},
+                {"error_rms_sun", errors->sun},
+                {"error_rms_sky", errors->sky},
+                {"error_rms_unfaded", errors->unfaded},
+                {"error_rms_unfaded_transmittance", errors->unfadedTransmittance}};
+    char note[160];
+    std::snprintf(note, sizeof note,
+                  "RMSE %.2f %% of the RMS, limit %.0f %% (emission %.2f, sun %.2f, sky %.2f; opacity %.2f; "
+                  "unfaded %.2f)",
+                  1e2 * errors->light, 1e2 * setting.limit, 1e2 * errors->emission, 1e2 * errors->sun,
+                  1e2 * errors->sky, 1e2 * errors->transmittance, 1e2 * errors->unfaded);
     out.note = note;
     return {};
 }
@@ -268,6 +297,7 @@ base::Result<AccuracySample> DetailAccuracy::run(size_t index, const std::functi
     const DetailSetting& setting = kSettings[index];
     AccuracySample sample;
     base::Status status = setting.question == Question::Extinction ? measureExtinction(sample)
+                          : setting.question == Question::Sweep    ? measureSweep(stop, sample)
                           : setting.question == Question::Picture  ? measurePicture(setting, sample)
                           : setting.question == Question::Small    ? measureSmall(setting, sample)
                                                                    : measureMotion(stop, sample);

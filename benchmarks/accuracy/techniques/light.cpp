@@ -7,6 +7,7 @@
 #include "benchmarks/scenes/lit_media.h"
 #include "rendering/lights/slices/slice_stack.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <optional>
@@ -35,16 +36,22 @@ struct LitSetting
     bool slices;
     bool multiple; ///< the truth is path traced
     bool sky;
-    int samples; ///< of the sun's light on a ray; 4: and as many planes and texels as there may be
+    int samples;          ///< of the sun's light on a ray; 4: and as many planes and texels as there may be
+    int voxels = 0;       ///< of the composition volume; 0: sorted
+    int networkCells = 0; ///< of its illumination network; 0: none
 };
-constexpr std::array<LitSetting, 8> kSettings{{{"single", "", true, false, true, 2},
-                                               {"single-no-slices", "", false, false, true, 2},
-                                               {"single-sun", "", true, false, false, 2},
-                                               {"single-sun-1", "", true, false, false, 1},
-                                               {"single-sun-fine", "", true, false, false, 4},
-                                               {"single-sun-no-slices", "", false, false, false, 2},
-                                               {"multiple", "default", true, true, true, 2},
-                                               {"multiple-no-slices", "", false, true, true, 2}}};
+constexpr std::array<LitSetting, 12> kSettings{{{"single", "", true, false, true, 2},
+                                                {"single-no-slices", "", false, false, true, 2},
+                                                {"single-sun", "", true, false, false, 2},
+                                                {"single-sun-1", "", true, false, false, 1},
+                                                {"single-sun-fine", "", true, false, false, 4},
+                                                {"single-sun-no-slices", "", false, false, false, 2},
+                                                {"multiple", "default", true, true, true, 2},
+                                                {"multiple-no-slices", "", false, true, true, 2},
+                                                {"volume", "", true, true, true, 2, 96},
+                                                {"network-24", "", true, true, true, 2, 96, 24},
+                                                {"network-32", "", true, true, true, 2, 96, 32},
+                                                {"network-48", "", true, true, true, 2, 96, 48}}};
 
 class LightAccuracy final : public AccuracyTechnique
 {
@@ -65,7 +72,11 @@ public:
             settings_.push_back({setting.name,
                                  setting.tier,
                                  {{"slices", setting.slices},
-                                  {"scattering", setting.multiple ? "multiple" : "single"},
+                                  {"scattering", setting.networkCells > 0 ? "network"
+                                                 : setting.multiple       ? "multiple"
+                                                                          : "single"},
+                                  {"voxels", setting.voxels},
+                                  {"network_cells", setting.networkCells},
                                   {"sky", setting.sky},
                                   {"samples", setting.samples}}});
     }
@@ -145,6 +156,11 @@ base::Result<AccuracySample> LightAccuracy::run(size_t index, const std::functio
     slices.enabled = setting.slices;
     slices.multiple = setting.multiple;
     slices.samples = setting.samples;
+    slices.network = setting.networkCells > 0;
+    slices.networkCells = uint8_t(setting.networkCells);
+    painter_->settings().composition =
+        setting.voxels > 0 ? render::Composition::Volume : render::Composition::Sorted;
+    painter_->settings().voxels = std::max(setting.voxels, 16);
     if (setting.samples == 4)
         slices.resolution = {render::kMaxSliceTexels, render::kMaxSlicePlanes};
     const auto picture = painter_->paint(blobs_, viewOf(setting), slices);

@@ -201,7 +201,8 @@ bool gate(const char* what, double value, double most)
 int checkGates(const BenchIdleOptions& options)
 {
     if (!hasCallgrind()) {
-        std::fprintf(stderr, "fx bench idle: --check counts instructions with valgrind, which is missing\n");
+        std::fprintf(stderr, "fx bench idle: --check counts instructions with valgrind, which is missing or "
+                             "cannot run fx on this processor\n");
         return kFailed;
     }
     BenchIdleOptions few = options, many = options, empty = options;

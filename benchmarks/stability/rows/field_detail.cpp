@@ -1,8 +1,9 @@
 /// @file field_detail.cpp
-/// FD-01 to FD-04: detail of fields at the ends of its ranges.
+/// FD-01 to FD-05: detail of fields at the ends of its ranges.
 
 #include "benchmarks/stability/stability_row.h"
 #include "foundation/snapshot/material_kind.h"
+#include "rendering/field_detail/conservation_factor.h"
 #include "rendering/reference/render/medium_details.h"
 #include "shaders/formulas/formula.h"
 
@@ -10,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory_resource>
+#include <vector>
 
 namespace fx::cli {
 namespace {
@@ -171,6 +174,52 @@ std::vector<StabilitySweep> fades(bool isQuick)
     return {sweep, controlOf(sweep, "weights that add up to 1", error(false))};
 }
 
+/// Factor of a heap of balls, each of the given optical depth through its middle.
+/// @param isBounded false: what the formula gives without its bounds
+double wholeFactor(double depth, double size, bool isBounded)
+{
+    render::GroupDetail detail;
+    detail.numbers = numbersOf(size);
+    for (size_t g = 0; g < 2; ++g)
+        detail.toCells[g] = glm::mat3(float(1.0 / size));
+    std::vector<render::DetailedCaster> balls;
+    for (int i = 0; i < 27; ++i) {
+        const glm::vec3 cells(float(i % 3), float(i / 3 % 3), float(i / 9));
+        const auto section = float(depth * size * size);
+        balls.push_back({{float(size) * 0.7f * cells, float(size), section}, {}, uint64_t(i)});
+    }
+    const double factor =
+        double(render::ConservationFactor(std::pmr::get_default_resource()).of(detail, balls));
+    if (isBounded)
+        return factor;
+    double left = 0.0; // of the mean over all noise
+    for (const render::DetailedCaster& ball : balls)
+        left += double(render::meanErodedShare(
+            detail.numbers, formula::fxKernelPeak(ball.ball.crossSection, ball.ball.radius)));
+    return double(balls.size()) / left;
+}
+
+std::vector<StabilitySweep> factors(bool isQuick)
+{
+    const auto error = [](bool isBounded) {
+        return [isBounded](double depth, double size) {
+            const double factor = wholeFactor(depth, size, isBounded);
+            if (!std::isfinite(factor))
+                return kInfinity;
+            return std::fmax(std::fmax(factor - double(render::ConservationFactor::kMax),
+                                       double(render::ConservationFactor::kMin) - factor),
+                             0.0);
+        };
+    };
+    const StabilitySweep sweep{"balls of any extinction and size",
+                               powersOfTen("optical depth of a ball", -12, 12, 2, isQuick),
+                               powersOfTen("billows [m]", -3, 3, 2, isQuick),
+                               1e-6,
+                               false,
+                               error(true)};
+    return {sweep, controlOf(sweep, "without bounds", error(false))};
+}
+
 } // namespace
 
 StabilityRows fieldDetailStability()
@@ -180,6 +229,7 @@ StabilityRows fieldDetailStability()
         {"FD-02", "detail up to 1e7 m from the world's origin", "the same at the origin", places},
         {"FD-03", "renewal of coordinates, however often", "the noise before", renewals},
         {"FD-04", "two generations at any weight", "deviation 1", fades},
+        {"FD-05", "the factor that keeps the whole extinction", "between 1/4 and 4", factors},
     };
 }
 

@@ -317,7 +317,10 @@ base::Result<RenderPlan> planRender(const RenderArguments& arguments)
     if (arguments.renderer != "path" && (tiled.paths || tiled.error || tiled.bounces))
         return usage("--spp, --error and --bounces need --renderer path");
     if (arguments.renderer == "gl" && tiled.scattering == "none")
-        return usage("--scattering none needs --renderer reference; with gl it is single or multiple");
+        return usage(
+            "--scattering none needs --renderer reference; with gl it is single, multiple or network");
+    if (arguments.renderer != "gl" && tiled.scattering == "network")
+        return usage("--scattering network needs --renderer gl");
     if (arguments.renderer == "reference" && tiled.scattering == "multiple")
         return usage("--scattering multiple needs --renderer gl or path");
     if (!arguments.outputs.empty() && (plan.output.kind != OutputKind::Exr || arguments.renderer == "path"))
@@ -370,7 +373,11 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
     if (settings.slices.enabled && !arguments.lightSlices.empty())
         settings.slices.resolution.planes = std::stoi(arguments.lightSlices);
     settings.slices.refreshFrames = arguments.lightRefresh;
-    settings.slices.multiple = arguments.reference.scattering != "single";
+    const std::string& scattering = arguments.reference.scattering;
+    if (scattering == "single" || scattering == "multiple" || scattering == "network") {
+        settings.slices.multiple = scattering != "single";
+        settings.slices.network = scattering == "network";
+    }
     settings.exposureEv100 = arguments.exposureEv100.value_or(settings.exposureEv100);
 }
 

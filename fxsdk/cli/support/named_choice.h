@@ -2,16 +2,27 @@
 /// Options whose value is one of a few names.
 #pragma once
 
-#include <string>
-#include <vector>
+#include "foundation/result/nearest_name.h"
 
-namespace CLI {
-class Validator;
-}
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace fx::cli {
 
 /// Accepts one of `names`; the message about another value lists them and suggests the nearest.
-CLI::Validator oneOf(std::vector<std::string> names);
+inline CLI::Validator oneOf(std::vector<std::string> names)
+{
+    const std::string list = "{" + CLI::detail::join(names, ",") + "}";
+    const auto check = [names = std::move(names), list](std::string& text) -> std::string {
+        if (std::find(names.begin(), names.end(), text) != names.end())
+            return {};
+        return "\"" + text + "\" is not one of " + list + base::didYouMean(text, names);
+    };
+    return CLI::Validator(check, list);
+}
 
 } // namespace fx::cli

@@ -5,8 +5,8 @@
 /// Without cameras (fxScene_SetFocus) every instance is in sight. With cameras, an instance whose bounds no
 /// camera sees is hidden: it is not stepped, not shown, and costs nothing. When it comes into sight again, it
 /// catches up as its preset's member "offscreen" specifies:
-///   analytic       jumps there: the same bits as if it had never been hidden
-///   replay         takes the missing steps, so many an update (FxSceneDef::catchUpSteps): the same bits; an
+///   analytic       is computed for the present directly, with the bits of an effect never hidden
+///   replay         takes the missing steps, at most FxSceneDef::catchUpSteps an update: the same bits; an
 ///                  absence longer than FxSceneDef::maxCatchUpTicks is left out instead, and counted
 ///   coarse         is stepped while hidden, four steps of the scene in one: other bits
 ///   skip           the missing time is left out: particles age, or are gone, but have not moved
@@ -154,7 +154,7 @@ typedef struct FxInstanceActivity
     uint32_t policy;     ///< FX_CATCH_UP_...
     uint32_t particles;  ///< in its solvers
     float significance;  ///< [pixel] on the picture of the best camera, times priority
-    float milliseconds;  ///< [ms] of a step, estimated
+    float milliseconds;  ///< [ms] estimated time of a step
     float reach;         ///< [m] largest distance of particles from its position; infinite when unknown
     int64_t lagTicks;    ///< [tick] time that is not simulated yet
 } FxInstanceActivity;
@@ -178,14 +178,14 @@ typedef struct FxFrameStats
     uint32_t simulations;   ///< existing
     uint32_t particles;     ///< alive in active instances
     uint64_t particleSteps; ///< particles advanced, catching up apart
-    uint64_t subSteps;      ///< of gases
-    uint64_t neighborPairs; ///< of gas particles
-    uint64_t born;          ///< particles
-    uint64_t dropped;       ///< births refused
+    uint64_t subSteps;      ///< sub-steps of gases
+    uint64_t neighborPairs; ///< pairs of gas particles that interacted
+    uint64_t born;          ///< particles born
+    uint64_t dropped;       ///< births refused because a capacity was full
     uint64_t clamped;       ///< values limited
     uint64_t catchUpParticleSteps; ///< particles advanced while catching up
-    int64_t catchUpTicks;          ///< [tick] caught up, the sum over instances
-    int64_t debtTicks;             ///< [tick] that gases did not simulate
+    int64_t catchUpTicks;          ///< [tick] time caught up, the sum over instances
+    int64_t debtTicks;             ///< [tick] time that gases skipped
     uint64_t allocations;          ///< from the context's allocator
     double estimatedMilliseconds;  ///< [ms] of a step of all active instances
     double nanosecondsPerParticle; ///< [ns] of a step, given or measured; used by the estimate

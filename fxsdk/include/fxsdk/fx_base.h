@@ -72,25 +72,26 @@ typedef enum FxResult
     FX_ERROR_NO_GL = -13,           ///< the context was created without GL, so it cannot draw
     FX_ERROR_RE_ENTRANT = -14,      ///< a callback called back into the object that is calling it
     FX_ERROR_IO = -15,              ///< the operating system refused to read or write
-    FX_ERROR_INTERRUPTED = -16,     ///< the user stopped it
+    FX_ERROR_INTERRUPTED = -16,     ///< the user stopped the operation
     FX_ERROR_HOST_ANSWER = -17,     ///< a callback of the host returned an invalid value
     FX_ERROR_INTERNAL = -99,        ///< a defect of the library
     FX_RESULT_FORCE_32 = 0x7fffffff ///< makes the type 32 bits wide with every compiler; never returned
 } FxResult;
 
-/// Names one preset of one context. All-zero means "none". A stale id is detected, never followed.
+/// Names one preset of one context. All-zero means "none". Functions detect a stale id and never use another
+/// object in its place.
 typedef struct FxPresetId
 {
     uint64_t bits; ///< opaque; differs from run to run
 } FxPresetId;
 
-/// Names one instance of one scene. All-zero means "none". A stale id is detected, never followed.
+/// Names one instance of one scene. All-zero means "none". Functions detect a stale id.
 typedef struct FxInstanceId
 {
     uint64_t bits; ///< opaque; differs from run to run
 } FxInstanceId;
 
-/// Names one acquired snapshot of one scene. All-zero means "none". A stale id is detected, never followed.
+/// Names one acquired snapshot of one scene. All-zero means "none". Functions detect a stale id.
 typedef struct FxSnapshotId
 {
     uint64_t bits; ///< opaque; differs from run to run
@@ -98,7 +99,7 @@ typedef struct FxSnapshotId
 
 /// Owns presets, scenes and views; see fx_context.h.
 typedef struct FxContext FxContext;
-/// Instances and a clock; see fx_scene.h.
+/// A list of effect instances with a clock; see fx_scene.h.
 typedef struct FxScene FxScene;
 /// Renders a scene; see fx_view.h.
 typedef struct FxView FxView;

@@ -26,7 +26,7 @@ extern "C" {
 /// so that the same calls give the same bits. The quality of rendering is set in fx_view.h.
 typedef enum FxQuality
 {
-    FX_QUALITY_DEFAULT = 0,   ///< of an instance: the scene's; of a scene: medium
+    FX_QUALITY_DEFAULT = 0,   ///< for an instance: quality of its scene; for a scene: medium
     FX_QUALITY_LOW = 1,       ///< about a quarter of the particles
     FX_QUALITY_MEDIUM = 2,    ///< the quality that presets are designed for
     FX_QUALITY_HIGH = 3,      ///< about twice the particles
@@ -40,7 +40,7 @@ typedef struct FxSceneDef
     /// Set by fxDefaultSceneDef(); do not touch.
     uint32_t structSize;
 
-    /// Most instances at a time, 1..2^24 - 1; default 65,536.
+    /// Maximum number of instances, 1..2^24 - 1; default 65,536.
     uint32_t maxInstances;
 
     /// [tick] length of a step, 1/1000 s to 1 s; default 1/60 s.
@@ -53,7 +53,8 @@ typedef struct FxSceneDef
     /// [m/s2] world, each within +-1000; default 0, -9.80665, 0.
     float gravity[3];
 
-    /// 1 (default): presets with a ground have it in their plane y = 0, turned with them; 0: none.
+    /// 1 (default): the ground of a preset is the plane y = 0 of its local space, which rotates with the
+    /// instance; 0: no preset has a ground.
     uint32_t hasGround;
 
     /// FxQuality of instances without a quality of their own; default FX_QUALITY_DEFAULT.
@@ -119,7 +120,7 @@ typedef struct FxInstanceParameters
     /// [1] 0..1000, multiplies future birth rates and injected energies; default 1.
     float intensity;
 
-    /// [m/s] world, each within +-1000, added to the preset's own; default 0.
+    /// [m/s] world, each within +-1000, added to the wind of the preset; default 0.
     float wind[3];
 
     /// 0: no births, existing particles continue; 1 (default): as in the preset.
@@ -139,7 +140,7 @@ typedef struct FxInstanceDef
     /// Set by fxDefaultInstanceDef(); do not touch.
     uint32_t structSize;
 
-    /// [1] of all lengths, 1e-3..1e3; default 1.
+    /// [1] factor for all lengths, 1e-3..1e3; default 1.
     float scale;
 
     /// Required.
@@ -151,7 +152,8 @@ typedef struct FxInstanceDef
     /// Unit quaternion x, y, z, w (length within 1e-3 of 1); default identity.
     float rotation[4];
 
-    /// [tick] scene time of the start, >= 0; a time in the past means now; default 0.
+    /// [tick] scene time of the start, >= 0; when it is past, the instance starts with the next step; default
+    /// 0.
     int64_t startTick;
 
     /// The same seed and calls give the same bits on any number of threads; default 0.
@@ -210,22 +212,22 @@ typedef struct FxSceneStatistics
     /// All existing instances: dormant, active, finished, waking, resting and hidden.
     uint32_t instances;
 
-    /// Before their start.
+    /// Instances before their start.
     uint32_t instancesDormant;
 
-    /// Being stepped and shown.
+    /// Instances that are stepped and shown.
     uint32_t instancesActive;
 
-    /// Ended and not yet destroyed.
+    /// Instances that have ended and are not yet destroyed.
     uint32_t instancesFinished;
 
-    /// Alive after the last step.
+    /// Particles alive after the last step.
     uint32_t particles;
 
     /// Steps taken since the scene was created.
     uint64_t steps;
 
-    /// Particles born since then.
+    /// Particles born since the scene was created.
     uint64_t born;
 
     /// Births refused because a preset's capacity was full.
@@ -271,13 +273,13 @@ typedef struct FxSceneStatistics
     /// Reserved; 0.
     uint32_t reserved;
 
-    /// In sight again and catching up.
+    /// Instances that are in sight again and catch up.
     uint32_t instancesWaking;
 
-    /// Without particles, and without births before a known time.
+    /// Instances without particles, and without births before a known time.
     uint32_t instancesResting;
 
-    /// Out of sight.
+    /// Instances that are out of sight.
     uint32_t instancesHidden;
 
     /// Reserved; 0.
@@ -311,10 +313,10 @@ FX_API FxResult fxScene_AdoptThread(FxScene* scene);
 
 /// Adds an instance. It starts when the scene clock reaches def->startTick, or with the next step when that
 /// time is past. An instance that starts with the next step allocates its memory in this call, a later one at
-/// its start. Instances of one preset share one simulation when start, seed, quality, intensity and emission
-/// are equal, and gravity and wind in local space; for emitters of "space": "world" also the placement. A
-/// shared simulation is stepped once and shown at each instance's own placement. An instance that is changed
-/// gets a simulation of its own. [scene thread]
+/// its start. Instances of one preset share one simulation when they have equal start, seed, quality,
+/// intensity and emission, and equal gravity and wind in local space. Emitters with "space": "world" also
+/// need equal placements. A shared simulation is stepped once and shown at each instance's own placement.
+/// When an instance is changed, it gets a simulation of its own. [scene thread]
 /// @param outInstance receives the id; untouched on failure
 /// @return FX_OK, FX_ERROR_STALE_ID (preset), FX_ERROR_INVALID_ARGUMENT (not finite or out of range),
 ///         FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (maxInstances), FX_ERROR_OUT_OF_MEMORY,
@@ -381,9 +383,9 @@ FX_API FxResult fxScene_SetInstanceSpeed(FxScene* scene, FxInstanceId instance, 
 FX_API FxResult fxScene_SeekInstance(FxScene* scene, FxInstanceId instance, double seconds);
 
 /// Triggers the births that a preset defines for an event of the host: a member of an emitter's "events" with
-/// "on": "host" and this name. They happen at the beginning of the next step, at the position of that
-/// emitter; in a hidden instance when it is simulated again. Each call counts: equal calls give equal bits.
-/// [scene thread]
+/// "on": "host" and this name. The births happen at the beginning of the next step, at the position of that
+/// emitter. In a hidden instance they happen when the instance is simulated again. Each call counts: equal
+/// calls give equal bits. [scene thread]
 /// @param name  name of the event in the preset, at most 128 bytes
 /// @param count [1] number of events, 0..65536; 0 does nothing. An instance that has ended does not change
 /// @return FX_OK, FX_ERROR_NOT_FOUND (the preset has no such event), FX_ERROR_INVALID_ARGUMENT (null, out of

@@ -3,12 +3,12 @@
 ///
 /// Threads: everything here is [GL thread], the thread that created the context, unless a function says
 /// otherwise. It may overlap with fxScene_Update on the scene thread. Ownership: the caller owns every
-/// FxView*; a view owns its textures and the history of its exposure and glare. The host's textures and
-/// framebuffers stay the host's.
+/// FxView*; a view owns its textures and the history of its exposure and glare. The host owns its textures
+/// and framebuffers.
 ///
 /// GL state: with saveState = 1 fxView_Render() restores all GL state; with 0 it may leave the states changed
-/// that fxGetTouchedGlState() names. Transform feedback and conditional rendering must not be active. The
-/// frame definition states the clip control, which is never changed. Formats of targets:
+/// that fxGetTouchedGlState() names. Transform feedback and conditional rendering must not be active.
+/// FxFrameDef states the host's clip control; the view does not change it. Formats of targets:
 /// docs/howto/host-targets.md.
 #ifndef FXSDK_FX_VIEW_H
 #define FXSDK_FX_VIEW_H
@@ -48,16 +48,17 @@ enum
     FX_BILLBOARD_KERNEL = 2    ///< sphere with the density profile of the gas; exact
 };
 
-/// Values of FxViewSettings::composition: how media that overlap are put together.
+/// Values of FxViewSettings::composition: how overlapping media are composited.
 enum
 {
-    /// Particles blended over each other, farthest first. Where particles overlap, no order is right.
+    /// Particles are blended from the farthest to the nearest. Where particles overlap, the result is
+    /// approximate.
     FX_COMPOSITION_SORTED = 0,
 
-    /// Particles summed in slabs across the ray of each pixel; the result does not depend on their order.
+    /// Particles are summed in slabs along the ray of each pixel. The result does not depend on their order.
     FX_COMPOSITION_SLABS = 1,
 
-    /// Balls of an effect summed in voxels, which are ray-marched; the result does not depend on their order.
+    /// Particles are summed in voxels, which are ray-marched. The result does not depend on their order.
     FX_COMPOSITION_VOLUME = 2,
 
     /// The composition that the presets of the scene's instances name by their member `composition`, until
@@ -70,9 +71,9 @@ enum
 enum
 {
     FX_OUTPUT_INSTANCE_ID = 1,   ///< instance with the largest share of the pixel
-    FX_OUTPUT_MOTION = 2,        ///< motion of what is seen since the frame before
-    FX_OUTPUT_FIRST_DEPTH = 4,   ///< distance at which media begin to be seen
-    FX_OUTPUT_MEAN_DEPTH = 8,    ///< mean distance of what is seen
+    FX_OUTPUT_MOTION = 2,        ///< screen-space motion of visible particles since the last frame
+    FX_OUTPUT_FIRST_DEPTH = 4,   ///< distance at which the optical depth reaches 0.01
+    FX_OUTPUT_MEAN_DEPTH = 8,    ///< mean distance of visible particles
     FX_OUTPUT_OPTICAL_DEPTH = 16 ///< optical depth of all media
 };
 
@@ -94,13 +95,13 @@ typedef struct FxViewSettings
     /// [EV100] -20..40; luminance is multiplied by 1 / (1.2 * 2^EV100); default 13.
     float exposureEv100;
 
-    /// Towards the sun, unit (length within 1e-3 of 1); default 0.3, 0.8, 0.52 normalized.
+    /// Direction towards the sun, a unit vector (length within 1e-3 of 1); default 0.3, 0.8, 0.52 normalized.
     float sunDirection[3];
 
-    /// [lx] 0..1e6 on a plane facing the sun; default 0.
+    /// [lx] 0..1e6, illuminance of a plane that faces the sun; default 0.
     float sunIlluminance[3];
 
-    /// [cd/m2] 0..1e6 from everywhere; default 0.
+    /// [cd/m2] 0..1e6, luminance of the sky, equal in all directions; default 0.
     float skyLuminance[3];
 
     /// [1] 0..1, share of light that the ground reflects; default 0.2.
@@ -109,7 +110,7 @@ typedef struct FxViewSettings
     /// [1] 0..10, heat shimmer; 0 leaves the picture untouched, bit for bit; default 1.
     float shimmerStrength;
 
-    /// [pixel] 0..100 at a height of 720 pixels; default 12.
+    /// [pixel] 0..100, largest offset by heat shimmer in a picture that is 720 pixels high; default 12.
     float shimmerMaxOffset;
 
     /// 1 (default): glare; 0: none.
@@ -119,7 +120,7 @@ typedef struct FxViewSettings
     float dazzleWhite;
 
     /// [1] sensor law f(over) = over (A + B exp(-C over)), over: mean overflow per pixel in units of
-    /// dazzleWhite; A >= B exp(-2) and A >= -B; 1 spreads all of it; default 0.01, a clean lens.
+    /// dazzleWhite; A >= B exp(-2) and A >= -B; A = 1 spreads all overflow; default 0.01, a clean lens.
     float dazzleA;
 
     /// [1] see dazzleA; default 0.
@@ -167,17 +168,17 @@ typedef struct FxViewSettings
     /// FX_BUDGET_CLOCK_...; default FX_BUDGET_CLOCK_GPU.
     uint32_t budgetClock;
 
-    /// [1] 0..256, level of detail: number of pixels of an effect's disk on the picture for which it keeps
-    /// one particle or piece of a ribbon, at least twelve in all. These take over light and coverage of the
-    /// others, without a jump. The difference is hardly visible at 1, and visible at 16; 0 (default): all
+    /// [1] 0..256, level of detail: an effect keeps one particle or ribbon segment for each lodBias pixels of
+    /// its projected disk, and at least twelve in all. The kept ones are adjusted continuously so that light
+    /// and coverage stay the same. The difference is hardly visible at 1, and visible at 16; 0 (default): all
     /// particles are drawn. Particles that are computed on the GPU are always drawn. The simulation does not
     /// depend on it.
     float lodBias;
 
     /// [pixel] 0..13, an effect whose bounding sphere has a smaller radius on the picture is drawn as an
-    /// impostor. It is re-rendered ten times a second while the effect changes, and when the view direction
-    /// changes, and cross-fades into the next one. Not with layerOutputs, outputs or orthographic
-    /// projections. 0 (default): none.
+    /// impostor. The impostor is re-rendered ten times a second while the effect changes, and when the view
+    /// direction changes; successive pictures are cross-faded. Impostors are not used with layerOutputs,
+    /// outputs or orthographic projections. 0 (default): none.
     float lodImpostorPixels;
 
     /// 1: draws the bounding boxes of visibility culling over the picture, as of the last update: green
@@ -190,40 +191,44 @@ typedef struct FxViewSettings
     /// themselves, on each other and on the host's surfaces (fx_view_lights.h); 0: media cast no shadows.
     uint32_t lightSlices;
 
-    /// 2..128 planes of the sun; lights at points have half of them; default 32.
+    /// 2..128, number of planes of the sun's light slices; point lights have half as many; default 32.
     uint32_t lightSlicePlanes;
 
-    /// [texel] 8..512, a multiple of 8, side of a plane of the sun; lights at points have half; default 128.
+    /// [texel] 8..512, a multiple of 8, side length of a plane of the sun; planes of point lights have half;
+    /// default 128.
     uint32_t lightSliceTexels;
 
-    /// 0..4 lights at points that cast shadows through media, those that light them most; default 2.
+    /// 0..4, number of point lights that cast shadows through media: the lights that illuminate the media
+    /// most; default 2.
     uint32_t castingLights;
 
-    /// 1..4 samples of the sun's light on the way of a ray through a particle of media; default 2.
+    /// 1..4, number of samples of the sun's light along a view ray through one particle; default 2.
     uint32_t lightSamples;
 
-    /// 1 (default): light is scattered any number of times, by a closed form; 0: single scattering.
+    /// 1 (default): multiple scattering, by a closed form; 2: by an illumination network where
+    /// FX_COMPOSITION_VOLUME draws media, elsewhere as 1; 0: single scattering.
     uint32_t multipleScattering;
 
     /// FX_COMPOSITION_...; default FX_COMPOSITION_SORTED.
     uint32_t composition;
 
-    /// 6 or 16 slabs along the ray of each pixel, of FX_COMPOSITION_SLABS; default 16.
+    /// 6 or 16, number of slabs along the ray of each pixel with FX_COMPOSITION_SLABS; default 16.
     uint32_t slabs;
 
-    /// 16..256 voxels along 16 radii of an effect's balls, of FX_COMPOSITION_VOLUME; default 96. Effects that
-    /// are small on the picture get fewer.
+    /// 16..256, number of voxels along 16 particle radii with FX_COMPOSITION_VOLUME; default 96. Effects that
+    /// are small on the picture get fewer voxels.
     uint32_t voxels;
 
     /// 1..16, number of frames between updates of light slices for moving media; default 1. Shadows of media
     /// lag by up to one frame less than this number, and the passes that fill the planes are not executed in
-    /// between. Moving lights update the slices at once, media that come to rest in the next frame.
+    /// between. When a light moves, its slices are updated at once. When media come to rest, the slices are
+    /// updated in the next frame.
     uint32_t lightRefreshFrames;
 
     /// Bits FX_OUTPUT_...: pictures that fxView_GetOutputTextures() gives, at the size of the picture, the
     /// same for all compositions. Effects are then drawn one by one and never as impostors. Default 0: none
-    /// of their passes, programs and textures exist. The first frame that asks for them compiles programs,
-    /// unless fxContext_WarmUp() was called while the settings did.
+    /// of their passes, programs and textures exist. The first frame with outputs compiles their programs,
+    /// unless fxContext_WarmUp() was called while a view had these settings.
     uint32_t outputs;
 } FxViewSettings;
 
@@ -272,8 +277,8 @@ typedef struct FxFrameDef
     /// 1: camera cut, glare adapts from this frame; default 0.
     uint32_t resetHistory;
 
-    /// [m] world position that the matrices are relative to, each within +-1e9; default 0. Near the camera,
-    /// floats stay exact far from the world's center.
+    /// [m] world position that the matrices are relative to, each within +-1e9; default 0. With an origin
+    /// near the camera, single precision suffices far from the origin of the world.
     double origin[3];
 
     /// World minus origin to eye, column-major; rigid (columns orthonormal within 1e-3); default identity.
@@ -290,18 +295,20 @@ typedef struct FxFrameDef
     /// 1: clip space depth is [0, w] (glClipControl GL_ZERO_TO_ONE); 0 (default): [-w, w].
     uint32_t zeroToOne;
 
-    /// 1: glClipControl GL_UPPER_LEFT, as it must be during the call; default 0.
+    /// 1: the host's glClipControl is GL_UPPER_LEFT during the call; 0 (default): GL_LOWER_LEFT.
     uint32_t upperLeftOrigin;
 
     /// FX_TARGET_...; default FX_TARGET_TEXTURE.
     uint32_t target;
 
     /// GL name of a GL_TEXTURE_2D holding the opaque picture [cd/m2 times exposure], red, green and blue as
-    /// floats or normalized; sRGB formats hold codes of it; 0 only with FX_TARGET_FRAMEBUFFER.
+    /// floats or normalized; textures of sRGB formats hold sRGB-encoded values; 0 only with
+    /// FX_TARGET_FRAMEBUFFER.
     uint32_t colorTexture;
 
-    /// GL name of a GL_TEXTURE_2D with its depth, one texel for each pixel; 0 (default): nothing occludes.
-    /// Particles on the GPU collide with it if their preset has an obstacle of the shape "depth".
+    /// GL name of a GL_TEXTURE_2D with the depth of the opaque picture, one texel for each pixel; 0
+    /// (default): no surface occludes the effects. Particles on the GPU collide with this depth if their
+    /// preset has an obstacle of the shape "depth".
     uint32_t depthTexture;
 
     /// GL name, with FX_TARGET_FRAMEBUFFER; default 0.
@@ -328,10 +335,10 @@ typedef struct FxFrameDef
     uint32_t sunShadowConvention;
 
     /// World minus origin to texture coordinates and stored depth, each 0..1, of sunShadowTexture,
-    /// column-major, affine; a bias against self-shadowing belongs into it; default identity.
+    /// column-major, affine; the matrix includes the bias against self-shadowing; default identity.
     float sunShadowMatrix[16];
 
-    /// [m] 0..100, radius of the soft edge of that shadow on media; default 0.1.
+    /// [m] 0..100, radius of the soft edge of the sun's shadow on media; default 0.1.
     float sunShadowEdge;
 
     /// Reserved; 0.
@@ -381,8 +388,9 @@ typedef struct FxLayerTextures
 
 /// Outputs of the last frame: GL names; 0 where settings.outputs did not ask for it, or nothing was drawn.
 /// Fill structSize with sizeof before the call. The textures belong to the view and are valid until its next
-/// fxView_Render(). Texels lie as those of the target; distances are from the eye along the ray of the pixel,
-/// whose center it is. Meshes and other opaque particles count, the host's own surfaces do not.
+/// fxView_Render(). Texels are arranged as in the target. Distances are measured from the eye along the ray
+/// through the center of the pixel. Meshes and other opaque particles are included, surfaces of the host are
+/// not.
 typedef struct FxOutputTextures
 {
     /// Set by the caller.
@@ -392,17 +400,17 @@ typedef struct FxOutputTextures
     /// high in green; 0 where an opacity of 0.01 is not reached.
     uint32_t instanceId;
 
-    /// RG32F [pixel] from where it was in the frame before: mean over what is seen, to the right and up in
-    /// texel coordinates; 0 where there is no instance.
+    /// RG32F [pixel] displacement since the last frame, the mean over all particles seen in the pixel, to the
+    /// right and up in texel coordinates; 0 where there is no instance.
     uint32_t motion;
 
-    /// R32F [m] where the optical depth reaches 0.01; +inf where it does not.
+    /// R32F [m] distance at which the optical depth reaches 0.01; +inf where it does not.
     uint32_t firstDepth;
 
-    /// R32F [m] mean over what is seen; +inf where there is nothing.
+    /// R32F [m] mean distance of the particles seen in the pixel; +inf where there are none.
     uint32_t meanDepth;
 
-    /// R32F [1] of all media up to the first opaque thing.
+    /// R32F [1] optical depth of all media up to the first opaque surface.
     uint32_t opticalDepth;
 } FxOutputTextures;
 

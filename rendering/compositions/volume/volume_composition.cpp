@@ -1,6 +1,7 @@
 #include "rendering/compositions/media_compositions.h"
 
 #include "rendering/compositions/volume/volume_view.h"
+#include "rendering/network/network_passes.h"
 
 #include <vector>
 
@@ -9,10 +10,12 @@ namespace fx::render {
 namespace {
 
 constexpr TimedPass kTimed[] = {
-    {"loose blob upload", "volume"}, {"field upload", "volume"}, {"lump tile", "volume"},
-    {"field slices", "volume"},      {"field fill", "volume"},   {"field light", "volume"},
-    {"glow upload", "volume"},       {"glow source", "volume"},  {"glow rays", "volume"},
-    {"glow sum", "volume"},          {"field texels", "volume"}, {"field march", "media"}};
+    {"loose blob upload", "volume"}, {"field upload", "volume"},    {"lump tile", "volume"},
+    {"field slices", "volume"},      {"field fill", "volume"},      {"field light", "volume"},
+    {"glow upload", "volume"},       {"glow source", "volume"},     {"glow rays", "volume"},
+    {"network upload", "volume"},    {"network prepare", "volume"}, {"network rays", "volume"},
+    {"network sum", "volume"},       {"glow sum", "volume"},        {"field texels", "volume"},
+    {"field march", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
@@ -21,11 +24,13 @@ std::span<const ProgramDesc* const> programs()
         std::vector<const ProgramDesc*> list(ofSlabs.begin(), ofSlabs.end());
         list.insert(list.end(), {&kFieldSlicesProgram, &kGlowSourceAgainProgram, &kGlowRaysProgram,
                                  &glowSourceProgram(false), &glowSourceProgram(true), &glowSumProgram(false),
-                                 &glowSumProgram(true)});
+                                 &glowSumProgram(true), &kNetworkPrepareProgram, &kNetworkRaysProgram,
+                                 &kNetworkSumProgram});
         for (const bool detail : {false, true})
             for (const bool layers : {false, true})
                 for (const ProgramDesc* program :
-                     {&fieldFillProgram(layers, detail), &fieldLightProgram(layers, detail)})
+                     {&fieldFillProgram(layers, detail), &fieldLightProgram(layers, detail),
+                      &fieldLightProgram(layers, detail, true)})
                     list.push_back(program);
         for (size_t i = 0; i < kFieldMarchPrograms; ++i)
             list.push_back(&fieldMarchProgramAt(i));

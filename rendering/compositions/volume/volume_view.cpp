@@ -21,11 +21,22 @@ constexpr std::string_view kTextureNames[] = {"field medium",     "field scatter
 
 constexpr int kCoarseVoxels = 96; ///< fields of fewer voxels have kCoarseOctaves of detail
 
+/// Along a side of a network's grid; 0: light is scattered again by a formula, or once.
+int networkCells(const ViewSettings& settings)
+{
+    constexpr int kVoxelsPerCell = 3, kRound = 8, kFewest = 24, kMost = 64;
+    if (!settings.slices.network || !settings.slices.multiple)
+        return 0;
+    if (settings.slices.networkCells > 0)
+        return std::clamp(settings.slices.networkCells / kRound * kRound, kFewest, kMost);
+    return std::clamp(settings.voxels / kVoxelsPerCell / kRound * kRound, kFewest, kMost);
+}
+
 } // namespace
 
 VolumeView::VolumeView(const TechniqueSetup& setup)
     : device_(*setup.device), plan_(setup.memory), texels_(setup.memory), details_(setup.memory),
-      glow_(*setup.device), loose_(setup), looseBlobs_(setup.memory)
+      glow_(*setup.device), network_(*setup.device), loose_(setup), looseBlobs_(setup.memory)
 {}
 
 base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
@@ -41,10 +52,12 @@ base::Status VolumeView::gather(const GatherInputs& in, GatheredFrame& io)
         details_.push_back(detailBlock(detail, octaves));
     materials_ = details_.empty() ? std::span<const BlobMaterial>() : io.materials;
     blobs_ = details_.empty() ? std::span<const BlobInstance>() : io.blobs;
+    networkCells_ = networkCells(*in.settings);
     plan_.build({io.blobs, io.effects, in.camera, targets.width, targets.height, in.settings->voxels, 0,
-                 in.settings->slices.multiple});
+                 in.settings->slices.multiple, networkCells_});
     texels_.build(plan_, details_);
     gatherLoose(in, io);
+    eye_ = in.camera->eye;
     return makeRoom(in.settings->layerOutputs);
 }
 
@@ -86,7 +99,10 @@ base::Status VolumeView::makeRoom(bool layers)
         if (isUsed(i, layers))
             status = makeTexture(i);
     if (status)
-        status = glow_.makeRoom(plan_.glows());
+        status = glow_.makeRoom(glows());
+    if (status)
+        status = network_.makeRoom(networkCells_ > 0 ? plan_.glows() : std::span<const FieldGlowBlock>(),
+                                   networkCells_, eye_);
     if (status && !plan_.isEmpty())
         status = makeTexels(texelTexture_, texels_.texels().size(), kFieldColumns, Format::RGBA32F,
                             "field texels");
@@ -156,7 +172,8 @@ void VolumeView::importAll(FrameGraph& graph, bool layers)
                        {texture(3), texture(4)},
                        texture(5)};
     march_.fieldTexels = texels(texelTexture_, Format::RGBA32F, "field texels");
-    glow_.importAll(graph, plan_.glows());
+    glow_.importAll(graph, glows());
+    network_.importAll(graph);
     march_.lumpTile = details_.empty() ? ResourceId() : lumpTile_.addTo(graph);
 }
 
@@ -263,27 +280,37 @@ void VolumeView::addFields(FrameGraph& graph, PassFrame& frame)
     if (!isKept_ && !filledFor_)
         upload(graph);
     const bool isFilled = filledFor_ != nullptr; // here, or when lights were prepared
-    if (!isKept_ || isFilled || frame.lights.hostShadow.valid()) {
+    const bool sweeps = !network_.isEmpty() && !network_.isSettled();
+    if (!isKept_ || isFilled || sweeps || frame.lights.hostShadow.valid()) {
         if (!isFilled)
             fill(graph, frame.blobs);
-        if (frame.lights.lights.valid())
-            glow_.addPasses(graph,
-                            {.fieldTexels = march_.fieldTexels,
-                             .field = march_.textures,
-                             .lumpTile = march_.lumpTile,
-                             .detail = !details_.empty(),
-                             .grids = {},
-                             .glow = {},
-                             .fieldCount = uint32_t(plan_.fields().size()),
-                             .gridCount = 0},
-                            plan_.glows());
-        march_.textures = FieldLightPass::addTo(
-                              graph, {ids_[Fields], ids_[Bricks], march_.textures, frame.lights, &frame.view,
-                                      uint32_t(plan_.bricks().size()), glow_.light(), glow_.grids()})
-                              .textures;
+        addFieldLight(graph, frame);
     }
     filledFor_ = nullptr;
     march_.tiles = ids_[Tiles];
+}
+
+void VolumeView::addFieldLight(FrameGraph& graph, const PassFrame& frame)
+{
+    FieldLightPass::Inputs light{ids_[Fields], ids_[Bricks], march_.textures,
+                                 frame.lights, &frame.view,  uint32_t(plan_.bricks().size())};
+    if (frame.lights.lights.valid()) {
+        const FieldGlowPass::Inputs in{.fieldTexels = march_.fieldTexels,
+                                       .field = march_.textures,
+                                       .lumpTile = march_.lumpTile,
+                                       .detail = !details_.empty(),
+                                       .grids = {},
+                                       .glow = {},
+                                       .fieldCount = uint32_t(plan_.fields().size()),
+                                       .gridCount = 0};
+        glow_.addPasses(graph, in, glows());
+        network_.addPasses(graph, in, frame.lights, isKept_);
+    }
+    light.glow = glow_.light();
+    light.network = network_.moments();
+    light.networkCells = network_.cells();
+    light.grids = network_.isEmpty() ? glow_.grids() : network_.buffer();
+    march_.textures = FieldLightPass::addTo(graph, light).textures;
 }
 
 /// What the frame was to write once is not there.
@@ -321,11 +348,13 @@ void VolumeView::release()
     table_ = {};
     lumpTile_.release();
     glow_.release();
+    network_.release();
 }
 
 uint64_t VolumeView::bytes() const
 {
-    uint64_t sum = looseBuffer_.bytes() + looseLights_.bytes() + glow_.bytes() + lumpTile_.bytes();
+    uint64_t sum =
+        looseBuffer_.bytes() + looseLights_.bytes() + glow_.bytes() + network_.bytes() + lumpTile_.bytes();
     for (const GlBuffer& buffer : buffers_)
         sum += buffer.bytes();
     const auto add = [&](const GlTexture& texture) { sum += texture.name() != 0 ? texture.bytes() : 0; };

@@ -6,6 +6,7 @@
 #include "rendering/compositions/media_composition.h"
 #include "rendering/compositions/slabs/slab_media.h"
 #include "rendering/compositions/volume/volume_glow.h"
+#include "rendering/compositions/volume/volume_network.h"
 #include "rendering/field/field_fill_pass.h"
 #include "rendering/field/field_light_pass.h"
 #include "rendering/field/field_march_pass.h"
@@ -69,6 +70,12 @@ private:
     void upload(FrameGraph& graph);
     void fill(FrameGraph& graph, ResourceId blobs);
     void addFields(FrameGraph& graph, PassFrame& frame);
+    /// Grids of emitted light; none where networks carry it.
+    std::span<const FieldGlowBlock> glows() const
+    {
+        return networkCells_ > 0 ? std::span<const FieldGlowBlock>() : plan_.glows();
+    }
+    void addFieldLight(FrameGraph& graph, const PassFrame& frame);
     void addLooseBalls(FrameGraph& graph, const PassFrame& frame);
 
     GlDevice& device_;
@@ -80,8 +87,11 @@ private:
     uint64_t corrected_ = 0;                  ///< filling of the light slices that has the detail
     std::span<const BlobMaterial> materials_; ///< of the frame
     VolumeGlow glow_;
+    VolumeNetwork network_;                 ///< in place of the glow, where the settings ask for it
+    int networkCells_ = 0;                  ///< of the frame, along a side of a grid; 0: there is none
     std::span<const BlobInstance> blobs_;   ///< balls of this frame, if any has detail
     bool layers_ = false;                   ///< the frame has layer outputs
+    glm::dvec3 eye_{0.0};                   ///< [m] world, of the frame
     const FrameGraph* filledFor_ = nullptr; ///< textures hold fields before light, by passes of this graph
     GlTexture texelTexture_, table_;        ///< of FieldTexels, and of bricks
     LumpTileTexture lumpTile_;              ///< nothing before detail is seen

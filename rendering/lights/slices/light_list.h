@@ -43,7 +43,7 @@ enum class LightKind : uint8_t
     Sky,    ///< sky and ground, looked up along axes
 };
 
-/// Where a light of the list comes from.
+/// Origin of a light of the list.
 struct LightOrigin
 {
     LightKind kind = LightKind::Sun;
@@ -92,7 +92,7 @@ public:
     {
         return std::span(block_.lights).first(size_t(block_.counts.x + block_.counts.y));
     }
-    /// Of the first block().counts.x entries.
+    /// Origins of the first block().counts.x entries.
     std::span<const LightOrigin> origins() const { return origins_; }
     std::span<const SliceStackBlock> stackBlocks() const { return stackBlocks_; }
     std::span<const SliceStack> stacks() const { return stacks_; }
@@ -104,7 +104,7 @@ public:
     {
         return placesRevision_;
     }                                                ///< differs where planes lie elsewhere in the world
-    int atlasWidth() const { return atlasWidth_; }   ///< [texel] 0: nothing casts a shadow
+    int atlasWidth() const { return atlasWidth_; }   ///< [texel] size; 0: no medium casts a shadow
     int atlasHeight() const { return atlasHeight_; } ///< [texel]
     int mostTexels() const { return mostTexels_; }   ///< [texel] side of the largest plane
 

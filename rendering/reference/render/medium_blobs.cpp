@@ -2,6 +2,7 @@
 
 #include "foundation/math/bits.h"
 #include "foundation/snapshot/streak.h"
+#include "rendering/field_detail/conservation_factor.h"
 #include "rendering/optics/black_body.h"
 
 #include <glm/common.hpp>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory_resource>
 
 namespace fx::render {
 
@@ -54,7 +56,8 @@ public:
             append(i, old, out);
         }
         if (detail_.isGiven()) {
-            groupDetail_.factor = conservationFactor(groupDetail_, casters_);
+            groupDetail_.factor =
+                ConservationFactor(std::pmr::get_default_resource()).of(groupDetail_, casters_);
             out.details.groups.push_back({groupDetail_, place_.position});
         }
     }
@@ -119,8 +122,9 @@ private:
             ball.carried = detail_.carried(i, old, old != kNone, glm::vec3(position));
             const MediumBlob& piece = out.blobs.back();
             ball.thinning = thinningOf(groupDetail_, float(piece.crossSection), float(piece.radius));
+            const glm::vec3 center(blob.center - place_.position);
             casters_.push_back(
-                {glm::vec3(blob.center - place_.position), float(blob.radius), float(blob.crossSection)});
+                {{center, float(blob.radius), float(blob.crossSection)}, ball.carried, newer_.ids()[i]});
         }
         out.details.balls.resize(out.blobs.size(), ball); // all pieces of the streak
     }
@@ -170,7 +174,7 @@ private:
     const BlobDetail& detail_;
     GroupDetail groupDetail_;
     int32_t group_ = -1; ///< number of the detail
-    std::vector<MediumCaster> casters_;
+    std::vector<DetailedCaster> casters_;
     base::Placement place_;
 };
 

@@ -13,12 +13,6 @@ namespace {
 
 constexpr double kMinPixel = 1e-9; ///< [m]
 
-const LumpTile& lumpTile()
-{
-    static const LumpTile shared;
-    return shared;
-}
-
 } // namespace
 
 PixelWidth::PixelWidth(const ReferenceCamera& camera, int height) : forward(camera.forward)
@@ -69,7 +63,7 @@ MediumDetail DetailedMedium::at(size_t group, double extinction, const std::arra
         smooth.place[g] = own.length * (cells - own.offset);
     }
     MediumDetail made =
-        detailAt(detail.numbers, lumpTile(), smooth, float(pixel_.at(point) / scale), octaves_);
+        detailAt(detail.numbers, sharedLumpTile(), smooth, float(pixel_.at(point) / scale), octaves_);
     made.share *= detail.factor;
     return made;
 }

@@ -15,7 +15,7 @@
 
 namespace fx::render {
 
-/// What is seen where there is no triangle. Owned by the caller.
+/// Radiance of a ray that hits no triangle. Owned by the caller.
 struct OpaqueBackground
 {
     glm::vec3 luminance{0.0f};        ///< [cd/m2] overhead, used when `image` is empty
@@ -33,10 +33,10 @@ struct OpaqueScene
     Lighting lighting;
     std::vector<SceneLight> lamps;
     std::vector<EffectLight> lights; ///< of the effects
-    /// Those of `lights` that no medium emits. The path tracer uses only these, because its media emit the
-    /// others.
+    /// The lights of `lights` that are not emitted by a medium. The path tracer uses only these, because its
+    /// media emit the others.
     std::vector<EffectLight> particleLights;
-    bool isEmpty = false; ///< nothing at all stands behind the medium: the picture is transparent there
+    bool isEmpty = false; ///< no surface or background is behind the medium: the picture is transparent there
 };
 
 /// [cd/m2] light that the ground below the scene sends upwards.

@@ -15,24 +15,24 @@
 
 namespace fx::render {
 
-/// The frame before, from which motion is counted.
+/// The previous frame, relative to which motion is measured.
 struct ReferencePast
 {
     ReferenceCamera camera;
     double seconds = 0.0; ///< >= 0 since then
 };
 
-/// What one ray sees of an instance.
+/// Contribution of an instance to one ray.
 struct InstanceShare
 {
     uint64_t instance;
-    double share; ///< [1] of the opacity of the ray
+    double share; ///< [1] share of the ray's opacity
 };
 
 /// Adds to the share of an instance.
 void addShare(std::vector<InstanceShare>& io, uint64_t instance, double share);
 
-/// By the definitions of docs/howto/outputs.md.
+/// The outputs are defined in docs/howto/outputs.md.
 ///
 /// A ball that has the optical depth d_k of the whole D_k in step k of a ray has the share
 ///     sum over k of T_k (1 - exp(-D_k)) d_k / D_k
@@ -41,7 +41,7 @@ void addShare(std::vector<InstanceShare>& io, uint64_t instance, double share);
 class SeenOutputs
 {
 public:
-    static constexpr double kSeenDepth = 0.01; ///< [1] optical depth that is the first to be seen
+    static constexpr double kSeenDepth = 0.01; ///< [1] optical depth at which the first depth is measured
     static constexpr int kSteps = 256;
 
     struct Seen

@@ -52,7 +52,7 @@ private:
     std::string path_;
     uint64_t key_;
     int descriptor_ = -1;
-    uint64_t length_ = 0; ///< [byte] of what is whole
+    uint64_t length_ = 0; ///< [byte] size of the complete tiles
     bool isBroken_ = false;
     std::mutex mutex_; ///< of append()
 };

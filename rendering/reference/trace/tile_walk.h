@@ -68,8 +68,19 @@ private:
     static constexpr int kLevels = 6; ///< 32, 16, 8, 4, 2, 1
     static constexpr size_t kFew = 8; ///< candidates that are not worth narrowing
 
-    void collect(const BallTree& tree, const RayGrid& grid, const PixelBlock& tile, double farthest);
-    void narrow(const RayGrid& grid, const PixelBlock& part, double farthest, int level);
+    static PixelRect rectOf(const PixelBlock& block)
+    {
+        return {double(block.x0), double(block.y0), double(block.x1), double(block.y1)};
+    }
+    void collect(const BallTree& tree, const RayGrid& grid, const PixelBlock& tile, double farthest)
+    {
+        candidates_[0].collect(tree, frustumOf(grid, rectOf(tile), farthest));
+    }
+    void narrow(const RayGrid& grid, const PixelBlock& part, double farthest, int level)
+    {
+        candidates_[size_t(level)].narrow(candidates_[size_t(level) - 1],
+                                          frustumOf(grid, rectOf(part), farthest));
+    }
 
     template <class Leaf>
     void divide(const RayGrid& grid, const PixelBlock& tile, double farthest, int edge, int level, Leaf& leaf)

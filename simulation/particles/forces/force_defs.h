@@ -13,14 +13,15 @@
 
 namespace fx::sim {
 
-/// Wind that comes and goes.
+/// Wind whose speed varies in time (gusts).
 struct GustDef
 {
     glm::vec3 strength{0.0f}; ///< [m/s] most that each component gains or loses
     float period = 1.0f;      ///< [s] between two turns, > 0
 };
 
-/// Air that turns around an axis: fastest at `radius`, like a rigid body inside and as 1 / r outside.
+/// Air that rotates about an axis as a Kaufmann (Scully) vortex: its speed is largest at `radius`,
+/// proportional to r far inside and to 1 / r far outside.
 struct VortexDef
 {
     glm::vec3 position{0.0f};         ///< [m] a point of the axis
@@ -48,7 +49,7 @@ struct AttractorDef
     float radius = 1.0f;      ///< [m] > 0
     Falloff falloff = Falloff::InverseSquare;
     float softening = 0.0f;  ///< [m] >= 0, keeps the acceleration finite at the center
-    float reach = 0.0f;      ///< [m] nothing happens farther away; 0: everywhere
+    float reach = 0.0f;      ///< [m] distance beyond which the force is 0; 0: no limit
     float killRadius = 0.0f; ///< [m] particles that come as near as that die; 0: none
 };
 

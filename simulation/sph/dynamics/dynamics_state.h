@@ -15,7 +15,7 @@
 
 namespace fx::sim {
 
-constexpr double kEndless = 1e30; ///< [s] step of a particle that nothing moves
+constexpr double kEndless = 1e30; ///< [s] step of a particle on which no force acts
 
 /// After heat input or new particles, step criteria underestimate the roughness of the flow. So the first
 /// steps are shortened by this factor, and doubled each time. Fitted by the energy error of a point blast in
@@ -73,9 +73,10 @@ struct DynamicsState
     GasColumns<T> gas;
     base::Column<uint32_t> slot; ///< of each id
     bool fresh = false;          ///< particles without a density are among them
-    bool stale = false;          ///< accelerations do not belong to the state: something came from outside
-    bool shaken = false;         ///< changed by heat or new particles: the first steps must be short
-    bool heatedNow = false;      ///< heat has arrived at this tick
+    bool stale =
+        false; ///< accelerations do not belong to the state, because the caller changed the particles
+    bool shaken = false;    ///< changed by heat or new particles: the first steps must be short
+    bool heatedNow = false; ///< heat has arrived at this tick
     std::pmr::vector<DelayedHeat> delayed; ///< by time
 
     ParticleTree<T> tree;

@@ -57,7 +57,7 @@ struct GasColumns
     base::Column<T> wantedStep;       ///< [s] longest step allowed by the particle and its neighborhood
 
     base::Column<uint64_t> begin, end; ///< [tick] of the particle's step
-    base::Column<uint64_t> drifted;    ///< [tick] for which the position holds
+    base::Column<uint64_t> drifted;    ///< [tick] time of the position
     base::Column<uint8_t> level;       ///< binary logarithm of the step in ticks
 
 private:

@@ -103,37 +103,3 @@ TEST_F(BlobDetails, groupsWithoutCoordinatesHaveNone)
     newer_.addGroup(blob_, 1).editInfo().count = 1;
     EXPECT_FALSE(BlobDetail({.newer = &newer_}, 0, 1.0f).isGiven());
 }
-
-TEST(WholeFactor, isThatOfTheFieldItself)
-{
-    GroupDetail detail;
-    detail.numbers.thinnest = 0.6f;
-    detail.numbers.densest = 40.0f;
-    std::vector<MediumCaster> balls;
-    for (int i = 0; i < 150; ++i) {
-        const float a = 2.39996f * float(i), h = float(i) / 75.0f - 1.0f,
-                    r = std::sqrt(std::max(1.0f - h * h, 0.0f));
-        const float out = 2.5f * std::cbrt(std::fmod(0.618034f * float(i), 1.0f));
-        balls.push_back({out * glm::vec3(r * std::cos(a), h, r * std::sin(a)), 0.9f, 2.0f});
-    }
-    double before = 0, after = 0;
-    for (float z = -3.5f; z < 3.5f; z += 0.1f)
-        for (float y = -3.5f; y < 3.5f; y += 0.1f)
-            for (float x = -3.5f; x < 3.5f; x += 0.1f) {
-                float k = 0;
-                for (const MediumCaster& ball : balls) {
-                    const glm::vec3 d = glm::vec3(x, y, z) - ball.center;
-                    const float q = std::max(1.0f - glm::dot(d, d) / 0.81f, 0.0f);
-                    k += 1.04445431f * ball.crossSection / 0.729f * q * q;
-                }
-                before += double(k);
-                after += double(k * meanErodedShare(detail.numbers, k));
-            }
-    const float factor = conservationFactor(detail, balls);
-    EXPECT_NEAR(factor, before / after, 0.02 * before / after);
-    EXPECT_GT(factor, 1.02f);
-    for (MediumCaster& ball : balls)
-        ball.crossSection *= 1e-4f;
-    EXPECT_EQ(conservationFactor(detail, balls), 4.0f); // nothing is left
-    EXPECT_EQ(conservationFactor(detail, {}), 4.0f);
-}

@@ -1,6 +1,6 @@
 #include "foundation/random/philox.h"
 #include "simulation/motion/curl_noise.h"
-#include "simulation/particles/ground_lanes.h"
+#include "simulation/particles/builtin_ops.h"
 #include "simulation/particles/tile_motion.h"
 
 #include <gtest/gtest.h>

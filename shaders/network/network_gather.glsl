@@ -1,0 +1,32 @@
+// Light that a medium with an illumination network scatters to the eye: formula network-cell (4) and (5). Needs
+// field/field_glow.glsl, network/network_grid.glsl, shared/scattered_light.glsl and formulas/network_cell.fx.h.
+layout(binding = 3) uniform sampler3D networkMoments;
+
+// Light that the network carries, all orders of all sources, per unit of extinction. cells: along a side of the grid
+vec3 networkScattered(int number, int cells, vec3 p, vec3 toEye, vec3 albedo, float g)
+{
+    FieldGlow grid = glows[number];
+    vec3 texel = clamp((p - grid.corner.xyz) / grid.corner.w, vec3(0.5), vec3(float(cells) - 0.5));
+    texel.z += float(cells * number);
+    vec3 perTexel = 1.0 / vec3(textureSize(networkMoments, 0));
+    vec3 source;
+    for (int c = 0; c < 3; ++c) {
+        vec4 light = textureLod(networkMoments, (texel + vec3(cells * c, 0.0, 0.0)) * perTexel, 0.0);
+        source[c] = fxNetworkSource(albedo[c], clamp(g, -0.3, 0.98), light.x, dot(light.yzw, toEye.yzx));
+    }
+    return source;
+}
+
+// Light of sun and points that the network does not carry: what has gone straight on.
+vec3 networkScatteredOnce(vec3 p, vec3 toEye, vec3 albedo, float g, GlowBox box)
+{
+    vec3 straight = 1.0 - albedo * fxNetworkPeak(clamp(g, -0.3, 0.98));
+    vec3 sum = lights[0].color.rgb * hostShadow(p) * exp(-sunDepth(p).x * straight) *
+               fxHenyeyGreenstein(-dot(lights[0].place.xyz, toEye), g);
+    for (int i = 1; i < lightCounts.x; ++i) {
+        vec3 towards;
+        vec3 arriving = pointLight(lights[i], p, towards) * shareOf(lights[i], box);
+        sum += arriving * exp(-pointDepth(i, p).x * straight) * fxHenyeyGreenstein(-dot(towards, toEye), g);
+    }
+    return albedo * sum;
+}

@@ -1,0 +1,339 @@
+// The network on the GPU against the one on the processor, and what holds for any light: furnace, no light
+// made or lost, nowhere negative, light that goes on from frame to frame.
+#include "foundation/random/philox.h"
+#include "rendering/field/field_blocks.h"
+#include "rendering/gl/gl_read_texture.h"
+#include "rendering/network/network_passes.h"
+#include "rendering/network/scattering_network.h"
+#include "shaders/formulas/formula.h"
+#include "tests/rendering/passes/post_pass_harness.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace fx;
+using namespace fx::render;
+using namespace fx::test;
+
+namespace {
+
+constexpr int kSide = 16; ///< cells along a side
+constexpr size_t kCount = size_t(kSide) * kSide * kSide;
+const float kRootSphere = std::sqrt(4.0f * std::numbers::pi_v<float>);
+
+/// What fills a grid, and what shines on it.
+struct Scene
+{
+    std::vector<float> cells = std::vector<float>(4 * kCount, 0.0f);   ///< emitted light, extinction
+    std::vector<float> scatter = std::vector<float>(4 * kCount, 0.0f); ///< extinction times albedo, cosine
+    FieldGlowBlock grid{glm::vec4(-0.5f, -0.5f, -0.5f, 1.0f / kSide)};
+    LightListBlock lights{};
+
+    Scene()
+    {
+        lights.counts = {1, 0, 1, 0};
+        lights.lights[0].place = {0.0f, 1.0f, 0.0f, 0.0f};
+    }
+    void set(size_t i, float extinction, const glm::vec3& albedo, const glm::vec3& emitted, float cosine)
+    {
+        for (int c = 0; c < 3; ++c) {
+            cells[4 * i + size_t(c)] = emitted[c];
+            scatter[4 * i + size_t(c)] = extinction * albedo[c];
+        }
+        cells[4 * i + 3] = extinction;
+        scatter[4 * i + 3] = cosine;
+    }
+};
+
+/// Cells of any kind, a quarter of them empty.
+Scene randomScene(uint64_t seed, float cosine)
+{
+    Scene scene;
+    for (size_t i = 0; i < kCount; ++i) {
+        const auto u = [&](uint32_t k) {
+            return base::toUnitFloat(base::philox({uint32_t(i), k, 0, 0}, seed)[0]);
+        };
+        const float extinction = u(0) < 0.25f ? 0.0f : std::exp2(14.0f * u(1) - 8.0f);
+        const glm::vec3 albedo(u(2), u(3), u(4));
+        scene.set(i, extinction, albedo, extinction * glm::vec3(u(5), u(6), u(7)), cosine);
+    }
+    scene.lights.lights[0].place = glm::vec4(0.48f, 0.6f, -0.64f, 0.0f);
+    scene.lights.lights[0].color = {5.0f, 3.0f, 2.0f, 0.0f};
+    scene.lights.sky = {0.3f, 0.5f, 0.9f, 1.0f};
+    scene.lights.ground = {0.2f, 0.1f, 0.1f, 0.0f};
+    return scene;
+}
+
+/// The network on the processor for one color, after some sweeps from darkness.
+struct Processor
+{
+    ScatteringNetwork network;
+    NetworkState state;
+    std::unique_ptr<base::TaskRunner> tasks = base::makeSerialRunner();
+
+    Processor(const Scene& scene, size_t color)
+    {
+        NetworkGrid grid{glm::dvec3(scene.grid.corner), double(scene.grid.corner.w), glm::ivec3(kSide)};
+        std::vector<float> extinction(kCount), albedo(kCount), emission(kCount);
+        for (size_t i = 0; i < kCount; ++i) {
+            extinction[i] = scene.cells[4 * i + 3];
+            if (extinction[i] > 0.0f) {
+                albedo[i] = scene.scatter[4 * i + color] / extinction[i];
+                emission[i] = scene.cells[4 * i + color] / extinction[i];
+            }
+        }
+        EXPECT_TRUE(
+            network.setMedium({grid, extinction, albedo, emission}, {26, 4, double(scene.scatter[3])}).ok());
+        std::vector<float> outside;
+        for (const NeighborDirection& d : network.directions()) {
+            const float sky = scene.lights.sky[int(color)], ground = scene.lights.ground[int(color)];
+            outside.push_back(d.step.y < 0 ? sky : d.step.y > 0 ? ground : 0.5f * (sky + ground));
+        }
+        EXPECT_TRUE(network.setEnvironment(outside).ok());
+        auto sun = harmonics(-glm::dvec3(scene.lights.lights[0].place));
+        for (double& moment : sun)
+            moment *= double(scene.lights.lights[0].color[int(color)]);
+        for (size_t i = 0; i < kCount; ++i)
+            if (albedo[i] > 0.0f)
+                network.addDirect(i, sun);
+    }
+    const std::vector<float>& swept(int sweeps)
+    {
+        SweepRules rules;
+        rules.sweeps = sweeps;
+        rules.acceleration = 0;
+        network.sweep(rules, state, *tasks);
+        return state.light;
+    }
+};
+
+} // namespace
+
+class NetworkPassesTest : public PostPass
+{
+protected:
+    void begin(const Scene& scene)
+    {
+        scene_ = scene;
+        volumes_.clear();
+        const int blocks[][2] = {{1, 1},
+                                 {1, 1},
+                                 {kNetworkMedium, 1},
+                                 {kNetworkMoments, 1},
+                                 {kNetworkMoments, 1},
+                                 {kNetworkMoments, 1},
+                                 {kNetworkRays[0], kNetworkRays[1]}};
+        for (const auto& b : blocks) {
+            auto made = GlTexture::createVolume(*device_, b[0] * kSide, b[1] * kSide, kSide,
+                                                glInternalFormat(Format::RGBA32F), "network");
+            ASSERT_TRUE(made.ok()) << made.status().message();
+            volumes_.push_back(std::move(*made));
+        }
+        fill(0, scene.cells);
+        fill(1, scene.scatter);
+    }
+    void fill(size_t texture, const std::vector<float>& texels)
+    {
+        device_->gl.TextureSubImage3D(volumes_[texture].name(), 0, 0, 0, 0, volumes_[texture].width(),
+                                      volumes_[texture].height(), volumes_[texture].depth(), GL_RGBA,
+                                      GL_FLOAT, texels.data());
+    }
+    void sweep(int sweeps, bool prepares = true)
+    {
+        graph_->begin();
+        NetworkPasses::Inputs in{};
+        in.grids = importBytes(std::as_bytes(std::span(&scene_.grid, 1)));
+        in.lights = {.lights = importBytes(std::as_bytes(std::span(&scene_.lights, 1)))};
+        ResourceId* const ids[] = {&in.textures.cells,   &in.textures.scatter, &in.textures.medium,
+                                   &in.textures.unswept, &in.textures.sources, &in.textures.moments,
+                                   &in.textures.rays};
+        for (size_t i = 0; i < volumes_.size(); ++i)
+            *ids[i] = graph_->importTexture(
+                {"network", volumes_[i].width(), volumes_[i].height(), Format::RGBA32F}, volumes_[i].name());
+        in.cells = kSide;
+        in.gridCount = 1;
+        in.sweeps = sweeps;
+        in.prepares = prepares;
+        const NetworkTextures out = NetworkPasses::addTo(*graph_, in).textures;
+        graph_->keep(out.sources);
+        execute(out.moments);
+    }
+    std::vector<float> texels(size_t texture)
+    {
+        const GlTexture& v = volumes_[texture];
+        return readTexture(*device_, v.name(), v.width(), v.height() * v.depth(), 4);
+    }
+    /// As NetworkState::light of one color.
+    std::vector<float> light(size_t color) { return ofColor(texels(5), color); }
+    static std::vector<float> ofColor(const std::vector<float>& all, size_t color)
+    {
+        std::vector<float> out(4 * kCount);
+        for (size_t i = 0; i < kCount; ++i)
+            for (size_t k = 0; k < 4; ++k)
+                out[k * kCount + i] =
+                    all[4 * (i % kSide + kSide * (color + kNetworkMoments * (i / kSide))) + k];
+        return out;
+    }
+
+    Scene scene_;
+    std::vector<GlTexture> volumes_;
+};
+
+TEST(NetworkCellFormulas, areThoseOfTheirComment)
+{
+    for (double tau = 1e-12; tau < 1e12; tau *= 1.07) {
+        const double taken = -std::expm1(-tau);
+        double mean = 1.0 - taken / tau;
+        if (tau < 1e-2)
+            mean = tau * (0.5 - tau * (1.0 / 6.0 - tau * (1.0 / 24.0 - tau / 120.0)));
+        const float t = float(tau);
+        ASSERT_NEAR(formula64::fxNetworkMean(tau, std::exp(-tau)) / mean, 1.0, 5e-8) << tau;
+        ASSERT_NEAR(formula64::fxNetworkTaken(tau, std::exp(-tau)) / taken, 1.0, 5e-8) << tau;
+        ASSERT_NEAR(double(formula::fxNetworkMean(t, std::exp(-t))) / mean, 1.0, 5e-7) << tau;
+        ASSERT_NEAR(double(formula::fxNetworkTaken(t, std::exp(-t))) / taken, 1.0, 5e-7) << tau;
+    }
+    for (double g = 0.0; g < 0.97; g += 0.01) {
+        const double f = formula64::fxNetworkPeak(g);
+        EXPECT_GE(1.0 - 3.0 * (g - f) / (1.0 - f), -1e-12) << "nowhere negative, at " << g;
+        EXPECT_NEAR(f + (1.0 - f) * (g - f) / (1.0 - f), g, 1e-12) << "and the mean cosine is kept";
+    }
+}
+
+TEST_F(NetworkPassesTest, haveTheLightOfTheProcessor)
+{
+    for (const float cosine : {0.0f, 0.5f, 0.8f, -0.2f})
+        for (const int sweeps : {1, 4}) {
+            const Scene scene = randomScene(uint64_t(17 + sweeps), cosine);
+            begin(scene);
+            sweep(sweeps);
+            for (size_t color = 0; color < 3; ++color) {
+                const std::vector<float> expected = Processor(scene, color).swept(sweeps);
+                const std::vector<float> there = light(color);
+                double worst = 0.0, most = 0.0;
+                for (size_t i = 0; i < kCount; ++i) {
+                    const float whole = expected[i]; // the moments of a cell are sums of the same lights
+                    most = std::max(most, double(whole));
+                    for (size_t k = 0; k < 4; ++k)
+                        worst = std::max(worst, std::abs(double(there[k * kCount + i]) -
+                                                         double(expected[k * kCount + i])) /
+                                                    double(whole));
+                }
+                EXPECT_LT(worst, 1e-5) << "g " << cosine << ", sweeps " << sweeps << ", color " << color;
+                EXPECT_GT(most, 0.1);
+            }
+        }
+}
+
+TEST_F(NetworkPassesTest, aWhiteMediumInARoomOfOneLightHasThatLight)
+{
+    for (const float cosine : {0.0f, 0.8f}) {
+        Scene scene;
+        for (size_t i = 0; i < kCount; ++i)
+            scene.set(i, float(i % 7) * 2.0f, glm::vec3(1.0f), glm::vec3(0.0f), cosine);
+        scene.lights.sky = scene.lights.ground = {1.0f, 1.0f, 1.0f, 1.0f};
+        begin(scene);
+        sweep(400);
+        const std::vector<float> there = light(1);
+        for (size_t i = 0; i < kCount; ++i) {
+            ASSERT_NEAR(there[i] / kRootSphere, 1.0f, 1e-4f) << cosine << " " << i;
+            ASSERT_NEAR(there[kCount + i], 0.0f, 2e-4f) << "from all sides alike";
+            const float seen = formula::fxNetworkSource(1.0f, cosine, there[i], there[2 * kCount + i]);
+            ASSERT_NEAR(seen, 1.0f, 2e-4f) << "and so has the eye";
+        }
+    }
+}
+
+TEST_F(NetworkPassesTest, makeAndLoseNoLight)
+{
+    const Scene scene = randomScene(5, 0.5f);
+    begin(scene);
+    sweep(120);
+    for (size_t color = 0; color < 3; ++color) {
+        Processor processor(scene, color);
+        const NetworkState state{processor.network.grid(), 4, light(color)};
+        const NetworkEnergy energy = processor.network.energy(state, *processor.tasks);
+        EXPECT_GT(energy.emitted, 0.1);
+        EXPECT_NEAR((energy.absorbed + energy.escaped) / energy.emitted, 1.0, 1e-4);
+    }
+}
+
+TEST_F(NetworkPassesTest, areNowhereNegative)
+{
+    for (const float cosine : {-0.3f, 0.33f, 0.5f, 0.9f}) {
+        Scene scene = randomScene(9, cosine);
+        for (size_t i = 0; i < kCount; ++i) // a beam of light in darkness: what series ring at
+            for (size_t c = 0; c < 3; ++c)
+                scene.cells[4 * i + c] *= i == kCount / 2 + kSide / 2 ? 1000.0f : 0.0f;
+        scene.lights.sky = scene.lights.ground = glm::vec4(0.0f);
+        begin(scene);
+        for (int round = 0; round < 3; ++round) {
+            sweep(2, round == 0);
+            const std::vector<float> rays = texels(6);
+            EXPECT_GE(*std::ranges::min_element(rays), 0.0f) << cosine;
+            const std::vector<float> sources = ofColor(texels(4), 0);
+            for (size_t i = 0; i < kCount; ++i) {
+                const glm::vec3 first(sources[kCount + i], sources[2 * kCount + i], sources[3 * kCount + i]);
+                ASSERT_LE(std::sqrt(3.0f * glm::dot(first, first)), sources[i] * 1.0001f + 1e-12f)
+                    << "in no direction is a source below 0: " << cosine << " " << i;
+            }
+        }
+    }
+}
+
+TEST_F(NetworkPassesTest, goOnFromTheLastSweep)
+{
+    begin(randomScene(3, 0.5f));
+    sweep(2);
+    sweep(3, false);
+    const std::vector<float> inParts = texels(5);
+    begin(randomScene(3, 0.5f));
+    sweep(5);
+    EXPECT_EQ(differentBits(inParts, texels(5)), 0u);
+}
+
+TEST_F(NetworkPassesTest, aGridThatMovesKeepsTheLightOfItsPlaces)
+{
+    Scene scene;
+    for (size_t i = 0; i < kCount; ++i) {
+        const glm::vec3 p(float(i % kSide), float(i / kSide % kSide), float(i / (kSide * kSide)));
+        const bool isIn = glm::length(p - glm::vec3(8.0f)) < 5.0f;
+        scene.set(i, isIn ? 40.0f : 0.0f, glm::vec3(0.95f), glm::vec3(0.0f), 0.0f);
+    }
+    scene.lights.lights[0].color = {5.0f, 5.0f, 5.0f, 0.0f};
+    begin(scene);
+    sweep(60);
+    const std::vector<float> before = light(0);
+    // The same medium in a grid that begins one cell further along x: its cells are those of before, moved.
+    Scene moved = scene;
+    moved.grid.before = scene.grid.corner;
+    moved.grid.corner.x += moved.grid.corner.w;
+    for (size_t i = 0; i < kCount; ++i)
+        for (size_t c = 0; c < 4; ++c) {
+            const bool isThere = i % kSide + 1 < size_t(kSide);
+            moved.cells[4 * i + c] = isThere ? scene.cells[4 * (i + 1) + c] : 0.0f;
+            moved.scatter[4 * i + c] = isThere ? scene.scatter[4 * (i + 1) + c] : 0.0f;
+        }
+    const auto error = [&](const std::vector<float>& after) {
+        double difference = 0.0, sum = 0.0;
+        for (size_t i = 0; i < kCount; ++i)
+            if (moved.cells[4 * i + 3] > 0.0f) {
+                difference += std::abs(double(after[i]) - double(before[i + 1]));
+                sum += double(before[i + 1]);
+            }
+        return difference / sum;
+    };
+    scene_ = moved;
+    fill(0, moved.cells);
+    fill(1, moved.scatter);
+    sweep(1);
+    const double warm = error(light(0));
+    begin(moved);
+    scene_.grid.before.w = 0.0f;
+    sweep(1);
+    const double cold = error(light(0));
+    EXPECT_LT(warm, 1e-3) << "a sweep from the light of before";
+    EXPECT_GT(cold, 0.1) << "from darkness";
+}

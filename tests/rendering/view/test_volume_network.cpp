@@ -1,0 +1,154 @@
+// Illumination networks in pictures: a furnace, light that is scattered again against what one scattering and
+// none lost leave, rest, and light that follows what moves.
+#include "tests/rendering/view/view_fixture.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace fx;
+using namespace fx::test;
+
+namespace {
+
+constexpr int kWidth = 64, kHeight = 48;
+
+class VolumeNetwork : public ViewTest
+{
+protected:
+    void SetUp() override
+    {
+        ViewTest::SetUp();
+        makeTargets(kWidth, kHeight);
+        render::ViewSettings& settings = view_->settings();
+        settings.composition = render::Composition::Volume;
+        settings.voxels = 64;
+        settings.slices.network = true;
+        settings.slices.networkCells = 24;
+        settings.lighting.sunIlluminance = glm::vec3(0.0f);
+        settings.lighting.skyLuminance = glm::vec3(0.0f);
+        settings.lighting.groundAlbedo = 0.0f;
+    }
+    Picture drawn(const base::FrameSnapshot& snapshot)
+    {
+        setPicture(std::vector<float>(size_t(color_->width()) * size_t(color_->height()) * 4, 0.0f));
+        return render(snapshot, camera());
+    }
+    static render::CameraView camera()
+    {
+        return render::perspectiveView({{0.0, 0.0, 6.0}, {0.0, 0.0, 0.0}, {0.0f, 1.0f, 0.0f}}, 0.8f,
+                                       float(kWidth) / float(kHeight), 0.05f);
+    }
+    static TestBlob ball(float crossSection, float albedo)
+    {
+        TestBlob blob{{0.1f, -0.2f, 0.0f}, 1.5f, crossSection};
+        blob.albedo = albedo;
+        return blob;
+    }
+    size_t sweeps() const
+    {
+        return size_t(std::ranges::count(view_->executedPasses(), std::string_view("network rays")));
+    }
+    size_t networkPasses() const
+    {
+        return size_t(std::ranges::count_if(
+            view_->executedPasses(), [](std::string_view name) { return name.starts_with("network"); }));
+    }
+    static double brightness(const Picture& picture)
+    {
+        double sum = 0.0;
+        for (size_t i = 0; i < picture.texels.size(); i += 4)
+            sum += double(picture.texels[i]);
+        return sum;
+    }
+};
+
+} // namespace
+
+TEST_F(VolumeNetwork, aWhiteMediumUnderAWhiteSkyIsNotTold)
+{
+    view_->settings().lighting.skyLuminance = glm::vec3(1000.0f);
+    view_->settings().lighting.groundAlbedo = 1.0f;
+    const base::FrameSnapshot snapshot = snapshotOf({ball(6.0f, 1.0f)});
+    Picture picture = drawn(snapshot);
+    for (int i = 0; i < 60; ++i) // albedo 1: light takes its time
+        picture = drawn(snapshotOf({ball(6.0f, 1.0f)}));
+    float least = 1e9f, most = 0.0f;
+    for (size_t i = 0; i < picture.texels.size(); i += 4)
+        if (picture.texels[i + 3] > 0.2f) {
+            const float luminance = picture.texels[i] / picture.texels[i + 3];
+            least = std::min(least, luminance);
+            most = std::max(most, luminance);
+        }
+    EXPECT_GT(least, 0.0f);
+    EXPECT_LT(most / least, 1.01f) << "it has the luminance of the sky everywhere";
+}
+
+TEST_F(VolumeNetwork, blackMediaScatterNothingAndWhiteOnesMoreThanOnce)
+{
+    view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
+    const auto lit = [&](float albedo, bool multiple) {
+        view_->settings().slices.multiple = multiple;
+        return brightness(drawn(snapshotOf({ball(6.0f, albedo)})));
+    };
+    EXPECT_EQ(lit(0.0f, true), 0.0);
+    const double once = lit(0.9f, false), again = lit(0.9f, true);
+    EXPECT_GT(again, 1.5 * once);
+    EXPECT_LT(again, 10.0 * once) << "no more than 1 / (1 - albedo)";
+    const double little = lit(0.05f, true) / lit(0.05f, false);
+    EXPECT_GT(little, 1.0);
+    EXPECT_LT(little, 1.06) << "what is scattered twice has the albedo twice";
+}
+
+TEST_F(VolumeNetwork, atRestThereIsNoPassAndThePictureStays)
+{
+    view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
+    const base::FrameSnapshot snapshot = snapshotOf({ball(6.0f, 0.9f)});
+    drawn(snapshotOf({ball(5.0f, 0.9f)}));
+    EXPECT_GE(sweeps(), 8u) << "from darkness";
+    drawn(snapshot);
+    EXPECT_EQ(sweeps(), 2u) << "the medium has changed";
+    size_t after = 0;
+    for (int i = 0; i < 20 && networkPasses() > 0; ++i) {
+        drawn(snapshot);
+        after += sweeps();
+    }
+    EXPECT_GT(after, 4u) << "the light comes to rest after the medium";
+    const Picture first = drawn(snapshot);
+    EXPECT_EQ(networkPasses(), 0u);
+    const Picture second = drawn(snapshot);
+    EXPECT_EQ(networkPasses(), 0u);
+    EXPECT_EQ(maxDifference(first, second), 0.0);
+    drawn(snapshotOf({ball(5.0f, 0.9f)}));
+    EXPECT_EQ(sweeps(), 2u);
+}
+
+TEST_F(VolumeNetwork, lightThatFollowsIsThatOfAFrameOfItsOwn)
+{
+    view_->settings().lighting.sunIlluminance = glm::vec3(10000.0f);
+    for (int i = 0; i < 12; ++i) {
+        TestBlob moving = ball(6.0f, 0.9f);
+        moving.center.x = 0.05f * float(i);
+        drawn(snapshotOf({moving}));
+    }
+    TestBlob last = ball(6.0f, 0.9f);
+    last.center.x = 0.6f;
+    const Picture followed = drawn(snapshotOf({last}));
+    drawn(snapshotOf({})); // the light is forgotten
+    const Picture own = drawn(snapshotOf({last}));
+    double difference = 0.0;
+    for (size_t i = 0; i < own.texels.size(); i += 4)
+        difference += std::abs(double(followed.texels[i]) - double(own.texels[i]));
+    EXPECT_LT(difference / brightness(own), 0.02);
+}
+
+TEST_F(VolumeNetwork, fireInsideLightsTheMediumAroundIt)
+{
+    TestBlob fire = ball(2.0f, 0.0f);
+    fire.radius = 0.5f;
+    fire.emission = 50.0f;
+    const double alone = brightness(drawn(snapshotOf({fire})));
+    const double inBlack = brightness(drawn(snapshotOf({fire, ball(3.0f, 0.0f)})));
+    const double inWhite = brightness(drawn(snapshotOf({fire, ball(3.0f, 0.95f)})));
+    EXPECT_LT(inBlack, 0.7 * alone);
+    EXPECT_GT(inWhite, 1.5 * inBlack) << "what the smoke takes from the fire, it shows";
+}
