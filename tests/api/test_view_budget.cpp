@@ -211,7 +211,7 @@ TEST_F(ViewBudget, aCalibrationOfTheHostsIsUsedAndABadOneChangesNothing)
     EXPECT_STREQ(choiceOf(view_, "media").setting, "particles 0.5");
     EXPECT_EQ(fxView_SetQualityCalibration(view_, nullptr, 0, nullptr), FX_OK);
     (void)drawn();
-    EXPECT_EQ(reportOf(view_).techniques, 4u) << "media, shimmer, dazzle, other";
+    EXPECT_EQ(reportOf(view_).techniques, 5u) << "media, light slices, shimmer, dazzle, other";
 }
 
 TEST_F(ViewBudget, theReportsRefuseWhatTheyCannotFill)
@@ -226,7 +226,7 @@ TEST_F(ViewBudget, theReportsRefuseWhatTheyCannotFill)
     setBudget(5.0f);
     (void)drawn();
     EXPECT_EQ(fxView_GetQualityChoice(view_, 0, &choice), FX_OK);
-    EXPECT_EQ(fxView_GetQualityChoice(view_, 4, &choice), FX_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(fxView_GetQualityChoice(view_, reportOf(view_).techniques, &choice), FX_ERROR_INVALID_ARGUMENT);
     choice.structSize = 3;
     EXPECT_EQ(fxView_GetQualityChoice(view_, 0, &choice), FX_ERROR_VERSION);
 }

@@ -39,7 +39,7 @@ TEST(BuiltInCalibration, isReadAndItsLevelsAscend)
 {
     const auto calibration = builtInCalibration();
     ASSERT_TRUE(calibration.ok()) << calibration.status().message();
-    ASSERT_EQ(calibration->techniqueLevels.size(), 5u);
+    ASSERT_EQ(calibration->techniqueLevels.size(), 6u);
     for (const ScalabilityLevels& levels : calibration->techniqueLevels) {
         EXPECT_GE(levels.steps.size(), 2u) << levels.technique;
         for (size_t k = 1; k < levels.steps.size(); ++k) {
@@ -50,7 +50,7 @@ TEST(BuiltInCalibration, isReadAndItsLevelsAscend)
     EXPECT_FALSE(calibration->origin.empty());
 }
 
-TEST(BuiltInCalibration, knowsLevelsOfDetailAndGlare)
+TEST(BuiltInCalibration, knowsLightSlicesAndGlare)
 {
     const auto calibration = builtInCalibration();
     ASSERT_TRUE(calibration.ok()) << calibration.status().message();
@@ -60,10 +60,11 @@ TEST(BuiltInCalibration, knowsLevelsOfDetailAndGlare)
                 return levels;
         return ScalabilityLevels{};
     };
-    int withLevels = 0;
-    for (const ScalabilityLevel& step : scalabilityLevelsOf("media").steps)
-        withLevels += step.knobs.valueOf("lodBias").value_or(0.0f) > 0.0f ? 1 : 0;
-    EXPECT_GE(withLevels, 1);
+    const ScalabilityLevels slices = scalabilityLevelsOf("light slices");
+    ASSERT_GE(slices.steps.size(), 2u);
+    for (size_t k = 1; k < slices.steps.size(); ++k)
+        EXPECT_GT(slices.steps[k].knobs.valueOf("slicePlanes"),
+                  slices.steps[k - 1].knobs.valueOf("slicePlanes"));
     const ScalabilityLevels dazzle = scalabilityLevelsOf("dazzle");
     ASSERT_EQ(dazzle.steps.size(), 2u);
     EXPECT_EQ(dazzle.steps[0].knobs.valueOf("dazzle"), 0.0f);

@@ -40,12 +40,13 @@ struct LitSetting
     int voxels = 0;       ///< of the composition volume; 0: sorted
     int networkCells = 0; ///< of its illumination network; 0: none
 };
-constexpr std::array<LitSetting, 12> kSettings{{{"single", "", true, false, true, 2},
+constexpr std::array<LitSetting, 13> kSettings{{{"single", "", true, false, true, 2},
                                                 {"single-no-slices", "", false, false, true, 2},
                                                 {"single-sun", "", true, false, false, 2},
                                                 {"single-sun-1", "", true, false, false, 1},
                                                 {"single-sun-fine", "", true, false, false, 4},
                                                 {"single-sun-no-slices", "", false, false, false, 2},
+                                                {"single-sun-volume", "", true, false, false, 2, 96},
                                                 {"multiple", "default", true, true, true, 2},
                                                 {"multiple-no-slices", "", false, true, true, 2},
                                                 {"volume", "", true, true, true, 2, 96},
