@@ -6,6 +6,7 @@
 ///   a, u     1        share of the way's light that is replaced at its end, and in the mean over it
 ///   g, f     1        mean cosine of the phase function; share of the scattering that counts as going straight on
 ///   w        1        albedo
+///   F, t, d  ., 1, 1  light of a source; optical depth up to a way through the medium, and along it
 ///   J0, J1   .        first moment of the light; the next three times the direction to the eye
 ///   S        .        light that is scattered to the eye, per extinction
 /// @derivation
@@ -21,6 +22,12 @@
 ///   Light of a source that has met the peak alone has F exp(-(1 - w f) t) at an optical depth t. It is
 ///   scattered to the eye by the whole phase function. With f = g^2 that gives the second order its first
 ///   three bands                                                                                  (5)
+///   A cell in which light of a source is scattered for the first time is even in the network, the medium
+///   in it is not: its lit rim shades the rest. The light that counts is the mean over the medium. On a
+///   way into which light comes at the depth t, and on which the depth grows by d, that is
+///       F exp(-(1 - w f) t) (1 - u((1 - w f) d))                                                   (6)
+///   Ways of a cell count by their d. Then what a beam loses in a cell is what the cell scatters and
+///   absorbs.
 /// @source    [JWW76] delta-M; (2) is elementary; (4) and (5) are own
 /// @deviation (4) has two bands, (5) the peak at no angle
 /// @valid     tau >= 0; T = exp(-tau); -0.3 <= g <= 0.98

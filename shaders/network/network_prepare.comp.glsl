@@ -18,14 +18,28 @@ layout(rgba32f, binding = 2) uniform writeonly image3D sources;
 layout(std140, binding = 0) uniform NetworkBlock { ivec4 network; }; // x cells along a side
 
 const int kSamples = 2; // of light, along a side of a cell
+const float kLeastWeight = 1e-3; // of a part of the cell, in units of the cell's mean extinction: light slices may lack its medium
 
-// Adds light that reaches a place, and that its medium has not scattered yet but straight on.
-void addLight(vec3 arriving, vec3 towards, float depth, vec3 straight, inout vec4 light[3])
+// Light of one source in a cell before the medium has scattered it but straight on: the mean over the medium, formula network-cell (6).
+struct Beam
 {
+    vec4 light[3]; // moments of each color, times the weights
+    float weights;
+};
+
+// depths: optical depths between the light and the ends of a way through a part of the cell
+void addWay(vec3 arriving, vec3 towards, vec2 depths, vec3 straight, float least, inout Beam beam)
+{
+    float way = max(depths.y - depths.x, 0.0);
+    vec3 passing = exp(-way * straight);
+    vec3 taken = vec3(fxNetworkMean(way * straight.r, passing.r), fxNetworkMean(way * straight.g, passing.g),
+                      fxNetworkMean(way * straight.b, passing.b));
+    float weight = way + least;
+    vec3 irradiance = weight * arriving * exp(-depths.x * straight) * (1.0 - taken);
     vec4 y = networkHarmonics(-towards);
-    vec3 irradiance = arriving * exp(-depth * straight);
     for (int c = 0; c < 3; ++c)
-        light[c] += irradiance[c] * y;
+        beam.light[c] += irradiance[c] * y;
+    beam.weights += weight;
 }
 
 // The light that the cell had, moments of a color.
@@ -54,16 +68,21 @@ void main()
     float g1 = (g - f) / (1.0 - f);
     GlowBox box = GlowBox(grid.corner.xyz, grid.corner.w * float(side), 0.0); // its media send their own light
     vec4 light[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
-    int samples = scattering.r + scattering.g + scattering.b > 0.0 ? kSamples * kSamples * kSamples : 0;
-    for (int i = 0; i < samples; ++i) {
-        vec3 part = (vec3(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples)) + 0.5) / float(kSamples);
-        vec3 p = grid.corner.xyz + grid.corner.w * (cell + part);
-        addLight(lights[0].color.rgb * hostShadow(p), lights[0].place.xyz, sunDepth(p).x, straight, light);
-        for (int l = 1; l < lightCounts.x; ++l) {
+    int count = scattering.r + scattering.g + scattering.b > 0.0 ? lightCounts.x : 0;
+    float reach = 0.5 * grid.corner.w / float(kSamples); // [m] of a way
+    float least = kLeastWeight * own.a * reach;
+    for (int l = 0; l < count; ++l) {
+        Beam beam = Beam(vec4[3](vec4(0.0), vec4(0.0), vec4(0.0)), 0.0);
+        for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
+            vec3 part = (vec3(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples)) + 0.5) / float(kSamples);
+            vec3 p = grid.corner.xyz + grid.corner.w * (cell + part);
             vec3 towards;
-            vec3 arriving = pointLight(lights[l], p, towards) * shareOf(lights[l], box);
-            addLight(arriving, towards, pointDepth(l, p).x, straight, light);
+            vec3 arriving = unshadowedLight(lights[l], p, towards) * shareOf(lights[l], box);
+            vec2 depths = vec2(sliceDepth(l, p + reach * towards).x, sliceDepth(l, p - reach * towards).x);
+            addWay(arriving, towards, depths, straight, least, beam);
         }
+        for (int c = 0; c < 3; ++c)
+            light[c] += beam.light[c] / beam.weights;
     }
     vec3 middle = grid.corner.xyz + grid.corner.w * (cell + 0.5);
     vec4 bands = vec4(1.0, g1, g1, g1);
@@ -71,7 +90,7 @@ void main()
     imageStore(medium, id, vec4(own.a * straight, 0.0));
     imageStore(medium, id + ivec3(block, 0, 0), vec4(share, g1));
     for (int c = 0; c < 3; ++c) {
-        vec4 first = share[c] * bands * light[c] / float(max(samples, 1));
+        vec4 first = share[c] * bands * light[c];
         first.x += own.a > 0.0 ? 3.5449077018110318 * max(own[c], 0.0) / (own.a * straight[c]) : 0.0;
         vec4 all = first;
         if (grid.before.w > 0.0)

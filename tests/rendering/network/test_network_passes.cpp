@@ -147,6 +147,10 @@ protected:
         NetworkPasses::Inputs in{};
         in.grids = importBytes(std::as_bytes(std::span(&scene_.grid, 1)));
         in.lights = {.lights = importBytes(std::as_bytes(std::span(&scene_.lights, 1)))};
+        if (!planes_.empty())
+            in.lights.planes = importTexels(kPlaneColumns * kPlaneTexels,
+                                            int(planes_.size()) / (2 * kPlaneColumns * kPlaneTexels),
+                                            Format::RG32F, planes_);
         ResourceId* const ids[] = {&in.textures.cells,   &in.textures.scatter, &in.textures.medium,
                                    &in.textures.unswept, &in.textures.sources, &in.textures.moments,
                                    &in.textures.rays};
@@ -178,8 +182,37 @@ protected:
         return out;
     }
 
+    /// Light slices of a sun at +y over a medium whose optical depth below the top of the grid is depth(way
+    /// [m]).
+    template <class Depth>
+    void shineFromAbove(Scene& io, Depth&& depth)
+    {
+        SliceLightBlock& sun = io.lights.lights[0];
+        const float perMeter = 4.0f * kSide; // planes at the faces of half cells, and between them
+        sun.along = {0.0f, -perMeter, 0.0f, 0.5f * perMeter};
+        sun.right = {0.0f, 0.0f, 0.0f, 0.5f * kPlaneTexels};
+        sun.up = sun.right;
+        sun.tiles = {0.0f, 0.0f, float(kPlaneTexels), float(kPlanes)};
+        const int width = kPlaneColumns * kPlaneTexels;
+        planes_.assign(size_t(2 * width * kPlaneTexels * ((kPlanes - 1) / kPlaneColumns + 1)), 0.0f);
+        for (int plane = 0; plane < kPlanes; ++plane)
+            for (int y = 0; y < kPlaneTexels; ++y)
+                for (int x = 0; x < kPlaneTexels; ++x) {
+                    const int column = plane % kPlaneColumns * kPlaneTexels + x;
+                    const int row = plane / kPlaneColumns * kPlaneTexels + y;
+                    const float here = depth(float(plane) / perMeter);
+                    planes_[size_t(2 * (row * width + column))] = here;
+                    planes_[size_t(2 * (row * width + column) + 1)] =
+                        depth(float(plane + 1) / perMeter) - here;
+                }
+    }
+
+    static constexpr int kPlaneTexels = 4;
+    static constexpr int kPlaneColumns = 8; ///< as shaders/shared/light_slices.glsl
+    static constexpr int kPlanes = 4 * kSide + 1;
     Scene scene_;
     std::vector<GlTexture> volumes_;
+    std::vector<float> planes_; ///< optical depths of the sun; empty: media cast no shadow
 };
 
 TEST(NetworkCellFormulas, areThoseOfTheirComment)
@@ -336,4 +369,41 @@ TEST_F(NetworkPassesTest, aGridThatMovesKeepsTheLightOfItsPlaces)
     const double cold = error(light(0));
     EXPECT_LT(warm, 1e-3) << "a sweep from the light of before";
     EXPECT_GT(cold, 0.1) << "from darkness";
+}
+
+TEST_F(NetworkPassesTest, aBeamLosesWhatTheCellsScatterAndAbsorb)
+{
+    // A layer that begins within a cell: of the light on a square meter it takes 1 - exp(-depth), however few
+    // cells it has, and without the forward peak 1 - exp(-(1 - albedo f) depth).
+    const float albedo = 0.9f, thickness = 0.45f; // [m]
+    for (const float cosine : {0.0f, 0.85f})
+        for (const float top : {0.25f, 0.25f + 0.5f / kSide, 0.25f + 0.25f / kSide})
+            for (const float extinction : {1.0f, 10.0f, 60.0f, 300.0f}) {
+                Scene scene;
+                const auto depth = [&](float way) {
+                    return extinction * std::clamp(way - top, 0.0f, thickness);
+                };
+                for (size_t i = 0; i < kCount; ++i) {
+                    const int row = int(i / kSide % kSide); // from below
+                    const float above = 1.0f - float(row + 1) / kSide;
+                    const float inCell = depth(above + 1.0f / kSide) - depth(above);
+                    scene.set(i, inCell * kSide, glm::vec3(albedo), glm::vec3(0.0f), cosine);
+                }
+                scene.lights.lights[0].color = {3.0f, 3.0f, 3.0f, 0.0f};
+                shineFromAbove(scene, depth);
+                begin(scene);
+                sweep(1);
+                const std::vector<float> first = ofColor(texels(3), 0); // not yet swept
+                const double peak = formula64::fxNetworkPeak(double(cosine));
+                const double straight = 1.0 - double(albedo) * peak;
+                const double share = double(albedo) * (1.0 - peak) / straight;
+                double lost = 0.0; // of a square meter: sources hold what cells scatter, per extinction
+                for (size_t i = 0; i < kCount; ++i)
+                    lost += double(first[i]) * double(kRootSphere) / share * double(scene.cells[4 * i + 3]) *
+                            straight / double(kCount);
+                const double expected = 3.0 * -std::expm1(-straight * double(extinction * thickness));
+                // Parts without medium count by 1/1000 of the cell's: of 4.7 optical depths, half a part's.
+                EXPECT_NEAR(lost / expected, 1.0, 3e-3)
+                    << "g " << cosine << ", top " << top << " m, extinction " << extinction << "/m";
+            }
 }
