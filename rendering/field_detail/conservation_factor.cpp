@@ -110,7 +110,7 @@ float ConservationFactor::shareAt(const GroupDetail& detail, std::span<const Det
     return detailAt(detail.numbers, sharedLumpTile(), sum, pixel, kMaxDetailOctaves).share;
 }
 
-/// Of g over a ball.
+/// The mean of g over a ball.
 float ConservationFactor::meanShare(const GroupDetail& detail, std::span<const DetailedCaster> balls,
                                     const MediumCaster& ball, size_t set) const
 {
