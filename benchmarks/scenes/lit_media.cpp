@@ -156,6 +156,7 @@ base::Result<LitPicture> integrated(std::span<const render::MediumBlob> blobs, c
     settings.exposure = double(render::exposureFromEv100(view.exposureEv100));
     settings.scattering = render::ScatteringMode::Single;
     settings.skyRings = size.skyRings;
+    settings.samples = size.rays;
     render::ReferenceRenderer renderer;
     return rendered(renderer, sceneOf(blobs, view), settings, stop);
 }

@@ -54,6 +54,7 @@ struct LitSize
 {
     int width = 96, height = 96; ///< [pixel]
     uint32_t paths = 64;         ///< of a pixel
+    int rays = 1;                ///< the ray integral takes the mean of rays x rays of a pixel
     int skyRings = 3;            ///< the ray integral takes 4 skyRings^2 directions of the sky
 };
 

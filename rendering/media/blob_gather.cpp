@@ -6,6 +6,7 @@
 #include "rendering/frame/ball_window.h"
 #include "rendering/frame/snapshot_match.h"
 #include "rendering/frame/view_volume.h"
+#include "shaders/formulas/formula.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -238,7 +239,11 @@ private:
         const float pixel = depth / pixelsPerSlope_; // [m]
         const float grown = std::min({blob.radius / std::sqrt(level_.ramp.mean()), level_.grownPixels * pixel,
                                       blob.radius + level_.swollenPixels * pixel});
-        blob.radius = std::max({blob.radius, grown, kMinPixels * pixel});
+        blob.radius = std::max(blob.radius, grown);
+        if (const float least = kMinPixels * pixel; blob.radius < least) {
+            blob.crossSection = formula::fxWidenedSection(blob.crossSection, blob.radius, least);
+            blob.radius = least;
+        }
         const base::Streak<float> line = base::streakOf(glm::length(streak), blob.radius);
         const glm::vec3 head = blob.center;
         const float section = blob.crossSection;

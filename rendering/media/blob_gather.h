@@ -83,8 +83,8 @@ struct GatherCounts
 ///
 /// Elements are matched by id between the two snapshots and interpolated; an element of only the newer one is
 /// extrapolated back along its velocity, and omitted before its birth. Blobs smaller than a pixel are widened
-/// to it with their cross section kept, so that they neither vanish nor flicker; with a shutter a moving blob
-/// becomes a streak, see foundation/snapshot/streak.h.
+/// to it, so that they neither vanish nor flicker; their mean opacity over the picture stays, see
+/// widened-ball. With a shutter a moving blob becomes a streak, see foundation/snapshot/streak.h.
 ///
 /// @param share of the particles that is appended to `outVisible`, (0, 1]: selected by id, so that particles
 ///         do not flicker; they take over the cross section of the others. All cast shadows.

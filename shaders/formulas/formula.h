@@ -56,6 +56,7 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/sphere_path.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
 #include "shaders/formulas/voxel_kernel.fx.h"
+#include "shaders/formulas/widened_ball.fx.h"
 // clang-format on
 } // namespace fx::formula
 #undef FX_REAL
@@ -81,6 +82,7 @@ FX_FORMULA_SPACE_BEGIN
 #include "shaders/formulas/slab_light.fx.h"
 #include "shaders/formulas/tone_curve.fx.h"
 #include "shaders/formulas/voxel_kernel.fx.h"
+#include "shaders/formulas/widened_ball.fx.h"
 // clang-format on
 } // namespace fx::formula64
 #undef FX_REAL

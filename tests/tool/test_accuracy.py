@@ -77,6 +77,8 @@ class FxAccuracyOfLitMedia(FxTest):
         error = {name: line["work"]["error_rms"] for name, line in names.items()}
         self.assertLess(error["single-sun"], 0.012) # 0.02 if each blob is lit as if it were alone at its place
         self.assertLess(error["single-sun-fine"], 0.012)
+        self.assertLess(error["single-sun-slabs"], 0.006) # balls are summed before they are lit
+        self.assertLess(error["single-sun-slabs-64"], 0.006)
         self.assertLess(error["single"], 0.07) # 0.13 if light of the sky were scattered alike in all directions
         self.assertLess(error["multiple"], 0.15)
         self.assertGreater(error["single-sun-no-slices"], 0.5) # the shadow matters

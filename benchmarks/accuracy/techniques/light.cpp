@@ -37,16 +37,21 @@ struct LitSetting
     bool multiple; ///< the truth is path traced
     bool sky;
     int samples;          ///< of the sun's light on a ray; 4: and as many planes and texels as there may be
-    int voxels = 0;       ///< of the composition volume; 0: sorted
+    int voxels = 0;       ///< of the composition volume; 0: another
     int networkCells = 0; ///< of its illumination network; 0: none
+    int slabs = 0;        ///< of the composition slabs; 0: another
+    int planes = 32;      ///< of the light slices of the sun
 };
-constexpr std::array<LitSetting, 13> kSettings{{{"single", "", true, false, true, 2},
+constexpr std::array<LitSetting, 16> kSettings{{{"single", "", true, false, true, 2},
                                                 {"single-no-slices", "", false, false, true, 2},
                                                 {"single-sun", "", true, false, false, 2},
                                                 {"single-sun-1", "", true, false, false, 1},
                                                 {"single-sun-fine", "", true, false, false, 4},
                                                 {"single-sun-no-slices", "", false, false, false, 2},
                                                 {"single-sun-volume", "", true, false, false, 2, 96},
+                                                {"single-sun-slabs", "", true, false, false, 2, 0, 0, 16},
+                                                {"single-sun-slabs-64", "", true, false, false, 2, 0, 0, 16, 64},
+                                                {"single-sun-volume-64", "", true, false, false, 2, 96, 0, 0, 64},
                                                 {"multiple", "default", true, true, true, 2},
                                                 {"multiple-no-slices", "", false, true, true, 2},
                                                 {"volume", "", true, true, true, 2, 96},
@@ -54,12 +59,22 @@ constexpr std::array<LitSetting, 13> kSettings{{{"single", "", true, false, true
                                                 {"network-32", "", true, true, true, 2, 96, 32},
                                                 {"network-48", "", true, true, true, 2, 96, 48}}};
 
+/// Of the light slices.
+render::SliceResolution resolutionOf(const LitSetting& setting)
+{
+    render::SliceResolution resolution;
+    resolution.planes = setting.planes;
+    if (setting.samples == 4)
+        resolution = {render::kMaxSliceTexels, render::kMaxSlicePlanes};
+    return resolution;
+}
+
 class LightAccuracy final : public AccuracyTechnique
 {
 public:
     explicit LightAccuracy(const std::string& scene) : scene_(scene)
     {
-        size_ = {128, 72, 64, 3};
+        size_ = {128, 72, 64, 4, 3};
         for (const MediaScene& preset : kPresets)
             if (scene == preset.name) {
                 preset_ = &preset;
@@ -68,7 +83,7 @@ public:
                 view_.fovYDegrees = preset.fovYDegrees;
             }
         if (!preset_)
-            size_.width = size_.height = scene == "blobs-270" ? 72 : 32;
+            size_ = {scene == "blobs-270" ? 72 : 32, scene == "blobs-270" ? 72 : 32, 64, 1, 3};
         for (const LitSetting& setting : kSettings)
             settings_.push_back({setting.name,
                                  setting.tier,
@@ -78,6 +93,8 @@ public:
                                                                           : "single"},
                                   {"voxels", setting.voxels},
                                   {"network_cells", setting.networkCells},
+                                  {"slabs", setting.slabs},
+                                  {"planes", resolutionOf(setting).planes},
                                   {"sky", setting.sky},
                                   {"samples", setting.samples}}});
     }
@@ -159,11 +176,12 @@ base::Result<AccuracySample> LightAccuracy::run(size_t index, const std::functio
     slices.samples = setting.samples;
     slices.network = setting.networkCells > 0;
     slices.networkCells = uint8_t(setting.networkCells);
-    painter_->settings().composition =
-        setting.voxels > 0 ? render::Composition::Volume : render::Composition::Sorted;
+    slices.resolution = resolutionOf(setting);
+    painter_->settings().composition = setting.voxels > 0  ? render::Composition::Volume
+                                       : setting.slabs > 0 ? render::Composition::Slabs
+                                                           : render::Composition::Sorted;
     painter_->settings().voxels = std::max(setting.voxels, 16);
-    if (setting.samples == 4)
-        slices.resolution = {render::kMaxSliceTexels, render::kMaxSlicePlanes};
+    painter_->settings().slabs = std::max(setting.slabs, 6);
     const auto picture = painter_->paint(blobs_, viewOf(setting), slices);
     if (!picture.ok())
         return picture.status();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 using namespace fx;
 using namespace fx::test;
@@ -213,13 +214,22 @@ TEST_F(ViewInvariance, nonFiniteBlobsAreCountedAndNeverSeen)
 TEST_F(ViewInvariance, aBallSmallerThanAPixelKeepsItsLight)
 {
     const auto camera = cameraAt(glm::dvec3(0.0), {0.0f, 1.0f, 0.0f});
-    const auto light = [&](float radius) {
+    const auto light = [&](float radius, float section) {
         clearPicture(0.0f);
-        return mean(render(snapshotOf({{{0.05f, 0.02f, 0.0f}, radius, 1e-4f, 1000.0f}}), camera));
+        return mean(render(snapshotOf({{{0.05f, 0.02f, 0.0f}, radius, section, 1000.0f}}), camera));
     };
-    const double reference = light(0.3f); // thin: light is cross section times emission, whatever the radius
-    for (const float radius : {1e-2f, 1e-4f, 1e-9f, 1e-30f})
-        EXPECT_NEAR(light(radius) / reference, 1.0, 0.05) << radius;
+    // Thin: light is cross section times emission, whatever the radius.
+    const double thin = light(0.3f, 1e-4f) / 1e-4;
+    for (const float radius : {1e-2f, 3e-3f})
+        EXPECT_NEAR(light(radius, 1e-3f * radius * radius) / (1e-3 * radius * radius * thin), 1.0, 0.05)
+            << radius;
+    // Opaque: emission times the area of its disc, all but the rim of which is covered.
+    for (const float radius : {1e-2f, 3e-3f, 1e-3f}) {
+        const double covered =
+            light(radius, 1e4f * radius * radius) / (std::numbers::pi * radius * radius * thin);
+        EXPECT_NEAR(covered, 0.98, 0.06) << radius;
+    }
+    EXPECT_EQ(light(1e-30f, 1e-4f), 0.0); // no area
 }
 
 TEST_F(ViewInvariance, afterTheWarmUpNoFrameCompiles)
