@@ -42,22 +42,23 @@ struct LitSetting
     int slabs = 0;        ///< of the composition slabs; 0: another
     int planes = 32;      ///< of the light slices of the sun
 };
-constexpr std::array<LitSetting, 16> kSettings{{{"single", "", true, false, true, 2},
-                                                {"single-no-slices", "", false, false, true, 2},
-                                                {"single-sun", "", true, false, false, 2},
-                                                {"single-sun-1", "", true, false, false, 1},
-                                                {"single-sun-fine", "", true, false, false, 4},
-                                                {"single-sun-no-slices", "", false, false, false, 2},
-                                                {"single-sun-volume", "", true, false, false, 2, 96},
-                                                {"single-sun-slabs", "", true, false, false, 2, 0, 0, 16},
-                                                {"single-sun-slabs-64", "", true, false, false, 2, 0, 0, 16, 64},
-                                                {"single-sun-volume-64", "", true, false, false, 2, 96, 0, 0, 64},
-                                                {"multiple", "default", true, true, true, 2},
-                                                {"multiple-no-slices", "", false, true, true, 2},
-                                                {"volume", "", true, true, true, 2, 96},
-                                                {"network-24", "", true, true, true, 2, 96, 24},
-                                                {"network-32", "", true, true, true, 2, 96, 32},
-                                                {"network-48", "", true, true, true, 2, 96, 48}}};
+constexpr std::array<LitSetting, 16> kSettings{
+    {{"single", "", true, false, true, 2},
+     {"single-no-slices", "", false, false, true, 2},
+     {"single-sun", "", true, false, false, 2},
+     {"single-sun-1", "", true, false, false, 1},
+     {"single-sun-fine", "", true, false, false, 4},
+     {"single-sun-no-slices", "", false, false, false, 2},
+     {"single-sun-volume", "", true, false, false, 2, 96},
+     {"single-sun-slabs", "", true, false, false, 2, 0, 0, 16},
+     {"single-sun-slabs-64", "", true, false, false, 2, 0, 0, 16, 64},
+     {"single-sun-volume-64", "", true, false, false, 2, 96, 0, 0, 64},
+     {"multiple", "default", true, true, true, 2},
+     {"multiple-no-slices", "", false, true, true, 2},
+     {"volume", "", true, true, true, 2, 96},
+     {"network-24", "", true, true, true, 2, 96, 24},
+     {"network-32", "", true, true, true, 2, 96, 32},
+     {"network-48", "", true, true, true, 2, 96, 48}}};
 
 /// Of the light slices.
 render::SliceResolution resolutionOf(const LitSetting& setting)
