@@ -96,6 +96,27 @@ class FxRender(FxTest):
         self.assertEqual(pictures[0], pictures[1])
         self.assertEqual(pictures[0], pictures[2])
 
+    def test_options_place_the_camera_for_opengl_too(self):
+        def picture(name, *arguments):
+            self.render(name, "--time", "0.5", *arguments, scene="library:campfire")
+            return (self.folder / name).read_bytes()
+
+        given = picture("scene.png")
+        left = picture("left.png", "--view", "-3,1,0,0,1,0,40")
+        self.assertNotEqual(given, left)
+        self.assertNotEqual(left, picture("right.png", "--view", "3,1,0,0,1,0,40"))
+        path = self.folder / "camera.scene.json"
+        path.write_text(json.dumps({"version": 1, "camera": {"position": [-3, 1, 0], "target": [0, 1, 0],
+                                                             "fovYDegrees": 40}}))
+        self.assertEqual(left, picture("file.png", "--camera", str(path)))
+
+    def test_options_of_the_other_renderers_are_refused_with_opengl(self):
+        for option in ("--samples", "2"), ("--detail", "off"), ("--threads", "1"), ("--resume",):
+            outcome = fx("render", "library:sparks", "-o", self.folder / "no.png", *SMALL, *option)
+            self.assertEqual(outcome.code, 2)
+            self.assertIn(option[0] + " needs --renderer reference or path", outcome.err)
+        self.assertFalse((self.folder / "no.png").exists())
+
     def test_a_still_is_one_png_of_the_size_asked_for(self):
         self.render("a.png")
         self.assertEqual(self.names(), ["a.png"])

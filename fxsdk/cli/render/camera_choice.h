@@ -26,4 +26,10 @@ private:
     std::optional<scene_file::CameraPath> path_;
 };
 
+/// Replaces the camera of a scene by that of --view or --camera, if one is given. The near plane of the scene
+/// stays with --view.
+/// @return InvalidArgument for a malformed --view, or the error of the file of --camera; `io` is unchanged
+/// then
+base::Status replaceCamera(const ReferenceArguments& arguments, scene_file::CameraPath& io);
+
 } // namespace fx::cli

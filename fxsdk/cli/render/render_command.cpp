@@ -3,6 +3,7 @@
 
 #include "fxsdk/cli/commands.h"
 #include "fxsdk/cli/render/blob_list_render.h"
+#include "fxsdk/cli/render/camera_choice.h"
 #include "fxsdk/cli/render/depth_contacts.h"
 #include "fxsdk/cli/render/frame_output.h"
 #include "fxsdk/cli/render/render_options.h"
@@ -151,6 +152,16 @@ private:
     std::string statistics_; ///< the text of the file
 };
 
+/// The first given option that OpenGL would ignore; empty for none.
+std::string optionWithoutGl(const CLI::App& command)
+{
+    for (const char* name : {"--integrator", "--precision", "--source", "--detail", "--sky-rings",
+                             "--samples", "--threads", "--resume", "--sun-angle"})
+        if (command.get_option(name)->count() > 0)
+            return name;
+    return {};
+}
+
 int failed(const base::Status& status)
 {
     std::fprintf(stderr, "fx render: %s\n", status.message().c_str());
@@ -189,9 +200,15 @@ int runRender(const RenderArguments& arguments)
             warnOfLights(*lights);
         return runBlobList(arguments, *plan, lights ? &*lights : nullptr);
     }
-    const auto scene = load();
+    if (const auto reference = planReference(arguments.reference); !reference.ok()) {
+        failed(reference.status());
+        return kUsage;
+    }
+    auto scene = load();
     if (!scene.ok())
         return failed(scene.status());
+    if (base::Status status = replaceCamera(arguments.reference, scene->camera); !status)
+        return failed(status);
     for (const preset::Diagnostic& warning : scene->warnings)
         std::fprintf(stderr, "warning: %s\n", preset::toString(warning).c_str());
 
@@ -217,7 +234,12 @@ void addRenderCommand(CLI::App& app, int& outExitCode)
     CLI::App* command =
         app.add_subcommand("render", "Render a scene or a preset to PNG, EXR, a sequence or a video");
     addRenderOptions(*command, *arguments);
-    command->callback([arguments, &outExitCode] { outExitCode = runRender(*arguments); });
+    command->callback([arguments, command, &outExitCode] {
+        const std::string unused = arguments->renderer == "gl" ? optionWithoutGl(*command) : std::string();
+        if (!unused.empty())
+            std::fprintf(stderr, "fx render: %s needs --renderer reference or path\n", unused.c_str());
+        outExitCode = unused.empty() ? runRender(*arguments) : kUsage;
+    });
 }
 
 } // namespace fx::cli
