@@ -12,6 +12,8 @@ namespace {
 constexpr ProgramDesc kSources[] = {
     {"glow source", nullptr, nullptr, "field/glow_source.comp.glsl", "FX_AGAIN=0\nFX_DETAIL=0"},
     {"glow source", nullptr, nullptr, "field/glow_source.comp.glsl", "FX_AGAIN=0\nFX_DETAIL=1"}};
+constexpr ProgramDesc kRays[] = {{"glow rays", nullptr, nullptr, "field/glow_rays.comp.glsl", "FX_AGAIN=0"},
+                                 {"glow rays", nullptr, nullptr, "field/glow_rays.comp.glsl", "FX_AGAIN=1"}};
 constexpr ProgramDesc kSums[] = {{"glow sum", nullptr, nullptr, "field/glow_sum.comp.glsl", "FX_AGAIN=0"},
                                  {"glow sum", nullptr, nullptr, "field/glow_sum.comp.glsl", "FX_AGAIN=1"}};
 
@@ -76,18 +78,18 @@ void addSourceAgain(FrameGraph& graph, const FieldGlowPass::Inputs& in, GlowText
     });
 }
 
-void addRays(FrameGraph& graph, const FieldGlowPass::Inputs& in, GlowTextures& io)
+void addRays(FrameGraph& graph, const FieldGlowPass::Inputs& in, bool again, GlowTextures& io)
 {
     graph.addPass("glow rays", [&](FrameGraph::Builder& builder) {
         builder.read(in.grids);
         builder.read(io.cells);
         io.rays = builder.write(io.rays);
-        return [in, io](Backend& backend) {
+        return [in, io, again](Backend& backend) {
             const TextureBinding textures[] = {{0, io.cells}};
             const ImageBinding images[] = {{0, io.rays}};
             const BufferBinding buffers[] = {{3, in.grids}};
             DispatchCall call;
-            call.program = &kGlowRaysProgram;
+            call.program = &glowRaysProgram(again);
             call.textures = textures;
             call.images = images;
             call.buffers = buffers;
@@ -103,15 +105,16 @@ void addSum(FrameGraph& graph, const FieldGlowPass::Inputs& in, bool again, Glow
     graph.addPass("glow sum", [&](FrameGraph::Builder& builder) {
         builder.read(io.rays);
         if (again)
-            builder.read(io.first);
+            for (const ResourceId id : {io.first, io.scatter, io.cells})
+                builder.read(id);
         ResourceId& light = again ? io.light : io.first;
         light = builder.write(light);
         return [in, io, again, light](Backend& backend) {
-            const TextureBinding textures[] = {{0, io.rays}, {4, io.first}};
+            const TextureBinding textures[] = {{0, io.rays}, {4, io.first}, {3, io.scatter}, {1, io.cells}};
             const ImageBinding images[] = {{0, light}};
             DispatchCall call;
             call.program = &glowSumProgram(again);
-            call.textures = std::span(textures).first(again ? 2 : 1);
+            call.textures = std::span(textures).first(again ? 4 : 1);
             call.images = images;
             setGroups(call, in.gridCount);
             backend.dispatch(call);
@@ -123,7 +126,11 @@ void addSum(FrameGraph& graph, const FieldGlowPass::Inputs& in, bool again, Glow
 
 constexpr ProgramDesc kGlowSourceAgainProgram{"glow source", nullptr, nullptr, "field/glow_source.comp.glsl",
                                               "FX_AGAIN=1\nFX_DETAIL=0"};
-constexpr ProgramDesc kGlowRaysProgram{"glow rays", nullptr, nullptr, "field/glow_rays.comp.glsl", nullptr};
+
+const ProgramDesc& glowRaysProgram(bool again)
+{
+    return kRays[again ? 1 : 0];
+}
 
 const ProgramDesc& glowSourceProgram(bool detail)
 {
@@ -146,10 +153,10 @@ FieldGlowPass::Outputs FieldGlowPass::addTo(FrameGraph& graph, const Inputs& in)
 {
     Outputs out{in.glow};
     addSource(graph, in, out.glow);
-    addRays(graph, in, out.glow);
+    addRays(graph, in, false, out.glow);
     addSum(graph, in, false, out.glow);
     addSourceAgain(graph, in, out.glow);
-    addRays(graph, in, out.glow);
+    addRays(graph, in, true, out.glow);
     addSum(graph, in, true, out.glow);
     return out;
 }

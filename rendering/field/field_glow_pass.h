@@ -13,11 +13,11 @@ namespace fx::render {
 /// Textures of the grids of FieldGlowPlan, one above the other along z.
 struct GlowTextures
 {
-    ResourceId cells = {};   ///< RGBA32F emitted light, extinction
+    ResourceId cells = {};   ///< RGBA32F emitted light, later with what is scattered once; extinction
     ResourceId scatter = {}; ///< RGBA16F extinction times albedo; mean cosine of the phase function
     ResourceId rays = {};    ///< RGBA16F radiance, of all directions beside each other
     ResourceId first = {};   ///< RGBA16F mean radiance of emitted light
-    ResourceId light = {};   ///< RGBA16F mean radiance of emitted and scattered light
+    ResourceId light = {};   ///< RGBA16F logarithm of the mean radiance of emitted and scattered light
 };
 
 /// Mean radiance in each cell of the light of all media of a grid, any number of times scattered.
@@ -53,7 +53,7 @@ public:
 
 const ProgramDesc& glowSourceProgram(bool detail);
 extern const ProgramDesc kGlowSourceAgainProgram;
-extern const ProgramDesc kGlowRaysProgram;
+const ProgramDesc& glowRaysProgram(bool again);
 const ProgramDesc& glowSumProgram(bool again);
 
 } // namespace fx::render

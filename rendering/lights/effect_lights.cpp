@@ -14,8 +14,16 @@ namespace {
 
 constexpr float kDarkest = 1e-3f; // [cd] a group below this is no light
 
+/// Where a light is from.
+struct Origin
+{
+    const LightSource* source;
+    size_t group;
+};
+
 /// Puts a light where its brightness belongs, if there is room for it.
-void insert(const EffectLight& light, std::span<EffectLight> out, size_t& ioCount)
+void insert(const EffectLight& light, const Origin& origin, std::span<EffectLight> out,
+            std::span<Origin> origins, size_t& ioCount)
 {
     const auto brightness = [](const EffectLight& l) {
         return l.intensity.x + l.intensity.y + l.intensity.z;
@@ -26,9 +34,12 @@ void insert(const EffectLight& light, std::span<EffectLight> out, size_t& ioCoun
     if (at == out.size())
         return;
     ioCount = std::min(ioCount + 1, out.size());
-    for (size_t i = ioCount - 1; i > at; --i)
+    for (size_t i = ioCount - 1; i > at; --i) {
         out[i] = out[i - 1];
+        origins[i] = origins[i - 1];
+    }
     out[at] = light;
+    origins[at] = origin;
 }
 
 } // namespace
@@ -74,15 +85,21 @@ size_t effectLights(const base::FrameSnapshot& snapshot, std::span<const LightSo
     std::array<base::KindId, kMaxLightSources> kinds{};
     for (size_t s = 0; s < sources.size(); ++s)
         kinds[s] = snapshot.schema().find(sources[s]->kind->name);
+    std::array<Origin, kMaxEffectLights> origins{};
+    out = out.first(std::min(out.size(), kMaxEffectLights));
     size_t count = 0;
     for (size_t g = 0; g < snapshot.groupCount() && !out.empty(); ++g) {
         const auto kind = std::find(kinds.begin(), kinds.begin() + sources.size(), snapshot.name(g).kind);
         if (kind == kinds.begin() + sources.size() || snapshot.group(g).count() == 0)
             continue;
         EffectLight light;
-        if (sources[size_t(kind - kinds.begin())]->lightOf(snapshot, snapshot.group(g), light))
-            insert(light, out, count);
+        const LightSource* source = sources[size_t(kind - kinds.begin())];
+        if (source->lightOf(snapshot, snapshot.group(g), light))
+            insert(light, {source, g}, out, origins, count);
     }
+    for (size_t i = 0; i < count; ++i)
+        if (origins[i].source->complete)
+            origins[i].source->complete(snapshot, origins[i].group, out[i]);
     return count;
 }
 

@@ -32,9 +32,14 @@ struct LightSource
     /// Light of a group with elements. @return false: it sheds none, or its light is that of another group
     bool (*lightOf)(const base::FrameSnapshot& snapshot, const base::SnapshotGroup& group,
                     EffectLight& outLight);
+
+    /// Completes the light of a group that is among the brightest; null: it is complete. Here costly work
+    /// belongs.
+    void (*complete)(const base::FrameSnapshot& snapshot, size_t group, EffectLight& ioLight) = nullptr;
 };
 
-/// One light for each group that glows, brightest first, as many as fit.
+/// One light for each group that glows, those that are brightest before complete() first, as many as fit and
+/// at most kMaxEffectLights.
 /// @param sources at most kMaxLightSources are used
 /// @return how many were written to `out`
 size_t effectLights(const base::FrameSnapshot& snapshot, std::span<const LightSource* const> sources,

@@ -16,7 +16,7 @@ layout(std430, binding = 2) readonly buffer Bricks { FieldBrick bricks[]; };
 layout(rgba32f, binding = 0) uniform image3D medium;
 layout(rgba16f, binding = 1) uniform image3D scatter;
 #if !FX_NETWORK
-layout(binding = 3) uniform sampler3D glowLight; // rgb mean radiance of what media emit [exposed]
+layout(binding = 3) uniform sampler3D glowLight; // rgb logarithm of the mean radiance of what media emit [exposed]
 #endif
 layout(std140, binding = 0) uniform FieldLightBlock
 {
@@ -38,7 +38,7 @@ vec3 glowAt(int grid, vec3 p, out GlowBox box)
     float inside = clamp(min(min(fromFace.x, fromFace.y), fromFace.z) / kGlowRim, 0.0, 1.0);
     box = GlowBox(glow.corner.xyz, glow.corner.w * float(kGlowCells), 1.0 - inside);
     vec3 texel = clamp(cell, vec3(0.5), vec3(float(kGlowCells) - 0.5)) + vec3(0.0, 0.0, float(kGlowCells * grid));
-    return inside * textureLod(glowLight, texel / vec3(textureSize(glowLight, 0)), 0.0).rgb;
+    return inside * exp(textureLod(glowLight, texel / vec3(textureSize(glowLight, 0)), 0.0).rgb);
 }
 #endif
 

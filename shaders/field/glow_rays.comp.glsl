@@ -1,11 +1,11 @@
 #include "formulas/field_glow.fx.h"
 #include "field/field_glow.glsl"
 
-// Light of the cells of a grid along one line of cells: formula field-glow (1), (2). One invocation a line, from the face where
+// Light of the cells of a grid along one line of cells: formula field-glow (1), and (2), or (4) where FX_AGAIN is 1. One invocation a line, from the face where
 // it enters; a workgroup row has the lines of one direction that enter at the three faces that it comes from.
 layout(local_size_x = 32, local_size_y = 8) in;
 layout(binding = 0) uniform sampler3D cells;                   // rgb emitted light [exposed/m]; a extinction [1/m]
-layout(rgba16f, binding = 0) uniform writeonly image3D rays; // rgb mean radiance in a cell [exposed], of each direction
+layout(rgba16f, binding = 0) uniform writeonly image3D rays; // rgb radiance in a cell [exposed], of each direction: mean, or in its middle
 
 void main()
 {
@@ -30,8 +30,13 @@ void main()
         float tau = medium.a * way;
         float share = fxGlowShare(tau);
         vec3 emitted = medium.rgb * way;
-        imageStore(rays, corner + cell, vec4(min(radiance * share + emitted * fxGlowRest(tau), vec3(6e4)), 0.0)); // (2)
-        radiance = radiance * exp(-tau) + emitted * share;                                                      // (1)
+#if FX_AGAIN
+        vec3 within = radiance * exp(-0.5 * tau) + 0.5 * emitted * fxGlowShare(0.5 * tau); // (4)
+#else
+        vec3 within = radiance * share + emitted * fxGlowRest(tau); // (2)
+#endif
+        imageStore(rays, corner + cell, vec4(min(within, vec3(6e4)), 0.0));
+        radiance = radiance * exp(-tau) + emitted * share; // (1)
         cell += direction;
     }
 }

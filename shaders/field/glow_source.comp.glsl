@@ -5,7 +5,7 @@
 #endif
 
 // What the medium of each cell of the grids emits, extinguishes and scatters: the mean of the fields at some points of it, with
-// their detail. FX_AGAIN 1 replaces what is emitted by what the cell scatters of the light that it gets.
+// their detail. FX_AGAIN 1 adds what the cell scatters of the light that it gets.
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 2) in;
 layout(rgba32f, binding = 0) uniform image3D cells; // rgb emitted light [exposed/m]; a extinction [1/m]
 #if FX_AGAIN
@@ -65,7 +65,7 @@ void main()
     ivec3 id = ivec3(gl_GlobalInvocationID);
 #if FX_AGAIN
     vec4 medium = imageLoad(cells, id);
-    medium.rgb = texelFetch(glowScatter, id, 0).rgb * texelFetch(glowLight, id, 0).rgb;
+    medium.rgb += texelFetch(glowScatter, id, 0).rgb * texelFetch(glowLight, id, 0).rgb;
     imageStore(cells, id, medium);
 #else
     int grid = id.z / fieldCount.y;

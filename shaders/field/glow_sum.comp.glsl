@@ -1,14 +1,17 @@
 #include "formulas/field_glow.fx.h"
 #include "field/field_glow.glsl"
 
-// Mean radiance in each cell of the rays of all directions. FX_AGAIN 1: the rays are what is scattered of the light of the first
-// sum, and the result has all orders: formula field-glow (4).
+// Mean radiance in each cell of the rays of all directions. FX_AGAIN 1: the rays are what is emitted and what is scattered of the
+// light of the first sum, and the result is the logarithm of all orders: formula field-glow (5).
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 2) in;
 layout(binding = 0) uniform sampler3D rays; // see glow_rays.comp.glsl
 #if FX_AGAIN
-layout(binding = 4) uniform sampler3D glowLight;
+layout(binding = 4) uniform sampler3D glowLight;   // the first sum
+layout(binding = 3) uniform sampler3D glowScatter; // rgb [1/m] extinction times albedo
+layout(binding = 1) uniform sampler3D cells;       // a extinction [1/m]
+const float kDarkest = 1e-6; // [exposed] as black
 #endif
-layout(rgba16f, binding = 0) uniform writeonly image3D light; // rgb mean radiance [exposed]
+layout(rgba16f, binding = 0) uniform writeonly image3D light; // rgb mean radiance [exposed]; FX_AGAIN 1: its logarithm
 
 void main()
 {
@@ -23,7 +26,10 @@ void main()
     }
 #if FX_AGAIN
     vec3 first = texelFetch(glowLight, id, 0).rgb;
-    sum = vec3(fxGlowOrders(first.r, sum.r), fxGlowOrders(first.g, sum.g), fxGlowOrders(first.b, sum.b));
+    vec4 medium = texelFetch(cells, id, 0);
+    vec3 albedo = texelFetch(glowScatter, id, 0).rgb / max(medium.a, 1e-20);
+    sum = vec3(fxGlowOrders(first.r, sum.r, albedo.r), fxGlowOrders(first.g, sum.g, albedo.g), fxGlowOrders(first.b, sum.b, albedo.b));
+    sum = log(clamp(sum, vec3(kDarkest), vec3(6e4)));
 #endif
     imageStore(light, id, vec4(min(sum, vec3(6e4)), 0.0));
 }

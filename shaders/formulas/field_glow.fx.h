@@ -7,9 +7,10 @@
 ///   l        m           length of a ray's way through a cell
 ///   tau      1           k l
 ///   e        1           share of what is emitted on the way that leaves the cell; r see (3)
-///   I, I'    .           radiance of a ray before and behind the cell; M its mean within
-///   J        .           mean over all directions of M; J1 of what the medium emits, J2 of what of J1 it
-///   scatters
+///   I, I'    .           radiance of a ray before and behind the cell; M its mean within, N in its middle
+///   J1       .           mean over all directions of M of the emitted light
+///   J2       .           mean over all directions of N of emitted light and what of J1 the medium scatters
+///   w        1           albedo of the cell
 /// @derivation
 ///   Rays in the 26 directions from a cell to its neighbors meet the middles of cells alone. Within one of
 ///   them
@@ -18,12 +19,16 @@
 ///       r = (1 - e) / tau                                                                     (3)
 ///   and what the cell absorbs and scatters is k l M = I + j l - I', exactly what is missing behind it: no
 ///   light is made or lost. J is the sum of M with the weights of Lebedev's rule, 1/21, 4/105 and 9/280 for
-///   neighbors at a face, an edge and a corner, which sum up to 1. Deep in an even medium J = M = j / k. Each
-///   order of scattering is the light of the one before it times the albedo, spread out. Where the ratio of
-///   two orders does not change, the orders sum up to
-///       J = J1 / (1 - q),  q = min(J2 / J1, 0.95)                                             (4)
-///   so that deep in an even medium of albedo w up to 0.95, where J1 = (1 - w) B and J2 = w J1, J = B.
-/// @source    [LEB76] the weights; (4) is Aitken's delta-squared process; the rest is elementary
+///   neighbors at a face, an edge and a corner, which sum up to 1. Deep in an even medium J = M = j / k.
+///   Behind a layer of soot the light of a fire is less than the mean of the layer's cells, and it falls by a
+///   factor from cell to cell. So what is seen is the light in the middle of cells,
+///       N = I exp(-tau / 2) + (j l / 2) e(tau / 2)                                            (4)
+///   and between the middles the logarithm is linear. Each order of scattering is the light of the one before
+///   it times the albedo, spread out. With a ratio q of two orders that does not change and is no more than
+///   the albedo,
+///       J = J2 / (1 - q^2),  q = clamp(J2 / J1 - 1, 0, min(w, 0.95))                          (5)
+///   so that deep in an even medium of albedo w up to 0.95, where J1 = (1 - w) B and J2 = (1 + w) J1, J = B.
+/// @source    [LEB76] the weights; (5) is Aitken's delta-squared process; the rest is elementary
 /// @deviation 26 directions: light of a source that is seen under a small angle comes in rays
 /// @valid     tau, J1, J2 >= 0
 /// @accuracy  e within 1e-6, r within 1e-4, J within 1e-6 of double, relative to 1; GLSL likewise. Of a ball
@@ -44,8 +49,9 @@ FX_FORMULA(fxGlowRest)(FX_REAL tau)
     return tau < FX_REAL(0.03) ? thin : thick; // (3)
 }
 
-FX_FORMULA(fxGlowOrders)(FX_REAL J1, FX_REAL J2)
+FX_FORMULA(fxGlowOrders)(FX_REAL J1, FX_REAL J2, FX_REAL w)
 {
-    FX_REAL q = clamp(J2 / max(J1, FX_REAL(1e-30)), FX_REAL(0.0), FX_REAL(0.95));
-    return J1 / (FX_REAL(1.0) - q); // (4)
+    FX_REAL one = FX_REAL(1.0);
+    FX_REAL q = clamp(J2 / max(J1, FX_REAL(1e-30)) - one, FX_REAL(0.0), min(w, FX_REAL(0.95)));
+    return J2 / (one - q * q); // (5)
 }

@@ -22,10 +22,10 @@ std::span<const ProgramDesc* const> programs()
     static const auto all = [] {
         const std::span<const ProgramDesc* const> ofSlabs = kSlabComposition.programs(); // the loose
         std::vector<const ProgramDesc*> list(ofSlabs.begin(), ofSlabs.end());
-        list.insert(list.end(), {&kFieldSlicesProgram, &kGlowSourceAgainProgram, &kGlowRaysProgram,
-                                 &glowSourceProgram(false), &glowSourceProgram(true), &glowSumProgram(false),
-                                 &glowSumProgram(true), &kNetworkPrepareProgram, &kNetworkRaysProgram,
-                                 &kNetworkSumProgram});
+        list.insert(list.end(), {&kFieldSlicesProgram, &kGlowSourceAgainProgram, &glowRaysProgram(false),
+                                 &glowRaysProgram(true), &glowSourceProgram(false), &glowSourceProgram(true),
+                                 &glowSumProgram(false), &glowSumProgram(true), &kNetworkPrepareProgram,
+                                 &kNetworkRaysProgram, &kNetworkSumProgram});
         for (const bool detail : {false, true})
             for (const bool layers : {false, true})
                 for (const ProgramDesc* program :

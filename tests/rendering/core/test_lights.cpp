@@ -129,8 +129,33 @@ TEST(EffectLights, aCloudOfBallsSendsWhatItsFaceShows)
                     area += (1.0 - std::exp(-depth)) * step * step / 3.0;
                 }
         const double expected = area * double(blackBodyLuminance(1500.0f).x);
-        EXPECT_NEAR(double(lights[0].intensity.x) / expected, 1.0, 0.25) << s;
-        EXPECT_NEAR(lights[0].ownReach, 3.1f, 0.3f);
+        EXPECT_NEAR(double(lights[0].intensity.x) / expected, 1.0, 0.1) << s;
+        EXPECT_NEAR(lights[0].ownReach, 3.3f, 0.3f);
+    }
+}
+
+// Both in one group: balls around a hot one, through which exp(-depth) passes.
+TEST(EffectLights, coldGasAroundAFireHidesIt)
+{
+    const auto schema = blobSchema();
+    const auto lightBehind = [&](float s) {
+        auto snapshot = glowingLine(schema, 2, 0.05f, 1500.0f);
+        auto& group = snapshot.editGroup(0);
+        for (size_t i = 0; i < 2; ++i)
+            group.editColumn(column::PositionX)[i] = 0.0f;
+        group.editColumn(column::Radius)[1] = 6.0f;
+        group.editColumn(column::CrossSection)[1] = s;
+        group.editColumn(column::Temperature)[1] = 300.0f;
+        std::array<EffectLight, 1> lights;
+        EXPECT_EQ(effectLights(snapshot, lights), 1u);
+        EXPECT_TRUE(s < 1.0f || lights[0].ownReach > 5.0f)
+            << "the shadow of the cold gas is in the intensity";
+        return double(lights[0].intensity.x);
+    };
+    const double free = lightBehind(1e-6f);
+    for (const float s : {20.0f, 60.0f, 200.0f}) {
+        const double depth = fx::formula64::fxKernelOpticalDepth(double(s), 6.0, 0.0, 0.0, 0.0, 6.0);
+        EXPECT_NEAR(lightBehind(s) / free / std::exp(-depth), 1.0, 0.15) << s;
     }
 }
 

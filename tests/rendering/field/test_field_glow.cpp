@@ -7,6 +7,7 @@
 #include "shaders/formulas/formula.h"
 #include "tests/rendering/field/field_fixture.h"
 
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -92,9 +93,15 @@ protected:
     {
         return glm::dvec3(corner_) + double(side_) * (glm::dvec3(cellOf(i)) + 0.5);
     }
+    /// The mean of a cell of emitted light, not scattered.
+    glm::vec3 first(int i) const
+    {
+        return {first_[size_t(4 * i)], first_[size_t(4 * i + 1)], first_[size_t(4 * i + 2)]};
+    }
     glm::vec3 light(int i) const
     {
-        return {light_[size_t(4 * i)], light_[size_t(4 * i + 1)], light_[size_t(4 * i + 2)]};
+        return glm::exp(
+            glm::vec3(light_[size_t(4 * i)], light_[size_t(4 * i + 1)], light_[size_t(4 * i + 2)]));
     }
 
     const glm::vec3 eye_{0.0f, 0.0f, 9.0f};
@@ -117,9 +124,10 @@ TEST(FieldGlowFormulas, areThoseOfTheirComment)
     EXPECT_EQ(formula::fxGlowShare(0.0f), 1.0f);
     EXPECT_EQ(formula::fxGlowRest(0.0f), 0.5f);
     for (const float albedo : {0.0f, 0.2f, 0.9f})
-        EXPECT_NEAR(formula::fxGlowOrders((1.0f - albedo) * 7.0f, albedo * (1.0f - albedo) * 7.0f), 7.0f,
-                    1e-5f);
-    EXPECT_EQ(formula::fxGlowOrders(0.0f, 0.0f), 0.0f);
+        EXPECT_NEAR(formula::fxGlowOrders((1.0f - albedo) * 7.0f, (1.0f - albedo * albedo) * 7.0f, albedo),
+                    7.0f, 1e-5f);
+    EXPECT_EQ(formula::fxGlowOrders(0.0f, 0.0f, 0.5f), 0.0f);
+    EXPECT_EQ(formula::fxGlowOrders(1.0f, 3.0f, 0.0f), 3.0f) << "black medium scatters nothing";
 }
 
 TEST_F(FieldGlow, deepInAHotMediumItIsThatOfTheMedium)
@@ -177,11 +185,35 @@ TEST_F(FieldGlow, whatAShellAbsorbsIsWhatItsCoreEmits)
     }();
     glm::dvec3 absorbed(0.0);
     for (int i = 0; i < kCells; ++i)
-        absorbed += double(medium[size_t(4 * i + 3)]) * glm::dvec3(light(i)) * std::pow(double(side_), 3.0);
+        absorbed += double(medium[size_t(4 * i + 3)]) * glm::dvec3(first(i)) * std::pow(double(side_), 3.0);
     const double section = double(ball(0.7f, 3.0f, {}).crossSection);
     EXPECT_NEAR(absorbed.r, 9.0 * section, 0.02 * 9.0 * section);
     EXPECT_NEAR(absorbed.g, 4.0 * section, 0.02 * 4.0 * section);
     EXPECT_NEAR(absorbed.b, 2.0 * section, 0.02 * 2.0 * section);
+}
+
+// A hot core in cold soot: what is left behind a depth tau of the soot is no more than exp(-tau) of what
+// comes to it.
+TEST_F(FieldGlow, behindALayerOfSootTheLightHasDecayed)
+{
+    FieldBall shell = ball(2.0f, 150.0f, glm::vec3(0.0f));
+    shell.effect = 1;
+    spread({ball(0.7f, 3.0f, glm::vec3(900, 400, 200)), shell});
+    // the way to a cell is known within half of its side
+    const double slack =
+        std::exp(0.5 * double(side_) * formula64::fxKernelPeak(double(shell.crossSection), 2.0));
+    int count = 0;
+    for (int i = 0; i < kCells; ++i) {
+        const double r = glm::length(middle(i));
+        if (r < 1.1 || r > 1.7)
+            continue;
+        const double tau = formula64::fxKernelOpticalDepth(double(shell.crossSection), 2.0, 0.0, 0.0, 0.8, r);
+        // the core is seen under a solid angle
+        const double most = 900.0 * std::exp(-tau) * 0.5 * (1.0 - std::sqrt(1.0 - 0.49 / (r * r)));
+        ASSERT_LT(double(light(i).r), slack * most + 2e-6) << r;
+        ++count;
+    }
+    EXPECT_GT(count, 400);
 }
 
 TEST_F(FieldGlow, ofARoundEmitterItIsTheSameOnAllSides)
