@@ -23,9 +23,9 @@ namespace {
 namespace column = base::blob_column;
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kLines = 192.0f;          ///< M
+constexpr float kLines = 96.0f;           ///< M
 constexpr size_t kMaxHits = 192;          ///< balls on a line; of more the rest is left out
-constexpr int kSteps = 32;                ///< of a line
+constexpr int kSteps = 24;                ///< of a line
 constexpr int kOctaves = 3;               ///< of the detail
 constexpr float kLumpPixels = 16.0f;      ///< [pixel] of the largest lumps
 constexpr float kRamp = 0.1f;             ///< [1] of the chance of a ball, over which its line comes and goes
