@@ -57,6 +57,24 @@ struct FieldBrickBlock
 };
 static_assert(sizeof(FieldBrickBlock) == 16);
 
+/// A brick that balls near the eye touch; shaders/field/field_near.comp.glsl reads this layout and the next.
+struct NearBrickBlock
+{
+    uint32_t brick; ///< number
+    uint32_t first; ///< of its NearPartBlocks
+    uint32_t count; ///< of them
+    uint32_t unused;
+};
+static_assert(sizeof(NearBrickBlock) == 16);
+
+/// A ball in a brick.
+struct NearPartBlock
+{
+    uint32_t number; ///< of the ball
+    float share;     ///< [1] that is taken out of the field
+};
+static_assert(sizeof(NearPartBlock) == 8);
+
 constexpr int kFieldTileColumns = 32, kFieldTileRows = 18; ///< that the window is divided into
 constexpr int kFieldTiles = kFieldTileColumns * kFieldTileRows;
 

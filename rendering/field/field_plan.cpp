@@ -87,8 +87,8 @@ struct BrickRange
 
 FieldPlan::FieldPlan(std::pmr::memory_resource* memory)
     : lattices_(memory), fields_(memory), bricks_(memory), table_(memory), balls_(memory), loose_(memory),
-      peaks_(memory), emitted_(memory), glow_(memory), stamps_(memory), seen_(memory), tiles_(memory),
-      tileFields_(memory)
+      peaks_(memory), emitted_(memory), glow_(memory), near_(memory), stamps_(memory), seen_(memory),
+      tiles_(memory), tileFields_(memory)
 {}
 
 void FieldPlan::clear()
@@ -102,6 +102,7 @@ void FieldPlan::clear()
     tiles_.clear();
     tileFields_.clear();
     glow_.clear();
+    near_.clear();
 }
 
 void FieldPlan::build(const FieldPlanInputs& in)
@@ -117,6 +118,7 @@ void FieldPlan::build(const FieldPlanInputs& in)
         enlargeVoxels(in, isMixed && i < kSmoothFirst);
     listBricks();
     listBalls(in);
+    listNear(in);
     listTiles(in);
     if (in.glows)
         glow_.build(fields_, emitted_, in.camera->eye, in.networkCells);
@@ -286,6 +288,32 @@ void FieldPlan::listBalls(const FieldPlanInputs& in)
         float& most = fields_[bricks_[i].field].limits.y;
         most = std::max(most, peaks_[i]);
     }
+}
+
+/// A parallel view has no place from which balls are near. Detail is a property of a whole field.
+void FieldPlan::listNear(const FieldPlanInputs& in)
+{
+    if (in.camera->orthographic)
+        return;
+    for (size_t e = 0; e < in.effects.size(); ++e) {
+        const BlobEffect& effect = in.effects[e];
+        const Lattice& lattice = lattices_[e];
+        if (effect.detail >= 0 ||
+            distanceToBox(effect.low, effect.high) > FieldNearPlan::kReach * lattice.voxel)
+            continue;
+        for (uint32_t i = effect.begin; i < effect.end; ++i)
+            if (!isLoose(in.balls[i], effect, lattice.voxel))
+                near_.add(i, lattice.field, in.balls[i].centerRadius, lattice.voxel);
+    }
+    near_.choose();
+    for (const NearBall& ball : near_.balls()) {
+        const FieldBlock& field = fields_[ball.field];
+        BrickRange(field, in.balls[ball.number]).forEach(field, [&](size_t index) {
+            if (table_[index] != 0)
+                near_.addToBrick(table_[index] - 1, ball);
+        });
+    }
+    near_.listBricks();
 }
 
 void FieldPlan::listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number)

@@ -9,6 +9,7 @@
 
 #include "rendering/field/field_blocks.h"
 #include "rendering/field/field_glow_plan.h"
+#include "rendering/field/field_near_plan.h"
 #include "rendering/frame/view_block.h"
 #include "rendering/passes/blob_instance.h"
 
@@ -52,6 +53,8 @@ public:
     std::span<const uint32_t> tileFields() const { return tileFields_; } ///< of all tiles
     /// Balls that are too small for the voxels of their effect, in their order; no brick has them.
     std::span<const uint32_t> loose() const { return loose_; }
+    /// Balls near the eye, of which bricks have the rest only once FieldNearPass has taken shares out.
+    const FieldNearPlan& near() const { return near_; }
     /// In which the light that fields emit is spread; FieldBlock::limits names those of fields.
     std::span<const FieldGlowBlock> glows() const { return glow_.grids(); }
     bool isEmpty() const { return bricks_.empty(); }
@@ -78,6 +81,7 @@ private:
     static bool isLoose(const BlobInstance& ball, const BlobEffect& effect, float voxel);
     uint32_t countBalls(const FieldPlanInputs& in);
     void listBalls(const FieldPlanInputs& in);
+    void listNear(const FieldPlanInputs& in);
     void listBall(const FieldBlock& field, const BlobInstance& ball, uint32_t number);
     void listBricks();
     void listTiles(const FieldPlanInputs& in);
@@ -93,6 +97,7 @@ private:
     std::pmr::vector<float> peaks_;   ///< [1/m] of each brick: sum of the central extinctions of its balls
     std::pmr::vector<float> emitted_; ///< [exposed m2] of each field
     FieldGlowPlan glow_;
+    FieldNearPlan near_;
     std::pmr::vector<uint32_t> stamps_; ///< of tiles: number of the last field + 1
     std::pmr::vector<uint32_t> seen_;   ///< pairs of tile and field, in the order of fields
     std::pmr::vector<FieldTileBlock> tiles_;

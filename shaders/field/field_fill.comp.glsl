@@ -2,6 +2,7 @@
 #include "formulas/voxel_kernel.fx.h"
 #include "shared/blob_instance.glsl"
 #include "field/field_blocks.glsl"
+#include "field/field_ball.glsl"
 
 // Sums the balls of each brick at its samples, in the order of its list: one workgroup a brick. What is added to a field
 // besides is one more image and one more sum here. FX_LAYERS 1 also keeps what the light is sorted by. One invocation has all
@@ -64,32 +65,18 @@ void main()
     barrier();
     for (uint k = brick.first; k < brick.first + brick.count; ++k) {
         uint number = brickBalls[k];
-        vec4 ball = blobs[number].centerRadius;
-        float radius = max(ball.w, field.limits.x);
-        float peak = fxKernelPeak(blobs[number].medium.x, radius);
-        float perRadius2 = 1.0 / (radius * radius);
-        float fineness = field.corner.w * field.corner.w * perRadius2;
-        vec4 emitted = vec4(blobs[number].emission.rgb, 1.0);
-        vec4 scattering = blobs[number].scatter;
-#if FX_LAYERS
-        float layerShare = blobs[number].layer.x;
-        float layer = floor(layerShare * 0.5);
-        float fire = layer < 0.5 ? 1.0 : layerShare - 2.0 * layer;
-        bool isDust = layer > 1.5;
-        vec4 share = vec4(fire, isDust ? 1.0 - fire : 0.0, layer < 0.5, isDust);
-#endif
+        FieldBall ball = fieldBall(field, number);
 #if FX_DETAIL
         vec3 carried0 = materials[number].carried[0].xyz, carried1 = materials[number].carried[1].xyz;
-        float power = blobs[number].emission.w, bright = emitted.r + emitted.g + emitted.b;
-        float thinning = isDetailed ? fxDetailThinning(peak * numbers.erosion.x, numbers.erosion.y, numbers.erosion.z) : 0.0;
+        float power = blobs[number].emission.w, bright = ball.emitted.r + ball.emitted.g + ball.emitted.b;
+        float thinning = isDetailed ? fxDetailThinning(ball.peak * numbers.erosion.x, numbers.erosion.y, numbers.erosion.z) : 0.0;
 #endif
         for (int z = 0; z < kBrickSamples; ++z) {
-            vec3 d = places[z] - ball.xyz;
-            float extinction = peak * fxVoxelKernel(dot(d, d) * perRadius2, fineness);
-            mediumSums[z] += extinction * emitted;
-            scatterSums[z] += extinction * scattering;
+            float extinction = extinctionAt(ball, places[z]);
+            mediumSums[z] += extinction * ball.emitted;
+            scatterSums[z] += extinction * ball.scattering;
 #if FX_LAYERS
-            shareSums[z] += extinction * share;
+            shareSums[z] += extinction * ball.share;
 #endif
 #if FX_DETAIL
             carriedSums0[z] += extinction * carried0;

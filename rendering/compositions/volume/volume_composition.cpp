@@ -10,12 +10,12 @@ namespace fx::render {
 namespace {
 
 constexpr TimedPass kTimed[] = {
-    {"loose blob upload", "volume"}, {"field upload", "volume"},    {"lump tile", "volume"},
-    {"field slices", "volume"},      {"field fill", "volume"},      {"field light", "volume"},
-    {"glow upload", "volume"},       {"glow source", "volume"},     {"glow rays", "volume"},
-    {"network upload", "volume"},    {"network prepare", "volume"}, {"network rays", "volume"},
-    {"network sum", "volume"},       {"glow sum", "volume"},        {"field texels", "volume"},
-    {"field march", "media"}};
+    {"loose blob upload", "volume"}, {"field upload", "volume"},   {"lump tile", "volume"},
+    {"field slices", "volume"},      {"field fill", "volume"},     {"field near", "volume"},
+    {"field light", "volume"},       {"glow upload", "volume"},    {"glow source", "volume"},
+    {"glow rays", "volume"},         {"network upload", "volume"}, {"network prepare", "volume"},
+    {"network rays", "volume"},      {"network sum", "volume"},    {"glow sum", "volume"},
+    {"field texels", "volume"},      {"field march", "media"}};
 
 std::span<const ProgramDesc* const> programs()
 {
@@ -24,8 +24,9 @@ std::span<const ProgramDesc* const> programs()
         std::vector<const ProgramDesc*> list(ofSlabs.begin(), ofSlabs.end());
         list.insert(list.end(), {&kFieldSlicesProgram, &kGlowSourceAgainProgram, &glowRaysProgram(false),
                                  &glowRaysProgram(true), &glowSourceProgram(false), &glowSourceProgram(true),
-                                 &glowSumProgram(false), &glowSumProgram(true), &kNetworkPrepareProgram,
-                                 &kNetworkRaysProgram, &kNetworkSumProgram});
+                                 &glowSumProgram(false), &glowSumProgram(true), &fieldNearProgram(false),
+                                 &fieldNearProgram(true), &kNetworkPrepareProgram, &kNetworkRaysProgram,
+                                 &kNetworkSumProgram});
         for (const bool detail : {false, true})
             for (const bool layers : {false, true})
                 for (const ProgramDesc* program :

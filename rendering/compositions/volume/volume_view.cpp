@@ -13,9 +13,9 @@ namespace fx::render {
 namespace {
 
 constexpr size_t kBricksOfALayer = size_t(kBrickColumns) * kBrickColumns;
-constexpr std::string_view kListNames[] = {"fields",      "field bricks",      "field balls",
-                                           "field list",  "field tiles",       "field materials",
-                                           "field blobs", "field light stacks"};
+constexpr std::string_view kListNames[] = {
+    "fields",          "field bricks", "field balls",        "field list",        "field tiles",
+    "field materials", "field blobs",  "field light stacks", "field near bricks", "field near parts"};
 constexpr std::string_view kTextureNames[] = {"field medium",     "field scatter",    "field shares",
                                               "field material 0", "field material 1", "field change"};
 
@@ -70,16 +70,27 @@ void VolumeView::gatherLoose(const GatherInputs& in, GatheredFrame& io)
         looseBlobs_.push_back(io.blobs[number]);
         anyDetail = anyDetail || io.blobs[number].medium.z > 0.0f;
     }
+    for (const NearBall& ball : plan_.near().balls()) {
+        looseBlobs_.push_back(io.blobs[ball.number]);
+        looseBlobs_.back().medium.x *= ball.share;
+        looseBlobs_.back().medium.z = 0.0f; // the rest of it in the field has none
+    }
     looseSource_.detail = in.settings->detail && anyDetail;
     loose_.replaceBalls(looseBlobs_.empty() ? nullptr : &looseSource_);
 }
 
 std::array<std::span<const std::byte>, VolumeView::Lists> VolumeView::lists() const
 {
-    return {std::as_bytes(plan_.fields()),  std::as_bytes(plan_.bricks()),
-            std::as_bytes(plan_.balls()),   std::as_bytes(texels_.texels()),
-            std::as_bytes(texels_.tiles()), std::as_bytes(materials_),
-            std::as_bytes(blobs_),          stacks_};
+    return {std::as_bytes(plan_.fields()),
+            std::as_bytes(plan_.bricks()),
+            std::as_bytes(plan_.balls()),
+            std::as_bytes(texels_.texels()),
+            std::as_bytes(texels_.tiles()),
+            std::as_bytes(materials_),
+            std::as_bytes(blobs_),
+            stacks_,
+            std::as_bytes(plan_.near().bricks()),
+            std::as_bytes(plan_.near().parts())};
 }
 
 base::Status VolumeView::makeRoom(bool layers)
@@ -306,11 +317,22 @@ void VolumeView::addFieldLight(FrameGraph& graph, const PassFrame& frame)
         glow_.addPasses(graph, in, glows());
         network_.addPasses(graph, in, frame.lights, isKept_);
     }
+    takeNearOut(graph, frame.blobs);
+    light.textures = march_.textures;
     light.glow = glow_.light();
     light.network = network_.moments();
     light.networkCells = network_.cells();
     light.grids = network_.isEmpty() ? glow_.grids() : network_.buffer();
     march_.textures = FieldLightPass::addTo(graph, light).textures;
+}
+
+void VolumeView::takeNearOut(FrameGraph& graph, ResourceId blobs)
+{
+    if (!plan_.near().bricks().empty())
+        march_.textures = FieldNearPass::addTo(graph, {blobs, march_.fieldTexels, ids_[Bricks],
+                                                       ids_[NearBricks], ids_[NearParts], march_.textures,
+                                                       uint32_t(plan_.near().bricks().size())})
+                              .textures;
 }
 
 /// What the frame was to write once is not there.

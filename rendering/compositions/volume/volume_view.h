@@ -10,6 +10,7 @@
 #include "rendering/field/field_fill_pass.h"
 #include "rendering/field/field_light_pass.h"
 #include "rendering/field/field_march_pass.h"
+#include "rendering/field/field_near_pass.h"
 #include "rendering/field/field_plan.h"
 #include "rendering/field/field_slices_pass.h"
 #include "rendering/field/field_texels.h"
@@ -53,9 +54,11 @@ private:
         Balls,
         Texels,
         Tiles,
-        Materials, ///< none where no field has detail, as the next
-        Blobs,     ///< of the frame, for lights: those of PassFrame come later
-        Stacks,    ///< of the lights
+        Materials,  ///< none where no field has detail, as the next
+        Blobs,      ///< of the frame, for lights: those of PassFrame come later
+        Stacks,     ///< of the lights
+        NearBricks, ///< none where no ball is near the eye, as the next
+        NearParts,
         Lists
     };
 
@@ -76,6 +79,7 @@ private:
         return networkCells_ > 0 ? std::span<const FieldGlowBlock>() : plan_.glows();
     }
     void addFieldLight(FrameGraph& graph, const PassFrame& frame);
+    void takeNearOut(FrameGraph& graph, ResourceId blobs);
     void addLooseBalls(FrameGraph& graph, const PassFrame& frame);
 
     GlDevice& device_;
@@ -96,7 +100,7 @@ private:
     GlTexture texelTexture_, table_;        ///< of FieldTexels, and of bricks
     LumpTileTexture lumpTile_;              ///< nothing before detail is seen
     SlabMedia loose_;                       ///< cards, and balls of `looseSource_`
-    BlobSource looseSource_;                ///< of balls that are too small for voxels
+    BlobSource looseSource_;                ///< of balls that are too small for voxels, or near the eye
     std::pmr::vector<BlobInstance> looseBlobs_;
     GlBuffer looseBuffer_, looseLights_;
     int slabs_ = 16; ///< that the loose is at least divided into

@@ -217,6 +217,48 @@ TEST(FieldPlan, withTheEyeInsideAllOfTheWindowIsListed)
         EXPECT_EQ(tile.count, 1u);
 }
 
+TEST(FieldPlan, sharesOfBallsNearTheEyeAreContinuousAndFew)
+{
+    // a thousand balls that overlap, more than may be near
+    const std::vector<FieldBall> balls = randomBalls(1000, 5, glm::dvec3(0.0));
+    std::vector<float> before;
+    size_t most = 0;
+    float jump = 0.0f, change = 0.0f;
+    constexpr double kStep = 0.004; // [m]
+    for (int frame = 0; frame < 300; ++frame) {
+        const double x = kStep * frame;
+        const FieldScene scene(balls, cameraAt({x, 0.2, 0.1}, {x + 1.0, 0.2, 0.1}));
+        const FieldPlan plan = planOf(scene, 16);
+        most = std::max(most, plan.near().balls().size());
+        std::vector<float> shares(scene.balls.size(), 0.0f);
+        for (const NearBall& ball : plan.near().balls()) {
+            EXPECT_GT(ball.share, 0.0f);
+            EXPECT_LE(ball.share, 1.0f);
+            shares[ball.number] = ball.share;
+        }
+        for (size_t i = 0; frame > 0 && i < shares.size(); ++i) {
+            jump = std::max(jump, std::abs(shares[i] - before[i]));
+            change += std::abs(shares[i] - before[i]);
+        }
+        before = shares;
+    }
+    EXPECT_EQ(most, FieldNearPlan::kMost);
+    EXPECT_GT(change, 10.0f) << "balls come near and leave";
+    EXPECT_LT(jump, 0.1f);
+}
+
+TEST(FieldPlan, nothingIsTakenOutOfFieldsFarFromTheEyeOfLargeBallsOrInParallelViews)
+{
+    const std::vector<FieldBall> balls = randomBalls(150, 5, glm::dvec3(0.0));
+    const CameraView within = cameraAt({0, 0, 0}, {0, 0, -1});
+    EXPECT_FALSE(planOf(FieldScene(balls, within), 32).near().bricks().empty());
+    EXPECT_TRUE(planOf(FieldScene(balls, cameraAt({0, 0, 9}, {0, 0, 0})), 32).near().balls().empty());
+    std::vector<FieldBall> large(3);
+    EXPECT_TRUE(planOf(FieldScene(large, within), 128).near().balls().empty()) << "8 voxels of radius";
+    const CameraView parallel = orthographicView({{0, 0, 0}, {0, 0, -1}}, 4.0f, 1.5f, 0.0f, 10.0f);
+    EXPECT_TRUE(planOf(FieldScene(balls, parallel), 32).near().balls().empty());
+}
+
 TEST(FieldPlan, equalInputsGiveEqualPlans)
 {
     const FieldScene scene(randomBalls(150, 5, glm::dvec3(0.0)), cameraAt({0, 0, 9}, {0, 0, 0}));
