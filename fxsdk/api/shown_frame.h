@@ -21,6 +21,16 @@ inline render::Composition automaticComposition(sim::PreferredComposition prefer
                                                         : render::Composition(int(preferred) - 1);
 }
 
+/// The settings to which automatic scattering resolves when effects prefer `preferred`.
+inline render::SliceSettings automaticScattering(render::SliceSettings asked, sim::PreferredScattering preferred)
+{
+    if (asked.automatic) {
+        asked.multiple = preferred != sim::PreferredScattering::Single;
+        asked.network = preferred == sim::PreferredScattering::Network;
+    }
+    return asked;
+}
+
 /// Holds the snapshots of one frame, and replaces the host's settings by those of the budget during its
 /// lifetime. Threads: [GL thread].
 class ShownFrame
@@ -29,15 +39,18 @@ public:
     ShownFrame(scene::Scene& scene, quality::ViewQuality& quality, render::ViewRenderer& renderer,
                const FxFrameDef& frame, bool holdsQuality)
         : def(frame), scene_(scene), quality_(quality), renderer_(renderer), shown_(scene.acquire()),
-          asked_(renderer.settings().composition)
+          asked_(renderer.settings().composition), askedSlices_(renderer.settings().slices)
     {
-        renderer_.settings().composition = render::resolved(asked_, automaticComposition(shown_.composition));
+        renderer_.settings().composition =
+            render::resolved(asked_, automaticComposition(shown_.hints.composition));
+        renderer_.settings().slices = automaticScattering(askedSlices_, shown_.hints.scattering);
         quality_.begin(renderer_, frame.deltaTime, holdsQuality);
     }
     ~ShownFrame()
     {
         quality_.end(renderer_);
         renderer_.settings().composition = asked_;
+        renderer_.settings().slices = askedSlices_;
         scene_.release(shown_.snapshots);
     }
     ShownFrame(const ShownFrame&) = delete;
@@ -55,7 +68,8 @@ private:
     quality::ViewQuality& quality_;
     render::ViewRenderer& renderer_;
     scene::Presentation shown_;
-    const render::Composition asked_; ///< by the host
+    const render::Composition asked_;         ///< by the host
+    const render::SliceSettings askedSlices_; ///< likewise
 };
 
 } // namespace fx::api

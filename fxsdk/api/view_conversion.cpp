@@ -82,7 +82,7 @@ void checkSlices(fx::api::Checks& check, const FxViewSettings& given)
                "settings.lightSliceTexels is not a multiple of 8: round it up");
     check.range(given.castingLights, 0u, 4u, "settings.castingLights");
     check.range(given.lightSamples, 1u, 4u, "settings.lightSamples");
-    check.range(given.multipleScattering, 0u, 2u, "settings.multipleScattering");
+    check.range(given.multipleScattering, 0u, 3u, "settings.multipleScattering");
     check.range(given.lightRefreshFrames, 1u, 16u, "settings.lightRefreshFrames");
 }
 
@@ -164,6 +164,7 @@ fx::base::Status fx::api::convertSettings(const FxViewSettings& given, render::V
     slices.samples = int(given.lightSamples);
     slices.multiple = given.multipleScattering != 0;
     slices.network = given.multipleScattering == 2;
+    slices.automatic = given.multipleScattering == 3;
     slices.refreshFrames = int(given.lightRefreshFrames);
     settings.composition = render::Composition(given.composition);
     settings.slabs = int(given.slabs);

@@ -2,6 +2,7 @@
 
 #include "embedded/preset_library.h"
 #include "foundation/math/hash.h"
+#include "foundation/snapshot/blob_kind.h"
 #include "fxsdk/assets/read_file.h"
 #include "fxsdk/presets/effect_cost.h"
 #include "fxsdk/presets/json_parser.h"
@@ -26,6 +27,7 @@ uint64_t fingerprintOf(Json document)
 {
     document.erase("preview");
     document.erase("composition");
+    document.erase("scattering");
     const std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
     return base::hashBytes(0, text.data(), text.size());
 }
@@ -53,10 +55,43 @@ constexpr std::array<std::pair<std::string_view, sim::PreferredComposition>, 3> 
     {"volume", sim::PreferredComposition::Volume},
 }};
 
+constexpr std::array<std::pair<std::string_view, sim::PreferredScattering>, 4> kScatterings{{
+    {"automatic", sim::PreferredScattering::Automatic},
+    {"single", sim::PreferredScattering::Single},
+    {"closed_form", sim::PreferredScattering::ClosedForm},
+    {"network", sim::PreferredScattering::Network},
+}};
+
+void readHints(const PresetValue& root, sim::DrawingHints& hints)
+{
+    root.read("composition",
+              std::span<const std::pair<std::string_view, sim::PreferredComposition>>(kCompositions),
+              hints.composition);
+    root.read("scattering",
+              std::span<const std::pair<std::string_view, sim::PreferredScattering>>(kScatterings),
+              hints.scattering);
+}
+
+/// Warns of a way to scatter light that has no effect: networks are those of fields, and without a medium
+/// nothing scatters.
+void lintScattering(const PresetValue& root, const sim::EffectDef& effect)
+{
+    using sim::PreferredScattering;
+    const PreferredScattering scattering = effect.hints.scattering;
+    if (scattering == PreferredScattering::Automatic)
+        return;
+    if (!effect.publishes(base::kBlobKind))
+        root.warning("scattering", "the effect has no medium that scatters light; remove it");
+    else if (scattering == PreferredScattering::Network &&
+             effect.hints.composition != sim::PreferredComposition::Volume)
+        root.warning("scattering", "\"network\" needs \"composition\": \"volume\": other compositions "
+                                   "scatter light by the closed form; add it, or remove \"scattering\"");
+}
+
 /// Warns of members that order particles, where the preset is made to be summed up.
 void lintOrder(const Json& document, const sim::EffectDef& effect, Findings& findings)
 {
-    if (!sumsUp(effect.composition))
+    if (!sumsUp(effect.hints.composition))
         return;
     for (const OrderMember& member : orderMembers(document))
         findings.warning(member.pointer, orderWarning(member) + "; remove it, or \"composition\"");
@@ -81,9 +116,7 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     root.read("ground", effect->hasGround);
     root.read("bound", effect->bound);
     readOffscreen(root, *effect);
-    root.read("composition",
-              std::span<const std::pair<std::string_view, sim::PreferredComposition>>(kCompositions),
-              effect->composition);
+    readHints(root, effect->hints);
     for (const Technique& technique : techniques) {
         const std::string member(technique.presetMember);
         for (size_t i = 0; i < root.size(member.c_str()); ++i)
@@ -96,8 +129,10 @@ std::shared_ptr<const sim::EffectDef> buildEffect(const Json& document, const st
     for (const Technique& technique : techniques)
         if (isValid && technique.lint)
             technique.lint(root, *effect);
-    if (isValid)
+    if (isValid) {
         lintOrder(document, *effect, findings);
+        lintScattering(root, *effect);
+    }
     if (isValid)
         estimateCost(root, *effect, techniques);
     if (findings.assets()->contentHash() != 0)

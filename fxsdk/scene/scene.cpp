@@ -48,17 +48,14 @@ LocalId Scene::add(InstanceSetup setup)
         throw;
     }
     ++nextSerial_;
-    countComposition(*instances_.find(id), 1);
+    countHints(*instances_.find(id), 1);
     return id;
 }
 
-void Scene::countComposition(const Instance& instance, int more)
+void Scene::countHints(const Instance& instance, int more)
 {
-    preferring_[size_t(instance.setup.effect->composition)] += uint32_t(more);
-    size_t most = preferring_.size() - 1;
-    while (most > 0 && preferring_[most] == 0)
-        --most;
-    composition_.store(sim::PreferredComposition(most), std::memory_order_relaxed);
+    preferring_.add(instance.setup.effect->hints, more);
+    hints_.store(preferring_.greatest(), std::memory_order_relaxed);
 }
 
 void Scene::remove(LocalId id)
@@ -76,7 +73,7 @@ void Scene::remove(LocalId id)
     if (instance.state == InstanceState::Finished)
         --counters_.finished;
     else
-        countComposition(instance, -1);
+        countHints(instance, -1);
     instances_.remove(id);
 }
 
@@ -169,7 +166,7 @@ void Scene::retireFinished(base::Ticks now)
 
 void Scene::finish(uint32_t index)
 {
-    countComposition(instances_.at(index), -1);
+    countHints(instances_.at(index), -1);
     if (instances_.at(index).setup.destroyWhenFinished) {
         instances_.remove(instances_.idAt(index));
         return;
@@ -280,7 +277,7 @@ Presentation Scene::acquire()
 {
     std::lock_guard lock(presentation_);
     return {ring_.acquire(), interpolation_.load(std::memory_order_relaxed),
-            shownTime_.load(std::memory_order_relaxed), composition_.load(std::memory_order_relaxed)};
+            shownTime_.load(std::memory_order_relaxed), hints_.load(std::memory_order_relaxed)};
 }
 
 } // namespace fx::scene

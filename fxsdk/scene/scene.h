@@ -142,9 +142,9 @@ struct Presentation
     base::SnapshotPair snapshots;
     double interpolation = 0; ///< [0, 1), 0 shows the older
     double time = 0;          ///< [s] scene time of the moment shown
-    /// Composition that the instances prefer. All instances that have not ended count, so that it does not
-    /// depend on the camera.
-    sim::PreferredComposition composition = sim::PreferredComposition::None;
+    /// What the instances prefer. All instances that have not ended count, so that it does not depend on the
+    /// camera.
+    sim::DrawingHints hints;
 };
 
 class Scene
@@ -314,7 +314,7 @@ private:
     void endMoves(bool isComplete);
     void retireFinished(base::Ticks now);
     void finish(uint32_t index);
-    void countComposition(const Instance& instance, int more);
+    void countHints(const Instance& instance, int more);
 
     // in and out of sight
     bool mayHide(const Instance& instance) const;
@@ -411,9 +411,8 @@ private:
     std::atomic<double> interpolation_{0}; ///< changed without the mutex while nothing is visible
     std::atomic<double> shownTime_{0};     ///< likewise
     std::atomic<bool> showsNothing_{false};
-    std::array<uint32_t, size_t(sim::PreferredComposition::Volume) + 1>
-        preferring_{}; ///< number of instances that have not ended, by preferred composition
-    std::atomic<sim::PreferredComposition> composition_{sim::PreferredComposition::None};
+    sim::HintCounts preferring_; ///< of the instances that have not ended
+    std::atomic<sim::DrawingHints> hints_{sim::DrawingHints()};
     std::pmr::vector<Mark> marks_;
     std::pmr::vector<Mark> newMarks_; ///< of the scene thread
     std::atomic<int> marksWanted_{0};

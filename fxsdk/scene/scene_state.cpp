@@ -370,10 +370,10 @@ void Scene::take(Restored& state)
     seeks_.clear();
     std::swap(moved_, state.moved);
     preferring_ = {};
-    composition_.store(sim::PreferredComposition::None, std::memory_order_relaxed);
+    hints_.store({}, std::memory_order_relaxed);
     instances_.forEach([&](uint32_t, const Instance& instance) {
         if (instance.state != InstanceState::Finished)
-            countComposition(instance, 1);
+            countHints(instance, 1);
     });
     showsNothing_.store(false, std::memory_order_release);
     std::lock_guard lock(presentation_);

@@ -103,7 +103,7 @@ bool sumsUp(const SceneFile& scene)
 {
     if (scene.view.composition != render::Composition::Automatic)
         return scene.view.composition != render::Composition::Sorted;
-    return preset::sumsUp(preferredComposition(scene));
+    return preset::sumsUp(preferredHints(scene).composition);
 }
 
 /// Warns where a preset orders its particles and the scene sums them up. Presets that ask for a sum
@@ -121,7 +121,7 @@ void lintOrder(Reader& reader, const PresetValue& root)
         if (index == reader.presetIndices.end() || !seen.insert(name).second)
             continue;
         const ScenePreset& preset = reader.scene.presets[index->second];
-        if (preset::sumsUp(preset.effect->composition))
+        if (preset::sumsUp(preset.effect->hints.composition))
             continue;
         for (const preset::OrderMember& member :
              preset::orderMembers(Json::parse(preset.text, nullptr, false)))
@@ -159,11 +159,11 @@ bool readScene(std::string_view text, const asset::AssetResolver& resolver, Find
 
 } // namespace
 
-sim::PreferredComposition preferredComposition(const SceneFile& scene)
+sim::DrawingHints preferredHints(const SceneFile& scene)
 {
-    sim::PreferredComposition most = sim::PreferredComposition::None;
+    sim::DrawingHints most;
     for (const SceneInstance& instance : scene.instances)
-        most = std::max(most, scene.presets[instance.preset].effect->composition);
+        most = sim::greatest(most, scene.presets[instance.preset].effect->hints);
     return most;
 }
 

@@ -64,8 +64,8 @@ struct SceneFile
     std::vector<preset::Diagnostic> warnings;
 };
 
-/// Composition that the presets of the instances prefer; the greatest value is used.
-sim::PreferredComposition preferredComposition(const SceneFile& scene);
+/// What the presets of the instances prefer; the greatest value of each member is used.
+sim::DrawingHints preferredHints(const SceneFile& scene);
 
 /// Largest scene, mesh and image that are read [byte].
 constexpr uint64_t kSceneBytes = uint64_t(64) << 20;

@@ -24,11 +24,13 @@ enum class Scattering
     Off,
     ClosedForm,
     Network,
+    Automatic, ///< as the presets say
 };
-constexpr std::array<std::pair<std::string_view, Scattering>, 3> kScatterings{{
+constexpr std::array<std::pair<std::string_view, Scattering>, 4> kScatterings{{
     {"off", Scattering::Off},
     {"closed_form", Scattering::ClosedForm},
     {"network", Scattering::Network},
+    {"automatic", Scattering::Automatic},
 }};
 
 enum class LightType
@@ -207,6 +209,7 @@ render::ViewSettings readView(const PresetValue& root)
               scattering);
     view.slices.multiple = scattering != Scattering::Off;
     view.slices.network = scattering == Scattering::Network;
+    view.slices.automatic = scattering == Scattering::Automatic;
     root.read("detail", view.detail);
     root.read("toneMap", view.toneMap);
     return view;

@@ -125,6 +125,8 @@ struct SliceSettings
     int samples = 2;       ///< 1..4 points of a ray through a ball at which light is looked up
     bool multiple = true;  ///< light that is scattered more than once counts
     bool network = false;  ///< by an illumination network, where media are drawn in voxels; else by a formula
+    /// `multiple` and `network` are what the visible effects prefer; the caller of the renderer sets them.
+    bool automatic = false;
     uint8_t networkCells = 0; ///< 24..64 along a side of its grids, a multiple of 8; 0: a third of the voxels
     int refreshFrames = 1;    ///< 1..16 frames after which planes follow media that move
 

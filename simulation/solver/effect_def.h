@@ -3,6 +3,7 @@
 #pragma once
 
 #include "foundation/time/ticks.h"
+#include "simulation/solver/drawing_hints.h"
 #include "simulation/solver/solver.h"
 
 #include <algorithm>
@@ -23,16 +24,6 @@ struct EffectCost
     uint64_t memory = 0;  ///< [byte] of solvers and snapshots
 };
 
-/// How the media of an effect are meant to be put together where they overlap. When a picture has several
-/// effects, the greatest value applies.
-enum class PreferredComposition : uint8_t
-{
-    None,
-    Sorted,
-    Slabs,
-    Volume,
-};
-
 struct EffectDef
 {
     std::string name;
@@ -50,8 +41,7 @@ struct EffectDef
     std::vector<uint32_t> order;
     std::vector<std::string> hostEvents; ///< names of the host's events
     EffectCost cost;                     ///< as the preset's loader has estimated it
-    PreferredComposition composition =
-        PreferredComposition::None; ///< for renderers; the simulation does not depend on it
+    DrawingHints hints;
 
     /// True when it depends on the host's geometry.
     bool collides() const

@@ -39,6 +39,18 @@ protected:
         ASSERT_EQ(fxView_SetSettings(view_, &settings), FX_OK) << fxGetLastErrorMessage();
     }
 
+    /// Draws media in voxels with FxViewSettings::multipleScattering `scattering`.
+    std::vector<float> drawnScattering(uint32_t scattering)
+    {
+        FxViewSettings settings = fxDefaultViewSettings();
+        settings.dazzle = 0;
+        settings.composition = FX_COMPOSITION_VOLUME;
+        settings.voxels = 32;
+        settings.multipleScattering = scattering;
+        EXPECT_EQ(fxView_SetSettings(view_, &settings), FX_OK) << fxGetLastErrorMessage();
+        return drawn();
+    }
+
     std::vector<float> drawn()
     {
         fillPicture();
@@ -157,4 +169,34 @@ TEST_F(ViewComposition, aBudgetLowersVoxelsThenTheCompositionAndGivesItBack)
     EXPECT_EQ(choice.steps, 1u) << "views that ask for sorted have levels of their own";
     choose(FX_COMPOSITION_AUTOMATIC);
     EXPECT_EQ(drawn(), free) << "the settings were the host's all the time";
+}
+
+TEST_F(ViewComposition, automaticScatteringIsWhatTheInstancesAskForAndTheViewHasTheLastWord)
+{
+    constexpr uint32_t kSingle = 0, kClosedForm = 1, kNetwork = 2, kAutomatic = 3;
+    add(ballsWith(R"("composition": "volume", )"));
+    update(1);
+    const std::vector<float> single = drawnScattering(kSingle), closed = drawnScattering(kClosedForm);
+    ASSERT_NE(single, closed);
+    EXPECT_EQ(drawnScattering(kAutomatic), closed) << "nothing asks for anything";
+    const FxInstanceId once = add(ballsWith(R"("scattering": "single", "duration": 0, )"));
+    update(1);
+    EXPECT_EQ(drawnScattering(kAutomatic), drawnScattering(kSingle));
+    EXPECT_NE(drawnScattering(kClosedForm), drawnScattering(kSingle));
+    const FxInstanceId network = add(ballsWith(R"("composition": "volume", "scattering": "network", )"));
+    update(1);
+    (void)drawnScattering(kClosedForm);
+    const uint32_t passes = statistics().passes;
+    (void)drawnScattering(kAutomatic);
+    EXPECT_GE(statistics().passes, passes + 3) << "prepare, rays and sum of the network";
+    (void)drawnScattering(kClosedForm);
+    EXPECT_EQ(statistics().passes, passes);
+    (void)drawnScattering(kNetwork);
+    EXPECT_GE(statistics().passes, passes + 3);
+    ASSERT_EQ(fxScene_DestroyInstance(scene_, network), FX_OK);
+    update(1);
+    EXPECT_EQ(drawnScattering(kAutomatic), drawnScattering(kSingle));
+    ASSERT_EQ(fxScene_DestroyInstance(scene_, once), FX_OK);
+    update(1);
+    EXPECT_EQ(drawnScattering(kAutomatic), drawnScattering(kClosedForm));
 }

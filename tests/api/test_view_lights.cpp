@@ -375,7 +375,7 @@ TEST_F(ViewLights, wrongArgumentsAreRefused)
     refuseSetting("castingLights", [](FxViewSettings& s) { s.castingLights = 5; });
     refuseSetting("lightSamples", [](FxViewSettings& s) { s.lightSamples = 0; });
     refuseSetting("lightRefreshFrames", [](FxViewSettings& s) { s.lightRefreshFrames = 17; });
-    refuseSetting("multipleScattering", [](FxViewSettings& s) { s.multipleScattering = 3; });
+    refuseSetting("multipleScattering", [](FxViewSettings& s) { s.multipleScattering = 4; });
     refuseSetting("composition", [](FxViewSettings& s) { s.composition = 77; });
     refuseSetting("slabs", [](FxViewSettings& s) { s.slabs = 7; });
 }

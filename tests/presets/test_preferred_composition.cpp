@@ -45,11 +45,11 @@ std::vector<std::string> orderFaults(const std::string& text)
 
 TEST(PreferredComposition, isWhatThePresetSays)
 {
-    EXPECT_EQ(effectOf(presetWith(""))->composition, PreferredComposition::None);
-    EXPECT_EQ(effectOf(presetWith(R"("composition": "sorted", )"))->composition,
+    EXPECT_EQ(effectOf(presetWith(""))->hints.composition, PreferredComposition::None);
+    EXPECT_EQ(effectOf(presetWith(R"("composition": "sorted", )"))->hints.composition,
               PreferredComposition::Sorted);
-    EXPECT_EQ(effectOf(presetWith(R"("composition": "slabs", )"))->composition, PreferredComposition::Slabs);
-    EXPECT_EQ(effectOf(presetWith(R"("composition": "volume", )"))->composition,
+    EXPECT_EQ(effectOf(presetWith(R"("composition": "slabs", )"))->hints.composition, PreferredComposition::Slabs);
+    EXPECT_EQ(effectOf(presetWith(R"("composition": "volume", )"))->hints.composition,
               PreferredComposition::Volume);
     EXPECT_FALSE(fx::preset::loadPresetText(presetWith(R"("composition": "automatic", )"), "p").ok());
 }
@@ -67,7 +67,7 @@ TEST(PreferredComposition, ofTheLibraryIsVolumeWhereMediaHaveDetail)
         const bool hasDetail = entry.text.find("\"detail\":") != std::string_view::npos;
         const auto loaded = fx::preset::loadPresetText(entry.text, std::string(entry.name));
         ASSERT_TRUE(loaded.ok()) << loaded.status().message();
-        EXPECT_EQ(loaded->effect->composition,
+        EXPECT_EQ(loaded->effect->hints.composition,
                   hasDetail ? PreferredComposition::Volume : PreferredComposition::None)
             << entry.name;
         detailed += hasDetail ? 1 : 0;
@@ -102,9 +102,66 @@ TEST(PreferredComposition, ofOneEffectIsThatOfTheSceneAndOthersAreWarned)
         return scene.ok() ? *scene : fx::scene_file::SceneFile();
     };
     const fx::scene_file::SceneFile scene = load("automatic");
-    EXPECT_EQ(fx::scene_file::preferredComposition(scene), PreferredComposition::Slabs);
+    EXPECT_EQ(fx::scene_file::preferredHints(scene).composition, PreferredComposition::Slabs);
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_EQ(scene.warnings[0].pointer, "/instances/0/preset");
     EXPECT_NE(scene.warnings[0].message.find("/emitters/0/appearance/order"), std::string::npos);
     EXPECT_TRUE(load("sorted").warnings.empty());
+}
+
+namespace {
+
+std::vector<std::string> scatteringFaults(const std::string& text)
+{
+    const TempFolder folder;
+    std::vector<std::string> messages;
+    for (const auto& finding : fx::preset::validateFile(folder.write("p.fx.json", text)))
+        if (finding.pointer == "/scattering") {
+            EXPECT_TRUE(finding.warning);
+            messages.push_back(finding.message);
+        }
+    return messages;
+}
+
+} // namespace
+
+TEST(PreferredScattering, isWhatThePresetSaysAndNoPartOfTheEffect)
+{
+    using fx::sim::PreferredScattering;
+    const auto asked = [](const std::string& value) {
+        return effectOf(presetWith(R"("scattering": ")" + value + R"(", )"))->hints.scattering;
+    };
+    EXPECT_EQ(effectOf(presetWith(""))->hints.scattering, PreferredScattering::Automatic);
+    EXPECT_EQ(asked("automatic"), PreferredScattering::Automatic);
+    EXPECT_EQ(asked("single"), PreferredScattering::Single);
+    EXPECT_EQ(asked("closed_form"), PreferredScattering::ClosedForm);
+    EXPECT_EQ(asked("network"), PreferredScattering::Network);
+    EXPECT_FALSE(fx::preset::loadPresetText(presetWith(R"("scattering": "off", )"), "p").ok());
+    EXPECT_EQ(effectOf(presetWith(R"("scattering": "network", )"))->fingerprint,
+              effectOf(presetWith(""))->fingerprint);
+}
+
+TEST(PreferredScattering, ofANetworkIsWarnedOfWithoutFields)
+{
+    EXPECT_EQ(scatteringFaults(presetWith(R"("scattering": "network", )")).size(), 1u);
+    EXPECT_EQ(scatteringFaults(presetWith(R"("composition": "slabs", "scattering": "network", )")).size(), 1u);
+    EXPECT_TRUE(
+        scatteringFaults(presetWith(R"("composition": "volume", "scattering": "network", )")).empty());
+    EXPECT_TRUE(scatteringFaults(presetWith(R"("scattering": "closed_form", )")).empty());
+    EXPECT_TRUE(scatteringFaults(presetWith("")).empty());
+}
+
+TEST(PreferredScattering, ofSeveralEffectsIsTheGreatestOfThoseThatAreThere)
+{
+    using namespace fx::sim;
+    HintCounts counts;
+    const DrawingHints smoke{PreferredComposition::Volume, PreferredScattering::Single};
+    const DrawingHints cloud{PreferredComposition::None, PreferredScattering::Network};
+    EXPECT_EQ(counts.greatest(), DrawingHints());
+    counts.add(smoke, 1);
+    counts.add(cloud, 1);
+    EXPECT_EQ(counts.greatest(), greatest(smoke, cloud));
+    EXPECT_EQ(counts.greatest(), (DrawingHints{PreferredComposition::Volume, PreferredScattering::Network}));
+    counts.add(cloud, -1);
+    EXPECT_EQ(counts.greatest(), smoke);
 }

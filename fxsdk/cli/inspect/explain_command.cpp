@@ -1,6 +1,7 @@
 /// @file explain_command.cpp
 /// fx explain: what a moment of a scene costs, and which effect called for it.
 
+#include "foundation/snapshot/blob_kind.h"
 #include "foundation/tasks/work_budget.h"
 #include "fxsdk/cli/commands.h"
 #include "fxsdk/cli/render/frame_renderer.h"
@@ -158,6 +159,56 @@ Json needsOf(const scene_file::SceneFile& file)
     return list;
 }
 
+constexpr std::array<const char*, 4> kScatterings{"automatic", "single", "closed_form", "network"};
+
+struct Scattering
+{
+    sim::PreferredScattering value;
+    std::string why;
+};
+
+/// How light is scattered again in the pictures of a scene. A scene that is a preset follows it, as with fx
+/// render.
+Scattering scatteringIn(const scene_file::SceneFile& file, bool isScene)
+{
+    using sim::PreferredScattering;
+    const sim::DrawingHints hints = scene_file::preferredHints(file);
+    const render::SliceSettings& slices = file.view.slices;
+    Scattering chosen{hints.scattering, "no preset asks for another"};
+    if (isScene && !slices.automatic) {
+        chosen = {!slices.multiple  ? PreferredScattering::Single
+                  : slices.network ? PreferredScattering::Network
+                                   : PreferredScattering::ClosedForm,
+                  "the scene says so"};
+    } else if (hints.scattering == PreferredScattering::Automatic) {
+        chosen.value = PreferredScattering::ClosedForm;
+    } else {
+        for (const scene_file::ScenePreset& preset : file.presets)
+            if (preset.effect->hints.scattering == hints.scattering)
+                chosen.why = preset.name + " asks for it";
+    }
+    const bool isVolume = isScene && file.view.composition != render::Composition::Automatic
+                              ? file.view.composition == render::Composition::Volume
+                              : hints.composition == sim::PreferredComposition::Volume;
+    if (chosen.value == PreferredScattering::Network && !isVolume)
+        chosen = {PreferredScattering::ClosedForm, "networks need the composition volume"};
+    return chosen;
+}
+
+/// What the preset of each effect with a medium asks for, what it gets, and why.
+Json scatteringOf(const scene_file::SceneFile& file, bool isScene)
+{
+    const Scattering chosen = scatteringIn(file, isScene);
+    Json list = Json::array();
+    for (const scene_file::ScenePreset& preset : file.presets)
+        if (preset.effect->publishes(base::kBlobKind))
+            list.push_back({{"preset", preset.name},
+                            {"asks", kScatterings.at(size_t(preset.effect->hints.scattering))},
+                            {"gets", kScatterings.at(size_t(chosen.value))},
+                            {"why", chosen.why}});
+    return list;
+}
+
 Json techniquesOf(const scene_file::SceneFile& file, const Json& instances,
                   const std::vector<std::string>& passes)
 {
@@ -247,6 +298,10 @@ void print(const Json& report)
         std::printf("%-24s needs at most %.1f MiB, %.3g ms of a core a step, %.3g ms for its prewarm\n",
                     entry["preset"].get<std::string>().c_str(), entry["bytes"].get<double>() / (1 << 20),
                     entry["ms_step"].get<double>(), entry["ms_prewarm"].get<double>());
+    for (const Json& entry : report["scattering"])
+        std::printf("%-24s scattering: asks for %s, gets %s: %s\n", entry["preset"].get<std::string>().c_str(),
+                    entry["asks"].get<std::string>().c_str(), entry["gets"].get<std::string>().c_str(),
+                    entry["why"].get<std::string>().c_str());
     for (const Json& entry : report["techniques"])
         std::printf("%-22s %s  passes %s  called by %s\n", entry["technique"].get<std::string>().c_str(),
                     entry["exists"].get<bool>() ? "exists" : "absent", entry["passes"].dump().c_str(),
@@ -307,6 +362,7 @@ base::Status explain(const ExplainOptions& options)
                          {"instances", instances},
                          {"emitters", emittersOf(*file)},
                          {"needs", needsOf(*file)},
+                         {"scattering", scatteringOf(*file, isScene)},
                          {"seconds_debt", base::toSeconds(statistics.timeDebtTicks)},
                          {"techniques", techniques},
                          {"passes", counters.passes},

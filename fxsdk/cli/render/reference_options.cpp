@@ -69,10 +69,10 @@ void addReferenceOptions(CLI::App& command, ReferenceArguments& arguments)
             "Light of the scene that is scattered once. centers: as it arrives at the centers of the blobs; "
             "single: by shadow rays to all lights all along each ray and from surfaces, slow. With "
             "--renderer "
-            "gl: single; multiple, light that is scattered any number of times, by a formula; or network, "
-            "the same by "
-            "an illumination network where media are drawn in voxels")
-        ->check(oneOf({"none", "centers", "single", "multiple", "network"}))
+            "gl: single; multiple, light that is scattered any number of times, by a formula; network, "
+            "the same by an illumination network where media are drawn in voxels; or automatic, as the "
+            "presets ask for")
+        ->check(oneOf({"none", "centers", "single", "multiple", "network", "automatic"}))
         ->capture_default_str()
         ->group(group);
     command

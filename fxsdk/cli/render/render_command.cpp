@@ -45,6 +45,7 @@ base::Result<scene_file::SceneFile> loadInput(const RenderArguments& arguments, 
     if (!scene.ok())
         return scene;
     scene->view.composition = render::Composition::Automatic;
+    scene->view.slices.automatic = true;
     if (io.hasDefaultTime && preview.time)
         io.frames[0].tick = base::toTicks(*preview.time);
     if (preview.hasCamera)

@@ -318,9 +318,9 @@ base::Result<RenderPlan> planRender(const RenderArguments& arguments)
         return usage("--spp, --error and --bounces need --renderer path");
     if (arguments.renderer == "gl" && tiled.scattering == "none")
         return usage(
-            "--scattering none needs --renderer reference; with gl it is single, multiple or network");
-    if (arguments.renderer != "gl" && tiled.scattering == "network")
-        return usage("--scattering network needs --renderer gl");
+            "--scattering none needs --renderer reference; with gl it is single, multiple, network or automatic");
+    if (arguments.renderer != "gl" && (tiled.scattering == "network" || tiled.scattering == "automatic"))
+        return usage("--scattering " + tiled.scattering + " needs --renderer gl");
     if (arguments.renderer == "reference" && tiled.scattering == "multiple")
         return usage("--scattering multiple needs --renderer gl or path");
     if (!arguments.outputs.empty() && (plan.output.kind != OutputKind::Exr || arguments.renderer == "path"))
@@ -374,7 +374,10 @@ void applyArguments(const RenderArguments& arguments, OutputKind kind, render::V
         settings.slices.resolution.planes = std::stoi(arguments.lightSlices);
     settings.slices.refreshFrames = arguments.lightRefresh;
     const std::string& scattering = arguments.reference.scattering;
+    if (scattering == "automatic")
+        settings.slices.automatic = true;
     if (scattering == "single" || scattering == "multiple" || scattering == "network") {
+        settings.slices.automatic = false;
         settings.slices.multiple = scattering != "single";
         settings.slices.network = scattering == "network";
     }

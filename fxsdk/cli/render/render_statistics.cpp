@@ -2,7 +2,12 @@
 
 #include "rendering/frame/composition_names.h"
 
+#include <algorithm>
+#include <string_view>
+
 namespace fx::cli {
+
+constexpr std::string_view kSweepPass = "network rays"; ///< one a sweep of the illumination networks
 
 nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool withOverdraw)
 {
@@ -25,6 +30,9 @@ nlohmann::json frameStatistics(const FrameCounters& counters, double time, bool 
         {"meshes", view.meshes},
         {"ribbon_pieces", view.ribbonPieces},
         {"passes", counters.passes},
+        {"network_sweeps", std::ranges::count(counters.passes, kSweepPass)},
+        {"network_passes", std::ranges::count_if(
+                               counters.passes, [](const auto& name) { return name.starts_with("network "); })},
         {"programs_compiled", view.programsCompiled},
         {"gl_calls", view.glCalls},
         {"draw_calls", view.drawCalls},

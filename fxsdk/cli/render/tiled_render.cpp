@@ -98,7 +98,7 @@ private:
         render::ViewSettings settings = scene.view;
         applyArguments(arguments_, OutputKind::Exr, settings);
         if (settings.composition == render::Composition::Automatic)
-            return preset::sumsUp(scene_file::preferredComposition(scene));
+            return preset::sumsUp(scene_file::preferredHints(scene).composition);
         return settings.composition != render::Composition::Sorted;
     }
     void setExposure(float ev100) { white_ = 1.2f * std::exp2(ev100); }

@@ -39,7 +39,10 @@ FxViewSettings toApi(const render::ViewSettings& settings)
     api.lightSliceTexels = uint32_t(settings.slices.resolution.texels);
     api.castingLights = uint32_t(settings.slices.castingPoints);
     api.lightSamples = uint32_t(settings.slices.samples);
-    api.multipleScattering = settings.slices.multiple ? settings.slices.network ? 2 : 1 : 0;
+    api.multipleScattering = settings.slices.automatic   ? 3
+                             : !settings.slices.multiple ? 0
+                             : settings.slices.network   ? 2
+                                                         : 1;
     api.lightRefreshFrames = uint32_t(settings.slices.refreshFrames);
     api.composition = uint32_t(settings.composition);
     api.slabs = uint32_t(settings.slabs);

@@ -206,7 +206,8 @@ typedef struct FxViewSettings
     uint32_t lightSamples;
 
     /// 1 (default): multiple scattering, by a closed form; 2: by an illumination network where
-    /// FX_COMPOSITION_VOLUME draws media, elsewhere as 1; 0: single scattering.
+    /// FX_COMPOSITION_VOLUME draws media, elsewhere as 1; 0: single scattering; 3: as the presets of the
+    /// scene's instances ask for by their member "scattering", 2 before 1 before 0, and 1 if none does.
     uint32_t multipleScattering;
 
     /// FX_COMPOSITION_...; default FX_COMPOSITION_SORTED.
