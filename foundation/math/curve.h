@@ -1,6 +1,5 @@
 /// @file curve.h
-/// Curves over the lifetime of a particle, and ranges from which random values are drawn. Presets consist of
-/// both.
+/// Curves over the lifetime of a particle, and ranges from which random values are drawn.
 #pragma once
 
 #include <array>
@@ -26,10 +25,10 @@ class Curve
 {
 public:
     Curve() { table_.fill({}); }
-    /// The same value for all t.
+    /// A curve with the same value for all t.
     explicit Curve(const std::array<float, N>& constant) { table_.fill(constant); }
-    /// @param keys sorted by t, at least one, all finite; two keys of equal t make a jump, after which the
-    ///         later key holds
+    /// @param keys sorted by t, at least one, all finite; two keys of equal t make a jump, at which the curve
+    ///         continues with the later key
     explicit Curve(std::span<const CurveKey<N>> keys);
 
     /// Value at t; t outside [0, 1] (NaN included) is clamped.

@@ -21,10 +21,10 @@ struct AllocatorHooks
 /// [byte] size of a large page on x86-64.
 constexpr size_t kLargePage = size_t(2) << 20;
 
-/// Source of all memory that outlives a call. Without hooks, blocks of at least kLargePage are aligned to it,
-/// and on Linux madvise() requests large pages: reading many columns side by side otherwise misses the TLB.
-/// With hooks, the host chooses the pages. Throws std::bad_alloc, which fxsdk/api turns into
-/// FX_ERROR_OUT_OF_MEMORY. Thread-safe when the hooks are.
+/// Source of all memory that outlives a call. Without hooks, blocks of at least kLargePage are aligned to
+/// kLargePage, and on Linux madvise() requests large pages for them. With small pages, loops that read many
+/// columns at once would miss the TLB. With hooks, the host chooses the pages. Throws std::bad_alloc, which
+/// fxsdk/api turns into FX_ERROR_OUT_OF_MEMORY. Thread-safe if the hooks are thread-safe.
 class HostMemory final : public std::pmr::memory_resource
 {
 public:
