@@ -33,10 +33,10 @@ private:
     GlDevice& device_;
     SlabMedia media_;
     std::pmr::vector<FieldDetailBlock> details_; ///< of the frame
-    std::span<const BlobMaterial> materials_;    ///< likewise; empty without details_
-    LumpTileTexture lumpTile_;                   ///< nothing before detail is seen
+    std::span<const BlobMaterial> materials_;    ///< of the frame; empty without details_
+    LumpTileTexture lumpTile_;                   ///< created when detail is drawn
     ResourceId lumps_;                           ///< of the frame
-    uint32_t unused_ = 0;                        ///< frames without detail, one after the other
+    uint32_t unused_ = 0;                        ///< number of successive frames without detail
     int slabs_ = 16;
 };
 
