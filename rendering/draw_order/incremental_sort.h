@@ -27,7 +27,7 @@ struct SortedPart
 };
 
 /// Continues the scan by whole vectors of elements. Stops at a vector with an absent element or with more
-/// than one element out of order.
+/// than one element out of order, or when `displaced` is full.
 void extendSortedByVectors(SortedPart& sorted);
 
 /// Removes the elements of the set `changed` from the last order. The remaining elements are sorted.
