@@ -38,10 +38,11 @@ struct ImageAsset
 
 /// A corner of a triangle.
 struct MeshVertex
+/// [1] in units of the particle's radius
 {
-    glm::vec3 position; ///< [1] in units of the particle's radius
-    glm::vec3 normal;   ///< unit
-    glm::vec2 texture;  ///< [1] coordinates; 0, 0 is the lower left corner of the image
+    glm::vec3 position;
+    glm::vec3 normal;  ///< unit
+    glm::vec2 texture; ///< [1] coordinates; 0, 0 is the lower left corner of the image
 };
 
 /// An indexed triangle mesh. The vertices of a triangle are counterclockwise, seen from outside.
@@ -64,8 +65,7 @@ public:
     /// @return the id; InvalidArgument for other sizes; Capacity if the table is full
     Result<AssetId> addImage(int width, int height, bool isSrgb, std::span<const uint8_t> rgba);
     /// @return the id; InvalidArgument without a triangle, with an index that is too large or with a value
-    /// that
-    ///         is not finite; Capacity if the table is full
+    ///         that is not finite; Capacity if the table is full
     Result<AssetId> addMesh(std::span<const MeshVertex> vertices, std::span<const uint32_t> indices);
 
     /// The image (or mesh) of `id`; null if this table has no image (or mesh) with this id.

@@ -24,8 +24,8 @@
 ///   Equation (4) of birth-ticks for m = 0, with -R = q a + q r and D = q s + q f:
 ///       floor((j D - R) / q) = a + j s + floor(r + j f)                                       (1)
 ///   With exact r and f, the argument of the last floor is an integer, or at least 1/q >= 2^-62 below the
-///   next integer. Rounding r and f up adds less than (j + 1) 2^-96 < 2^-63, so the floor is the same. (2)
-///   A run may begin with any birth j of the sequence: (1) replaces a, the fraction of r + j f replaces r (3)
+///   next integer. Rounding r and f up adds less than (j + 1) 2^-96 < 2^-63, so the floor stays  (2)
+///   A run may begin with any birth j. Then (1) replaces a, and the fraction of r + j f replaces r  (3)
 /// @source    elementary
 /// @deviation none
 /// @valid     j < 2^32, q < 2^62; a burst (births at one time) is a run with s = f = r = 0
@@ -75,10 +75,11 @@ constexpr size_t kGpuCurvePieces = 10;
 
 /// Constants of an emitter. Ranges are {min, max}; min = max means a constant without a random draw.
 struct GpuParticleNumbers
+/// [m] center of the shape
 {
-    float position[3]; ///< [m] center of the shape
-    float size[3];     ///< [m]
-    float axis[3];     ///< unit vector onto which +Y is rotated
+    float position[3];
+    float size[3]; ///< [m]
+    float axis[3]; ///< unit vector onto which +Y is rotated
     float cosLimit;
     float inner;         ///< [1] share of the radius that is empty; 1: births on the surface
     float tube;          ///< [m] radius of the tube of a torus; TallCone: 1 for births on the side, else 0
@@ -154,8 +155,9 @@ public:
 
 /// Births at equal intervals of time, or all at the same time.
 struct GpuBirthRun
+/// the first birth of the run is the one with index next - reach
 {
-    uint32_t reach; ///< the first birth of the run is the one with index next - reach
+    uint32_t reach;
     uint32_t unused;
     int64_t age;          ///< [tick] age of the particle of the first birth
     int64_t stride;       ///< [tick] s of birth-runs: the interval, rounded down
@@ -165,8 +167,9 @@ struct GpuBirthRun
 
 /// Acceleration of all particles from a moment until the moment of the next condition.
 struct GpuCondition
+/// [tick] time since the moment; for the first condition at least the age of every particle
 {
-    int64_t age; ///< [tick] time since the moment; for the first condition at least the age of every particle
+    int64_t age;
     float pull[3]; ///< [m/s2] gravity + drag * wind
     float unused;
 };

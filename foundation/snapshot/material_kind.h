@@ -41,14 +41,15 @@ enum : size_t
     Length1,    ///< [m] the same for the columns Place1
     Growth0,    ///< [1] radii of balls when the generation of Place0 began, over their radii now
     Growth1,
-    Thinnest,  ///< [1] optical depth of a lump below which the medium is removed completely
-    Densest,   ///< [1] optical depth of a lump above which it is not eroded
-    Ramp,      ///< [1] width of the erosion threshold; small values give crisp edges
-    Gain,      ///< [1] amplitude of each octave of the noise over that of the octave before
-    Cooling,   ///< [1] share of the temperature that is lost at the surface of lumps
-    Glow,      ///< [1] relative rise of temperature where the noise is one standard deviation above its mean
-    Softening, ///< [1] how much edges soften as the medium thins: 0 lumps fall apart, 1 they keep their form,
-               ///< above 1 they blur
+    Thinnest, ///< [1] optical depth of a lump below which the medium is removed completely
+    Densest,  ///< [1] optical depth of a lump above which it is not eroded
+    Ramp,     ///< [1] width of the erosion threshold; small values give crisp edges
+    Gain,     ///< [1] amplitude of each octave of the noise over that of the octave before
+    Cooling,  ///< [1] share of the temperature that is lost at the surface of lumps
+    Glow,     ///< [1] relative rise of temperature where the noise is one standard deviation above its mean
+    /// [1] how much edges soften as the medium thins: 0 lumps fall apart, 1 they keep their form, above 1
+    /// they blur
+    Softening,
     Count
 };
 }

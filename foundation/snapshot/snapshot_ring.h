@@ -13,8 +13,9 @@ namespace fx::base {
 
 /// A snapshot and the snapshot published before it. Both stay valid and constant until release().
 struct SnapshotPair
+/// null before the first publication
 {
-    const FrameSnapshot* newer = nullptr; ///< null before the first publication
+    const FrameSnapshot* newer = nullptr;
     const FrameSnapshot* older = nullptr; ///< null before the second publication
 };
 
@@ -55,8 +56,8 @@ private:
     FrameSnapshot* writing_ = nullptr;
     FrameSnapshot* newest_ = nullptr;
     FrameSnapshot* previous_ = nullptr;
-    FrameSnapshot* staged_ =
-        nullptr; ///< snapshot that becomes previous_ at the next publication; null: newest_ becomes previous_
+    /// snapshot that becomes previous_ at the next publication; null: newest_ becomes previous_
+    FrameSnapshot* staged_ = nullptr;
     uint64_t sequence_ = 0;
 };
 

@@ -14,11 +14,12 @@ namespace fx::render {
 
 /// Elements of one source that are drawn one after another in a fixed order.
 struct DrawStream
+/// index of the batch in its source
 {
-    uint32_t batch = 0; ///< index of the batch in its source
+    uint32_t batch = 0;
     uint32_t count = 0;
-    const float* distances =
-        nullptr; ///< [m] of the elements; null: all have `distance`, and the stream is not divided
+    /// [m] of the elements; null: all have `distance`, and the stream is not divided
+    const float* distances = nullptr;
     const uint32_t* order = nullptr;     ///< element drawn as number i, farthest first
     bool isSquared = false;              ///< `distances` holds squares
     float distance = 0.0f;               ///< [m]
@@ -57,8 +58,9 @@ private:
         float middle;
     };
     struct Range
+    /// near > far: empty
     {
-        float near, far; ///< near > far: empty
+        float near, far;
     };
 
     Range overlapOf(std::span<const DrawStream> streams);

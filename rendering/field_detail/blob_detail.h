@@ -15,12 +15,12 @@ namespace fx::render {
 
 /// Parameters of the detail of all blobs of a group.
 struct GroupDetail
+/// lengths are in the space of the group
 {
-    FieldDetailNumbers numbers; ///< lengths are in the space of the group
-    glm::mat3
-        /// Affine maps to the noise coordinates of each generation, without the offsets of blobs: toCells p +
-        /// first.
-        toCells[2];
+    FieldDetailNumbers numbers;
+    /// Affine maps to the noise coordinates of each generation, without the offsets of blobs: toCells p +
+    /// first.
+    glm::mat3 toCells[2];
     glm::vec3 first[2]; ///< [cell] offset of the map; p [m] is relative to the eye, along world axes
     float scale = 1;    ///< [1] scale of the placement: length in the world over length in the group
     float factor = 1;   ///< [1] multiplies the eroded extinction, so that its integral is preserved

@@ -74,8 +74,9 @@ constexpr uint32_t kAll = (1u << kCount) - 1;
 
 /// One directional light (the sun), and uniform light of sky and ground.
 struct Lighting
+/// towards the light, unit
 {
-    glm::vec3 sunDirection{0.3f, 0.8f, 0.5f}; ///< towards the light, unit
+    glm::vec3 sunDirection{0.3f, 0.8f, 0.5f};
     /// [lx] on a surface perpendicular to the direction; linear Rec. 709, weighted as a luminance
     glm::vec3 sunIlluminance{0.0f};
     glm::vec3 skyLuminance{0.0f}; ///< [cd/m2] uniform over all directions
@@ -110,8 +111,8 @@ struct HostLights
 
 /// Size of the light slices of a light.
 struct SliceResolution
+/// Texels along a side of a plane of the sun, 8..512, a multiple of 8. Point lights have half as many.
 {
-    /// Texels along a side of a plane of the sun, 8..512, a multiple of 8. Point lights have half as many.
     int texels = 128;
     int planes = 32; ///< 3..128; 1 and 2 become 3; 0: media cast no shadow
 
@@ -162,9 +163,9 @@ struct DazzleSettings
 
 /// Level of detail of distant effects. The simulation does not depend on these settings.
 struct LodSettings
+/// [1] An effect draws one blob per `bias` pixels of its disc on the picture, and at least twelve. These
+/// blobs are enlarged to represent the others. 0: all blobs are drawn.
 {
-    /// [1] An effect draws one blob per `bias` pixels of its disc on the picture, and at least twelve. These
-    /// blobs are enlarged to represent the others. 0: all blobs are drawn.
     float bias = 0.0f;
 
     /// [pixel] Effects with a smaller radius on the picture are drawn as impostors; at most
@@ -181,8 +182,9 @@ struct LodSettings
 
 /// Settings of all frames until the host changes them.
 struct ViewSettings
+/// [EV100]
 {
-    float exposureEv100 = 13.0f; ///< [EV100]
+    float exposureEv100 = 13.0f;
     Lighting lighting;
     HostLights hostLights;
     SliceSettings slices;
@@ -194,16 +196,13 @@ struct ViewSettings
     int voxels = 96;       ///< 16..256 along 16 radii of an effect's balls, for Composition::Volume
     bool saveState = true; ///< restore every GL state that rendering changes; false: the host restores it
     bool detail = true;    ///< procedural detail of blobs
-    float particleShare =
-        /// [1] (0, 1], share of the particles that are drawn. They are enlarged to keep the total cross
-        /// section.
-        1.0f;
+    /// [1] (0, 1], share of the particles that are drawn. They are enlarged to keep the total cross section.
+    float particleShare = 1.0f;
     bool toneMap = false;      ///< write display-referred values
     bool layerOutputs = false; ///< also write fire, smoke, dust, depth and optical depth to separate textures
     uint32_t outputs = 0;      ///< view_output bits; with 0, there is no pass, program or memory for outputs
-    bool countOverdraw =
-        /// count contributing fragments and read statistics back. This adds a pass and waits for the GPU
-        false;
+    /// count contributing fragments and read statistics back. This adds a pass and waits for the GPU
+    bool countOverdraw = false;
     LodSettings lod;
     bool overlay = false; ///< the caller of the renderer fills FrameRequest::overlay
     /// 1, 2 or 4: media and transparent particles are drawn at no more than 1, 1/2 or 1/4 of the width and
@@ -215,8 +214,9 @@ struct ViewSettings
 
 /// The host's shadow map of the sun: depth of the host's opaque surfaces, seen from the sun.
 struct HostShadowMap
+/// GL name of a 2-D depth texture; 0: no surface shadows media
 {
-    uint32_t texture = 0; ///< GL name of a 2-D depth texture; 0: no surface shadows media
+    uint32_t texture = 0;
     DepthConvention depth = DepthConvention::Standard;
     /// Affine map from world position minus CameraView::origin [m] to texture coordinates and stored depth,
     /// each 0..1.
@@ -226,12 +226,12 @@ struct HostShadowMap
 
 /// GL names of the host's targets for one frame; 0 means absent.
 struct HostTargets
+/// 2-D texture with the opaque picture [cd/m2 times exposure]; read and written
 {
-    uint32_t color = 0; ///< 2-D texture with the opaque picture [cd/m2 times exposure]; read and written
+    uint32_t color = 0;
     uint32_t depth = 0; ///< 2-D depth texture of the opaque picture; 0: nothing occludes
-    uint32_t framebuffer =
-        /// used instead of `color` if `color` is 0: media are blended into the attachment of draw buffer 0
-        0;
+    /// used instead of `color` if `color` is 0: media are blended into the attachment of draw buffer 0
+    uint32_t framebuffer = 0;
     bool useFramebuffer = false; ///< true: draw into `framebuffer` (0 is the window) instead of `color`
     int width = 0;               ///< [pixel]
     int height = 0;              ///< [pixel]
@@ -248,9 +248,10 @@ struct InstanceNames
 
 /// A box in the activation overlay, which draws its edges.
 struct OverlayBox
+/// [m] xyz center relative to the camera's origin; w half of the side
 {
-    glm::vec4 centerHalf; ///< [m] xyz center relative to the camera's origin; w half of the side
-    glm::vec4 color;      ///< premultiplied, in the unit of the picture
+    glm::vec4 centerHalf;
+    glm::vec4 color; ///< premultiplied, in the unit of the picture
 };
 
 /// Input of one frame.
@@ -309,8 +310,8 @@ struct FrameStatistics
     int layerDivisor = 1;
     /// entries in the lists of all tiles; this and the next two with countOverdraw only
     uint64_t listedBalls = 0;
-    uint64_t spilledBalls =
-        0; ///< entries dropped from full lists; the listed balls are weighted to represent them
+    /// entries dropped from full lists; the listed balls are weighted to represent them
+    uint64_t spilledBalls = 0;
     /// Fragments of sprites, ribbons and impostors that were dropped because lists were full.
     uint64_t spilledCards = 0;
     Composition composition = Composition::Sorted;

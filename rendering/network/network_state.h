@@ -11,10 +11,11 @@ namespace fx::render {
 
 /// Cubes of one size, x fastest, then y, then z.
 struct NetworkGrid
+/// [m] lowest of the first cell
 {
-    glm::dvec3 corner{0.0}; ///< [m] lowest of the first cell
-    double side = 1.0;      ///< [m] of a cell
-    glm::ivec3 cells{0};    ///< along each axis
+    glm::dvec3 corner{0.0};
+    double side = 1.0;   ///< [m] of a cell
+    glm::ivec3 cells{0}; ///< along each axis
 
     size_t count() const { return size_t(cells.x) * size_t(cells.y) * size_t(cells.z); }
     size_t index(const glm::ivec3& c) const

@@ -35,8 +35,9 @@ struct NetworkMedium
     NetworkGrid grid;                  ///< 1 to 256 cells along each axis
     std::span<const float> extinction; ///< [1/m] >= 0
     std::span<const float> albedo;     ///< [1] 0..1
-    std::span<const float> emission;   ///< [cd/m2] per optical depth, >= 0, as Kirchhoff's law has it: a cell
-                                       ///< that emits B like a black body has (1 - albedo) B; empty: none
+    /// [cd/m2] per optical depth, >= 0, as Kirchhoff's law has it: a cell that emits B like a black body has
+    /// (1 - albedo) B; empty: none
+    std::span<const float> emission;
 };
 
 /// What sweeps are to do.
@@ -59,8 +60,8 @@ struct SweepReport
 /// Powers, divided by the unit of radiance [m2 sr]. In light at rest emitted = absorbed + escaped.
 struct NetworkEnergy
 {
-    double emitted =
-        0.0; ///< by the medium, by what lights scatter there for the first time, and from outside
+    /// by the medium, by what lights scatter there for the first time, and from outside
+    double emitted = 0.0;
     double absorbed = 0.0; ///< of scattered and emitted light
     double escaped = 0.0;
 };

@@ -20,8 +20,9 @@ std::span<const ProgramDesc* const> outputPrograms();
 
 /// Of the nearest solid thing in each pixel.
 struct SolidMarks
+/// RGBA32F, xyz [m/s], w 1; 0: there is none. Invalid: there is none anywhere
 {
-    ResourceId velocity; ///< RGBA32F, xyz [m/s], w 1; 0: there is none. Invalid: there is none anywhere
+    ResourceId velocity;
     ResourceId instance; ///< RG32UI its id, low word first
 };
 
@@ -34,8 +35,9 @@ class SolidMarkPass
 {
 public:
     struct Inputs
+    /// with solids; must stay until the graph has executed
     {
-        std::span<const MediaSource* const> sources; ///< with solids; must stay until the graph has executed
+        std::span<const MediaSource* const> sources;
         ResourceId distance;
         int width, height;
         ViewBlock view;
@@ -83,8 +85,9 @@ class OutputPass
 {
 public:
     struct Inputs
+    /// view_output bits, not 0
     {
-        uint32_t outputs; ///< view_output bits, not 0
+        uint32_t outputs;
         SlabMedia::Lists lists;
         ResourceId marks; ///< invalid without balls
         SolidMarks solids;

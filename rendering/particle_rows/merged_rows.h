@@ -20,9 +20,10 @@ namespace fx::render {
 
 /// A group of a snapshot whose rows are to be merged, in a pool or not.
 struct MergeSource
+/// columns and constants; null: no group
 {
-    const base::SnapshotGroup* rows = nullptr; ///< columns and constants; null: no group
-    const base::PooledRows* pool = nullptr;    ///< the rows are those of a pool, and
+    const base::SnapshotGroup* rows = nullptr;
+    const base::PooledRows* pool = nullptr; ///< the rows are those of a pool, and
     /// The group is an entry of a pool; otherwise both are null.
     const base::GroupRoster::Entry* entry = nullptr;
     uint32_t count = 0;

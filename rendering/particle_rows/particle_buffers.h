@@ -38,8 +38,9 @@ namespace fx::render {
 
 /// Revisions by which present rows are recognized.
 struct UploadRevisions
+/// equal ones share a place
 {
-    RevisionPair snapshots; ///< equal ones share a place
+    RevisionPair snapshots;
     SnapshotRowRevisions newerRows, olderRows;
 };
 
@@ -109,8 +110,9 @@ private:
     };
     /// Sizes of groups in the two buffers of a place.
     struct Sizes
+    /// [byte]
     {
-        uint64_t mapped = 0, computed = 0; ///< [byte]
+        uint64_t mapped = 0, computed = 0;
     };
 
     /// Input of a write.

@@ -39,13 +39,15 @@ public:
 
 private:
     struct Target
+    /// null: none
     {
-        const base::GroupRoster::Entry* entry = nullptr; ///< null: none
+        const base::GroupRoster::Entry* entry = nullptr;
         uint32_t group = 0, firstRow = 0, rows = 0;
     };
     struct Move
+    /// rows
     {
-        uint32_t from, to; ///< rows
+        uint32_t from, to;
     };
     void list(const base::PooledRows& pool, std::span<const Target> targets,
               std::span<base::RowExtent> extents);

@@ -14,9 +14,10 @@ namespace fx::render {
 
 /// The rows of one group, which may be transformed in place. Up to kRowsBehind rows after the end are read.
 struct PlacedRows
+/// columns of a vector
 {
-    const float* from[3]; ///< columns of a vector
-    const float* radius;  ///< [m]; above 0 where a row contains a visible particle
+    const float* from[3];
+    const float* radius; ///< [m]; above 0 where a row contains a visible particle
     float* to[3];
     float* toRadius;
     uint32_t count;

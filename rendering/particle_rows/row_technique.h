@@ -14,9 +14,10 @@ namespace fx::render {
 
 /// A row as a rectangle across the view.
 struct RowCard
+/// [m] in the group's axes
 {
-    glm::vec3 center; ///< [m] in the group's axes
-    float area;       ///< [m2]; 0: nothing is drawn
+    glm::vec3 center;
+    float area; ///< [m2]; 0: nothing is drawn
 };
 
 /// Some rows as one ball of medium, in the group's axes.

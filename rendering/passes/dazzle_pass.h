@@ -56,8 +56,7 @@ base::Status checkSensorLaw(const DazzleSettings& settings);
 /// reads   color    RGBA32F exposed radiance; NaN and negative count as 0, +inf as 65504 (all counted)
 ///         history  DazzleHistory
 /// writes  color    RGBA32F, at most white; alpha unchanged; a value below white that gets no glare keeps its
-/// bits
-///         history  the state after this frame
+///         bits history the state after this frame
 /// Adds nothing when glare is switched off or checkSensorLaw() refuses the settings.
 class DazzlePass
 {

@@ -41,8 +41,8 @@ public:
         ResourceId color;
         ResourceId distance;
         ResourceId heat; ///< invalid: nothing is hot
-        std::span<const HotArea>
-            areas; ///< cover every pixel with heat; must stay until the graph has executed
+        /// cover every pixel with heat; must stay until the graph has executed
+        std::span<const HotArea> areas;
         int width, height;
         bool upperLeftOrigin; ///< see CameraView
         ShimmerSettings settings;

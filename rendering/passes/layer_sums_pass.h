@@ -28,9 +28,8 @@ public:
 /// distance.
 ///
 /// reads   the media pass's layer targets but the optical depth writes  fire, smoke, dust, media  RGBA32F
-/// exposed radiance reaching the eye, premultiplied
-///         depth                     R32F [m] mean distance weighted by seen opacity, +inf where there are no
-///         media
+///         exposed radiance reaching the eye, premultiplied depth R32F [m] mean distance weighted by seen
+///         opacity, +inf where there are no media
 /// The layers' colors and alphas sum to those of media exactly as floats are added. Keeps no state.
 class LayerResolvePass
 {

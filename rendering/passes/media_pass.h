@@ -21,8 +21,9 @@ class MediaPass
 {
 public:
     struct Inputs
+    /// must stay until the graph has executed, as must their sources
     {
-        std::span<const DrawBatch> batches; ///< must stay until the graph has executed, as must their sources
+        std::span<const DrawBatch> batches;
         ResourceId distance;
         int width, height;
         ViewBlock view;

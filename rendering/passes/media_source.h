@@ -16,8 +16,9 @@ struct BlobInstance;
 
 /// Elements of a source that are drawn by one call.
 struct DrawBatch
+/// number of the source's batch
 {
-    uint32_t batch = 0; ///< number of the source's batch
+    uint32_t batch = 0;
     uint32_t first = 0;
     uint32_t count = 0;
     const MediaSource* source = nullptr;
@@ -26,8 +27,9 @@ struct DrawBatch
 /// Lists of fragments, one for each texel, in which cards are gathered instead of being drawn over each
 /// other. Layout of shaders/shared/card_lists.glsl.
 struct CardLists
+/// buffer; invalid: fragments are drawn
 {
-    ResourceId heads = {}; ///< buffer; invalid: fragments are drawn
+    ResourceId heads = {};
     ResourceId nodes = {}; ///< buffer
     ResourceId marks = {}; ///< buffer of CardMark, one beside each node; invalid: they are not wanted
 

@@ -53,9 +53,10 @@ enum class BatchShape : uint8_t
 
 /// Part of a buffer.
 struct BufferPart
+/// GL buffer
 {
-    uint32_t name = 0; ///< GL buffer
-    ResourceId id;     ///< the buffer in this frame's graph
+    uint32_t name = 0;
+    ResourceId id; ///< the buffer in this frame's graph
     uint64_t offset = 0;
     uint64_t bytes = 0; ///< 0: absent
 };

@@ -19,8 +19,9 @@ class SceneDistancePass
 {
 public:
     struct Inputs
+    /// invalid: nothing occludes
     {
-        ResourceId depth; ///< invalid: nothing occludes
+        ResourceId depth;
         int width, height;
         ViewBlock view;
     };

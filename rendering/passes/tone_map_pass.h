@@ -14,8 +14,7 @@ inline constexpr ProgramDesc kToneMapDitherProgram{"tone map (8 bit)", "shared/f
 /// each channel separately.
 ///
 /// reads   color  RGBA32F exposed radiance writes  color  sRGB code values in [0, 1]: RGBA32F as they are, or
-/// RGBA8 dithered by a fixed pattern that leaves exact
-///                8-bit values alone; alpha unchanged
+///                RGBA8 dithered by a fixed pattern that leaves exact 8-bit values alone; alpha unchanged
 /// Keeps no state.
 class ToneMapPass
 {

@@ -43,8 +43,9 @@ constexpr uint32_t kIdleFrames = 300; ///< without use, until buffers and textur
 
 /// Inputs of gathering a frame.
 struct GatherInputs
+/// without the older one if the two are equal
 {
-    const base::SnapshotPair* snapshots; ///< without the older one if the two are equal
+    const base::SnapshotPair* snapshots;
     RevisionPair revisions;
     SnapshotRowRevisions newerRows, olderRows;
     const FrameRequest* request;
@@ -161,10 +162,11 @@ struct TechniqueSetup
 
 /// The published data of an effect on which techniques depend.
 struct EffectContent
+/// of its groups
 {
-    std::span<const base::KindDesc* const> kinds; ///< of its groups
-    bool isDrawn = false;                         ///< a technique draws one of the kinds
-    bool bendsLight = false;                      ///< some of its media refract light
+    std::span<const base::KindDesc* const> kinds;
+    bool isDrawn = false;    ///< a technique draws one of the kinds
+    bool bendsLight = false; ///< some of its media refract light
 };
 
 /// One technique. Has static storage.
@@ -182,8 +184,8 @@ struct DrawTechnique
     std::span<const TimedPass> passes = {};
     /// Whether an effect with such content uses it; null: an effect that publishes `kind`.
     bool (*isUsedBy)(const EffectContent& content) = nullptr;
-    const LightSource* lights =
-        nullptr; ///< how groups of `kind` light everything around them; null: not at all
+    /// how groups of `kind` light everything around them; null: not at all
+    const LightSource* lights = nullptr;
     /// Refuses settings that cannot be drawn; null: accepts all.
     base::Status (*check)(const ViewSettings& settings) = nullptr;
     /// Whether it changes the picture without visible effects; null: no.

@@ -13,8 +13,9 @@ struct LayerGrid
 {
     int divisor;
     int width, height; ///< [texel]
-    ViewBlock view;    ///< rays through the middles of the blocks; view.pass.x is the radius of the smallest
-                       ///< blob over its distance, 0 for divisor 1, where blobs are as wide as they must be
+    /// rays through the middles of the blocks; view.pass.x is the radius of the smallest blob over its
+    /// distance, 0 for divisor 1, where blobs are as wide as they must be
+    ViewBlock view;
 };
 
 /// @param width, height of the picture [pixel]

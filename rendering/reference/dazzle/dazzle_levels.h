@@ -29,8 +29,7 @@ namespace fx::render {
 ///   glare <= S_0 gives q_i <= c_i (255 - i): no pixel exceeds 255, and none gets darker.
 /// @source    [UBT96] dazzle of the CCD sensor
 /// @deviation the published code divides by zero below the darkest level in use, counts overflowed pixels in
-/// its
-///            histogram, overflows 32 bits, and rounds a whole level up at once, which overspends, up to
+///            its histogram, overflows 32 bits, and rounds a whole level up at once, which overspends, up to
 ///            darkening what is left; (1) and (2) do none of it
 /// @valid     any levels, sums up to 2^63; no headroom leaves nothing to deal; glare beyond S_0 fills every
 /// pixel

@@ -9,13 +9,14 @@
 
 namespace fx::render {
 
-__extension__ typedef unsigned __int128
-    DazzleCount; ///< [quantum] a 16K picture of 65504 needs 67 bits a channel
+/// [quantum] a 16K picture of 65504 needs 67 bits a channel
+__extension__ typedef unsigned __int128 DazzleCount;
 
 /// The light of one channel value.
 struct DazzleQuanta
+/// [quantum] above white
 {
-    uint64_t overflow; ///< [quantum] above white
+    uint64_t overflow;
     uint64_t headroom; ///< [quantum] below white
     uint64_t all;
 };
@@ -49,8 +50,9 @@ struct DazzleSum
 };
 
 struct DazzleSums
+/// red, green, blue
 {
-    DazzleSum channels[3]; ///< red, green, blue
+    DazzleSum channels[3];
     uint32_t replaced = 0; ///< channel values that were not finite, negative or too large
 };
 

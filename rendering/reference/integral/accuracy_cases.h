@@ -65,8 +65,9 @@ IntegralError integralError(const PacketPicture<T>& picture, const IntegralSetti
 
 /// Blobs that all emit 1: light has to be 1 - e^-tau.
 struct FurnaceError
+/// |I / (1 - e^-tau) - 1|
 {
-    double largest = 0.0; ///< |I / (1 - e^-tau) - 1|
+    double largest = 0.0;
     double excess = 0.0;  ///< I / (1 - e^-tau) - 1: light that was created
     double atDepth = 0.0; ///< optical depth of the largest error
     uint32_t atBlobs = 0;

@@ -60,8 +60,9 @@ struct GroupScratch
 /// The active blobs of the present interval in the order of summation, with terms shared by sums over them.
 template <class T>
 struct NearbyBlobs
+/// d of formula blob-polynomial
 {
-    T* offset; ///< d of formula blob-polynomial
+    T* offset;
     T* square; ///< g
     T* margin; ///< > 0 where the lane's interval lies within the blob
     uint32_t* blob;
@@ -84,8 +85,9 @@ struct BlobLanes
 /// Inputs of the rays of a group. Lane arrays of blob k begin at k * stride.
 template <class T>
 struct GroupInput
+/// of blobs
 {
-    uint32_t count; ///< of blobs
+    uint32_t count;
     uint32_t stride;
     T largest;   ///< [m] radius of the caller's blobs, those that all rays miss among them
     T brightest; ///< [cd/m2] source of the same blobs, in any channel

@@ -14,14 +14,14 @@ namespace fx::render {
 
 enum class IntegralMethod : uint8_t
 {
-    Paper,    ///< attenuation linear in the ray parameter within a part, closed form (formula
-              ///< linear-attenuation)
-    Simpson,  ///< Simpson's rule with exact optical depth
-    Gauss,    ///< Gauss-Legendre nodes with exact optical depth (formula gauss-attenuation)
-    Positive, ///< source linear in optical depth between nodes (formula depth-linear-source); bounds hold
-              ///< always
-    March,    ///< equal steps along the whole ray, density taken in their middle
-    Adaptive  ///< Paper, with the parts and the end of the ray chosen by a bound on the light from behind
+    /// attenuation linear in the ray parameter within a part, closed form (formula linear-attenuation)
+    Paper,
+    Simpson, ///< Simpson's rule with exact optical depth
+    Gauss,   ///< Gauss-Legendre nodes with exact optical depth (formula gauss-attenuation)
+           /// source linear in optical depth between nodes (formula depth-linear-source); bounds hold always
+    Positive,
+    March,   ///< equal steps along the whole ray, density taken in their middle
+    Adaptive ///< Paper, with the parts and the end of the ray chosen by a bound on the light from behind
 };
 
 /// Model of emission. Blob i has extinction rho_i(t) and emits source_i per unit of its optical depth.
@@ -34,11 +34,12 @@ enum class SourceModel : uint8_t
 struct IntegralScheme
 {
     IntegralMethod method = IntegralMethod::Gauss;
-    uint32_t count =
-        5; ///< Paper: parts, 1..64; Simpson: panels, 1..64; Gauss: nodes, 3, 5 or 8; Positive: pieces, 2..64
-    double cap = 1.0;   ///< [1] Gauss: optical depth of a part; infinity leaves intervals whole. Kernels of
-                        ///< degree 3 and 4 use a quarter and a tenth of it
-    double step = 0.01; ///< [m] March
+    /// Paper: parts, 1..64; Simpson: panels, 1..64; Gauss: nodes, 3, 5 or 8; Positive: pieces, 2..64
+    uint32_t count = 5;
+    /// [1] Gauss: optical depth of a part; infinity leaves intervals whole. Kernels of degree 3 and 4 use a
+    /// quarter and a tenth of it
+    double cap = 1.0;
+    double step = 0.01;       ///< [m] March
     double tolerance = 0.001; ///< [1] Adaptive: error as a share of the most light the ray can have
     double stopDepth = 30.0;  ///< [1] optical depth at which the ray ends; infinity: never
 };

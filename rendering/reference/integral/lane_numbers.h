@@ -97,8 +97,7 @@ inline T expSeries(T r)
 /// @source    [MUL16] section 11 for the reduction; the series is elementary
 /// @deviation none
 /// @valid     x = 0 gives exactly 1; infinity counts as the largest; x < -80 (float) or -700 (double) counts
-/// as that;
-///            n is 0 for |x| < 0.34, so that there (3) alone has the same bits
+///            as that; n is 0 for |x| < 0.34, so that there (3) alone has the same bits
 /// @accuracy  relative error <= 2e-7 (float), 1e-15 (double)
 /// @tests     tests/rendering/reference/integral/test_lane_numbers.cpp
 template <class T>

@@ -46,8 +46,9 @@ struct alignas(64) PacketRays
 /// Finite numbers are the caller's duty.
 template <class T>
 struct RayPacket
+/// [m] as in RayBlob, one for each ray
 {
-    std::vector<T> center; ///< [m] as in RayBlob, one for each ray
+    std::vector<T> center;
     std::vector<T> chord2; ///< [m2]; <= 0 for rays that miss
     /// Data shared by all rays.
     struct Shared

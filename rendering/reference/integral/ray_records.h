@@ -43,10 +43,11 @@ enum RayFlag : uint32_t
 
 template <class T>
 struct RayLight
+/// [cd/m2] with the background
 {
-    std::array<T, 3> radiance; ///< [cd/m2] with the background
-    T opticalDepth;            ///< [1] up to where the ray ended
-    T transmittance;           ///< [1] 0..1
+    std::array<T, 3> radiance;
+    T opticalDepth;  ///< [1] up to where the ray ended
+    T transmittance; ///< [1] 0..1
     uint32_t flags;
 };
 

@@ -46,10 +46,11 @@ private:
     void findEmission(double begin, double end);
 
     struct Chord
+    /// [m], [1/m]
     {
-        double middle, inverseHalf; ///< [m], [1/m]
-        double peak;                ///< [1/m] s_i
-        double weight;              ///< [1] s_i h_i
+        double middle, inverseHalf;
+        double peak;   ///< [1/m] s_i
+        double weight; ///< [1] s_i h_i
     };
     /// Extinction of a chord [1/m].
     static double extinctionOf(const Chord& chord, double parameter);

@@ -25,8 +25,9 @@ struct PathScene
 };
 
 struct PathSettings
+/// scatterings and reflections of a path
 {
-    uint32_t bounces = std::numeric_limits<uint32_t>::max(); ///< scatterings and reflections of a path
+    uint32_t bounces = std::numeric_limits<uint32_t>::max();
     FlightEstimator flight = FlightEstimator::Depth;
     ShadowEstimator shadow = ShadowEstimator::Exact;
 
@@ -41,10 +42,11 @@ struct PathSettings
 };
 
 struct PathResult
+/// [cd/m2]
 {
-    glm::dvec3 luminance{0.0}; ///< [cd/m2]
-    double opacity =
-        0.0; ///< [1] 1 - transmittance of the eye's ray, 1 in front of a surface; mean of the channels
+    glm::dvec3 luminance{0.0};
+    /// [1] 1 - transmittance of the eye's ray, 1 in front of a surface; mean of the channels
+    double opacity = 0.0;
     bool sawBackground = false; ///< the camera ray hit nothing: the background is visible ...
     glm::dvec3 throughput{0.0}; ///< [1] ... by this share, and no light of the sky is in `luminance`
 };
@@ -59,10 +61,8 @@ public:
     /// One path from the eye.
     PathResult trace(const TraceRay& ray, double begin, PathSampler& sampler);
 
-    uint64_t collisions() const
-    {
-        return tracker_.collisions();
-    } ///< tentative ones so far, as a measure of work
+    /// tentative ones so far, as a measure of work
+    uint64_t collisions() const { return tracker_.collisions(); }
 
 private:
     struct Way

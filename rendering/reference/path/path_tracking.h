@@ -18,8 +18,9 @@ enum class FlightEstimator : uint8_t
 {
     Depth,          ///< by the inverse of the optical depth where the medium has one, or by local majorants
     LocalMajorants, ///< by null collisions with a majorant for each segment of MediumWalk
-    Analog          ///< plain delta tracking [WMHL65], which the others are measured against: one majorant
-                    ///< for the whole medium, also for shadow rays; absorption ends paths by chance
+    /// plain delta tracking [WMHL65], which the others are measured against: one majorant for the whole
+    /// medium, also for shadow rays; absorption ends paths by chance
+    Analog
 };
 
 /// How the transmittance towards lights is found.
@@ -41,8 +42,8 @@ struct FlightStart
     /// [1/sr] with which the direction was drawn at a place where light was also looked for in directions of
     /// PathMedium::emissionDirection(); 0: it was not
     double density = 0.0;
-    uint32_t seenEmission = 0; ///< places on the way where emitted light is looked up by each of two methods;
-                               ///< 0: one place by one method
+    /// places on the way where emitted light is looked up by each of two methods; 0: one place by one method
+    uint32_t seenEmission = 0;
 };
 
 /// Where a free path ends.

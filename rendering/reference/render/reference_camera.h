@@ -15,8 +15,8 @@ struct ReferenceCamera
     glm::dvec3 up{0.0, 1.0, 0.0};       ///< unit
     glm::dvec3 forward{0.0, 0.0, -1.0}; ///< unit
     bool orthographic = false;
-    double halfHeight =
-        0.5; ///< half the picture's height: tangent of half the angle, or [m] when orthographic
+    /// half the picture's height: tangent of half the angle, or [m] when orthographic
+    double halfHeight = 0.5;
     double nearDistance = 0.1; ///< [m] along the axis, >= 0
 
     /// Looks from `position` to `target`. Eye and target differ, and `up` is not parallel to their

@@ -15,11 +15,12 @@ namespace fx::render {
 
 /// Light from one direction.
 struct ArrivingLight
+/// unit, towards the light
 {
-    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit, towards the light
-    glm::dvec3 illuminance{0.0};         ///< [lx] on a surface that faces the light
-    double distance = 1e30;              ///< [m] beyond it nothing blocks the light
-    double solidAngle = 0.0;             ///< [sr] that the direction stands for; 0: of no extent
+    glm::dvec3 direction{0.0, 1.0, 0.0};
+    glm::dvec3 illuminance{0.0}; ///< [lx] on a surface that faces the light
+    double distance = 1e30;      ///< [m] beyond it nothing blocks the light
+    double solidAngle = 0.0;     ///< [sr] that the direction stands for; 0: of no extent
 };
 
 /// @formula cone-quadrature
@@ -74,8 +75,8 @@ public:
     void course(size_t lamp, const TraceRay& ray, Course& out) const;
 
     /// @formula sky-quadrature
-    /// Directions and weights that integrate a function over the sphere, separately
-    ///          for each hemisphere.
+    ///          Directions and weights that integrate a function over the sphere, separately for each
+    ///          hemisphere.
     ///
     /// symbol   unit   meaning
     ///   n             rings of a half

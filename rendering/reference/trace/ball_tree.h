@@ -24,9 +24,10 @@ namespace fx::render {
 
 /// Element of the tree.
 struct TraceBall
+/// [m] finite
 {
-    glm::dvec3 center; ///< [m] finite
-    double radius;     ///< [m] > 0, finite
+    glm::dvec3 center;
+    double radius; ///< [m] > 0, finite
 };
 
 class BallTree
@@ -36,8 +37,9 @@ public:
 
     /// Eight balls. Unused places have a hugely negative radius, by which every test leaves them out.
     struct alignas(64) Leaf
+    /// [m] relative to the tree's origin
     {
-        double x[kWidth]; ///< [m] relative to the tree's origin
+        double x[kWidth];
         double y[kWidth];
         double z[kWidth];
         double radius[kWidth]; ///< [m]
@@ -45,8 +47,9 @@ public:
 
     /// Boxes of eight children, enlarged slightly, so that rounding in float never misses an intersection.
     struct alignas(64) Node
+    /// [m] relative to the tree's origin
     {
-        float center[3][kWidth]; ///< [m] relative to the tree's origin
+        float center[3][kWidth];
         float extent[3][kWidth]; ///< [m] half the edge; a large negative value for missing children
     };
 
