@@ -38,11 +38,10 @@ struct ImageAsset
 
 /// A corner of a triangle.
 struct MeshVertex
-/// [1] in units of the particle's radius
 {
-    glm::vec3 position;
-    glm::vec3 normal;  ///< unit
-    glm::vec2 texture; ///< [1] coordinates; 0, 0 is the lower left corner of the image
+    glm::vec3 position; ///< [1] in units of the particle's radius
+    glm::vec3 normal;   ///< unit
+    glm::vec2 texture;  ///< [1] coordinates; 0, 0 is the lower left corner of the image
 };
 
 /// An indexed triangle mesh. The vertices of a triangle are counterclockwise, seen from outside.

@@ -13,9 +13,8 @@ constexpr size_t kCurveSamples = 64;
 /// One key of a curve.
 template <size_t N>
 struct CurveKey
-/// [0, 1] of life
 {
-    float t;
+    float t; ///< [0, 1] of life
     std::array<float, N> value;
 };
 

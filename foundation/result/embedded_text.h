@@ -7,9 +7,8 @@
 namespace fx::base {
 
 struct EmbeddedText
-/// path relative to its base folder, with '/'
 {
-    std::string_view name;
+    std::string_view name; ///< path relative to its base folder, with '/'
     std::string_view text;
 };
 

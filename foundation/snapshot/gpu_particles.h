@@ -75,11 +75,10 @@ constexpr size_t kGpuCurvePieces = 10;
 
 /// Constants of an emitter. Ranges are {min, max}; min = max means a constant without a random draw.
 struct GpuParticleNumbers
-/// [m] center of the shape
 {
-    float position[3];
-    float size[3]; ///< [m]
-    float axis[3]; ///< unit vector onto which +Y is rotated
+    float position[3]; ///< [m] center of the shape
+    float size[3];     ///< [m]
+    float axis[3];     ///< unit vector onto which +Y is rotated
     float cosLimit;
     float inner;         ///< [1] share of the radius that is empty; 1: births on the surface
     float tube;          ///< [m] radius of the tube of a torus; TallCone: 1 for births on the side, else 0
@@ -155,9 +154,8 @@ public:
 
 /// Births at equal intervals of time, or all at the same time.
 struct GpuBirthRun
-/// the first birth of the run is the one with index next - reach
 {
-    uint32_t reach;
+    uint32_t reach; ///< the first birth of the run is the one with index next - reach
     uint32_t unused;
     int64_t age;          ///< [tick] age of the particle of the first birth
     int64_t stride;       ///< [tick] s of birth-runs: the interval, rounded down
@@ -167,8 +165,8 @@ struct GpuBirthRun
 
 /// Acceleration of all particles from a moment until the moment of the next condition.
 struct GpuCondition
-/// [tick] time since the moment; for the first condition at least the age of every particle
 {
+    /// [tick] time since the moment; for the first condition at least the age of every particle
     int64_t age;
     float pull[3]; ///< [m/s2] gravity + drag * wind
     float unused;

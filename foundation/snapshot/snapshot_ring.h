@@ -13,9 +13,8 @@ namespace fx::base {
 
 /// A snapshot and the snapshot published before it. Both stay valid and constant until release().
 struct SnapshotPair
-/// null before the first publication
 {
-    const FrameSnapshot* newer = nullptr;
+    const FrameSnapshot* newer = nullptr; ///< null before the first publication
     const FrameSnapshot* older = nullptr; ///< null before the second publication
 };
 

@@ -14,12 +14,11 @@ constexpr uint32_t kAbsentKey = ~0u; ///< key of NaN
 
 /// Range and order of a list of keys.
 struct KeySpan
-/// of the keys other than kAbsentKey; both 0 if there are none
 {
-    uint32_t lowest, highest;
-    uint32_t absent;    ///< number of keys that are kAbsentKey
-    uint32_t changed;   ///< number of keys that differ from the previous list
-    uint32_t newcomers; ///< number of changed keys that were kAbsentKey in the previous list
+    uint32_t lowest, highest; ///< of the keys other than kAbsentKey; both 0 if there are none
+    uint32_t absent;          ///< number of keys that are kAbsentKey
+    uint32_t changed;         ///< number of keys that differ from the previous list
+    uint32_t newcomers;       ///< number of changed keys that were kAbsentKey in the previous list
 };
 
 /// Sets of elements as bits: element i is bit i % 8 of byte i / 8. Each array has room for a multiple of 64
@@ -37,9 +36,8 @@ KeySpan makeKeys(const float* values, uint32_t flip, uint32_t* ioKeys, const Key
 
 /// Columns of one group.
 struct RowColumns
-/// [m]
 {
-    const float *x, *y, *z, *radius;
+    const float *x, *y, *z, *radius; ///< [m]
     size_t count;
 };
 

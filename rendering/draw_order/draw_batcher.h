@@ -14,9 +14,8 @@ namespace fx::render {
 
 /// Elements of one source that are drawn one after another in a fixed order.
 struct DrawStream
-/// index of the batch in its source
 {
-    uint32_t batch = 0;
+    uint32_t batch = 0; ///< index of the batch in its source
     uint32_t count = 0;
     /// [m] of the elements; null: all have `distance`, and the stream is not divided
     const float* distances = nullptr;
@@ -58,9 +57,8 @@ private:
         float middle;
     };
     struct Range
-    /// near > far: empty
     {
-        float near, far;
+        float near, far; ///< near > far: empty
     };
 
     Range overlapOf(std::span<const DrawStream> streams);

@@ -13,11 +13,10 @@ constexpr size_t kSortedBlock = 8; ///< sorted elements that share an entry of S
 /// State of a scan of the last order. Elements that are still in ascending order are moved to the front of
 /// the order.
 struct SortedPart
-/// key of each element
 {
-    const uint32_t* keys;
-    uint32_t* order;     ///< [0, kept) is sorted, [at, count) is not scanned yet; kept <= at
-    uint32_t* blockEnds; ///< room for the last key of each sorted block
+    const uint32_t* keys; ///< key of each element
+    uint32_t* order;      ///< [0, kept) is sorted, [at, count) is not scanned yet; kept <= at
+    uint32_t* blockEnds;  ///< room for the last key of each sorted block
     size_t kept;
     size_t at;
     size_t count;

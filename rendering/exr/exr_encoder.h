@@ -25,9 +25,8 @@ enum class ExrPrecision
 
 /// One channel: `values[(row * width + column) * stride + offset]`, rows from the top.
 struct ExrChannel
-/// such as "R" or "layer.R"; unique in the image, not empty, at most 255 bytes
 {
-    std::string name;
+    std::string name; ///< such as "R" or "layer.R"; unique in the image, not empty, at most 255 bytes
     std::span<const float> values;
     size_t offset = 0; ///< [float] index of the first value
     size_t stride = 1; ///< [float] distance of neighboring pixels, >= 1

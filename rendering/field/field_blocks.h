@@ -27,9 +27,9 @@ static_assert(sizeof(FieldBlock) == 48);
 
 /// The detail of one field; shaders/field/field_detail.glsl reads this layout.
 struct FieldDetailBlock
-/// Affine maps from a point p [m] to noise coordinates [cell], dot(xyz, p) + w: three rows for each
-/// generation. The offsets of balls are added to the result.
 {
+    /// Affine maps from a point p [m] to noise coordinates [cell], dot(xyz, p) + w: three rows for each
+    /// generation. The offsets of balls are added to the result.
     glm::vec4 rows[6];
     glm::vec4 erosion; ///< x size of lumps [m]; y, z thinnest, densest; w ramp
     glm::vec4 noise;   ///< x gain; y weight of the second generation; z cooling; w glow
@@ -66,9 +66,8 @@ constexpr int kFieldTiles = kFieldTileColumns * kFieldTileRows;
 
 /// The fields that are visible in a part of the window.
 struct FieldTileBlock
-/// first entry in the list of numbers of fields
 {
-    uint32_t first;
+    uint32_t first; ///< first entry in the list of numbers of fields
     uint32_t count;
 };
 static_assert(sizeof(FieldTileBlock) == 8);

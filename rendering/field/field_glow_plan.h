@@ -39,10 +39,9 @@ public:
 private:
     /// Overlapping fields that share a grid.
     struct Source
-    /// [m] relative to the eye
     {
-        glm::vec3 low, high;
-        float emitted; ///< [exposed m2]; with networks: size on the picture [sr]
+        glm::vec3 low, high; ///< [m] relative to the eye
+        float emitted;       ///< [exposed m2]; with networks: size on the picture [sr]
     };
 
     static bool brighter(const Source& a, const Source& b); ///< sorts by `emitted`; if equal, by position

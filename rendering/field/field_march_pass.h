@@ -15,8 +15,8 @@ const ProgramDesc& fieldMarchProgramAt(size_t index);
 
 /// Balls and cards outside of fields, listed per tile of 16 x 16 texels as in the composition `slabs`.
 struct LooseMedia
-/// Draw arguments of the non-empty tiles, with or without fields; invalid without loose media.
 {
+    /// Draw arguments of the non-empty tiles, with or without fields; invalid without loose media.
     ResourceId tiles;
     ResourceId lists; ///< numbers of balls, see SlabTilePass
     ResourceId balls; ///< texture of SlabBallPass; invalid: no balls

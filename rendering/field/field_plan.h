@@ -22,9 +22,8 @@
 namespace fx::render {
 
 struct FieldPlanInputs
-/// the balls that may be visible
 {
-    std::span<const BlobInstance> balls;
+    std::span<const BlobInstance> balls; ///< the balls that may be visible
     std::span<const BlobEffect> effects; ///< effects of all balls, in the order of the balls
     const CameraGeometry* camera;
     int width, height;   ///< [pixel] of the picture

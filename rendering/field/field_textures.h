@@ -10,9 +10,8 @@ namespace fx::render {
 
 /// Three-dimensional textures of kBrickColumns x kBrickColumns bricks a layer.
 struct FieldTextures
-/// RGBA32F rgb emitted light [exposed/m]; a extinction [1/m]
 {
-    ResourceId medium = {};
+    ResourceId medium = {}; ///< RGBA32F rgb emitted light [exposed/m]; a extinction [1/m]
     ResourceId scatter =
         /// RGBA16F mean albedo and mean cosine of the phase function; with layers, FieldLightPass replaces
         /// them by light

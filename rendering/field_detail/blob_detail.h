@@ -15,9 +15,8 @@ namespace fx::render {
 
 /// Parameters of the detail of all blobs of a group.
 struct GroupDetail
-/// lengths are in the space of the group
 {
-    FieldDetailNumbers numbers;
+    FieldDetailNumbers numbers; ///< lengths are in the space of the group
     /// Affine maps to the noise coordinates of each generation, without the offsets of blobs: toCells p +
     /// first.
     glm::mat3 toCells[2];

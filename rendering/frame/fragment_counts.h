@@ -22,10 +22,9 @@ inline void add(const FragmentCounts& counts, FragmentCounts& ioSum)
 
 /// Shares of the picture that techniques cover, [0, 1). They weight the errors of scalability levels.
 struct ScreenShare
-/// covered by blobs
 {
-    double media = 0;
-    double hot = 0; ///< covered by blobs with heat
+    double media = 0; ///< covered by blobs
+    double hot = 0;   ///< covered by blobs with heat
 };
 
 } // namespace fx::render

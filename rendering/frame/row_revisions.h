@@ -25,10 +25,9 @@ struct RowRevision
 
 /// Revisions of the rows of all groups of a snapshot.
 struct SnapshotRowRevisions
-/// ranges of all groups, one group after another
 {
-    std::span<const RowRevision> parts;
-    std::span<const size_t> begin; ///< first part of each group, and the end; empty: one part per group
+    std::span<const RowRevision> parts; ///< ranges of all groups, one group after another
+    std::span<const size_t> begin;      ///< first part of each group, and the end; empty: one part per group
     /// by group: first group with the same rows, which may be itself; empty: all differ
     std::span<const uint32_t> alike;
 

@@ -74,9 +74,8 @@ constexpr uint32_t kAll = (1u << kCount) - 1;
 
 /// One directional light (the sun), and uniform light of sky and ground.
 struct Lighting
-/// towards the light, unit
 {
-    glm::vec3 sunDirection{0.3f, 0.8f, 0.5f};
+    glm::vec3 sunDirection{0.3f, 0.8f, 0.5f}; ///< towards the light, unit
     /// [lx] on a surface perpendicular to the direction; linear Rec. 709, weighted as a luminance
     glm::vec3 sunIlluminance{0.0f};
     glm::vec3 skyLuminance{0.0f}; ///< [cd/m2] uniform over all directions
@@ -111,8 +110,8 @@ struct HostLights
 
 /// Size of the light slices of a light.
 struct SliceResolution
-/// Texels along a side of a plane of the sun, 8..512, a multiple of 8. Point lights have half as many.
 {
+    /// Texels along a side of a plane of the sun, 8..512, a multiple of 8. Point lights have half as many.
     int texels = 128;
     int planes = 32; ///< 3..128; 1 and 2 become 3; 0: media cast no shadow
 
@@ -163,9 +162,9 @@ struct DazzleSettings
 
 /// Level of detail of distant effects. The simulation does not depend on these settings.
 struct LodSettings
-/// [1] An effect draws one blob per `bias` pixels of its disc on the picture, and at least twelve. These
-/// blobs are enlarged to represent the others. 0: all blobs are drawn.
 {
+    /// [1] An effect draws one blob per `bias` pixels of its disc on the picture, and at least twelve. These
+    /// blobs are enlarged to represent the others. 0: all blobs are drawn.
     float bias = 0.0f;
 
     /// [pixel] Effects with a smaller radius on the picture are drawn as impostors; at most
@@ -182,9 +181,8 @@ struct LodSettings
 
 /// Settings of all frames until the host changes them.
 struct ViewSettings
-/// [EV100]
 {
-    float exposureEv100 = 13.0f;
+    float exposureEv100 = 13.0f; ///< [EV100]
     Lighting lighting;
     HostLights hostLights;
     SliceSettings slices;
@@ -214,9 +212,8 @@ struct ViewSettings
 
 /// The host's shadow map of the sun: depth of the host's opaque surfaces, seen from the sun.
 struct HostShadowMap
-/// GL name of a 2-D depth texture; 0: no surface shadows media
 {
-    uint32_t texture = 0;
+    uint32_t texture = 0; ///< GL name of a 2-D depth texture; 0: no surface shadows media
     DepthConvention depth = DepthConvention::Standard;
     /// Affine map from world position minus CameraView::origin [m] to texture coordinates and stored depth,
     /// each 0..1.
@@ -226,8 +223,8 @@ struct HostShadowMap
 
 /// GL names of the host's targets for one frame; 0 means absent.
 struct HostTargets
-/// 2-D texture with the opaque picture [cd/m2 times exposure]; read and written
 {
+    /// 2-D texture with the opaque picture [cd/m2 times exposure]; read and written
     uint32_t color = 0;
     uint32_t depth = 0; ///< 2-D depth texture of the opaque picture; 0: nothing occludes
     /// used instead of `color` if `color` is 0: media are blended into the attachment of draw buffer 0
@@ -248,10 +245,9 @@ struct InstanceNames
 
 /// A box in the activation overlay, which draws its edges.
 struct OverlayBox
-/// [m] xyz center relative to the camera's origin; w half of the side
 {
-    glm::vec4 centerHalf;
-    glm::vec4 color; ///< premultiplied, in the unit of the picture
+    glm::vec4 centerHalf; ///< [m] xyz center relative to the camera's origin; w half of the side
+    glm::vec4 color;      ///< premultiplied, in the unit of the picture
 };
 
 /// Input of one frame.

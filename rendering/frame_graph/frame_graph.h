@@ -23,19 +23,17 @@
 namespace fx::render {
 
 struct TextureDesc
-/// string literal
 {
-    std::string_view name;
-    int width = 0;  ///< [pixel] > 0
-    int height = 0; ///< [pixel] > 0
+    std::string_view name; ///< string literal
+    int width = 0;         ///< [pixel] > 0
+    int height = 0;        ///< [pixel] > 0
     Format format = Format::RGBA32F;
 };
 
 struct BufferDesc
-/// string literal
 {
-    std::string_view name;
-    size_t bytes = 0; ///< > 0
+    std::string_view name; ///< string literal
+    size_t bytes = 0;      ///< > 0
 };
 
 /// A physical texture, which one or more virtual textures use during a frame; a backend creates it.
@@ -127,10 +125,9 @@ public:
     std::span<const size_t> physicalBuffers() const { return physicalBuffers_; } ///< [byte]
     /// Planned memory of the frame's transient resources, without imported ones.
     struct Memory
-    /// [byte] without sharing
     {
-        uint64_t unshared;
-        uint64_t shared; ///< [byte] with sharing between resources of disjoint lifetimes
+        uint64_t unshared; ///< [byte] without sharing
+        uint64_t shared;   ///< [byte] with sharing between resources of disjoint lifetimes
     };
     Memory memory() const;
     std::span<const std::string_view> executedPasses() const { return executed_; }
@@ -177,9 +174,8 @@ private:
     };
     /// When a resource is used, as indices of executed passes.
     struct Lifetime
-    /// latest version
     {
-        uint32_t latest;
+        uint32_t latest; ///< latest version
         uint32_t creator;
         uint32_t first;
         uint32_t last;

@@ -17,10 +17,9 @@ namespace fx::render {
 
 /// A frame atlas on the GPU.
 struct GlAtlas
-/// GL_TEXTURE_2D_ARRAY
 {
-    uint32_t texture = 0;
-    int width = 1; ///< [texel] of one frame
+    uint32_t texture = 0; ///< GL_TEXTURE_2D_ARRAY
+    int width = 1;        ///< [texel] of one frame
     int height = 1;
     int frames = 1;
 };

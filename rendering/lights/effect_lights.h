@@ -14,9 +14,8 @@ namespace fx::render {
 
 /// Light of one group of a snapshot.
 struct EffectLight
-/// [m] world: center of the emitted light
 {
-    glm::dvec3 position;
+    glm::dvec3 position; ///< [m] world: center of the emitted light
     glm::vec3 intensity; ///< [cd] in every direction
     float radius;        ///< [m] root mean square extent of the emission, > 0
     /// Emitted by balls of medium, whose fields may propagate the light more accurately than a point light.

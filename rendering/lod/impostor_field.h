@@ -28,8 +28,8 @@ struct ImpostorSubject
 
 /// How an effect is drawn in this frame.
 struct ImpostorPlan
-/// [1] share of its cross section that is drawn as blobs; 0: blobs need not be gathered
 {
+    /// [1] share of its cross section that is drawn as blobs; 0: blobs need not be gathered
     float blobShare = 1.0f;
     bool isTaken = false; ///< the impostor is rendered in this frame, so that its blobs are needed
     uint32_t slot = 0;    ///< index of the impostor among those rendered in this frame

@@ -20,18 +20,16 @@ namespace fx::render {
 
 /// Number of drawn elements in rows.
 struct DrawnRows
-/// particles whose radius is above 0, or pieces of strips
 {
-    uint32_t pieces = 0;
+    uint32_t pieces = 0; ///< particles whose radius is above 0, or pieces of strips
     uint32_t wholes = 0; ///< number of particles or strips
 };
 DrawnRows countDrawn(const base::SnapshotGroup& group, uint32_t first, uint32_t count, bool isRibbon);
 
 /// Rows of a group that belong to one effect. Each effect has its own level.
 struct RowPart
-/// info of the effect's group, with the placement in the newer snapshot
 {
-    base::GroupInfo info;
+    base::GroupInfo info; ///< info of the effect's group, with the placement in the newer snapshot
     uint32_t first, count;
 };
 

@@ -8,20 +8,18 @@ namespace fx::render {
 
 /// A source of parallel light.
 struct NetworkSun
-/// unit, direction in which the light travels
 {
-    glm::dvec3 travel{0.0, -1.0, 0.0};
-    double illuminance = 0.0; ///< [lx] on a surface perpendicular to the light
+    glm::dvec3 travel{0.0, -1.0, 0.0}; ///< unit, direction in which the light travels
+    double illuminance = 0.0;          ///< [lx] on a surface perpendicular to the light
 };
 
 /// A ball light, which may be inside of the medium. Outside of its radius it illuminates like a point light;
 /// inside, its light is finite.
 struct NetworkLamp
-/// [m]
 {
-    glm::dvec3 position{0.0};
-    double radius = 0.0;    ///< [m] extent of the ball, in which nothing blocks its light
-    double intensity = 0.0; ///< [cd]
+    glm::dvec3 position{0.0}; ///< [m]
+    double radius = 0.0;      ///< [m] extent of the ball, in which nothing blocks its light
+    double intensity = 0.0;   ///< [cd]
 };
 
 /// Adds the light of a sun to a network.

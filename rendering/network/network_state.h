@@ -11,11 +11,10 @@ namespace fx::render {
 
 /// A grid of equal cubes. In arrays of cells, x changes fastest, then y, then z.
 struct NetworkGrid
-/// [m] lowest corner of the first cell
 {
-    glm::dvec3 corner{0.0};
-    double side = 1.0;   ///< [m] side of a cell
-    glm::ivec3 cells{0}; ///< number of cells along each axis
+    glm::dvec3 corner{0.0}; ///< [m] lowest corner of the first cell
+    double side = 1.0;      ///< [m] side of a cell
+    glm::ivec3 cells{0};    ///< number of cells along each axis
 
     size_t count() const { return size_t(cells.x) * size_t(cells.y) * size_t(cells.z); }
     size_t index(const glm::ivec3& c) const

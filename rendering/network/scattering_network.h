@@ -60,8 +60,8 @@ struct SweepReport
 
 /// Powers, divided by the unit of radiance [m2 sr]. After convergence, emitted = absorbed + escaped.
 struct NetworkEnergy
-/// emission of the medium, first scattering of light sources, and light from outside
 {
+    /// emission of the medium, first scattering of light sources, and light from outside
     double emitted = 0.0;
     double absorbed = 0.0; ///< absorbed part of scattered and emitted light
     double escaped = 0.0;

@@ -20,8 +20,8 @@ std::span<const ProgramDesc* const> outputPrograms();
 
 /// Data of the nearest opaque particle in each pixel.
 struct SolidMarks
-/// RGBA32F, xyz [m/s], w 1; w 0: no particle. Invalid: no particles in the picture
 {
+    /// RGBA32F, xyz [m/s], w 1; w 0: no particle. Invalid: no particles in the picture
     ResourceId velocity;
     ResourceId instance; ///< RG32UI id of its instance, low word first
 };
@@ -35,8 +35,8 @@ class SolidMarkPass
 {
 public:
     struct Inputs
-    /// sources of opaque particles; must stay valid until the graph has executed
     {
+        /// sources of opaque particles; must stay valid until the graph has executed
         std::span<const MediaSource* const> sources;
         ResourceId distance;
         int width, height;
@@ -85,9 +85,8 @@ class OutputPass
 {
 public:
     struct Inputs
-    /// view_output bits, not 0
     {
-        uint32_t outputs;
+        uint32_t outputs; ///< view_output bits, not 0
         SlabMedia::Lists lists;
         ResourceId marks; ///< invalid without balls
         SolidMarks solids;

@@ -20,10 +20,9 @@ namespace fx::render {
 
 /// A group of a snapshot whose rows are merged. Its rows may be pooled.
 struct MergeSource
-/// columns and constants; null: no group
 {
-    const base::SnapshotGroup* rows = nullptr;
-    const base::PooledRows* pool = nullptr; ///< pool that contains the rows; null: not pooled
+    const base::SnapshotGroup* rows = nullptr; ///< columns and constants; null: no group
+    const base::PooledRows* pool = nullptr;    ///< pool that contains the rows; null: not pooled
     /// Roster entry of a pooled group; null: not pooled.
     const base::GroupRoster::Entry* entry = nullptr;
     uint32_t count = 0;

@@ -38,9 +38,8 @@ namespace fx::render {
 
 /// Revisions by which rows on the GPU are identified.
 struct UploadRevisions
-/// snapshots with equal revisions share a Place
 {
-    RevisionPair snapshots;
+    RevisionPair snapshots; ///< snapshots with equal revisions share a Place
     SnapshotRowRevisions newerRows, olderRows;
 };
 
@@ -111,9 +110,8 @@ private:
     };
     /// Sizes of groups in the two buffers of a place.
     struct Sizes
-    /// [byte]
     {
-        uint64_t mapped = 0, computed = 0;
+        uint64_t mapped = 0, computed = 0; ///< [byte]
     };
 
     /// Input of a write.

@@ -39,15 +39,13 @@ public:
 
 private:
     struct Target
-    /// null: not copied
     {
-        const base::GroupRoster::Entry* entry = nullptr;
+        const base::GroupRoster::Entry* entry = nullptr; ///< null: not copied
         uint32_t group = 0, firstRow = 0, rows = 0;
     };
     struct Move
-    /// rows
     {
-        uint32_t from, to;
+        uint32_t from, to; ///< rows
     };
     void list(const base::PooledRows& pool, std::span<const Target> targets,
               std::span<base::RowExtent> extents);

@@ -14,10 +14,9 @@ namespace fx::render {
 
 /// The rows of one group. They may be transformed in place. Up to kRowsBehind rows after the end are read.
 struct PlacedRows
-/// columns of the x, y and z components
 {
-    const float* from[3];
-    const float* radius; ///< [m]; > 0 if a row contains a visible particle
+    const float* from[3]; ///< columns of the x, y and z components
+    const float* radius;  ///< [m]; > 0 if a row contains a visible particle
     float* to[3];
     float* toRadius;
     uint32_t count;

@@ -14,10 +14,9 @@ namespace fx::render {
 
 /// A row approximated by a rectangle that faces the camera.
 struct RowCard
-/// [m] in the space of the group
 {
-    glm::vec3 center;
-    float area; ///< [m2]; 0: nothing is drawn
+    glm::vec3 center; ///< [m] in the space of the group
+    float area;       ///< [m2]; 0: nothing is drawn
 };
 
 /// One ball of medium that represents several rows, in the space of the group.

@@ -11,9 +11,8 @@
 namespace fx::render {
 
 struct BlobInstance
-/// xyz [m] relative to the eye, world axes; w radius [m]
 {
-    glm::vec4 centerRadius;
+    glm::vec4 centerRadius; ///< xyz [m] relative to the eye, world axes; w radius [m]
     glm::vec4 medium;  ///< x cross section [m2]; y heat [K]; z detail amount [1]; w seed of the detail [0, 1)
     glm::vec4 scatter; ///< rgb albedo; w mean cosine of the phase function
     glm::vec4 layer;   ///< x layer * 2 + share of fire
@@ -27,18 +26,17 @@ static_assert(sizeof(BlobInstance) == 96 && offsetof(BlobInstance, lit) == 80);
 
 /// Noise coordinates of a ball, for the detail of its field.
 struct BlobMaterial
-/// xyz [cell] coordinates of both generations. carried[0].w: number of the detail of the ball's effect + 1,
-/// or 0 without detail.
 {
+    /// xyz [cell] coordinates of both generations. carried[0].w: number of the detail of the ball's effect +
+    /// 1, or 0 without detail.
     glm::vec4 carried[2];
 };
 static_assert(sizeof(BlobMaterial) == 32);
 
 /// Consecutive balls of one instance in a list.
 struct BlobEffect
-/// in the list
 {
-    uint32_t begin, end;
+    uint32_t begin, end; ///< in the list
     glm::vec3 low, high; ///< [m] bounds of all of its balls, visible or not, relative to the eye, world axes
     /// [m] quantile of all radii: smaller balls have a quarter of the total cross section
     float radius;

@@ -20,21 +20,19 @@ constexpr uint32_t kImpostorTakings = uint32_t(kTakingColumns * kTakingColumns);
 
 /// One impostor that is rendered in this frame.
 struct ImpostorTaking
-/// [m] relative to the eye
 {
-    glm::vec3 center;
-    float extent; ///< [m] half the side of the square
+    glm::vec3 center; ///< [m] relative to the eye
+    float extent;     ///< [m] half the side of the square
     glm::vec3 right, up, forward;
     uint32_t tile; ///< tile in the texture of impostors
 };
 
 /// One drawn impostor; layout of shaders/blobs/impostor.vert.glsl.
 struct ImpostorInstance
-/// xyz [m] relative to the eye; w half the side of the square [m]
 {
-    glm::vec4 center;
-    glm::vec4 right; ///< xyz unit axis of the impostor; w tile of the newer impostor
-    glm::vec4 up;    ///< xyz unit; w tile of the older one
+    glm::vec4 center; ///< xyz [m] relative to the eye; w half the side of the square [m]
+    glm::vec4 right;  ///< xyz unit axis of the impostor; w tile of the newer impostor
+    glm::vec4 up;     ///< xyz unit; w tile of the older one
     /// x weight of the newer impostor; y share of the effect that is drawn as an impostor; z radius [m]; w
     /// side of the square over that of the older impostor.
     glm::vec4 appearance;

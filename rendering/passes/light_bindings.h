@@ -46,9 +46,8 @@ constexpr uint32_t kLightSliceUnit = 7;    ///< texture unit of the planes
 constexpr uint32_t kHostShadowUnit = 6;    ///< texture unit of the host's shadow map of the sun
 
 struct LightBindings
-/// buffer with a LightListBlock; invalid: nothing is lit
 {
-    ResourceId lights = {};
+    ResourceId lights = {}; ///< buffer with a LightListBlock; invalid: nothing is lit
     ResourceId planes = {}; ///< RG32F optical depths; invalid: media cast no shadow
     /// depth texture; invalid: surfaces of the host cast no shadow on media
     ResourceId hostShadow = {};

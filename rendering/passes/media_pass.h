@@ -21,8 +21,8 @@ class MediaPass
 {
 public:
     struct Inputs
-    /// must stay valid until the graph has executed, like their sources
     {
+        /// must stay valid until the graph has executed, like their sources
         std::span<const DrawBatch> batches;
         ResourceId distance;
         int width, height;

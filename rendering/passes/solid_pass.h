@@ -5,19 +5,19 @@
 
 namespace fx::render {
 
-/// Draws opaque particles with depth test before any media. The media pass blends over them and ends its rays
+/// Draws opaque particles with depth test before any media. The media pass blends over them, and its rays end
 /// at them. The host's depth is read, not written.
 ///
-/// reads   distance  [m] along the ray to the host's opaque geometry writes  media, or the layer targets, as
-///         the media pass does: exposed radiance, opacity 1 or nothing distance [m] a new texture, to the
-///         nearest of host and particles
+/// reads   distance  [m] along the ray to the host's opaque geometry
+/// writes  under     media or layer targets, as written by MediaPass: exposed radiance with opacity 1, or 0
+///         distance  [m] a new texture: distance to the nearest surface of host and particles
 /// Adds nothing without sources. Keeps no state.
 class SolidPass
 {
 public:
     struct Inputs
-    /// with solids; must stay until the graph has executed
     {
+        /// sources of opaque particles; must stay valid until the graph has executed
         std::span<const MediaSource* const> sources;
         ResourceId distance;
         int width, height;
@@ -26,10 +26,9 @@ public:
         LightBindings lights{};
     };
     struct Outputs
-    /// invalid when nothing is drawn
     {
-        MediaPass::Outputs under;
-        ResourceId distance; ///< the one given when nothing is drawn
+        MediaPass::Outputs under; ///< invalid if nothing is drawn
+        ResourceId distance;      ///< Inputs::distance if nothing is drawn
     };
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const Inputs& in);
 };

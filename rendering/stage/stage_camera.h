@@ -10,10 +10,9 @@ namespace fx::render {
 
 /// Position and target of a camera, in world coordinates.
 struct CameraPose
-/// [m]
 {
-    glm::dvec3 position{0.0, 2.0, 10.0};
-    glm::dvec3 target{0.0};         ///< [m] different from position
+    glm::dvec3 position{0.0, 2.0, 10.0}; ///< [m]
+    glm::dvec3 target{0.0};              ///< [m] different from position
     glm::vec3 up{0.0f, 1.0f, 0.0f}; ///< need not be perpendicular to the view, must not be parallel to it
 };
 

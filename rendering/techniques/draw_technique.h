@@ -43,9 +43,8 @@ constexpr uint32_t kIdleFrames = 300; ///< without use, until buffers and textur
 
 /// Inputs of gathering a frame.
 struct GatherInputs
-/// without the older one if the two are equal
 {
-    const base::SnapshotPair* snapshots;
+    const base::SnapshotPair* snapshots; ///< without the older one if the two are equal
     RevisionPair revisions;
     SnapshotRowRevisions newerRows, olderRows;
     const FrameRequest* request;
@@ -162,11 +161,10 @@ struct TechniqueSetup
 
 /// The published data of an effect on which techniques depend.
 struct EffectContent
-/// of its groups
 {
-    std::span<const base::KindDesc* const> kinds;
-    bool isDrawn = false;    ///< a technique draws one of the kinds
-    bool bendsLight = false; ///< some of its media refract light
+    std::span<const base::KindDesc* const> kinds; ///< of its groups
+    bool isDrawn = false;                         ///< a technique draws one of the kinds
+    bool bendsLight = false;                      ///< some of its media refract light
 };
 
 /// One technique. Has static storage.

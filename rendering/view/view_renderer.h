@@ -27,8 +27,8 @@ class GlDevice; ///< rendering/gl: function table, programs, counters of one GL 
 
 /// Textures that stay valid until the next render() of the view; 0 when not requested.
 struct LayerTextures
-/// RGBA32F radiance that reaches the eye from the fire layer, premultiplied; A its visible share
 {
+    /// RGBA32F radiance that reaches the eye from the fire layer, premultiplied; A its visible share
     uint32_t fire = 0;
     uint32_t smoke = 0;        ///< same for smoke
     uint32_t dust = 0;         ///< same for dust

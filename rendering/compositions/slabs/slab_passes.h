@@ -41,8 +41,8 @@ class SlabCardPass
 {
 public:
     struct Inputs
-    /// of sources without balls; must stay valid, like their sources
     {
+        /// of sources without balls; must stay valid, like their sources
         std::span<const DrawBatch> batches;
         const MediaPass::Inputs* media; ///< inputs of the composition
         uint64_t capacity;              ///< room for fragments; further fragments are dropped and counted
@@ -53,9 +53,8 @@ public:
 
 /// Detail of the fields that balls belong to. Both lists must stay valid until the graph has executed.
 struct BallDetails
-/// one per ball; empty: no field has detail
 {
-    std::span<const BlobMaterial> materials{};
+    std::span<const BlobMaterial> materials{}; ///< one per ball; empty: no field has detail
     std::span<const FieldDetailBlock> details{};
     ResourceId lumpTile{}; ///< of LumpTileTexture
 };
@@ -68,9 +67,8 @@ class SlabDetailPass
 {
 public:
     struct Outputs
-    /// invalid: no field has detail
     {
-        ResourceId texels, materials, lumpTile;
+        ResourceId texels, materials, lumpTile; ///< invalid: no field has detail
     };
     [[nodiscard]] static Outputs addTo(FrameGraph& graph, const BallDetails& in);
 };
@@ -103,13 +101,12 @@ class SlabTilePass
 {
 public:
     struct Inputs
-    /// must stay until the graph has executed
     {
-        std::span<const TileRect> rects;
-        uint64_t entries;   ///< total number of tiles in all `rects`
-        int width, height;  ///< [texel]
-        uint32_t maxOfTile; ///< largest number of balls in the list of a tile, >= 2
-        float flip;         ///< sign of window y relative to clip y, 1 or -1
+        std::span<const TileRect> rects; ///< must stay until the graph has executed
+        uint64_t entries;                ///< total number of tiles in all `rects`
+        int width, height;               ///< [texel]
+        uint32_t maxOfTile;              ///< largest number of balls in the list of a tile, >= 2
+        float flip;                      ///< sign of window y relative to clip y, 1 or -1
         CardLists cards;
         ResourceId fieldTiles = {}; ///< buffer of FieldTileBlock; tiles with fields count as not empty
     };

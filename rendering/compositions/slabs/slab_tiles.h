@@ -17,10 +17,9 @@ constexpr int kSlabTile = 16; ///< [texel] side of a tile; shaders/slabs has the
 /// First and last tile of a ball, both included; layout of shaders/slabs/slab_tiles.comp.glsl. left > right:
 /// the ball is outside of the picture.
 struct TileRect
-/// columns
 {
-    uint16_t left, right;
-    uint16_t low, high; ///< rows, numbered upwards
+    uint16_t left, right; ///< columns
+    uint16_t low, high;   ///< rows, numbered upwards
     /// constant for a ball; a tile with too many balls lists those with the lowest ranks
     uint32_t rank;
 };

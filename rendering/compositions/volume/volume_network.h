@@ -49,10 +49,9 @@ private:
 
     /// A grid of the last frame.
     struct Known
-    /// [m] world
     {
-        glm::dvec3 corner;
-        float side; ///< [m] of a cell
+        glm::dvec3 corner; ///< [m] world
+        float side;        ///< [m] of a cell
     };
     void matchGrids(const glm::dvec3& eye);
     base::Status makeTextures();

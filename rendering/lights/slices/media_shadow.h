@@ -12,8 +12,8 @@ namespace fx::render {
 /// Layout of FxMediaShadow in shaders/shared/media_shadow.glsl, where each member is explained. Without
 /// planes all members are 0 and the transmittance is 1.
 struct MediaShadowBlock
-/// levels of the sun, finer near the eye; other lights have one level
 {
+    /// levels of the sun, finer near the eye; other lights have one level
     static constexpr size_t kLevels = 3;
 
     std::array<glm::vec4, kLevels> right{}, up{}, along{}, tiles{};

@@ -13,10 +13,9 @@ namespace fx::render {
 
 /// Optical depth at a point of a stack.
 struct SliceDepth
-/// [1] optical depth of the media between the light and the point
 {
-    float toLight;
-    float total; ///< [1] optical depth of all media on the line through light and point
+    float toLight; ///< [1] optical depth of the media between the light and the point
+    float total;   ///< [1] optical depth of all media on the line through light and point
 };
 
 /// Optical depths at all texels of the planes of a stack. Threads: one at a time while it is built.

@@ -74,8 +74,8 @@ SliceRay sliceRay(const SliceStack& stack, float x, float y);
 
 /// Requested sides of a stack, and whether it is fixed in the world.
 struct SliceFit
-/// False: sides and corner follow the casters exactly, to measure the effect of snapping.
 {
+    /// False: sides and corner follow the casters exactly, to measure the effect of snapping.
     bool isSnapped = true;
     float texel = 0.0f;   ///< [m] 0: as large as the casters require
     float spacing = 0.0f; ///< [m] 0: as large as the casters require

@@ -25,9 +25,8 @@ struct PathScene
 };
 
 struct PathSettings
-/// scatterings and reflections of a path
 {
-    uint32_t bounces = std::numeric_limits<uint32_t>::max();
+    uint32_t bounces = std::numeric_limits<uint32_t>::max(); ///< scatterings and reflections of a path
     FlightEstimator flight = FlightEstimator::Depth;
     ShadowEstimator shadow = ShadowEstimator::Exact;
 
@@ -42,9 +41,8 @@ struct PathSettings
 };
 
 struct PathResult
-/// [cd/m2]
 {
-    glm::dvec3 luminance{0.0};
+    glm::dvec3 luminance{0.0}; ///< [cd/m2]
     /// [1] 1 - transmittance of the eye's ray, 1 in front of a surface; mean of the channels
     double opacity = 0.0;
     bool sawBackground = false; ///< the camera ray hit nothing: the background is visible ...

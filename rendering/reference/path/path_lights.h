@@ -25,10 +25,9 @@ struct LightSample
 
 /// Where a light is that shines from within the scene.
 struct LightPlace
-/// [m]
 {
-    glm::dvec3 center{0.0};
-    double radius = 0.0; ///< [m] 0: a point
+    glm::dvec3 center{0.0}; ///< [m]
+    double radius = 0.0;    ///< [m] 0: a point
 };
 
 /// A source of light that rays do not see. Coordinates are those of the rays. Const calls from any thread.

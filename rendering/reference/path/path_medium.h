@@ -15,9 +15,8 @@ namespace fx::render {
 
 /// A medium at one point.
 struct MediumPoint
-/// [1/m] of each color channel, >= 0
 {
-    glm::dvec3 extinction{0.0};
+    glm::dvec3 extinction{0.0}; ///< [1/m] of each color channel, >= 0
     glm::dvec3 scattering{0.0}; ///< [1/m] its mean over the choice of `phase`, see MediumWalk::at()
     glm::dvec3 emission{0.0};   ///< [cd/m2 per m]
     PhaseFunction phase;
@@ -25,10 +24,9 @@ struct MediumPoint
 
 /// Part of a ray over which the extinction has an upper bound.
 struct MajorantSegment
-/// [m] ray parameters
 {
-    double begin = 0.0, end = 0.0;
-    double majorant = 0.0; ///< [1/m] >= the extinction of every channel on the segment
+    double begin = 0.0, end = 0.0; ///< [m] ray parameters
+    double majorant = 0.0;         ///< [1/m] >= the extinction of every channel on the segment
 };
 
 /// Follows rays through a medium. One for each thread.

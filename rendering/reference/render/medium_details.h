@@ -40,11 +40,10 @@ struct MediumDetails
 
 /// Width of the pixels of a picture: noise that is finer than two of them has faded out.
 struct PixelWidth
-/// unit, the axis of the view
 {
-    glm::dvec3 forward{0.0, 0.0, -1.0};
-    double perDepth = 0.0; ///< [1] over the distance along the axis
-    double constant = 0.0; ///< [m] added to it
+    glm::dvec3 forward{0.0, 0.0, -1.0}; ///< unit, the axis of the view
+    double perDepth = 0.0;              ///< [1] over the distance along the axis
+    double constant = 0.0;              ///< [m] added to it
 
     PixelWidth() = default;
     PixelWidth(const ReferenceCamera& camera, int height);

@@ -38,17 +38,15 @@ public:
     const std::array<double, 3>& coverage(uint32_t place) const { return coverage_[isUniform_ ? 0 : place]; }
     /// Whose a blob is, and how it moves.
     struct Track
-    /// [m/s] world
     {
-        glm::dvec3 velocity;
+        glm::dvec3 velocity; ///< [m/s] world
         uint64_t instance;
     };
     const Track& track(uint32_t place) const { return tracks_[place]; }
     /// How a blob scatters.
     struct Scattering
-    /// [1]
     {
-        glm::vec3 albedo;
+        glm::vec3 albedo; ///< [1]
         float anisotropy; ///< [1] Henyey-Greenstein g
         base::MediaLayer layer;
     };

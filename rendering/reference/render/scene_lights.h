@@ -15,12 +15,11 @@ namespace fx::render {
 
 /// Light from one direction.
 struct ArrivingLight
-/// unit, towards the light
 {
-    glm::dvec3 direction{0.0, 1.0, 0.0};
-    glm::dvec3 illuminance{0.0}; ///< [lx] on a surface that faces the light
-    double distance = 1e30;      ///< [m] beyond it nothing blocks the light
-    double solidAngle = 0.0;     ///< [sr] that the direction stands for; 0: of no extent
+    glm::dvec3 direction{0.0, 1.0, 0.0}; ///< unit, towards the light
+    glm::dvec3 illuminance{0.0};         ///< [lx] on a surface that faces the light
+    double distance = 1e30;              ///< [m] beyond it nothing blocks the light
+    double solidAngle = 0.0;             ///< [sr] that the direction stands for; 0: of no extent
 };
 
 /// @formula cone-quadrature

@@ -45,11 +45,10 @@ public:
     static constexpr int kSteps = 256;
 
     struct Seen
-    /// [m]
     {
-        double first = std::numeric_limits<double>::infinity();
-        glm::dvec2 motion{0.0}; ///< [pixel] right and up, times `share`
-        double share = 0.0;     ///< [1] opacity
+        double first = std::numeric_limits<double>::infinity(); ///< [m]
+        glm::dvec2 motion{0.0};                                 ///< [pixel] right and up, times `share`
+        double share = 0.0;                                     ///< [1] opacity
     };
 
     /// @param eye [m] of the picture  @param width, height of it [pixel]

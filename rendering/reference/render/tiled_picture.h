@@ -16,9 +16,8 @@ namespace fx::render {
 
 /// Callbacks of a long render. Called from any thread.
 struct RenderCallbacks
-/// may be empty; one call at a time
 {
-    std::function<void(uint32_t done, uint32_t total)> progress;
+    std::function<void(uint32_t done, uint32_t total)> progress; ///< may be empty; one call at a time
     std::function<bool()> shouldStop; ///< may be empty; called often, by several threads at once
 };
 

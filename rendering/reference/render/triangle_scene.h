@@ -26,9 +26,8 @@ struct OpaqueMesh
 
 /// Where a ray meets a triangle first.
 struct SurfaceHit
-/// [m] ray parameter; infinite: nowhere
 {
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = std::numeric_limits<double>::infinity(); ///< [m] ray parameter; infinite: nowhere
     uint32_t triangle = 0;
     double u = 0.0, v = 0.0; ///< [1] weights of the second and third vertex
 
@@ -63,10 +62,9 @@ public:
 
 private:
     struct Triangle
-    /// [m]
     {
-        glm::dvec3 corner, edge1, edge2;
-        uint32_t index; ///< in the mesh
+        glm::dvec3 corner, edge1, edge2; ///< [m]
+        uint32_t index;                  ///< in the mesh
     };
     void meet(const Triangle& triangle, const TraceRay& ray, double begin, SurfaceHit& io) const;
 

@@ -100,10 +100,9 @@ struct RayLanes
 
 /// How a ray passes some balls.
 struct Chords
-/// [m] ray parameter of the point nearest to the center
 {
-    DoubleVector nearest;
-    DoubleVector square; ///< [m2] of half the chord; <= 0: the ray passes by
+    DoubleVector nearest; ///< [m] ray parameter of the point nearest to the center
+    DoubleVector square;  ///< [m2] of half the chord; <= 0: the ray passes by
 };
 
 /// @formula ball-chord

@@ -24,10 +24,9 @@ namespace fx::render {
 
 /// Element of the tree.
 struct TraceBall
-/// [m] finite
 {
-    glm::dvec3 center;
-    double radius; ///< [m] > 0, finite
+    glm::dvec3 center; ///< [m] finite
+    double radius;     ///< [m] > 0, finite
 };
 
 class BallTree
@@ -37,9 +36,8 @@ public:
 
     /// Eight balls. Unused places have a hugely negative radius, by which every test leaves them out.
     struct alignas(64) Leaf
-    /// [m] relative to the tree's origin
     {
-        double x[kWidth];
+        double x[kWidth]; ///< [m] relative to the tree's origin
         double y[kWidth];
         double z[kWidth];
         double radius[kWidth]; ///< [m]
@@ -47,9 +45,8 @@ public:
 
     /// Boxes of eight children, enlarged slightly, so that rounding in float never misses an intersection.
     struct alignas(64) Node
-    /// [m] relative to the tree's origin
     {
-        float center[3][kWidth];
+        float center[3][kWidth]; ///< [m] relative to the tree's origin
         float extent[3][kWidth]; ///< [m] half the edge; a large negative value for missing children
     };
 

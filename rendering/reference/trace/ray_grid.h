@@ -41,10 +41,9 @@ struct RayGrid
 struct TileFrustum
 {
     struct Plane
-    /// unit, inwards
     {
-        glm::dvec3 normal{0.0};
-        double offset = 0.0; ///< [m]
+        glm::dvec3 normal{0.0}; ///< unit, inwards
+        double offset = 0.0;    ///< [m]
     };
     static constexpr uint32_t kPlanes = 6;
     std::array<Plane, kPlanes> planes; ///< left, right, top, bottom, near, far
