@@ -14,12 +14,12 @@ constexpr size_t kCurveSamples = 64;
 template <size_t N>
 struct CurveKey
 {
-    float t; ///< [0, 1] of life
+    float t; ///< [1] age over lifetime, 0..1
     std::array<float, N> value;
 };
 
-/// Piecewise linear curve over [0, 1], held as 65 equally spaced samples so that evaluation is one lerp. Near
-/// a key that falls between two samples the error is at most |slope change| / (8 * 64).
+/// Piecewise linear curve over [0, 1], stored as 65 equally spaced samples, so that evaluation is one linear
+/// interpolation. Near a key that falls between two samples the error is at most |slope change| / (8 * 64).
 template <size_t N>
 class Curve
 {

@@ -106,8 +106,8 @@ inline double naturalLog(double x)
     return e * 6.93147180369123816490e-01 + (e * 1.90821492927058770002e-10 + logM); // (1)
 }
 
-/// x^y = e^(y ln x) for x >= 0: relative error <= 1e-15 (2 + |y ln x|), the same bits on every machine. 0 to
-/// a positive power is 0, anything to the power 0 is exactly 1; results are bounded by e^709.
+/// x^y = e^(y ln x) for x >= 0: relative error <= 1e-15 (2 + |y ln x|). The result has the same bits on every
+/// machine. 0^y is 0 for y > 0, and x^0 is exactly 1. Results are at most e^709.
 inline double power(double x, double y)
 {
     return y == 0.0 ? 1.0 : naturalExp(y * naturalLog(x));

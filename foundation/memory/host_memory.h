@@ -9,8 +9,9 @@
 
 namespace fx::base {
 
-/// The host's allocator. Null functions mean the C++ runtime's own. allocate() returns null when memory is
-/// exhausted; release() gets the size and alignment that were passed to allocate().
+/// The host's allocator. If the functions are null, the allocator of the C++ runtime is used. allocate()
+/// returns null when memory is exhausted; release() gets the size and alignment that were passed to
+/// allocate().
 struct AllocatorHooks
 {
     void* user = nullptr;

@@ -47,7 +47,8 @@ public:
     const SnapshotSchema& schema() const { return *schema_; }
     std::pmr::memory_resource* memory() const { return memory_; }
     Ticks tick() const { return tick_; }
-    /// 1 for the first published snapshot, then rising by 1; 0: none
+    /// Number of the publication: 1 for the first published snapshot, then increasing by 1; 0 before the
+    /// first.
     uint64_t sequence() const { return sequence_; }
     /// Serial number of this content. It is unique among all snapshots of all scenes in the process. begin()
     /// assigns a new number.
@@ -73,14 +74,14 @@ public:
     }
     /// Whether group() has been called for a pooled group, so that the rows of pools have been copied.
     bool hasGivenRows() const { return roster_ && spread_->isDone(); }
-    GroupName name(size_t index) const ///< of a group, without copying its rows
+    GroupName name(size_t index) const ///< name of the group at `index`; does not copy rows
     {
         const GroupRoster::Entry* const entry = pooled(index);
         return entry ? GroupName{entry->instance, entry->solver, pool(entry->pool).rows.info().kind}
                      : nameOf(groups_[placeOf(index)].info());
     }
 
-    /// Hash of the tick and of every id, column, constant and placement, computed anew at each call.
+    /// Hash of the tick and of every id, column, constant and placement, computed at each call.
     uint64_t hash() const { return hashAt(tick_); }
     /// The hash that this content would have at `tick`. A snapshot without elements also represents later
     /// steps, so that its hash is needed for their ticks.

@@ -31,7 +31,7 @@ enum class GpuModule : uint32_t
     FieldForce,
     ConformSphere,
     ConformBox,
-    Bounce, ///< at the ground plane; tested once per step
+    Bounce, ///< bounces at the ground plane; tested once per step
     // Obstacles. Their contacts within a step are handled in order of time.
     Plane,
     Ground,
@@ -68,7 +68,7 @@ public:
 
     std::vector<GpuModuleUse> uses;
     std::vector<float> numbers;
-    uint32_t stepWords = 0; ///< [word] of all modules per step, without GpuStepWords
+    uint32_t stepWords = 0; ///< [word] data of all modules per step, without GpuStepWords
     bool kills = false;     ///< particles may die before the end of their lifetime
     bool sticks = false;    ///< particles may come to rest permanently
     /// The emitter collides with the host's geometry. If the scene has such geometry, the emitter runs on the
@@ -94,7 +94,7 @@ static_assert(sizeof(GpuStepWords) == 4 * kGpuStepHead);
 struct GpuStepRun
 {
     int64_t age;      ///< [tick] time since the first of these steps began
-    int64_t length;   ///< [tick] of each step
+    int64_t length;   ///< [tick] length of each step
     uint64_t history; ///< hash of all inputs of the steps before the first of these steps
     uint32_t count;
     float ground;     ///< [m]

@@ -24,7 +24,7 @@
 ///   Equation (4) of birth-ticks for m = 0, with -R = q a + q r and D = q s + q f:
 ///       floor((j D - R) / q) = a + j s + floor(r + j f)                                       (1)
 ///   With exact r and f, the argument of the last floor is an integer, or at least 1/q >= 2^-62 below the
-///   next integer. Rounding r and f up adds less than (j + 1) 2^-96 < 2^-63, so the floor stays  (2)
+///   next integer. Rounding r and f up adds less than (j + 1) 2^-96 < 2^-63, so the floor is kept  (2)
 ///   A run may begin with any birth j. Then (1) replaces a, and the fraction of r + j f replaces r  (3)
 /// @source    elementary
 /// @deviation none
@@ -96,7 +96,7 @@ struct GpuParticleNumbers
     float frames;        ///< [1] number of frames of the texture
     float framesPerSecond;
     float perFastest; ///< [s/m] 1 / the speed at which the curves over speed end
-    float height;     ///< [m] of the cone
+    float height;     ///< [m] height of the cone
     float slope[3];   ///< [1] slope of the cone's side in double precision, as the sum of three floats
     /// Red, green, blue, opacity and size over life. Size and opacity multiply the values drawn at birth. A
     /// curve is stored as samples at equal distances, or as kGpuCurvePieces linear pieces: first the value of
@@ -155,7 +155,7 @@ public:
 /// Births at equal intervals of time, or all at the same time.
 struct GpuBirthRun
 {
-    uint32_t reach; ///< the first birth of the run is the one with index next - reach
+    uint32_t reach; ///< the first birth of the run has the index GpuParticleMoment::next - reach
     uint32_t unused;
     int64_t age;          ///< [tick] age of the particle of the first birth
     int64_t stride;       ///< [tick] s of birth-runs: the interval, rounded down

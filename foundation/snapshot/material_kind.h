@@ -42,7 +42,7 @@ enum : size_t
     Growth0,    ///< [1] radii of balls when the generation of Place0 began, over their radii now
     Growth1,
     Thinnest, ///< [1] optical depth of a lump below which the medium is removed completely
-    Densest,  ///< [1] optical depth of a lump above which it is not eroded
+    Densest,  ///< [1] optical depth of a lump above which the medium is not eroded
     Ramp,     ///< [1] width of the erosion threshold; small values give crisp edges
     Gain,     ///< [1] amplitude of each octave of the noise over that of the octave before
     Cooling,  ///< [1] share of the temperature that is lost at the surface of lumps

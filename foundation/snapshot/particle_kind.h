@@ -88,9 +88,9 @@ enum class ParticleShape : uint32_t
 /// Blending with the background.
 enum class ParticleBlend : uint32_t
 {
-    Alpha,    ///< covers with its opacity
+    Alpha,    ///< blended over the background by its opacity
     Additive, ///< adds its light times its opacity
-    Opaque,   ///< hides where its opacity is at least one half; writes depth
+    Opaque,   ///< opaque where its opacity is at least one half; writes depth
 };
 
 /// Orientation of the quad of a sprite.
@@ -129,7 +129,7 @@ enum : size_t
     /// [s] with the alignment Velocity, a sprite is longer by speed times Stretch. The v of its texture runs
     /// along the velocity.
     Stretch,
-    Luminance,   ///< [cd/m2] that color 1 emits
+    Luminance,   ///< [cd/m2] luminance that color 1 emits
     Lit,         ///< [1] share of the scene's light that color 1 scatters, 0..1
     Softness,    ///< [m] depth over which a particle fades where it intersects opaque surfaces; 0: hard edge
     Texture,     ///< id in the AssetTable; 0: a round spot that fades towards its edge

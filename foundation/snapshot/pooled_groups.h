@@ -125,7 +125,7 @@ struct PooledRows
     std::array<Range, 2> used;         ///< rows that may contain visible elements
     std::pmr::vector<uint32_t> owner;  ///< by row: nameOf() its member and its place in the group
     std::pmr::vector<uint32_t> counts; ///< by member: number of elements of its group
-    uint32_t groupCapacity = 0;        ///< of each group
+    uint32_t groupCapacity = 0;        ///< capacity of each group
     RowCopier copier;
     size_t radiusColumn = 0; ///< column of the radius; a row of radius 0 is empty
     uint64_t number = 0;     ///< identifies the constants, see SnapshotGroup::keepsConstants()
@@ -133,10 +133,12 @@ struct PooledRows
     size_t ageColumn = 0;    ///< used if rows have velocities
     size_t velocityColumn = 0; ///< the first of three; 0: rows have no velocity
     float along = 0;           ///< [s] a row extends forwards and backwards along its velocity by this time
-    float across = 0;          ///< [s] the same in all directions, for arbitrary orientation; over `corner`
-    float secondsBack = 0;     ///< [s] rows are drawn along their path of the last so many seconds
-    uint64_t writer = 0;       ///< identifies the writer of `owner`; 0: none
-    uint64_t writtenUpTo = 0;  ///< number of the last write, counted by the writer
+    /// [s] For rows of arbitrary orientation: extension in all directions by this time times the speed, over
+    /// `corner`.
+    float across = 0;
+    float secondsBack = 0;    ///< [s] rows are drawn along their path of this duration before the snapshot
+    uint64_t writer = 0;      ///< identifies the writer of `owner`; 0: none
+    uint64_t writtenUpTo = 0; ///< number of the last write, counted by the writer
 
 private:
     /// Extends the box of `io` by the path of a moving row.

@@ -44,8 +44,8 @@ struct KindDesc
     bool operator==(const KindDesc& other) const { return name == other.name; }
 };
 
-constexpr size_t kMaxColumns = 24;   ///< of a kind
-constexpr size_t kMaxConstants = 24; ///< of a kind
+constexpr size_t kMaxColumns = 24;   ///< largest number of columns of a kind
+constexpr size_t kMaxConstants = 24; ///< largest number of constants of a kind
 
 using KindId = uint32_t;
 constexpr KindId kNoKind = ~0u;

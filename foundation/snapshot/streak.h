@@ -15,7 +15,7 @@ template <typename Real>
 struct Streak
 {
     int count;   ///< 1 .. kMaxStreakPieces
-    Real radius; ///< of each ball, in the unit of the arguments
+    Real radius; ///< radius of each ball, in the unit of the arguments
 
     /// [1] share of the medium in ball k. It decreases linearly with k; the sum over all balls is 1.
     Real shareOf(int k) const { return Real(2 * (count - k)) / Real(count * (count + 1)); }

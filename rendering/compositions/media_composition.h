@@ -15,8 +15,8 @@
 
 namespace fx::render {
 
-/// State of a view for its composition. It gathers after all techniques, and in each stage its passes follow
-/// those of the techniques. gather() removes the streams that the composition draws from
+/// State of a view for its composition. The composition gathers after all techniques, and in each stage its
+/// passes follow those of the techniques. gather() removes the streams that the composition draws from
 /// GatheredFrame::streams. The media pass draws the remaining streams, sorted, over the result of compose().
 class CompositionView : public TechniqueView
 {

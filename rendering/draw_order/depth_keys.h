@@ -15,7 +15,7 @@ constexpr uint32_t kAbsentKey = ~0u; ///< key of NaN
 /// Range and order of a list of keys.
 struct KeySpan
 {
-    uint32_t lowest, highest; ///< of the keys other than kAbsentKey; both 0 if there are none
+    uint32_t lowest, highest; ///< extremes of the keys other than kAbsentKey; both 0 if there are none
     uint32_t absent;          ///< number of keys that are kAbsentKey
     uint32_t changed;         ///< number of keys that differ from the previous list
     uint32_t newcomers;       ///< number of changed keys that were kAbsentKey in the previous list

@@ -11,13 +11,13 @@
 namespace fx::render {
 
 /// Radix sort that keeps its memory and starts from its last order. If few elements have moved, been added or
-/// been removed since, only these are sorted and merged. The result is that of a full sort.
+/// been removed since, only these are sorted and merged. The result equals that of a full sort.
 ///
 /// Stable: equal keys keep the order of the input, so that elements at equal distances do not flicker.
 class DepthSort
 {
 public:
-    /// Key of elements to leave out.
+    /// Distance of elements that are not part of the result.
     static constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
 
     explicit DepthSort(std::pmr::memory_resource* memory)
@@ -52,7 +52,7 @@ private:
     std::pmr::vector<uint64_t> pairs_;     ///< key * 2^32 + index
     std::pmr::vector<uint64_t> moved_;
     std::pmr::vector<uint64_t> scratch_;
-    uint32_t lowest_ = 0, highest_ = 0; ///< of the keys that are present
+    uint32_t lowest_ = 0, highest_ = 0; ///< extremes of the keys that are present
     size_t presentCount_ = 0;
     size_t sortedElements_ = 0;
 };

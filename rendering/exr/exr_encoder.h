@@ -49,7 +49,7 @@ void addRgba(ExrImage& image, const std::string& layer, std::span<const float> r
 void addPlane(ExrImage& image, const std::string& name, std::span<const float> values,
               ExrPrecision precision);
 
-/// Returns the bytes of the file. Primaries are stated as Rec. 709. NaN and infinities are kept.
+/// Returns the bytes of the file. The file declares Rec. 709 primaries. NaN and infinities are kept.
 /// @param threads maximum number of threads; 0: all hardware threads
 /// @return InvalidArgument (size, a channel that is too short, a repeated name), OutOfMemory, Internal
 base::Result<std::string> encodeExr(const ExrImage& image, uint32_t threads = 0);

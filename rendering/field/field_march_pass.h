@@ -24,9 +24,9 @@ struct LooseMedia
     int slabs = 16; ///< least number of slabs along a ray for balls and cards
 };
 
-/// Marches front to back. Each step is a slab of the ray in which fields, balls and cards are summed, so that
-/// the result does not depend on their order. A ray ends at opaque geometry and, without layers, where the
-/// transmittance is below 1e-4. Formula: slab-light.
+/// Marches rays front to back. Each step is a slab of the ray in which fields, balls and cards are summed, so
+/// that the result does not depend on their order. A ray ends at opaque geometry and, without layers, where
+/// the transmittance is below 1e-4. Formula: slab-light.
 ///
 /// reads   textures         results of FieldFillPass and FieldLightPass; fieldTexels, tiles
 ///         distance         [m] along the ray to opaque geometry
@@ -40,9 +40,9 @@ public:
     {
         const MediaPass::Inputs* media;
         FieldTextures textures;
-        ResourceId fieldTexels;   ///< of FieldTexelPass
+        ResourceId fieldTexels;   ///< texture of FieldTexelPass
         ResourceId tiles;         ///< buffer of FieldTexels::tiles()
-        ResourceId lumpTile = {}; ///< of LumpTilePass; invalid: no field has detail
+        ResourceId lumpTile = {}; ///< texture of LumpTilePass; invalid: no field has detail
         LooseMedia loose = {};
     };
     /// Value of SlabTilePass::Inputs::maxOfTile. It is low because each step of a ray reads the whole list of

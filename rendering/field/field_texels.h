@@ -10,7 +10,8 @@ namespace fx::render {
 
 constexpr int kFieldColumns = 1024; ///< texels in a row; also in shaders/field/field_blocks.glsl
 constexpr int kTableColumns = 1024; ///< texels in a row of the table of bricks; also in the shader
-constexpr size_t kDetailTexels = sizeof(FieldDetailBlock) / sizeof(glm::vec4); ///< also in the shaders
+/// the shaders have the same number
+constexpr size_t kDetailTexels = sizeof(FieldDetailBlock) / sizeof(glm::vec4);
 constexpr uint32_t kFieldTexelUnit = 11, kBrickTableUnit = 12; ///< texture units; also in the shader
 
 /// Number of rows of a texture for `count` texels. It is a power of two, so that the texture is seldom

@@ -6,7 +6,7 @@
 /// effect, a factor corrects the total.
 ///
 /// symbol   unit   meaning
-///   x_i, r_i m    middle and radius of ball i
+///   x_i, r_i m    center and radius of ball i
 ///   K_i      m2   its extinction cross section
 ///   k        1/m  summed extinction of all balls
 ///   g        1    share of k that detail leaves at a point: n g of field-detail
@@ -70,7 +70,7 @@ private:
     struct Cells
     {
         glm::vec3 low{0.0f};  ///< [m]
-        glm::vec3 side{1.0f}; ///< [m] of a cell, > 0
+        glm::vec3 side{1.0f}; ///< [m] sides of a cell, > 0
     };
     static glm::ivec3 cellAt(const Cells& cells, const glm::vec3& point);
     void sortIntoCells(std::span<const DetailedCaster> balls);
@@ -80,7 +80,7 @@ private:
                   const glm::vec3& point) const;
 
     Cells cells_;
-    std::pmr::vector<float> thinning_;   ///< [1] of each ball
+    std::pmr::vector<float> thinning_;   ///< [1] thinning of each ball
     std::pmr::vector<uint32_t> starts_;  ///< by cell: index of its first entry in inCells_
     std::pmr::vector<uint32_t> inCells_; ///< numbers of balls, sorted by cell
 };

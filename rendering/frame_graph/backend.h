@@ -145,7 +145,8 @@ public:
 
     virtual void clear(ResourceId texture, const float (&rgba)[4]) = 0;
     virtual void draw(const DrawCall& call) = 0;
-    /// Runs a compute program. It sees all earlier writes, and later operations see its writes.
+    /// Runs a compute program. The program sees all earlier writes; later operations see the writes of the
+    /// program.
     virtual void dispatch(const DispatchCall& call) = 0;
     virtual void upload(ResourceId buffer, std::span<const std::byte> bytes) = 0;
     virtual void copyTexture(ResourceId source, ResourceId destination) = 0; ///< same size and format

@@ -21,7 +21,7 @@ struct GlSavedState
 struct GlTouchedState
 {
     const char* name; ///< shown to users
-    GLenum what;      ///< argument of the functions
+    GLenum what;      ///< passed to `save` and `restore`
     uint32_t count;   ///< number of indices (draw buffers, units, bindings); 0 to count - 1 are saved
     void (*save)(const GlFunctions& gl, GLenum what, uint32_t index, GlSavedState& outSaved);
     void (*restore)(const GlFunctions& gl, GLenum what, uint32_t index, const GlSavedState& saved);

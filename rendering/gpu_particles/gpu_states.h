@@ -1,9 +1,10 @@
 /// @file gpu_states.h
 /// State on the GPU of particles whose motion is computed in steps, for one view.
 ///
-/// Each step continues from the state of an emitter after the last step. If the state belongs to another
-/// history (the host has gone back in time) or does not exist (the view is new, or the emitter was hidden for
-/// long), all steps since the births of the particles are computed again, with the same bits.
+/// Each step continues from the state of an emitter after the last step. The state may belong to another
+/// history, if the host has gone back in time. Or it does not exist, because the view is new or the emitter
+/// was hidden for long. In both cases all steps since the births of the particles are computed again, with
+/// the same bits.
 ///
 /// Threads: [GL thread].
 #pragma once

@@ -64,7 +64,7 @@ struct FieldGather
     {}
     std::pmr::vector<GroupDetail> details;
     std::pmr::vector<BlobRun> runs;
-    std::pmr::vector<DetailedCaster> casters; ///< of the last group with detail
+    std::pmr::vector<DetailedCaster> casters; ///< balls of the last group with detail
     ConservationFactor conservation;
 };
 

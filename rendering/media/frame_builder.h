@@ -95,7 +95,7 @@ private:
     std::pmr::vector<uint32_t> identity_; ///< order_ if nothing is sorted
     std::pmr::vector<uint32_t> takenTiles_;
     std::span<const uint32_t> impostorOrder_;
-    Lighting lighting_; ///< of the last frame, like hostLights_ and slices_
+    Lighting lighting_; ///< settings of the last frame, like hostLights_ and slices_
     HostLights hostLights_;
     SliceSettings slices_;
     float exposureEv100_ = 0.0f;

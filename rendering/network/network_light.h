@@ -26,8 +26,8 @@ struct NetworkLamp
 /// @param samples along each axis of a cell, 1..8; the cell gets the mean of the samples
 void addSun(ScatteringNetwork& io, const NetworkSun& sun, int samples, base::TaskRunner& tasks);
 
-/// Adds the light of a lamp. Its own cell and neighboring cells have at least kNearLampSamples along each
-/// axis, because the light varies most there.
+/// Adds the light of a lamp. The cell that contains the lamp and its neighbors have at least kNearLampSamples
+/// along each axis, because the light varies most there.
 void addLamp(ScatteringNetwork& io, const NetworkLamp& lamp, int samples, base::TaskRunner& tasks);
 constexpr int kNearLampSamples = 12;
 

@@ -19,7 +19,7 @@ namespace fx::render {
 ///   Let dF_i = F_(i+1) - F_i and dG_i = G_(i+1) - G_i. If the iteration is affine, the residual of
 ///       x = G_n - sum of c_i dG_i  is  F_n - sum of c_i dF_i                                    (1)
 ///   The c_i minimize the sum of squares of (1), weighted by `weight`: a system of at most 4 equations.
-///   Its diagonal is increased by the relative amount 1e-8, so that equal steps do no harm       (2)
+///   The diagonal of its matrix is multiplied by 1 + 1e-8, so that equal steps do no harm        (2)
 /// @source    [WN11] Walker and Ni, algorithm of Anderson mixing
 /// @deviation (2)
 /// @valid     vectors of equal length

@@ -64,8 +64,8 @@ public:
 
 private:
     PastFrame past_;
-    CameraView camera_; ///< of this frame
-    double time_ = 0.0; ///< [s] of this frame
+    CameraView camera_; ///< camera of this frame
+    double time_ = 0.0; ///< [s] scene time of this frame
     bool hasFrame_ = false;
 };
 

@@ -31,7 +31,7 @@ private:
     GlDevice& device_;
     SlabMedia media_;
     GlBuffer marks_;
-    std::span<const BlobMark> listed_; ///< of the frame
+    std::span<const BlobMark> listed_; ///< marks of the balls of this frame
     ResourceId markBuffer_;
     bool isKept_ = false;
 };

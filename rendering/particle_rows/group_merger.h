@@ -20,11 +20,11 @@ namespace fx::render {
 /// groups have the same ranges of rows. Pooled rows are read in the pool. Pooled groups get space for their
 /// full capacity, so that the ranges of other groups do not change.
 ///
-/// Groups of techniques with a RowMerge are merged if the order of groups does not matter (they are sorted by
-/// distance, additive or opaque), if they have equal columns and constants and at most kMaxMergedRows rows
-/// each, and if their positions are within kFarthestMerged of each other. Sprites aligned to an axis also
-/// need equal rotations. The origin of a merged group is the position of its first member, and its axes are
-/// those of the world. A particle has the same row in both snapshots.
+/// Only groups of techniques with a RowMerge are merged. The order of the groups must not matter: they are
+/// sorted by distance, additive or opaque. The groups must have equal columns and constants and at most
+/// kMaxMergedRows rows each. Their positions must be within kFarthestMerged of each other. Sprites aligned to
+/// an axis must also have equal rotations. The origin of a merged group is the position of its first member,
+/// and its axes are those of the world. A particle has the same row in both snapshots.
 class GroupMerger
 {
 public:
@@ -41,7 +41,7 @@ public:
                const SnapshotRowRevisions& newerRows = {}, const SnapshotRowRevisions& olderRows = {});
     /// Snapshots with the merged groups of build(). They may be without groups.
     base::SnapshotPair merged() const { return {&newer_, hasOlder_ ? &older_ : nullptr}; }
-    RevisionPair revisions() const { return revisions_; } ///< of merged()
+    RevisionPair revisions() const { return revisions_; } ///< revisions of merged()
     /// Revisions of the rows of merged(), with one part per member of a merged group. They are 64-bit hashes
     /// of the revisions of the merged rows.
     SnapshotRowRevisions newerRows() const { return {newerRevisions_, partsBegin_, {}}; }
@@ -115,7 +115,7 @@ private:
     std::pmr::vector<uint8_t> taken_;
     std::pmr::vector<RowPart> parts_;
     std::pmr::vector<size_t> partsBegin_;                           ///< by group of newer_, and the end
-    std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< of parts_
+    std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< by part of parts_
     std::pmr::vector<Layout> layout_, layoutBefore_;                ///< present and previous layout of newer_
     /// placements of the first members of merged groups
     std::pmr::vector<base::Placement> anchors_, anchorsBefore_;

@@ -23,8 +23,8 @@ struct RowCard
 struct RowBall
 {
     uint32_t row = 0;          ///< the row at whose position the ball is
-    glm::vec3 center{0.0f};    ///< [m] of that row
-    float radius = 0.0f;       ///< [m] of that row
+    glm::vec3 center{0.0f};    ///< [m] center of that row
+    float radius = 0.0f;       ///< [m] radius of that row
     float ownSection = 0.0f;   ///< [m2] extinction cross section of that row; 0: it casts no shadow
     float crossSection = 0.0f; ///< [m2] total extinction cross section of the rows
 };

@@ -36,7 +36,7 @@ static_assert(sizeof(BlobMaterial) == 32);
 /// Consecutive balls of one instance in a list.
 struct BlobEffect
 {
-    uint32_t begin, end; ///< in the list
+    uint32_t begin, end; ///< range in the list of balls
     glm::vec3 low, high; ///< [m] bounds of all of its balls, visible or not, relative to the eye, world axes
     /// [m] quantile of all radii: smaller balls have a quarter of the total cross section
     float radius;

@@ -92,14 +92,15 @@ struct PassFrame
 {
     const FrameRequest* request;
     const ViewSettings* settings;
-    int width, height;             ///< [pixel]
-    ViewBlock view;                ///< view block of the picture
-    ViewBlock layerView;           ///< view block of the layers
-    int layerWidth, layerHeight;   ///< [texel]
-    LightBindings lights = {};     ///< lights of the view
-    bool hasSmallLayers = false;   ///< layers are smaller than the picture
-    bool hasMedia = false;         ///< there are media, transparent particles or opaque particles
-    ResourceId distance = {};      ///< [m] to the host's surfaces; from Measure on, also to opaque particles
+    int width, height;           ///< [pixel]
+    ViewBlock view;              ///< view block of the picture
+    ViewBlock layerView;         ///< view block of the layers
+    int layerWidth, layerHeight; ///< [texel]
+    LightBindings lights = {};   ///< lights of the view
+    bool hasSmallLayers = false; ///< layers are smaller than the picture
+    bool hasMedia = false;       ///< there are media, transparent particles or opaque particles
+    /// [m] distance to the host's surfaces; from Measure on, also to opaque particles
+    ResourceId distance = {};
     ResourceId layerDistance = {}; ///< [m] the same in the size of layers
     ResourceId picture = {};       ///< the picture, from Refract on
     ResourceId blobs = {};         ///< buffer of GatheredFrame::blobs, from Upload on

@@ -25,7 +25,7 @@ struct PreparedFrame
 {
     FrameKey key;
     bool resetHistory;
-    bool isSettled; ///< the key may be used for the lists
+    bool isSettled; ///< later frames with the same key may reuse the lists
     uint64_t glCalls;
     uint32_t programsCompiled;
 };
@@ -93,7 +93,7 @@ struct ViewRenderer::Impl
     bool hasLights = false;                       ///< `lights` are valid for the last frame
     std::pmr::vector<std::string_view> passNames; ///< passes that the last frame executed
     const base::AssetTable* assets = nullptr;
-    FragmentCounts fragments{}; ///< of this frame
+    FragmentCounts fragments{}; ///< estimated fragments of this frame
     LayerScaleControl layerScale;
     HostTargetCheck targetCheck;
     GlPassTimer timer;

@@ -62,7 +62,7 @@ private:
     std::pmr::vector<DrawBatch> cards_;       ///< batches of other sources
     std::pmr::vector<TileRect> rects_;
     uint64_t cardFragments_ = 0; ///< estimated number in the whole picture
-    int width_ = 0;              ///< [pixel] of the picture
+    int width_ = 0;              ///< [pixel] width of the picture
     bool counts_ = false;        ///< listed and spilled entries are counted
     ResourceId tiles_, heads_;   ///< counters of the last frame, for reading back; may be invalid
     uint64_t capacity_ = 0;      ///< fragments of cards that the last frame had room for

@@ -56,7 +56,7 @@ struct BallDetails
 {
     std::span<const BlobMaterial> materials{}; ///< one per ball; empty: no field has detail
     std::span<const FieldDetailBlock> details{};
-    ResourceId lumpTile{}; ///< of LumpTileTexture
+    ResourceId lumpTile{}; ///< texture of LumpTileTexture
 };
 
 /// Uploads the details of fields as texels, and the data of each ball for the detail of its field.
@@ -102,7 +102,7 @@ class SlabTilePass
 public:
     struct Inputs
     {
-        std::span<const TileRect> rects; ///< must stay until the graph has executed
+        std::span<const TileRect> rects; ///< must stay valid until the graph has executed
         uint64_t entries;                ///< total number of tiles in all `rects`
         int width, height;               ///< [texel]
         uint32_t maxOfTile;              ///< largest number of balls in the list of a tile, >= 2

@@ -27,7 +27,7 @@ public:
     /// this sets
     void addPasses(FrameGraph& graph, FieldGlowPass::Inputs in, std::span<const FieldGlowBlock> grids);
 
-    ResourceId light() const { return textures_.light; } ///< of this frame; invalid if no field emits
+    ResourceId light() const { return textures_.light; } ///< light of this frame; invalid if no field emits
     ResourceId grids() const { return grids_; }          ///< buffer of FieldGlowBlock
     void release();
     uint64_t bytes() const;
@@ -36,7 +36,7 @@ private:
     GlDevice& device_;
     std::array<GlTexture, 5> volumes_; ///< in the order of GlowTextures
     GlBuffer buffer_;
-    GlowTextures textures_; ///< of the frame
+    GlowTextures textures_; ///< resource ids in this frame
     ResourceId grids_;      ///< grids of this frame
 };
 

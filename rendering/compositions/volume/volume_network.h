@@ -37,7 +37,7 @@ public:
     bool isEmpty() const { return grids_.empty(); }
     bool isSettled() const { return settled_ >= kSettledSweeps; } ///< no sweeps are left to do
     int cells() const { return cells_; }
-    ResourceId moments() const { return textures_.moments; } ///< of this frame; invalid without grids
+    ResourceId moments() const { return textures_.moments; } ///< moments of this frame; invalid without grids
     ResourceId buffer() const { return gridsId_; }           ///< buffer of FieldGlowBlock
     void release();
     uint64_t bytes() const;
@@ -51,7 +51,7 @@ private:
     struct Known
     {
         glm::dvec3 corner; ///< [m] world
-        float side;        ///< [m] of a cell
+        float side;        ///< [m] side of a cell
     };
     void matchGrids(const glm::dvec3& eye);
     base::Status makeTextures();
@@ -60,11 +60,11 @@ private:
     int cells_ = 0;
     int settled_ = 0; ///< sweeps since the last change
     std::vector<FieldGlowBlock> grids_;
-    std::vector<Known> known_, now_;   ///< of the last frame, of this one
+    std::vector<Known> known_, now_;   ///< grids of the last frame; of this frame
     std::array<GlTexture, 7> volumes_; ///< in the order of NetworkTextures
     GlBuffer buffer_;
-    NetworkTextures textures_; ///< of the frame
-    ResourceId gridsId_;       ///< of the frame
+    NetworkTextures textures_; ///< resource ids in this frame
+    ResourceId gridsId_;       ///< grids in this frame
 };
 
 } // namespace fx::render

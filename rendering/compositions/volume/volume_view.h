@@ -54,7 +54,7 @@ private:
         Texels,
         Tiles,
         Materials, ///< empty if no field has detail, as is Blobs
-        Blobs,     ///< of the frame, for lights; PassFrame has its balls later
+        Blobs,     ///< balls of the frame, for lights; PassFrame gets its balls later
         Stacks,    ///< SliceStackBlocks of the lights
         Lists
     };
@@ -81,7 +81,7 @@ private:
     GlDevice& device_;
     FieldPlan plan_;
     FieldTexels texels_;
-    FieldMarchPass::Inputs march_{}; ///< of the frame
+    FieldMarchPass::Inputs march_{}; ///< inputs of the march in this frame
     std::pmr::vector<FieldDetailBlock> details_;
     std::span<const std::byte> stacks_; ///< SliceStackBlocks of the frame
     /// number of the filling of light slices to which detail has been added
@@ -89,7 +89,7 @@ private:
     std::span<const BlobMaterial> materials_; ///< of the frame
     VolumeGlow glow_;
     VolumeNetwork network_;               ///< used instead of the glow if the settings request it
-    int networkCells_ = 0;                ///< of the frame, along a side of a grid; 0: no networks
+    int networkCells_ = 0;                ///< cells along a side of a grid in this frame; 0: no networks
     std::span<const BlobInstance> blobs_; ///< balls of this frame, if any has detail
     bool layers_ = false;                 ///< the frame has layer outputs
     glm::dvec3 eye_{0.0};                 ///< [m] world, of the frame

@@ -40,7 +40,7 @@ enum class LightKind : uint8_t
 {
     Sun,
     Host,   ///< ViewSettings::hostLights
-    Effect, ///< of effects in the snapshot
+    Effect, ///< light of an effect in the snapshot
     Sky,    ///< sky and ground, sampled along axes
 };
 

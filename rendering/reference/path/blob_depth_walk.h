@@ -47,7 +47,7 @@ private:
 
     struct Chord
     {
-        double middle, inverseHalf; ///< [m], [1/m]
+        double middle, inverseHalf; ///< [m] center of the chord; [1/m] 1 / half its length
         double peak;                ///< [1/m] s_i
         double weight;              ///< [1] s_i h_i
     };
@@ -57,7 +57,7 @@ private:
     const BlobPathMedium& medium_;
     RayHits hits_;
     std::vector<Chord> chords_;      ///< one for each of `hits_`
-    double begin_ = 0.0, end_ = 0.0; ///< [m] of the part with medium
+    double begin_ = 0.0, end_ = 0.0; ///< [m] ends of the part of the ray with medium
     double before_ = 0.0;            ///< [1] sum of s_i h_i k(u(a))
     double depth_ = 0.0;
     double emitted_ = 0.0;

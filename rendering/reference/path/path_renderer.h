@@ -80,7 +80,7 @@ public:
     /// One channel (see path_channel), width x height, rows from the top.
     const std::vector<float>& pixels(uint32_t channel) const { return tiles_.pixels(channel); }
     std::vector<float> interleaved(uint32_t first) const { return tiles_.interleaved(first); }
-    PathWork work() const; ///< of this run only
+    PathWork work() const; ///< work of this run only
     /// [1] Standard error of written values, root mean square over all pixels and color channels.
     double standardError() const;
 

@@ -33,7 +33,7 @@ struct MediumBlob
 struct MediumList
 {
     std::vector<MediumBlob> blobs;
-    MediumDetails details; ///< of `blobs`
+    MediumDetails details; ///< detail of `blobs`
     uint32_t nonFinite = 0;
 };
 

@@ -21,7 +21,7 @@ namespace fx::render {
 struct ReferenceScene
 {
     std::vector<MediumBlob> blobs;
-    MediumDetails details; ///< of `blobs`; empty: they are drawn smooth
+    MediumDetails details; ///< detail of `blobs`; empty: blobs are smooth
     OpaqueScene opaque;
     ReferenceCamera camera;
 };

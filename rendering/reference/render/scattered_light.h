@@ -91,7 +91,7 @@ private:
     DetailedRay detailed_; ///< the ray whose light is summed, for media with detail
     std::vector<double> events_;
     SceneLights::Course course_;
-    std::vector<ArrivingLight> arriving_; ///< at the current node
+    std::vector<ArrivingLight> arriving_; ///< lights at the current node
     size_t firstOfSky_ = 0;               ///< index in `arriving_`
     uint32_t node_ = 0;
 };

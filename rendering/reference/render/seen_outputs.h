@@ -29,7 +29,7 @@ struct InstanceShare
     double share; ///< [1] share of the ray's opacity
 };
 
-/// Adds to the share of an instance.
+/// Adds `share` to the entry of `instance`, or appends a new entry.
 void addShare(std::vector<InstanceShare>& io, uint64_t instance, double share);
 
 /// The outputs are defined in docs/howto/outputs.md.
@@ -61,7 +61,7 @@ public:
     /// @param hits blobs that the ray meets between its parameters `begin` and `end`
     /// @param detailed has traced the same ray; null: blobs are smooth
     /// @param window position of the ray in the picture [pixel], right and up
-    /// @param ioShares the visible share of each instance is added
+    /// @param ioShares the visible share of each instance is added to its entry
     Seen along(const TraceRay& ray, const RayHits& hits, double begin, double end, DetailedRay* detailed,
                const glm::dvec2& window, std::vector<InstanceShare>& ioShares);
 

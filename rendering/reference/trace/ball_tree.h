@@ -22,7 +22,7 @@
 
 namespace fx::render {
 
-/// Element of the tree.
+/// A ball as input of BallTree::build().
 struct TraceBall
 {
     glm::dvec3 center; ///< [m] finite

@@ -32,7 +32,7 @@ namespace fx::render {
 struct CurveBatch
 {
     static constexpr size_t kRoom = 256;
-    size_t count = 0;                                  ///< at most kRoom
+    size_t count = 0;                                  ///< number of cells, at most kRoom
     std::array<std::array<uint32_t, kRoom>, 3> cell{}; ///< x_i of each cell
     std::array<uint64_t, kRoom> place{};               ///< k of each cell
 };
