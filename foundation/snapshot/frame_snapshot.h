@@ -139,7 +139,7 @@ private:
     uint64_t serial_;
     Ticks step_ = 0;
     size_t groupCount_ = 0;
-    /// the first groupCount_ are valid; the others are kept for their memory
+    /// The first groupCount_ are valid; the others are kept for their memory.
     std::pmr::vector<SnapshotGroup> groups_;
     size_t poolCount_ = 0;
     std::vector<std::unique_ptr<PooledRows>> pools_; ///< the first poolCount_ are valid

@@ -55,7 +55,7 @@ private:
     FrameSnapshot* writing_ = nullptr;
     FrameSnapshot* newest_ = nullptr;
     FrameSnapshot* previous_ = nullptr;
-    /// snapshot that becomes previous_ at the next publication; null: newest_ becomes previous_
+    /// Snapshot that becomes previous_ at the next publication; null: newest_ becomes previous_.
     FrameSnapshot* staged_ = nullptr;
     uint64_t sequence_ = 0;
 };

@@ -45,9 +45,10 @@ constexpr int kGlowRays[2] = {8, 4}; ///< blocks along x and y in the texture of
 /// A grid in which the light that media emit is propagated; shaders/field/field_glow.glsl reads this layout.
 struct FieldGlowBlock
 {
-    glm::vec4 corner;       ///< xyz [m] relative to the eye; w side of a cell [m]
-    glm::vec4 before{0.0f}; ///< the same of the last frame's grid from whose light it starts; w 0: none
-    glm::vec4 number{0.0f}; ///< x of that grid
+    glm::vec4 corner; ///< xyz [m] relative to the eye; w side of a cell [m]
+    /// Like `corner`, for the grid of the last frame whose light is the start; w 0: none.
+    glm::vec4 before{0.0f};
+    glm::vec4 number{0.0f}; ///< x number of the grid of the last frame
 };
 static_assert(sizeof(FieldGlowBlock) == 48);
 

@@ -32,7 +32,7 @@ public:
         const ViewBlock* view;            ///< of the picture
         uint32_t brickCount;              ///< > 0
         ResourceId glow = {}, grids = {}; ///< invalid: no field has a grid
-        /// moments of NetworkPasses for the same grids; used instead of `glow`
+        /// Moments of NetworkPasses for the same grids; used instead of `glow`.
         ResourceId network = {};
         int networkCells = 0; ///< along a side of the network's grids
     };

@@ -31,7 +31,7 @@ struct FieldPlanInputs
     /// of all fields together; 0: as in a full cube with `resolution` voxels along a side
     uint32_t mostBricks = 0;
     bool glows = true; ///< emitted light is propagated in grids, see FieldPlan::glows()
-    /// cells along a side of each grid of an illumination network, for all fields; 0: no networks
+    /// Cells along a side of each grid of an illumination network, for all fields; 0: no networks.
     int networkCells = 0;
 };
 

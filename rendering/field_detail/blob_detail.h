@@ -49,7 +49,7 @@ public:
 
 private:
     const base::SnapshotGroup* newer_ = nullptr;
-    /// snapshot group whose generations are valid at the moment
+    /// Snapshot group whose generations are valid at the moment.
     const base::SnapshotGroup* chosen_ = nullptr;
     FieldDetailNumbers numbers_;
 };

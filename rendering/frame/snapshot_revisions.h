@@ -24,7 +24,7 @@ struct RevisionPair
     uint64_t older = 0;
 
     bool operator==(const RevisionPair&) const = default;
-    /// every moment between the two snapshots is drawn the same
+    /// Every moment between the two snapshots is drawn the same.
     bool isSteady() const { return newer == older; }
 };
 

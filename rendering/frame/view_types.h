@@ -126,7 +126,7 @@ struct SliceSettings
     int castingPoints = 2; ///< 0..4 brightest point lights for which media cast shadows
     int samples = 2;       ///< 1..4 points along a ray through a ball at which light is sampled
     bool multiple = true;  ///< with multiple scattering
-    /// multiple scattering by an illumination network where media are drawn in voxels; false: by a formula
+    /// Multiple scattering by an illumination network where media are drawn in voxels; false: by a formula.
     bool network = false;
     /// 24..64 cells along a side of the network's grids, a multiple of 8; 0: a third of ViewSettings::voxels
     uint8_t networkCells = 0;
@@ -172,8 +172,8 @@ struct LodSettings
     float impostorPixels = 0.0f;
     static constexpr float kMaxImpostorPixels = 13.0f; ///< an impostor has 32 x 32 texels, with a margin
 
-    /// Levels and impostors do not change when the camera moves. This is for measurements of the effect of
-    /// such changes on the picture.
+    /// Levels and impostors do not change when the camera moves. Used to measure the effect of such changes
+    /// on the picture.
     bool hold = false;
 
     bool operator==(const LodSettings&) const = default;
@@ -199,14 +199,14 @@ struct ViewSettings
     bool toneMap = false;      ///< write display-referred values
     bool layerOutputs = false; ///< also write fire, smoke, dust, depth and optical depth to separate textures
     uint32_t outputs = 0;      ///< view_output bits; with 0, there is no pass, program or memory for outputs
-    /// count contributing fragments and read statistics back. This adds a pass and waits for the GPU
+    /// Count contributing fragments and read statistics back. This adds a pass and waits for the GPU.
     bool countOverdraw = false;
     LodSettings lod;
     bool overlay = false; ///< the caller of the renderer fills FrameRequest::overlay
     /// 1, 2 or 4: media and transparent particles are drawn at no more than 1, 1/2 or 1/4 of the width and
     /// height. Opaque particles always have the full size.
     int layerDivisor = 1;
-    /// estimated fragments per frame; above it, layers are drawn smaller; 0: no limit
+    /// Estimated fragments per frame; above it, layers are drawn smaller; 0: no limit.
     uint64_t fragmentBudget = 0;
 };
 
@@ -227,7 +227,7 @@ struct HostTargets
     /// 2-D texture with the opaque picture [cd/m2 times exposure]; read and written
     uint32_t color = 0;
     uint32_t depth = 0; ///< 2-D depth texture of the opaque picture; 0: nothing occludes
-    /// used instead of `color` if `color` is 0: media are blended into the attachment of draw buffer 0
+    /// Used instead of `color` if `color` is 0: media are blended into the attachment of draw buffer 0.
     uint32_t framebuffer = 0;
     bool useFramebuffer = false; ///< true: draw into `framebuffer` (0 is the window) instead of `color`
     int width = 0;               ///< [pixel]
@@ -274,7 +274,7 @@ struct FrameStatistics
     uint32_t blobsThinned = 0;   ///< not drawn due to the level of detail
     uint32_t impostors = 0;      ///< effects drawn as impostors
     uint32_t impostorsTaken = 0; ///< impostor textures rendered in this frame
-    /// groups of blobs by drawn share: all; at least 1/2; at least 1/8; less
+    /// Groups of blobs by drawn share: all; at least 1/2; at least 1/8; less.
     uint32_t lodGroups[4] = {0, 0, 0, 0};
     uint64_t particles = 0;        ///< sprites, meshes and pieces of ribbons that were drawn
     uint64_t sprites = 0;          ///< part of `particles`
@@ -300,22 +300,20 @@ struct FrameStatistics
     uint64_t sharedBytes = 0;     ///< [byte] transient resources of the frame, with shared memory
     uint64_t coveredPixels = 0;   ///< texels of layers that media cover; with countOverdraw
     uint64_t shadedFragments = 0; ///< fragments that contribute, at the size of layers; with countOverdraw
-    /// fragments of the rectangles of blobs and particles, at the size of layers
+    /// Fragments of the rectangles of blobs and particles, at the size of layers.
     uint64_t estimatedFragments = 0;
     /// of this frame: as in the settings, or larger to keep within fragmentBudget
     int layerDivisor = 1;
-    /// entries in the lists of all tiles; this and the next two with countOverdraw only
+    /// Entries in the lists of all tiles; this and the next two with countOverdraw only.
     uint64_t listedBalls = 0;
-    /// entries dropped from full lists; the listed balls are weighted to represent them
+    /// Entries dropped from full lists; the listed balls are weighted to represent them.
     uint64_t spilledBalls = 0;
     /// Fragments of sprites, ribbons and impostors that were dropped because lists were full.
     uint64_t spilledCards = 0;
     Composition composition = Composition::Sorted;
     uint32_t compositionSize = 0; ///< number of slabs or voxels; 0 for Composition::Sorted
-    double overflow[3] = {0, 0,
-                          /// mean overflow per pixel in units of DazzleSettings::white; with countOverdraw
-                          /// and dazzle
-                          0};
+    /// Mean overflow per pixel in units of DazzleSettings::white; with countOverdraw and dazzle.
+    double overflow[3] = {0, 0, 0};
 };
 
 } // namespace fx::render

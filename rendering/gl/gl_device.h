@@ -72,11 +72,11 @@ public:
     uint32_t program(const ProgramDesc& desc, base::Status& outStatus);
 
     uint32_t programsCompiled() const { return programsCompiled_; } ///< since creation, with lateCompiles()
-    /// programs compiled by a draw instead of by compile()
+    /// Programs compiled by a draw instead of by compile().
     uint32_t lateCompiles() const { return lateCompiles_; }
 
     void setSourceOverride(SourceOverride sourceOverride) { sourceOverride_ = std::move(sourceOverride); }
-    /// the next use of a program compiles it again; for live editing
+    /// The next use of a program compiles it again; for live editing.
     void forgetPrograms() { programs_.clear(); }
 
     uint64_t textureBytes() const { return textureBytes_; } ///< [byte] size of all existing GlTextures

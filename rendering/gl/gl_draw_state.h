@@ -25,7 +25,7 @@ public:
     void reset(bool encodeSrgb);
 
     void useProgram(uint32_t program);
-    /// sets the viewport to the whole framebuffer
+    /// Sets the viewport to the whole framebuffer.
     void bindFramebuffer(uint32_t framebuffer, int width, int height);
     void drawToFirst(bool only); ///< `only`: color writes are disabled for draw buffers other than the first
     void setBlend(Blend blend);

@@ -20,7 +20,7 @@ public:
 
     uint32_t errors() const { return errors_; }             ///< messages of type error
     uint32_t highSeverity() const { return highSeverity_; } ///< messages of high severity, errors included
-    /// messages of type error or of high severity; 0 for a correct program
+    /// Messages of type error or of high severity; 0 for a correct program.
     uint32_t serious() const { return serious_; }
     const std::string& first() const { return first_; } ///< text of the first serious message
 

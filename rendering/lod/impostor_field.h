@@ -37,8 +37,8 @@ struct ImpostorPlan
 
 class ImpostorField
 {
-    /// [s] Interval at which the impostor of a changing effect is rendered again.
 public:
+    /// [s] Interval at which the impostor of a changing effect is rendered again.
     static constexpr float kInterval = 0.1f;
     /// Share of the largest size. Above it, impostor and blobs are both drawn, cross-faded.
     static constexpr float kBand = 0.75f;

@@ -87,7 +87,7 @@ struct SimplificationInputs
 {
     const base::SnapshotGroup* rows;
     std::span<const RowPart> parts; ///< empty: all rows belong to the effect of the group
-    /// placement of the group at the moment of the frame, relative to the eye
+    /// Placement of the group at the moment of the frame, relative to the eye.
     base::Placement place;
     RowShape shape;
     const CameraGeometry* camera;

@@ -73,7 +73,7 @@ struct GatherCounts
 {
     uint32_t culled = 0;
     uint32_t nonFinite = 0;
-    uint32_t thinned = 0; ///< by the level of detail
+    uint32_t thinned = 0; ///< omitted by the level of detail
 };
 
 /// Appends every visible blob to `outVisible`, in the order of groups and ids. Appends every blob to

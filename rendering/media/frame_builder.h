@@ -57,7 +57,7 @@ public:
     std::span<const uint32_t> takenTiles() const { return takenTiles_; } ///< tile of each rendered impostor
     /// True if a next frame with the same camera and snapshots would be the same.
     bool isSettled() const { return impostors_.isSettled(); }
-    /// call this if the impostors of the last frame were not rendered
+    /// Call this if the impostors of the last frame were not rendered.
     void forgetPictures() { mustForget_ = true; }
 
 private:

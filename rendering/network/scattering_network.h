@@ -61,7 +61,7 @@ struct SweepReport
 /// Powers, divided by the unit of radiance [m2 sr]. After convergence, emitted = absorbed + escaped.
 struct NetworkEnergy
 {
-    /// emission of the medium, first scattering of light sources, and light from outside
+    /// Emission of the medium, first scattering of light sources, and light from outside.
     double emitted = 0.0;
     double absorbed = 0.0; ///< absorbed part of scattered and emitted light
     double escaped = 0.0;
@@ -103,7 +103,8 @@ struct NetworkEnergy
 /// @deviation cells are homogeneous, and their light is a mean, so that energy is conserved exactly; it would
 ///            not be if light were interpolated between nodes
 /// @valid     any k >= 0; albedo 0..1
-/// @accuracy  radiance in a furnace 1e-5; balance of energy 1e-5; same bits for any number of workers
+/// @accuracy  relative error of the radiance in a furnace 1e-5, of the energy balance 1e-5; the same bits for
+///            any number of workers
 /// @tests     tests/rendering/network/test_scattering_network.cpp
 class ScatteringNetwork
 {

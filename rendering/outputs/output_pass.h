@@ -36,7 +36,7 @@ class SolidMarkPass
 public:
     struct Inputs
     {
-        /// sources of opaque particles; must stay valid until the graph has executed
+        /// Sources of opaque particles; must stay valid until the graph has executed.
         std::span<const MediaSource* const> sources;
         ResourceId distance;
         int width, height;

@@ -117,7 +117,7 @@ private:
     std::pmr::vector<size_t> partsBegin_;                           ///< by group of newer_, and the end
     std::pmr::vector<RowRevision> newerRevisions_, olderRevisions_; ///< by part of parts_
     std::pmr::vector<Layout> layout_, layoutBefore_;                ///< present and previous layout of newer_
-    /// placements of the first members of merged groups
+    /// Placements of the first members of merged groups.
     std::pmr::vector<base::Placement> anchors_, anchorsBefore_;
     MergedRows rows_;
     base::FrameSnapshot newer_, older_;

@@ -37,7 +37,7 @@ struct ParticleGroup
     const base::SnapshotGroup* newer;
     const base::SnapshotGroup* older; ///< null if there is none, and for strips
     size_t newerIndex, olderIndex;    ///< group indices in the two snapshots
-    /// rows in the order of drawing; empty: all rows, in the order of rows
+    /// Rows in the order of drawing; empty: all rows, in the order of rows.
     std::span<const uint32_t> order;
     std::span<const uint32_t> factors; ///< by row, see simplifyRows(); empty: all rows are drawn unchanged
     uint32_t texture, motion, mesh;    ///< ids in the asset table

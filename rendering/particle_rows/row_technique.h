@@ -37,7 +37,7 @@ struct RowMerge
     size_t radius;              ///< column of the radius [m], 0 in empty rows
     size_t velocity = kNone;    ///< first of three columns, which are rotated with the group
     size_t orientation = kNone; ///< first of four columns of the orientation
-    /// column of strip numbers, which are changed so that groups have different ones
+    /// Column of strip numbers, which are changed so that groups have different ones.
     size_t strip = kNone;
     base::ColumnSet copied; ///< columns that are copied unchanged, and the strip numbers
 };

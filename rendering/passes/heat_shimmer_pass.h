@@ -41,7 +41,7 @@ public:
         ResourceId color;
         ResourceId distance;
         ResourceId heat; ///< invalid: nothing is hot
-        /// cover every pixel with heat; must stay valid until the graph has executed
+        /// Cover every pixel with heat; must stay valid until the graph has executed.
         std::span<const HotArea> areas;
         int width, height;
         bool upperLeftOrigin; ///< see CameraView

@@ -49,11 +49,11 @@ struct LightBindings
 {
     ResourceId lights = {}; ///< buffer with a LightListBlock; invalid: nothing is lit
     ResourceId planes = {}; ///< RG32F optical depths; invalid: media cast no shadow
-    /// depth texture; invalid: surfaces of the host cast no shadow on media
+    /// Depth texture; invalid: surfaces of the host cast no shadow on media.
     ResourceId hostShadow = {};
     std::span<const std::byte> stacks = {}; ///< SliceStackBlocks of the planes
     int mostTexels = 0;                     ///< [texel] side of the largest plane
-    /// number of the content of the planes; changes when they are filled again
+    /// Number of the content of the planes; changes when they are filled again.
     uint64_t filled = 0;
 
     void read(FrameGraph::Builder& builder) const

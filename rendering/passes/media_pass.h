@@ -22,7 +22,7 @@ class MediaPass
 public:
     struct Inputs
     {
-        /// must stay valid until the graph has executed, like their sources
+        /// Must stay valid until the graph has executed, like their sources.
         std::span<const DrawBatch> batches;
         ResourceId distance;
         int width, height;

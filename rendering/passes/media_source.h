@@ -42,7 +42,7 @@ struct BallList
 {
     ResourceId balls = {};  ///< buffer of BlobInstance
     ResourceId lights = {}; ///< buffer written by BlobLightPass, one entry for each ball
-    /// the same balls; must stay valid until the graph has executed
+    /// The same balls; must stay valid until the graph has executed.
     std::span<const BlobInstance> instances{};
     bool detail = false; ///< some balls have procedural detail, and it is drawn
 };

@@ -17,7 +17,7 @@ class SolidPass
 public:
     struct Inputs
     {
-        /// sources of opaque particles; must stay valid until the graph has executed
+        /// Sources of opaque particles; must stay valid until the graph has executed.
         std::span<const MediaSource* const> sources;
         ResourceId distance;
         int width, height;

@@ -29,9 +29,9 @@ public:
 
     virtual GlLoader loader() = 0;
     virtual base::Status makeCurrent() = 0;
-    /// displays the picture in the window; does nothing without a window
+    /// Displays the picture in the window; does nothing without a window.
     virtual void swapBuffers() = 0;
-    /// handles events of the window; true if the user has requested to close it
+    /// Handles events of the window; true if the user has requested to close it.
     virtual bool closeRequested() { return false; }
     virtual std::string description() const = 0; ///< kind of context, such as "EGL surfaceless (Mesa)"
 };

@@ -13,7 +13,7 @@ struct CameraPose
 {
     glm::dvec3 position{0.0, 2.0, 10.0}; ///< [m]
     glm::dvec3 target{0.0};              ///< [m] different from position
-    /// must not be parallel to the view axis; need not be perpendicular to it
+    /// Must not be parallel to the view axis; need not be perpendicular to it.
     glm::vec3 up{0.0f, 1.0f, 0.0f};
 };
 

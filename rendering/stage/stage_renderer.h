@@ -60,7 +60,7 @@ struct StageLighting
 {
     Lighting lighting;
     std::span<const StageLight> lights{}; ///< at most kMaxStageLights are used
-    /// media shadow in the light of the sun; without planes there is no shadow
+    /// Media shadow in the light of the sun; without planes there is no shadow.
     MediaShadowBlock sunShadow;
     uint32_t shadowTexture = 0; ///< GL name of the light slices of all media shadows; linear filter; 0: none
 };
@@ -75,11 +75,14 @@ public:
     explicit StageRenderer(GlDevice* device);
     ~StageRenderer();
 
+    /// @return InvalidArgument if positions, normals and colors differ in number; errors of GL
     base::Status setMesh(const StageMesh& mesh);
+    /// @return InvalidArgument if `image` does not have width * height pixels; errors of GL
     base::Status setBackground(const StageBackground& background);
 
     /// Draws to textures of the stage, which are valid until the next call: RGBA32F color [cd/m2 times
     /// exposure] and a 32-bit float depth texture.
+    /// @param width, height [pixel]
     base::Status render(const CameraView& camera, const Lighting& lighting,
                         std::span<const EffectLight> lights, float exposureEv100, int width, int height);
     base::Status render(const CameraView& camera, const StageLighting& lighting, float exposureEv100,

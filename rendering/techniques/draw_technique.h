@@ -119,6 +119,7 @@ public:
 
     /// Begins a frame; creates resources that are independent of the visible data.
     virtual base::Status begin(const ViewSettings&) { return {}; }
+    /// Gathers the visible data of a frame, and adds streams and shadow casters to the GatheredFrame.
     virtual base::Status gather(const GatherInputs&, GatheredFrame&) { return {}; }
     /// Called instead of gather(): the frame reuses the data of the last frame.
     virtual void keep() {}
@@ -185,7 +186,7 @@ struct DrawTechnique
     std::span<const TimedPass> passes = {};
     /// Whether an effect with this content uses the technique; null: an effect that publishes `kind` does.
     bool (*isUsedBy)(const EffectContent& content) = nullptr;
-    /// how groups of `kind` emit light; null: they emit none
+    /// How groups of `kind` emit light; null: they emit none.
     const LightSource* lights = nullptr;
     /// Checks settings, and refuses those that cannot be drawn; null: all settings are accepted.
     base::Status (*check)(const ViewSettings& settings) = nullptr;

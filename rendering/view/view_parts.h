@@ -44,7 +44,7 @@ struct ViewRenderer::Impl
                             const FrameRequest& request, const ViewSettings& settings);
     base::Status begin(const base::SnapshotPair& snapshots, const FrameRequest& request,
                        const ViewSettings& settings); ///< begins all parts, then calls gather()
-    /// creates the parts that the settings request, and deletes others
+    /// Creates the parts that the settings request, and deletes others.
     void compose(const ViewSettings& settings);
     base::Status fillLights(const ViewSettings& settings);
     void dropPrepared(); ///< discards lists that were gathered and not drawn
@@ -70,9 +70,8 @@ struct ViewRenderer::Impl
     FrameGraph lightGraph; ///< graph of prepareLights(), because `graph` belongs to the last frame
     GlBackend lightBackend;
     DrawTechniques techniques;
-    std::pmr::vector<std::unique_ptr<TechniqueView>>
-        /// states of the techniques in their order, then `outputView`, then `composition`
-        parts;
+    /// States of the techniques in their order, then `outputView`, then `composition`.
+    std::pmr::vector<std::unique_ptr<TechniqueView>> parts;
     const MediaComposition* composing;      ///< composition of the last frame
     CompositionView* composition = nullptr; ///< one of `parts`; null: the composition has no state
     OutputView* outputView = nullptr;       ///< one of `parts`; null: no outputs

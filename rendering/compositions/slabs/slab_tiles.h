@@ -20,7 +20,7 @@ struct TileRect
 {
     uint16_t left, right; ///< columns
     uint16_t low, high;   ///< rows, numbered upwards
-    /// constant for a ball; a tile with too many balls lists those with the lowest ranks
+    /// Constant for a ball; a tile with too many balls lists those with the lowest ranks.
     uint32_t rank;
 };
 static_assert(sizeof(TileRect) == 12);

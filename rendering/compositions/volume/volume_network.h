@@ -44,7 +44,7 @@ public:
 
 private:
     static constexpr int kSweeps = 2; ///< per frame
-    /// after the last change, and for grids that begin without light
+    /// After the last change, and for grids that begin without light.
     static constexpr int kSettledSweeps = 16;
 
     /// A grid of the last frame.

@@ -84,7 +84,7 @@ private:
     FieldMarchPass::Inputs march_{}; ///< inputs of the march in this frame
     std::pmr::vector<FieldDetailBlock> details_;
     std::span<const std::byte> stacks_; ///< SliceStackBlocks of the frame
-    /// number of the filling of light slices to which detail has been added
+    /// Number of the filling of light slices to which detail has been added.
     uint64_t corrected_ = 0;
     std::span<const BlobMaterial> materials_; ///< of the frame
     VolumeGlow glow_;

@@ -102,7 +102,7 @@ public:
     /// planes.
     size_t costCount() const;
     LightCost costOf(size_t light) const;
-    /// differs where planes lie elsewhere in the world
+    /// Number that changes when the positions of planes in the world change.
     uint64_t placesRevision() const { return placesRevision_; }
     int atlasWidth() const { return atlasWidth_; }   ///< [texel] size; 0: no medium casts a shadow
     int atlasHeight() const { return atlasHeight_; } ///< [texel]

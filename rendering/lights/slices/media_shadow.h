@@ -13,7 +13,7 @@ namespace fx::render {
 /// planes all members are 0 and the transmittance is 1.
 struct MediaShadowBlock
 {
-    /// levels of the sun, finer near the eye; other lights have one level
+    /// Levels of the sun, finer near the eye; other lights have one level.
     static constexpr size_t kLevels = 3;
 
     std::array<glm::vec4, kLevels> right{}, up{}, along{}, tiles{};

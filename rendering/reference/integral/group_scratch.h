@@ -79,9 +79,8 @@ struct BlobLanes
     const T* weights;
     const uint64_t* candidates;
     uint32_t words;
-    NearbyBlobs<T>
-        /// two, because the light of an interval may be summed after the extinction of the next one
-        nearby[2];
+    /// Two, because the light of an interval may be summed after the extinction of the next one.
+    NearbyBlobs<T> nearby[2];
 };
 
 /// Inputs of the rays of a group. Lane arrays of blob k begin at k * stride.

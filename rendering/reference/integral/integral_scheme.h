@@ -14,12 +14,12 @@ namespace fx::render {
 
 enum class IntegralMethod : uint8_t
 {
-    /// attenuation is linear in the ray parameter within a part; closed form (formula linear-attenuation)
+    /// Attenuation is linear in the ray parameter within a part; closed form (formula linear-attenuation).
     Paper,
     Simpson, ///< Simpson's rule with exact optical depth
     Gauss,   ///< Gauss-Legendre nodes with exact optical depth (formula gauss-attenuation)
-             /// source is linear in optical depth between nodes (formula depth-linear-source); bounds always
-             /// hold
+
+    /// Source is linear in optical depth between nodes (formula depth-linear-source); bounds always hold.
     Positive,
     March,   ///< equal steps along the whole ray, with the density at their midpoints
     Adaptive ///< Paper, with parts and end of the ray chosen by a bound of the remaining light

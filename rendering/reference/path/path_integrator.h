@@ -18,7 +18,7 @@ namespace fx::render {
 struct PathScene
 {
     const PathMedium* medium = nullptr; ///< may be null
-    /// may be null; `mesh` has the normals and colors of the triangles
+    /// May be null; `mesh` has the normals and colors of the triangles.
     const TriangleScene* triangles = nullptr;
     OpaqueMesh mesh;
     std::span<const PathLight* const> lights;
@@ -27,7 +27,7 @@ struct PathScene
 
 struct PathSettings
 {
-    /// largest number of scatterings and reflections of a path
+    /// Largest number of scatterings and reflections of a path.
     uint32_t bounces = std::numeric_limits<uint32_t>::max();
     FlightEstimator flight = FlightEstimator::Depth;
     ShadowEstimator shadow = ShadowEstimator::Exact;

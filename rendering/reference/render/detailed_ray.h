@@ -48,7 +48,7 @@ public:
     /// @param medium must be built and must outlive the object
     DetailedRay(const MediumView& medium, Wanted wanted, double tolerance);
 
-    /// Integrates a ray. The following functions return the results.
+    /// Integrates a ray. The functions from opticalDepth() to distance() return the results.
     /// @param hits all blobs of the medium that the ray meets between its parameters `begin` and `end`
     void trace(const TraceRay& ray, const RayHits& hits, double begin, double end);
 

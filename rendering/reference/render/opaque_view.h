@@ -36,7 +36,7 @@ struct OpaqueScene
     /// Those of `lights` that are not emitted by a medium. The path tracer uses only these, because its media
     /// emit the light of the others.
     std::vector<EffectLight> particleLights;
-    /// there are no surfaces and no background: the picture is transparent behind the medium
+    /// There are no surfaces and no background: the picture is transparent behind the medium.
     bool isEmpty = false;
 };
 

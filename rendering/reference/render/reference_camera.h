@@ -15,7 +15,7 @@ struct ReferenceCamera
     glm::dvec3 up{0.0, 1.0, 0.0};       ///< unit
     glm::dvec3 forward{0.0, 0.0, -1.0}; ///< unit
     bool orthographic = false;
-    /// half of the picture's height: tangent of half the angle of view, or [m] if orthographic
+    /// Half of the picture's height: tangent of half the angle of view, or [m] if orthographic.
     double halfHeight = 0.5;
     double nearDistance = 0.1; ///< [m] of the near plane along the view axis, >= 0
 

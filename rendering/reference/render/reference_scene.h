@@ -30,8 +30,8 @@ struct ReferenceScene
 /// over four chains, because each word of a chain depends on the one before it.
 class KeyHash
 {
-    /// Version of the arithmetic: it is increased when equal inputs give another picture.
 public:
+    /// Version of the arithmetic: it is increased when equal inputs give another picture.
     static constexpr uint64_t kVersion = 4;
 
     void add(double x) { addWord(std::bit_cast<uint64_t>(x)); }

@@ -41,11 +41,11 @@ public:
 
     static constexpr int kSteps = 64;
 
-    /// [1] by step: optical depth, from a to its midpoint, of blobs that contain the midpoint
 private:
+    /// [1] by step: optical depth, from a to its midpoint, of blobs that contain the midpoint
     std::array<double, kSteps> depth_;
-    std::array<double, kSteps + 1>
-        passed_; ///< [1] by step: optical depth of blobs that end before its midpoint
+    /// [1] by step: optical depth of blobs that end before its midpoint
+    std::array<double, kSteps + 1> passed_;
 };
 
 } // namespace fx::render

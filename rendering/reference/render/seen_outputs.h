@@ -70,7 +70,7 @@ private:
     double firstDepth() const;
     void fillSteps();
     void weigh();
-    /// window position in the previous frame; `place` is relative to the previous eye
+    /// Window position in the previous frame; `place` is relative to the previous eye.
     glm::dvec2 windowBefore(const glm::dvec3& place) const;
 
     const MediumView& medium_;

@@ -39,8 +39,8 @@ public:
     /// [m] Distance to the first triangle, +infinity if there is none.
     double toSurface(const TraceRay& ray) { return opaque_.distance(ray, hits_); }
 
-    /// large, because each value is a mean over many shadow rays
 private:
+    /// Large, because each value is a mean over many shadow rays.
     static constexpr double kDetailTolerance = 0.01;
 
     const MediumView& medium_;

@@ -18,7 +18,7 @@ namespace fx::render {
 struct RenderCallbacks
 {
     std::function<void(uint32_t done, uint32_t total)> progress; ///< may be empty; one call at a time
-    /// returns true to stop; may be empty; called often, by several threads at once
+    /// Returns true to stop; may be empty; called often, by several threads at once.
     std::function<bool()> shouldStop;
 };
 

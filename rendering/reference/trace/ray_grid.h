@@ -29,7 +29,7 @@ struct RayGrid
     glm::dvec3 origin{0.0};  ///< [m] origin of the ray through the corner (0, 0)
     glm::dvec3 originX{0.0}; ///< [m] change of origin per pixel to the right
     glm::dvec3 originY{0.0}; ///< [m] change of origin per pixel down
-    /// direction of the ray through (0, 0); its component along the view axis is 1
+    /// Direction of the ray through (0, 0); its component along the view axis is 1.
     glm::dvec3 direction{0.0};
     glm::dvec3 directionX{0.0}; ///< change of direction per pixel to the right
     glm::dvec3 directionY{0.0}; ///< change of direction per pixel down
