@@ -68,7 +68,7 @@ struct GpuDepthBlock
 {
     glm::vec4 right, up, forward; ///< xyz, w: affine map of a local position to the camera's axes [m]
     glm::vec4 window;             ///< k, k', c, c'
-    /// Coefficients of e = x + y d + z d^2 for a distance d along the view axis.
+    /// Coefficients of the depth error e = x + y d + z d^2 of 24 bits, d [m] along the view axis.
     glm::vec4 error;
     /// x, y size of the texture [pixel]; z 1: parallel camera; w meters per local unit of length
     glm::vec4 size;

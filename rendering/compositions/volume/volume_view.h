@@ -107,7 +107,7 @@ private:
     std::array<ResourceId, Lists> ids_;                        ///< of the frame
     std::array<GlTexture, std::size(kFieldFormats)> textures_; ///< also persistent
     bool isKept_ = false; ///< lists and textures are those of the last frame
-    uint32_t unused_ = 0; ///< number of successive frames without fields
+    uint32_t unused_ = 0; ///< number of successive frames without balls
 };
 
 } // namespace fx::render

@@ -17,9 +17,11 @@ namespace fx::render {
 enum class FlightEstimator : uint8_t
 {
     Depth, ///< by inverting the optical depth if it has a closed form, otherwise by local majorants
+
+    LocalMajorants, ///< by null collisions, with a majorant for each segment of MediumWalk
+
     /// Plain delta tracking [WMHL65], with which the others are compared. It uses one majorant for the whole
     /// medium, also for shadow rays. Absorption ends paths at random.
-    LocalMajorants,
     Analog
 };
 
