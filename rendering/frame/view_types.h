@@ -179,7 +179,7 @@ struct LodSettings
     bool operator==(const LodSettings&) const = default;
 };
 
-/// Settings of all frames until the host changes them.
+/// Settings that apply to all frames until the host changes them.
 struct ViewSettings
 {
     float exposureEv100 = 13.0f; ///< [EV100]

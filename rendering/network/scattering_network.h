@@ -58,7 +58,7 @@ struct SweepReport
     bool isConverged = true; ///< the change is within the tolerance
 };
 
-/// Powers, divided by the unit of radiance [m2 sr]. After convergence, emitted = absorbed + escaped.
+/// Powers, in the unit of radiance times [m2 sr]. After convergence, emitted = absorbed + escaped.
 struct NetworkEnergy
 {
     /// Emission of the medium, first scattering of light sources, and light from outside.

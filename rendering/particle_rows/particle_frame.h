@@ -58,7 +58,7 @@ struct ParticleFrameInputs
     std::span<const RowTechnique* const> techniques = {};
 };
 
-/// Number of drawn elements. For groups on the GPU, this is their capacity.
+/// Number of drawn elements. Groups that the GPU computes are counted with their capacity.
 struct DrawnCounts
 {
     uint64_t sprites = 0;
