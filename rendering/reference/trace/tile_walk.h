@@ -1,6 +1,6 @@
 /// @file tile_walk.h
 /// Visits all rays of a part of a picture, each with the balls that it meets. Large tiles find candidates in
-/// the tree; smaller tiles filter them, until few are left or the tile is small.
+/// the tree, and smaller tiles filter the candidates of larger ones.
 #pragma once
 
 #include "rendering/reference/trace/tile_candidates.h"
