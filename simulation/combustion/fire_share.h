@@ -1,5 +1,5 @@
 /// @file fire_share.h
-/// Which part of hot matter a picture shows as fire.
+/// Share of hot matter that a picture shows as fire.
 ///
 /// @formula fire-share
 /// The part of a blob's opacity that counts as fire in the layers of a picture; the rest is smoke.
@@ -24,14 +24,14 @@
 
 namespace fx::sim {
 
-/// [K] Between which matter goes over from smoke to fire.
+/// [K] Range of temperatures in which matter changes from smoke to fire.
 struct GlowRange
 {
     float first;  ///< T0
     float bright; ///< T1
 };
 
-/// [1] F of matter of `temperature` [K].
+/// [1] Share F of fire of matter at `temperature` [K].
 inline float fireShareOf(float temperature, const GlowRange& glow)
 {
     return base::smoothStep(glow.first, glow.bright, temperature); // (1)
