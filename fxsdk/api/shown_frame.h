@@ -1,5 +1,5 @@
 /// @file shown_frame.h
-/// Snapshots that a frame holds from its preparation until it is drawn.
+/// Snapshots that a frame holds from its preparation until its end.
 #pragma once
 
 #include "fxsdk/fx_view.h"
@@ -21,8 +21,8 @@ inline render::Composition automaticComposition(sim::PreferredComposition prefer
                                                         : render::Composition(int(preferred) - 1);
 }
 
-/// Holds the snapshots of one frame, and replaces the host's settings by those of the budget during its
-/// lifetime. Threads: [GL thread].
+/// Holds the snapshots of one frame. During its lifetime, the budget's settings replace those of the host.
+/// Threads: [GL thread].
 class ShownFrame
 {
 public:
@@ -44,18 +44,18 @@ public:
     ShownFrame& operator=(const ShownFrame&) = delete;
 
     const scene::Presentation& shown() const { return shown_; }
-    /// Whether `frame` has the same inputs of gathering, so that gathered data can be reused.
+    /// Whether `frame` has the same inputs, so that gathered data can be reused.
     bool isSameAs(const FxFrameDef& frame) const;
 
     const FxFrameDef def;
-    uint64_t allocations = 0; ///< of its preparation
+    uint64_t allocations = 0; ///< allocations during the preparation
 
 private:
     scene::Scene& scene_;
     quality::ViewQuality& quality_;
     render::ViewRenderer& renderer_;
     scene::Presentation shown_;
-    const render::Composition asked_; ///< by the host
+    const render::Composition asked_; ///< setting of the host
 };
 
 } // namespace fx::api
