@@ -20,8 +20,8 @@
 /// @source    [HAR96] section 2 (sphere tracing); (2) is bisection
 /// @deviation a minimum stride, so that a path along a surface takes a bounded number of samples
 /// @valid     any finite path; a path longer than 4096 strides ends there
-/// @accuracy  never skips more than q of matter, and matter is at least h / 2 thick; the contact is within q
-///            / 64 of the surface of the field
+/// @accuracy  never skips more than q of matter, and matter is at least h / 2 thick; the contact is within
+///            q / 64 of the surface of the field
 /// @tests     tests/simulation/collision/test_collider.cpp
 ///
 /// @formula field-bounce

@@ -11,9 +11,8 @@
 ///   F        1      share of fire
 /// @derivation
 ///   u = (T - T0) / (T1 - T0) clamped to [0, 1],   F = u^2 (3 - 2 u)                         (1)
-/// @source    elementary (cubic step); the temperatures are those of the matter: gas takes them from its
-/// preset, solid
-///            fragments from the colors of incandescence
+/// @source    elementary (cubic step); the temperatures depend on the matter: for gas they come from its
+///            preset, for solid fragments from the colors of incandescence
 /// @deviation none
 /// @valid     T0 < T1; NaN gives 0
 /// @accuracy  float rounding

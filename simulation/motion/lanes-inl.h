@@ -14,8 +14,8 @@
 ///   the 8 Chebyshev nodes of [0, 2]. With rounded coefficients its error is at most 4e-8 of q           (1)
 ///   R = q t^2, G = t - k R, and for z < 1 E = 1 - k G, from the definitions of G and E             (2)
 ///   For larger z: E = exp(-z), G = (1 - E) / k, R = (t - G) / k                                    (3)
-///   exp(-z) = 2^-n exp(-r), with z = n ln 2 + r, ln 2 split into two constants, and the Taylor polynomial to
-///   r^7 (4)
+///   exp(-z) = 2^-n exp(-r), with z = n ln 2 + r, where ln 2 is split into two constants. exp(-r) is its
+///   Taylor polynomial to r^7                                                                       (4)
 /// @source    elementary
 /// @deviation none
 /// @valid     0 <= k <= 1e6, 0 <= t <= 1e9; z > 87 is taken as 87, where E is 1.6e-38

@@ -22,9 +22,9 @@
 ///   No air crosses the ground: the sum of the flow and its mirror image,
 ///       u_g(p) = u(p) + u(p')'                                                                    (3)
 ///   has no vertical component on the ground, where p' = p.
-/// @source    [TUR64] Turner, "The flow into an expanding spherical vortex", doi:10.1017/S0022112064000544,
-/// for thermals
-///            as Hill vortices; [BAT67] section 7.2 for (1), (2); (3) is the method of images
+/// @source    [TUR64] Turner, "The flow into an expanding spherical vortex",
+///            doi:10.1017/S0022112064000544, for thermals as Hill vortices; [BAT67] section 7.2 for (1),
+///            (2); (3) is the method of images
 /// @deviation the growth of the sphere is not part of the flow; it follows from the particles
 /// @valid     a > 0; without rising there is no flow; without ground (3) is u
 /// @accuracy  float rounding; continuous at r = a within 1e-5 U; (3) is exactly 0 along y at the ground

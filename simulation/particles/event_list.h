@@ -19,11 +19,11 @@
 ///   speeds w, e w, e^2 w ... has floor(ln(u / w) / ln e) + 1 events, for any division of time.
 ///   A resting or sliding particle falls by at most the lift in every step, with -v.n = sqrt(2 l |a.n|).
 ///   Therefore a contact is no event if the particle was within 2 l of the surface at the begin of the step
-///   and has gained more than half of -v.n since then. Slower contacts in the same step are no events either
-///         (2) Events are processed in the order of (tick, cause, emitter, index of the particle, kind,
-///         number). This order
-///   does not depend on the division of work and time. At equal ticks, events caused by particles precede
-///   those of the schedule and the host                                                               (3)
+///   and has gained more than half of -v.n since then. Slower contacts in the same step are no events
+///   either                                                                                     (2)
+///   Events are processed in the order of (tick, cause, emitter, index of the particle, kind, number). This
+///   order does not depend on the division of work and time. At equal ticks, events caused by particles
+///   precede those of the schedule and the host                                                 (3)
 /// @source    elementary
 /// @deviation a particle that slides along a curved surface of radius R at a speed w hits it at about w^2 t /
 ///            R in each step t; if this speed is below u, there are no events

@@ -5,21 +5,19 @@
 /// Without cameras (fxScene_SetFocus) every instance is in sight. With cameras, an instance whose bounds no
 /// camera sees is hidden: it is not stepped, not shown, and costs nothing. When it comes into sight again,
 /// it catches up as its preset's member "offscreen" specifies:
-///   analytic       The present state is computed directly. Its bits equal those of an effect that was
-///   never
+///   analytic       The present state is computed directly. It has the bits of an effect that was never
 ///                  hidden.
 ///   replay         The missing steps are taken, at most FxSceneDef::catchUpSteps per update. The result
-///   has
-///                  the bits of an effect that was never hidden. An absence longer than
+///                  has the bits of an effect that was never hidden. An absence longer than
 ///                  FxSceneDef::maxCatchUpTicks is not replayed; its time is skipped and counted.
 ///   coarse         While hidden, the effect takes one step for four steps of the scene. The bits differ.
 ///   skip           The missing time is left out. Particles age or die, but do not move.
 ///   authoritative  The effect is never hidden.
 /// Without the member, gases are authoritative. Other effects are analytic if all their solvers can jump to
 /// any time, and replayed otherwise. An effect of unknown extent is never hidden because of its position;
-/// the preset's member "bound" states the extent. Threads: [scene thread] for all functions. Ownership: the
-/// library copies
-/// all arguments.
+/// the preset's member "bound" states the extent.
+///
+/// Threads: [scene thread] for all functions. Ownership: the library copies all arguments.
 #ifndef FXSDK_FX_ACTIVATION_H
 #define FXSDK_FX_ACTIVATION_H
 

@@ -86,12 +86,13 @@ static inline FxContactHook fxDefaultContactHook(void)
 /// Replaces the geometry that gases, fragments and bouncing particles collide with, from the next step on.
 /// Closed surfaces are solid. Behind an open surface, a layer two cells thick is solid; the front is the
 /// side from which vertices run counter-clockwise. Walls thinner than a cell are thickened, so that no
-/// particle tunnels through. This call converts the mesh to a signed distance field on the threads of the
-/// context. That takes
-/// seconds for a large mesh, 4 bytes per cell (at most 64 MiB) and, during the call, 300 bytes per
-/// triangle. Steps then cost a few samples per particle and allocate nothing. With geometry, colliding
-/// instances share a simulation only at equal placements. A saved state contains a hash of the mesh, not
-/// the mesh. [scene thread]
+/// particle tunnels through.
+///
+/// This call converts the mesh to a signed distance field on the threads of the context. That takes seconds
+/// for a large mesh, 4 bytes per cell (at most 64 MiB) and, during the call, 300 bytes per triangle. Steps
+/// then cost a few samples per particle and allocate nothing. With geometry, colliding instances share a
+/// simulation only at equal placements. A saved state contains a hash of the mesh, not the mesh itself.
+/// [scene thread]
 /// @param mesh not kept; null: no geometry
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT (null, not finite or out of range; an index beyond the
 ///         vertices; no triangle with an area), FX_ERROR_VERSION (structSize), FX_ERROR_CAPACITY (more than

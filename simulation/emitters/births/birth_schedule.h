@@ -30,9 +30,8 @@
 ///   added later                                                                                   (6)
 /// @source    elementary
 /// @deviation none
-/// @valid     r <= 1e9 /s (larger is taken as that; NaN and negative as 0); a rate that changes over more
-/// than
-///            1e6 s is taken as constant; 128-bit products below 2^126
+/// @valid     r <= 1e9 /s (larger rates are limited to it; NaN and negative rates count as 0); a rate that
+///            changes over more than 1e6 s is taken as constant; 128-bit products below 2^126
 /// @accuracy  exact for the rounded rate, whose relative error is <= 2^-33 / r; (5) loses up to L 2^-48 /s
 /// @tests     tests/simulation/test_birth_schedule.cpp
 ///            tests/simulation/particles/modules/test_birth_rates.cpp

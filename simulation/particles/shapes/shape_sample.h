@@ -15,12 +15,12 @@
 ///   radius in the ball R (k^3 + u (1 - k^3))^(1/3), in the disc R (k^2 + u (1 - k^2))^(1/2): the volume or
 ///   area below r grows uniformly; on the surface k = 1                                             (2)
 ///   The cone above the disc has radius r = R + z tan(alpha) at height z. Its volume below z grows as r^3,
-///   its lateral area as r^2, so these powers are uniform between their limits. alpha = 0 is the cylinder, z
-///   = u H (3) In the torus the volume at the angle b around the tube is proportional to T + r cos b. b is
-///   drawn uniformly. With the probability (1 - (r / T) cos b) / 2 it is replaced by its mirror image, which
-///   inverts the sign of cos b. Then b has the density (T + r cos b) / (2 pi T)
-///   (4) where r is drawn as in the disc                                                                (5)
-///   On a box, a face is selected in proportion to its area                                         (6)
+///   its lateral area as r^2, so these powers are uniform between their limits. For the cylinder,
+///   alpha = 0, z = u H                                                                             (3)
+///   In the torus the volume at the angle b around the tube is proportional to T + r cos b. b is drawn
+///   uniformly. With the probability (1 - (r / T) cos b) / 2 it is replaced by its mirror image, which
+///   inverts the sign of cos b. Then b has the density (T + r cos b) / (2 pi T)                     (4)
+///   The radius r in the tube is drawn as in the disc                                               (5)
 /// @source    elementary (inversion of the distribution function)
 /// @deviation none
 /// @valid     R = 0 gives the center; alpha is clamped to [0, pi], q to [0, T]

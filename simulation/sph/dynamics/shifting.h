@@ -18,10 +18,9 @@
 ///   x <- x min(1, L s / |x|)                                                                    (3)
 ///   Velocity, mass and entropy stay with the particle, so momentum, mass and kinetic energy do not change.
 /// @source    [LIN12] for (1) and (3); (2) is ours
-/// @deviation quantities are not interpolated to the new position: over a displacement x they are wrong by x
-/// times
-///            their gradient. With C = 1/2, L = 1/20, shifting changes the library's explosion of 10,000
-///            particles after one second by 2 % in height, 5 % in radius, 7 % in temperature
+/// @deviation quantities are not interpolated to the new position: a displacement x causes an error of x
+///            times their gradient. With C = 1/2, L = 1/20, shifting changes the library's explosion of
+///            10,000 particles after one second by 2 % in height, 5 % in radius, 7 % in temperature
 /// @valid     any state between two frames
 /// @accuracy  (2) and (3) are not symmetric in a pair, so the center of mass may move, by less than L s
 /// @tests     tests/simulation/dynamics/test_shifting.cpp

@@ -19,9 +19,8 @@
 ///   no volume changes by more than the share V:  t4 = V / |d|   (4)
 ///   t = min(t1, t2, t3, t4), 1e30 if no criterion applies
 /// @source    [PRI12] section 3 for (1); [SPR05] section 3.2 for (2); (3) keeps K positive; (4) is ours: a
-/// point
-///            blast in 32^3 particles with global steps has an energy error of 1.1e-3 without it, 2.0e-4 with
-///            V = 1/20, 6e-5 with 1/40
+///            point blast in 32^3 particles with global steps has an energy error of 1.1e-3 without it,
+///            2.0e-4 with V = 1/20, 6e-5 with 1/40
 /// @deviation (1) is the usual 2 C h / v_sig with h = H / 2. With block steps v_sig is at least
 ///            2 (v_sig - c_i), so that cold gas beside hot gas takes the step of the hot gas. Otherwise the
 ///            pair exchanges heat and momentum unequally (energy error of a point blast in 32^3 particles

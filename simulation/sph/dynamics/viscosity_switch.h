@@ -20,9 +20,8 @@
 ///       a' = a_min + (a - a_min) / (1 + t / tau), not below a_loc                                (3)
 ///   B = min(10 |d| / (|d| + |w| + 1e-4 c / h), 1)                                               (4)
 ///   A particle without a previous step begins at a_min + (a_max - a_min) x min(d- h / c, 1)      (5)
-/// @source    [CD10] for the idea of (1)-(3); (2) with the factor 10 and c instead of the signal speed
-/// as
-///            in [PHA18]; (4) [BAL95]
+/// @source    [CD10] for the idea of (1)-(3); (2) with the factor 10 and c instead of the signal speed as in
+///            [PHA18]; (4) [BAL95]
 /// @deviation d' is a difference of divergences instead of the gradient of accelerations; (5) is ours. The
 ///            factor 10 in (4) keeps viscosity in the disorder behind a shock, where d and w are similar:
 ///            with 1 instead, the error of the density of a point blast in 64^3 particles is 0.21 instead of

@@ -42,9 +42,8 @@
 ///            3 G / tr M. The iteration ends after a Newton step below sqrt(tolerance) / 2, because the next
 ///            step would square its error
 /// @valid     m, H > 0, everything finite; masses and lengths whose products stay in the range of T
-/// @accuracy  H within 2 tolerance of the solution; sums within 2e-6 (float), 1e-14 (double) of their
-/// positive
-///            terms; every instruction set gives the same bits
+/// @accuracy  H within 2 tolerance of the solution; sums within 2e-6 (float), 1e-14 (double) of the sums of
+///            their positive terms; every instruction set gives the same bits
 /// @tests     tests/simulation/pair_loops/test_density_loop.cpp
 #pragma once
 
