@@ -19,7 +19,7 @@ namespace fx::cli {
 struct AccuracyPoint
 {
     AccuracySetting setting;
-    AccuracySample sample;       ///< of the first repetition; errors and work are equal in all repetitions
+    AccuracySample sample; ///< result of the first repetition; errors and work are equal in all repetitions
     std::vector<double> seconds; ///< [s] one value per repetition
     /// Instructions executed in user space; 0 if the system cannot count them
     std::vector<double> instructions;

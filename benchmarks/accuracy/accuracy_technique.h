@@ -40,7 +40,7 @@ struct AccuracySample
     double items = 0;        ///< number of processed items, such as particle steps
     double instructions = 0; ///< instructions of the timed part; 0 if the system cannot count them
     nlohmann::json work = nlohmann::json::object(); ///< counters
-    double variance = 0; ///< of one item, for techniques that use random numbers; 0 for all others
+    double variance = 0; ///< variance of one item, for techniques that use random numbers; 0 for all others
     std::string note;    ///< remark, shown at the end of the row of the table
 
     /// For techniques with a bound: whether the setting keeps the bound or, if it is a control, violates it.

@@ -16,7 +16,7 @@ namespace fx::preset {
 class SchemaValidator
 {
 public:
-    /// @param schema one of schema_assembly.h
+    /// @param schema a schema from schema_assembly.h
     explicit SchemaValidator(nlohmann::json schema);
     ~SchemaValidator();
     SchemaValidator(const SchemaValidator&) = delete;

@@ -18,7 +18,7 @@ struct SolverCost
 {
     double stepWork = 0;       ///< [unit] of base::WorkBudget, of a step of kCostStep
     double prewarmShare = 1.0; ///< [1] share of that work in a step of the prewarm
-    uint64_t bytes = 0;        ///< of the solver and of its published data
+    uint64_t bytes = 0;        ///< [byte] memory of the solver and of its published data
 
     std::string member; ///< preset member: the list that contains the element
     size_t place = 0;   ///< index of the element in that list

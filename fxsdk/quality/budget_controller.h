@@ -56,7 +56,7 @@ public:
     void reset();                                   ///< restarts at the highest levels
 
 private:
-    struct Memory ///< of one technique
+    struct Memory ///< changes of one technique
     {
         double sinceFall = 1e9; ///< [s]
         double sinceRise = 1e9; ///< [s]

@@ -52,9 +52,9 @@ public:
     {
         return hasCalibration() ? &*controllers_[active_] : nullptr;
     }
-    const Choice& choice() const { return chosen_; } ///< of the last frame
+    const Choice& choice() const { return chosen_; } ///< levels of the last frame
     bool wasHeld() const { return held_; }
-    std::span<const double> weights() const { return weights_; } ///< of the last frame
+    std::span<const double> weights() const { return weights_; } ///< weights of the last frame
     /// Times of the last finished frame; empty before the first one.
     const std::optional<render::GroupTimes>& times() const { return times_; }
 

@@ -222,7 +222,7 @@ private:
     }
 
     std::pmr::vector<Slot> slots_; ///< by index
-    std::pmr::vector<T> values_;   ///< by place
+    std::pmr::vector<T> values_;   ///< values, in any order; Slot::link is the index
     std::pmr::vector<uint32_t> freePlaces_;
     uint32_t capacity_;
     uint32_t lastUse_;

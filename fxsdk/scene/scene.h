@@ -270,7 +270,7 @@ private:
     {
         InstanceSetup setup;
         uint64_t serial = 0; ///< order of creation
-        sim::Slot slot = 0;  ///< in the world, unless dormant or finished
+        sim::Slot slot = 0;  ///< slot in the world, unless dormant or finished
         InstanceState state = InstanceState::Finished;
         Reason reason = Reason::None; ///< reason for being hidden
         sim::CatchUp policy = sim::CatchUp::Replay;

@@ -22,7 +22,7 @@ struct DistanceGrid
     glm::vec3 low{0.0f};   ///< [m] position of the first node, relative to the mesh's origin
     float cell = 1.0f;     ///< [m] edge of a cell
     glm::uvec3 nodes{0u};  ///< number along each axis
-    base::Bounds bounds{}; ///< of the mesh
+    base::Bounds bounds{}; ///< bounds of the mesh
 
     size_t count() const { return size_t(nodes.x) * nodes.y * nodes.z; }
     size_t index(uint32_t x, uint32_t y, uint32_t z) const

@@ -305,7 +305,7 @@ private:
     const ParticleProgram& program_;
     base::Ticks now_ = 0;         ///< end of the last step
     base::Ticks motionBegin_ = 0; ///< see AppearanceJob
-    Conditions conditions_;       ///< of the last step
+    Conditions conditions_;       ///< conditions of the last step
     uint32_t highWater_ = 0;
     bool varied_ = false; ///< conditions have changed since the start
     bool started_ = false;
@@ -323,11 +323,11 @@ private:
     std::optional<EmitterDetail> detail_;    ///< if its medium has detail of the field
     std::optional<MovedSpace> space_;        ///< if particles stay where they are when the instance moves
     std::optional<GpuEmitter> gpu_;          ///< if the GPU may compute the particles
-    BirthKey key_{};                         ///< of the last step
+    BirthKey key_{};                         ///< random key of the last step
     mutable std::pmr::vector<Light> lights_; ///< scratch for the published lights
     uint64_t hostEvents_ = 0;                ///< number of host events processed
     uint64_t dropped_ = 0;
-    base::TaskRunner* tasks_ = nullptr;              ///< of the last step
+    base::TaskRunner* tasks_ = nullptr;              ///< task runner of the last step
     mutable std::pmr::vector<uint32_t> rowsByBirth_; ///< scratch to sort the published rows of a medium
     OpenStep open_;
     bool isDivided_;            ///< whether steps are divided, see proceed()

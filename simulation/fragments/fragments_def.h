@@ -66,9 +66,9 @@ struct TrailDef
 
 /// Work of fragments and their smoke in units of base::WorkBudget, see docs/howto/bounded-updates.md.
 namespace fragment_work {
-constexpr double kMoved = 24.0; ///< of each fragment and each blob of smoke in a sub-step
-constexpr double kBirth = 20.0; ///< of each that is born
-constexpr double kShown = 11.0; ///< of each, once a step, for publication
+constexpr double kMoved = 24.0; ///< for each fragment and each blob of smoke in a sub-step
+constexpr double kBirth = 20.0; ///< for each fragment or blob that is born
+constexpr double kShown = 11.0; ///< for each fragment or blob, once a step, for publication
 } // namespace fragment_work
 
 /// A burst of fragments at one moment.

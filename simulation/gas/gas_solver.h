@@ -80,7 +80,7 @@ private:
     struct FlowSpeeds
     {
         double flow;         ///< root mean square
-        double sound;        ///< of the hottest gas
+        double sound;        ///< speed of sound of the hottest gas
         double reducedSound; ///< as simulated
     };
     FlowSpeeds speedsOf(const StepContext& context, const ThermalFlow& thermal) const;

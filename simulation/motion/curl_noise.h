@@ -60,7 +60,7 @@ public:
         uint32_t seed;
         float gain;          ///< [m/s] of the field with mean square speed of about 1
         float perScale;      ///< [1/m]
-        const float* cosine; ///< of kPhases phases
+        const float* cosine; ///< cosines of kPhases phases
         const float* sine;
     };
     static constexpr uint32_t kPhases = 16;

@@ -33,7 +33,7 @@ namespace fx::sim {
 /// Inputs for the ages and the lengths of the parts of the step of the rows of a tile.
 struct TileTimes
 {
-    const base::Ticks* born; ///< of the rows of the tile
+    const base::Ticks* born; ///< birth ticks of the rows of the tile
     const float* perLife;    ///< [1/s] null when equal for all particles
     float perLifeOfAll;
     base::Ticks begin;

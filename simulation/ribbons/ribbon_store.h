@@ -95,7 +95,7 @@ private:
         uint32_t count = 0;
         uint64_t next = 0; ///< number k of the next point
         bool ended = false;
-        glm::vec3 tint{1.0f}; ///< of the particle
+        glm::vec3 tint{1.0f}; ///< tint of the particle
     };
     const Point& pointOf(uint32_t row, uint32_t k) const ///< 0: the oldest
     {

@@ -18,7 +18,7 @@ struct PublicationPlace
     uint32_t row = 0;      ///< next row of that stage
     uint32_t count = 0;    ///< elements found or written so far
     bool isSorted = true;  ///< whether these elements are sorted
-    base::Bounds bounds{}; ///< of the rows written so far
+    base::Bounds bounds{}; ///< bounds of the rows written so far
     float radius = 0;      ///< [m] largest radius so far
 };
 

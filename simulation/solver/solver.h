@@ -129,7 +129,7 @@ struct StepContext
 {
     base::Ticks tick;         ///< local time at which the step begins
     base::Ticks stepTicks;    ///< length of the step, > 0
-    uint64_t seed;            ///< of the instance
+    uint64_t seed;            ///< seed of the instance
     uint32_t solverIndex;     ///< position in the effect; part of the key of every random number
     glm::vec3 gravity;        ///< [m/s2] local
     glm::vec3 wind;           ///< [m/s] local
@@ -153,7 +153,7 @@ struct StepContext
     /// [m/s] world, the host's share of `wind`; 0 unless the effect depends on the placement
     glm::vec3 worldWind{0.0f};
     glm::vec3 effectWind{0.0f};              ///< [m/s] local, the preset's share of `wind`
-    std::span<const ThermalFlow> thermals{}; ///< of the effect's gases, for solvers that follow them
+    std::span<const ThermalFlow> thermals{}; ///< flows of the effect's gases, for solvers that follow them
     bool gpuParticles = false; ///< emitters that the GPU may compute need not be computed as rows
 
     float seconds() const { return float(base::toSeconds(stepTicks)); }

@@ -59,7 +59,7 @@ struct Measure
 /// A bound on a measure. It applies to the default settings of the case.
 struct CaseLimit
 {
-    std::string name; ///< of the measure
+    std::string name; ///< name of the measure
     double value = 0;
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
@@ -80,7 +80,7 @@ struct CaseMeasures
     double l1Pressure = kNotMeasured;
     double shockRadius = kNotMeasured; ///< [m]
     double shockRadiusExact = kNotMeasured;
-    std::vector<DensityError> densityErrors; ///< of the particles that l1Density averages
+    std::vector<DensityError> densityErrors; ///< errors of the particles over which l1Density averages
     std::vector<Measure> more;
     std::vector<CaseLimit> limits; ///< bounds that apply to this number of particles and end time
 };

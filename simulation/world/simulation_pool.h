@@ -51,7 +51,7 @@ struct LinkedPart
 
     base::Arena scratch;
     std::optional<EventBoard> board;
-    std::span<const HostEvent> hostEvents{}; ///< in `scratch`
+    std::span<const HostEvent> hostEvents{}; ///< events of the host, stored in `scratch`
 };
 
 /// The solvers of one effect and their inputs.
@@ -205,7 +205,7 @@ private:
     bool share_;
     std::vector<SharedSimulation> simulations_;
     std::vector<SimulationIndex> free_;
-    std::vector<FreeSolvers> freeList_; ///< by time
+    std::vector<FreeSolvers> freeList_; ///< sorted by time
     std::array<SimulationIndex, kChains>
         chains_; ///< first fresh simulation of each hash; SharedSimulation::nextFresh is the next
     uint32_t count_ = 0;

@@ -391,7 +391,7 @@ private:
     std::pmr::memory_resource* memory_;
     bool share_;
     base::Arena scratch_;
-    SpawnBatch spawnBatch_; ///< of the open step or publication; empty otherwise
+    SpawnBatch spawnBatch_; ///< batch of the open step or publication; empty otherwise
     EmitterPools pools_;    ///< declared before the simulations, because their solvers are in the pools
     SimulationPool simulations_;
     std::vector<Instance> instances_;
@@ -400,7 +400,7 @@ private:
     StepInHand hand_;
     PublicationInHand publication_;
     StepCounters closed_;                  ///< work of steps that were ended early, not counted yet
-    std::vector<Waiting> waiting_;         ///< in the order of the calls
+    std::vector<Waiting> waiting_;         ///< deferred changes, in the order of the calls
     std::vector<InstanceStart> wanted_;    ///< starts that apply from the end of the open step on
     std::vector<Slot> leaving_;            ///< removed instances
     std::vector<SimulationIndex> joining_; ///< simulations that may join a pool after the step

@@ -103,7 +103,7 @@ private:
     std::unique_ptr<EffectScene> effects_;
     FxView* view_ = nullptr;
     bool staysOnGpu_ = false;   ///< particles are computed on the GPU, unless snapshots are read
-    base::Ticks lastTick_ = -1; ///< of the previous frame; -1 before the first one
+    base::Ticks lastTick_ = -1; ///< tick of the previous frame; -1 before the first one
     Picture background_;
     FrameCounters counters_;
 };

@@ -61,7 +61,7 @@ struct RenderPlan
 {
     struct Frame
     {
-        int64_t number = 0; ///< in file names
+        int64_t number = 0; ///< number in file names
         base::Ticks tick = 0;
     };
 
@@ -72,7 +72,7 @@ struct RenderPlan
     bool hasDefaultTime = false; ///< the only frame shows a time that the command line does not name
     bool isSheet = false;        ///< the frames are arranged row by row as a contact sheet in one file
     double framesPerSecond = 30.0;
-    int stepsPerSecond = 60; ///< of the simulation
+    int stepsPerSecond = 60; ///< step rate of the simulation
     uint32_t simulationQuality = FX_QUALITY_DEFAULT;
 
     int sheetColumns() const; ///< as near to a square as they come

@@ -94,7 +94,7 @@ static inline FxActivationHints fxDefaultActivationHints(void)
 }
 
 /// Limits for all instances in sight together. When a limit is exceeded, the instances with the smallest
-/// product of size on the picture and priority are hidden. The product of active instances is increased by
+/// product of size on the picture and priority are hidden. For active instances, the product is increased by
 /// a quarter (hysteresis). Authoritative instances and the most significant instance are never hidden. Fill
 /// with fxDefaultBudget().
 typedef struct FxBudget

@@ -169,8 +169,8 @@ FX_API FxResult fxView_GetEffectLightCount(FxView* view, uint32_t* outCount);
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetEffectLight(FxView* view, uint32_t index, FxLight* ioLight);
 
-/// Reads the number of lights that light media in the frame that was prepared or rendered last: sun, host's,
-/// effects', and the sky where it has planes. [GL thread]
+/// Reads the number of lights that light media in the frame that was prepared or rendered last. These are the
+/// sun, the lights of the host and of the effects, and the sky if it has planes. [GL thread]
 /// @param outCount receives the number, at most 14; untouched on failure
 /// @return FX_OK, FX_ERROR_INVALID_ARGUMENT, FX_ERROR_WRONG_THREAD, FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetLightCostCount(FxView* view, uint32_t* outCount);

@@ -155,7 +155,7 @@ public:
 private:
     struct ScheduledBurst
     {
-        base::Ticks tick;     ///< of the first cycle
+        base::Ticks tick;     ///< tick of the first cycle
         base::Ticks interval; ///< between cycles
         uint64_t cycles;
         uint32_t count;
@@ -217,7 +217,7 @@ private:
     base::Ticks end_;
     base::ScalarCurve shape_;
     bool curved_;
-    std::pmr::vector<ScheduledBurst> bursts_; ///< by declaration
+    std::pmr::vector<ScheduledBurst> bursts_; ///< in the order of declaration
     uint64_t seed_ = 0;
     uint32_t solverIndex_ = 0;
     WideInt progress_ = 0; ///< R

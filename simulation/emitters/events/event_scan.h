@@ -107,7 +107,7 @@ struct EventScan
     const ParticleStore& store;
     AppearanceJob job;
     uint32_t emitter;
-    base::Ticks begin; ///< of the step
+    base::Ticks begin; ///< begin of the step
     base::Ticks end;
 
     /// Finds ages and deaths of particles that are alive at the begin of the step, in the tile at `row`.

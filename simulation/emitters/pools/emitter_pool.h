@@ -96,7 +96,7 @@ private:
         uint64_t next = 0;   ///< birth index
         uint64_t front = 0;  ///< oldest living index
         base::Ticks frontUntil = 0;
-        uint32_t nextRow = 0; ///< in its own store
+        uint32_t nextRow = 0; ///< row of the next birth in the member's own store
         uint32_t frontRow = 0;
         uint32_t rows = 0; ///< occupied rows in its own store
         uint32_t highWater = 0;

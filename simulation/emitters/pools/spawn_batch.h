@@ -64,7 +64,7 @@ private:
     void writeParts();
 
     std::pmr::vector<ScatteredBirth> births_;
-    std::pmr::vector<Owner> owners_; ///< of the births
+    std::pmr::vector<Owner> owners_; ///< owners of the births
     std::pmr::vector<ScatteredBirth> alike_;
     std::pmr::vector<PooledEmitter*> alikeOwners_;
     std::pmr::vector<PooledEmitter*> open_; ///< steps to be ended
@@ -73,7 +73,7 @@ private:
     static constexpr size_t kMaxParts = 64; ///< parts and their inputs fit into the L1 and L2 caches
     std::array<AppearancePart, kMaxParts> parts_;
     size_t partCount_ = 0;
-    uint64_t rows_ = 0; ///< of the publication
+    uint64_t rows_ = 0; ///< number of rows of the publication
     base::FrameSnapshot* snapshot_ = nullptr;
     base::TaskRunner* tasks_ = nullptr;
 };

@@ -16,8 +16,8 @@ namespace fx::sim {
 enum class ObstacleKind : uint8_t
 {
     Plane,       ///< through `position` with the normal `axis`; matter below it
-    Sphere,      ///< of radius size.x
-    Box,         ///< of half extents size, its +Y along `axis`
+    Sphere,      ///< sphere of radius size.x
+    Box,         ///< box of half extents size; its +Y is along `axis`
     Mesh,        ///< `field`
     HeightField, ///< `heights` above the plane through `position`, without rotation
     Ground,      ///< the instance's ground plane, if enabled
@@ -42,7 +42,7 @@ struct CollisionDef
     bool isHollow = false;            ///< sphere and box: particles are kept inside
     float margin = 0.0f; ///< [m] distance that particles keep from planes, spheres, boxes, heights and depth
     float thickness = 0.5f;                     ///< [m] Depth: assumed thickness of surfaces along the ray
-    std::shared_ptr<const DistanceField> field; ///< of the mesh
+    std::shared_ptr<const DistanceField> field; ///< distance field of the mesh
     std::shared_ptr<const FieldGrid> heights;   ///< [m] one channel, one node along y
 
     ContactResponse response = ContactResponse::Bounce;

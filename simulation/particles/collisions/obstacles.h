@@ -46,7 +46,7 @@ class Obstacle
 {
 public:
     virtual ~Obstacle() = default;
-    /// False when the obstacle does not exist in this step.
+    /// False if the obstacle does not exist in this step, for example without geometry of the host.
     virtual bool isThere(const StepContext&) const { return true; }
     virtual Clearance clearance(const StepContext& step, const glm::vec3& p) const = 0;
     virtual LegContact meet(const StepContext& step, const ContactLeg& leg) const = 0;

@@ -52,7 +52,7 @@ public:
 private:
     struct Segment
     {
-        glm::dvec3 c[4]; ///< of s^0 .. s^3
+        glm::dvec3 c[4]; ///< coefficients of s^0 .. s^3
     };
     size_t segments() const { return segments_.size(); }
     double speed(size_t segment, double s) const;

@@ -55,7 +55,7 @@ struct AttractorDef
 
 struct VectorFieldDef
 {
-    std::shared_ptr<const FieldGrid> grid; ///< of three channels
+    std::shared_ptr<const FieldGrid> grid; ///< grid with three channels
     glm::vec3 position{0.0f};              ///< [m] origin of the grid
     float scale = 1.0f;                    ///< [1] > 0, of the grid's lengths
     float strength = 1.0f;                 ///< [1] multiplies the vectors
@@ -76,7 +76,7 @@ struct ConformDef
     SurfaceKind kind = SurfaceKind::Sphere;
     glm::vec3 position{0.0f};                   ///< [m] center, or origin of the mesh
     glm::vec3 size{1.0f};                       ///< [m] radius (x) or half extents
-    std::shared_ptr<const DistanceField> field; ///< of the mesh
+    std::shared_ptr<const DistanceField> field; ///< distance field of the mesh
     float distance = 0.0f;                      ///< [m] rest distance from the surface, negative inside
     float stiffness = 0.0f;                     ///< [1/s2] >= 0
     float damping = 0.0f;                       ///< [1/s] >= 0, of the velocity along the normal

@@ -72,13 +72,13 @@ struct DynamicsState
 
     uint32_t count = 0;
     GasColumns<T> gas;
-    base::Column<uint32_t> slot; ///< of each id
+    base::Column<uint32_t> slot; ///< slot of each id
     bool fresh = false;          ///< some particles have no density yet
     /// Accelerations are outdated, because the caller changed the particles.
     bool stale = false;
     bool shaken = false;    ///< heat or new particles were added, so the first steps must be short
     bool heatedNow = false; ///< heat was released at this tick
-    std::pmr::vector<DelayedHeat> delayed; ///< by time
+    std::pmr::vector<DelayedHeat> delayed; ///< sorted by time
 
     ParticleTree<T> tree;
     bool treeIsSorted = false;
@@ -93,7 +93,7 @@ struct DynamicsState
     base::Column<T> listX, listY, listZ, listSupport;
     /// Records of the particles for their neighbors, at the present time.
     base::Column<GasRecord<T>> records;
-    base::Column<uint32_t> recordRound; ///< number of the prediction of each record
+    base::Column<uint32_t> recordRound; ///< number of the prediction that wrote each record
     uint32_t round = 0;                 ///< number of the last prediction
     bool recordsAreComplete = false;    ///< all records belong to the last prediction
 

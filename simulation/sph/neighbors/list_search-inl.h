@@ -96,7 +96,7 @@ public:
     }
 
 private:
-    static constexpr uint32_t kGroup = kTreeFanOut; ///< number of leaves with one common search
+    static constexpr uint32_t kGroup = kTreeFanOut; ///< number of leaves that share one search
 
     uint32_t leafOf(uint32_t slot) const
     {

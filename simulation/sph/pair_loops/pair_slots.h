@@ -36,7 +36,7 @@ template <class T>
 struct PairSlots
 {
     const NeighborLists<T>& lists;
-    const GasRecord<T>* records; ///< by slot
+    const GasRecord<T>* records; ///< indexed by slot
     const Domain& domain;
     std::span<const uint32_t> slots; ///< slots to evaluate, all of which own lists
 };
