@@ -19,8 +19,8 @@ inline uint64_t blobId(uint32_t solver, uint64_t index)
     return (uint64_t(solver) << 40) | (index & ((uint64_t(1) << 40) - 1));
 }
 
-/// Creates a group of `count` blobs with its constants. Then the columns are written, and the bounds are
-/// closed.
+/// Creates a group of `count` blobs with its constants. The caller then writes the columns and calls
+/// closeBounds().
 class BlobWriter
 {
 public:

@@ -148,10 +148,9 @@ FX_API FxResult fxView_PrepareLights(FxView* view, const FxFrameDef* frame);
 ///         FX_ERROR_RE_ENTRANT
 FX_API FxResult fxView_GetMediaShadow(FxView* view, uint32_t kind, uint32_t index, FxMediaShadow* ioShadow);
 
-/// GLSL 4.20 with the struct FxMediaShadow and the function
-/// `vec3 fxMediaTransmittance(sampler2D planes, FxMediaShadow shadow, vec3 p)`, the share of a light that
-/// media let through to a place p [m] relative to the frame's origin. For shaders of the host; it has no
-/// #version. [any]
+/// GLSL 4.20 source for shaders of the host, without #version. It contains the struct FxMediaShadow and the
+/// function `vec3 fxMediaTransmittance(sampler2D planes, FxMediaShadow shadow, vec3 p)`. The function returns
+/// the share of a light that media transmit to a position p [m], relative to the frame's origin. [any]
 /// @return a constant string
 FX_API const char* fxGetMediaShadowGlsl(void);
 
